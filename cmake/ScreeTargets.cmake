@@ -1,0 +1,6 @@
+# One static library per folder, from every .cpp in it. Usage: scree_library(NAME [libraries to link …])
+function(scree_library NAME)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(${NAME} STATIC ${SOURCES})
+  target_link_libraries(${NAME} PUBLIC ${ARGN})
+endfunction()

@@ -1,0 +1,145 @@
+// The messages between server and client as plain values: what is sent, and in which order it is applied.
+// Their encoding is proto/scree.proto; proto/codec.h turns one into the other and checks every byte.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/field/operation.h"
+
+namespace scree {
+
+inline constexpr uint32_t protocol_version = 1;
+
+// ---- client to server
+
+struct HelloMessage {
+  uint32_t protocol = protocol_version;
+  std::string client;  ///< name of the program, for the server's log; at most 64 bytes
+  glm::vec3 eye_m{0.0F};
+  float interest_radius_m = 0.0F;
+};
+
+/// Where the client looks from; it follows the chunks and pieces within the radius.
+struct InterestMessage {
+  glm::vec3 eye_m{0.0F};
+  float interest_radius_m = 0.0F;
+};
+
+struct CarveMessage {
+  uint32_t request = 0;  ///< returned in the reply
+  Shape shape;
+  SeedPattern pattern = SeedPattern::radial;
+  uint32_t seeds = 32;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};
+  float blast_speed_m_s = 6.0F;
+};
+
+struct FillMessage {
+  uint32_t request = 0;
+  Shape shape;
+};
+
+/// Chunks whose hash at `tick` was not what the frame's check said.
+struct RepairRequest {
+  Tick tick = 0;
+  std::vector<ChunkCoord> chunks;
+  std::vector<uint64_t> hashes;  ///< the client's, one per chunk
+};
+
+/// The last frame that the client has applied; sent a few times a second.
+struct AckMessage {
+  Tick tick = 0;
+};
+
+using ClientMessage =
+    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, RepairRequest, AckMessage>;
+
+// ---- server to client
+
+struct WelcomeMessage {
+  uint32_t protocol = protocol_version;
+  uint64_t session = 0;
+  Tick tick = 0;
+  uint32_t tick_rate_hz = 60;
+  uint32_t ticks_per_transform = 3;  ///< frames carry transforms every so many ticks
+  TerrainSource terrain;
+  float interest_radius_m = 0.0F;  ///< as granted
+  bool replay = false;             ///< a recording: requests to carve are refused
+};
+
+/// Says why, then the server closes the connection.
+struct RefusalMessage {
+  std::string reason;
+};
+
+/// A brick's new codes.
+struct BrickPatch {
+  BrickCoord coord;
+  Brick brick;
+};
+
+/// One tick, as this client needs it. Apply: operations in order, then patches, then drops, then the pieces.
+struct FrameMessage {
+  Tick tick = 0;
+  std::vector<Operation> operations;
+  std::vector<BrickPatch> patches;         ///< for changes whose operation the client could not apply
+  std::vector<ChunkCoord> dropped_chunks;  ///< no longer followed: forget their edits
+  std::vector<PieceId> removed_pieces;     ///< gone or out of interest, not named by an operation
+  std::vector<uint8_t> transforms;         ///< packed poses (proto/transforms.h); empty: none in this frame
+  bool has_check = false;
+  uint32_t check =
+      0;  ///< fold of Σ chunk hash over the chunks that operations and patches of this frame changed
+};
+
+/// A chunk's edited bricks, whole: replaces whatever edits the client had there; from now on it is followed.
+struct ChunkMessage {
+  ChunkCoord chunk;
+  Tick version = 0;
+  std::vector<BrickPatch> bricks;
+  uint64_t hash = 0;  ///< Σ brick_hash
+};
+
+/// A piece whose making the client did not see.
+struct PieceMessage {
+  PieceId id = 0;
+  Volume volume;
+  QuantisedPose pose;
+};
+
+/// Forget every edit and piece; what follows is a join anew.
+struct ResetMessage {};
+
+struct ReplyMessage {
+  uint32_t request = 0;
+  std::string refusal;  ///< empty: carried out
+  uint32_t pieces = 0;
+};
+
+/// Once a second, for people.
+struct StatusMessage {
+  Tick tick = 0;
+  uint32_t clients = 0;
+  uint32_t pieces = 0;
+  int64_t ledger_terrain = 0;
+  int64_t ledger_pieces = 0;
+  int64_t ledger_dust = 0;
+  int64_t ledger_poured = 0;
+  int64_t ledger_moved = 0;
+  float tick_median_ms = 0.0F;  ///< over the last second
+  float tick_worst_ms = 0.0F;
+  uint64_t sent_bytes = 0;   ///< to this client since it joined
+  uint64_t pieces_made = 0;  ///< since the start
+  uint64_t pieces_merged = 0;
+  uint64_t field_hash = 0;  ///< of the whole field after `tick`
+  uint32_t repairs = 0;     ///< chunks resent to this client because a check failed
+};
+
+using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
+                                   ResetMessage, ReplyMessage, StatusMessage>;
+
+}  // namespace scree

@@ -1,0 +1,37 @@
+// What clients ask of the world. A request is untrusted until World::step has validated it.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "shared/field/shape.h"
+#include "shared/field/voronoi.h"
+
+namespace scree {
+
+struct CarveRequest {
+  Shape shape;
+  SeedPattern pattern = SeedPattern::radial;
+  uint32_t seeds = 32;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};  ///< where the blow struck; pieces fly away from it
+  float blast_speed_m_s = 6.0F;
+
+  bool operator==(const CarveRequest&) const = default;
+};
+
+struct FillRequest {
+  Shape shape;
+
+  bool operator==(const FillRequest&) const = default;
+};
+
+struct Command {
+  uint64_t session = 0;  ///< who asked; 0: the server itself
+  uint32_t request = 0;  ///< the asker's number for it, returned in the reply
+  std::variant<CarveRequest, FillRequest> body;
+
+  bool operator==(const Command&) const = default;
+};
+
+}  // namespace scree

@@ -1,0 +1,77 @@
+#include "server/world/published_state.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+void remember(ChunkHistory& history, Tick version, uint64_t hash) {
+  if (!history.entries.empty() && history.entries.back().version == version) {
+    history.entries.back().hash = hash;
+    return;
+  }
+  if (history.entries.size() == ChunkHistory::depth) history.entries.erase(history.entries.begin());
+  history.entries.push_back({version, hash});
+}
+
+}  // namespace
+
+void PublishedState::apply(const TickDelta& delta) {
+  CHECK(tick_ == 0 || delta.tick == tick_ + 1);
+  tick_ = delta.tick;
+  for (const BrickState& state : delta.bricks) {
+    PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
+    BrickState& slot = chunk.bricks[state.coord];
+    chunk.hash += state.hash - slot.hash;
+    slot = state;
+    chunk.version = delta.tick;
+    remember(chunk.history, chunk.version, chunk.hash);
+  }
+  std::map<PieceId, PublishedPiece> alive;
+  for (const PieceState& piece : delta.pieces) {
+    const auto known = pieces_.find(piece.id);
+    if (known != pieces_.end()) alive[piece.id] = {known->second.volume, piece.pose};
+  }
+  for (const SpawnedPiece& piece : delta.spawned) {
+    const auto at = std::ranges::lower_bound(delta.pieces, piece.id, {}, &PieceState::id);
+    if (at != delta.pieces.end() && at->id == piece.id) alive[piece.id] = {piece.volume, at->pose};
+  }
+  CHECK(alive.size() == delta.pieces.size());
+  pieces_ = std::move(alive);
+  pieces_made_ += delta.spawned.size();
+  for (const AppliedOperation& applied : delta.operations)
+    pieces_merged_ += std::holds_alternative<StampOperation>(applied.operation) ? 1 : 0;
+  ledger_ = delta.ledger;
+  field_hash_ = delta.field_hash;
+  state_hash_ = delta.state_hash;
+}
+
+TickDelta PublishedState::as_delta() const {
+  TickDelta delta;
+  delta.tick = tick_;
+  for (const auto& [coord, chunk] : chunks_)
+    for (const auto& [brick, state] : chunk.bricks) delta.bricks.push_back(state);
+  std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  for (const auto& [id, piece] : pieces_) {
+    delta.spawned.push_back({id, piece.volume});
+    delta.pieces.push_back({id, piece.pose});
+  }
+  delta.ledger = ledger_;
+  delta.field_hash = field_hash_;
+  delta.state_hash = state_hash_;
+  return delta;
+}
+
+std::optional<uint64_t> PublishedState::hash_at(ChunkCoord chunk, Tick version) const {
+  const auto found = chunks_.find(chunk);
+  if (found == chunks_.end()) return std::nullopt;
+  for (const ChunkHistory::Entry& entry : found->second.history.entries)
+    if (entry.version == version) return entry.hash;
+  return std::nullopt;
+}
+
+}  // namespace scree

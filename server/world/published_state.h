@@ -1,0 +1,70 @@
+// The world as published so far, rebuilt from TickDeltas alone. The network's publisher serves late joiners
+// from it, the recorder writes its keyframes from it; neither ever touches the simulation. Buffers are shared
+// and immutable.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "server/world/tick_delta.h"
+
+namespace scree {
+
+/// Hashes of a chunk at its latest versions, newest last; older ones fall off.
+struct ChunkHistory {
+  static constexpr size_t depth = 32;
+  struct Entry {
+    Tick version = 0;
+    uint64_t hash = 0;
+  };
+  std::vector<Entry> entries;
+};
+
+struct PublishedChunk {
+  Tick version = 0;   ///< the tick that changed it last
+  uint64_t hash = 0;  ///< Σ brick_hash of the edited bricks
+  std::map<BrickCoord, BrickState> bricks;
+  ChunkHistory history;
+};
+
+struct PublishedPiece {
+  std::shared_ptr<const Volume> volume;
+  QuantisedPose pose;
+};
+
+class PublishedState {
+ public:
+  /// Deltas come in order of tick, without a gap.
+  void apply(const TickDelta& delta);
+
+  /// One delta that takes an empty state to this one: no operations, every edited brick, every piece. A
+  /// keyframe.
+  TickDelta as_delta() const;
+
+  Tick tick() const { return tick_; }
+  const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
+  const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
+  const Ledger& ledger() const { return ledger_; }
+  uint64_t field_hash() const { return field_hash_; }
+  uint64_t pieces_made() const { return pieces_made_; }
+  uint64_t pieces_merged() const { return pieces_merged_; }
+
+  /// The chunk's hash at that version; nothing when it has been forgotten or never was.
+  std::optional<uint64_t> hash_at(ChunkCoord chunk, Tick version) const;
+
+ private:
+  Tick tick_ = 0;
+  std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
+  std::map<PieceId, PublishedPiece> pieces_;
+  Ledger ledger_;
+  uint64_t field_hash_ = 0;
+  uint64_t state_hash_ = 0;
+  uint64_t pieces_made_ = 0;
+  uint64_t pieces_merged_ = 0;
+};
+
+}  // namespace scree

@@ -1,0 +1,87 @@
+// What one tick did. Immutable once published: the publisher, the recorder and the metrics all read this one
+// value, and nothing else leaves the simulation.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/field/operation.h"
+
+namespace scree {
+
+/// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust =
+/// poured.
+struct Ledger {
+  MassUnits terrain = 0;  ///< what the terrain gained since the start (negative: lost)
+  MassUnits pieces = 0;   ///< in pieces alive
+  MassUnits dust = 0;     ///< waits to go out with the next merges
+  MassUnits poured = 0;   ///< added by fills
+  MassUnits moved = 0;    ///< carved out since the start, in all; for scale
+
+  MassUnits error() const { return terrain + pieces + dust - poured; }
+  bool operator==(const Ledger&) const = default;
+};
+
+/// Milliseconds that each stage of the tick took. Reported only; the simulation never reads them.
+struct StageTimes {
+  double carve_ms = 0.0;      ///< carve, extract, fracture: apply() of carves and fills
+  double spawn_ms = 0.0;      ///< hulls and bodies of new pieces
+  double bodies_ms = 0.0;     ///< terrain contacts and the Bullet step
+  double rest_ms = 0.0;       ///< rest detection
+  double recombine_ms = 0.0;  ///< planning and applying stamps
+  double publish_ms = 0.0;    ///< hashes, copies of changed bricks, transforms
+  double total_ms = 0.0;
+};
+
+/// An operation as it was applied, with what a publisher needs to know to send it.
+struct AppliedOperation {
+  Operation operation;
+  std::vector<ChunkCoord> reads;   ///< chunks that apply() reads
+  std::vector<ChunkCoord> writes;  ///< chunks that it changed
+  std::vector<PieceId> created;
+};
+
+/// A brick's state after the tick.
+struct BrickState {
+  BrickCoord coord;
+  std::shared_ptr<const Brick> brick;
+  uint64_t hash = 0;
+};
+
+struct PieceState {
+  PieceId id = 0;
+  QuantisedPose pose;
+
+  bool operator==(const PieceState&) const = default;
+};
+
+struct SpawnedPiece {
+  PieceId id = 0;
+  std::shared_ptr<const Volume> volume;
+};
+
+/// The answer to a request; `refusal` is empty when it was carried out.
+struct Reply {
+  uint64_t session = 0;
+  uint32_t request = 0;
+  std::string refusal;
+  uint32_t pieces = 0;
+};
+
+struct TickDelta {
+  Tick tick = 0;
+  std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
+  std::vector<BrickState> bricks;            ///< every brick that the tick changed, ordered
+  std::vector<SpawnedPiece> spawned;         ///< pieces made in this tick, ordered; some may be gone again
+  std::vector<PieceState> pieces;            ///< every piece alive after the tick, ordered by id
+  std::vector<Reply> replies;
+  Ledger ledger;
+  StageTimes times;
+  uint64_t field_hash = 0;  ///< Field::hash()
+  uint64_t state_hash = 0;  ///< of the field, the ledger and every body's exact state
+};
+
+}  // namespace scree

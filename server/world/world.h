@@ -1,0 +1,47 @@
+// The simulation: field, pieces, bodies and ledger, advanced tick by tick.
+//
+// A pure function of its configuration and of the commands by tick: same in, same hashes out, on any build.
+// Reads no clock but for StageTimes. Not thread-safe; everything that others may see is in the TickDelta.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "server/world/command.h"
+#include "server/world/tick_delta.h"
+#include "shared/field/terrain.h"
+
+namespace scree {
+
+struct WorldConfig {
+  TerrainSource terrain;
+  uint32_t tick_rate_hz = 60;
+  uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
+  uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
+
+  bool operator==(const WorldConfig&) const = default;
+};
+
+class World {
+ public:
+  explicit World(const WorldConfig& config);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Advances one tick: commands in order, bodies, rest, recombination.
+  std::shared_ptr<const TickDelta> step(std::span<const Command> commands);
+
+  const WorldConfig& config() const;
+  Tick tick() const;
+  /// The terrain's gain since the start, measured afresh from every edited brick. Must equal the ledger's.
+  MassUnits measure_terrain();
+  /// For tests and benches, between steps.
+  Field& field();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scree

@@ -1,0 +1,42 @@
+// Bounds that server and client share. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Seeds in one carve. 4,096 is the most that the issue of one request may cost a tick; above: refused.
+inline constexpr uint32_t seeds_max = 4096;
+
+/// Reach (half the longest extent) of one carve or fill, metres. Cost grows with its cube; above: refused.
+inline constexpr float edit_reach_max_m = 8.0F;
+
+/// Smallest reach of an edit, metres: half a default voxel; below, nothing would change. Refused.
+inline constexpr float edit_reach_min_m = 0.125F;
+
+/// Speed that a carve gives its pieces, metres a second. A piece must not cross the narrow band in one tick.
+inline constexpr float blast_speed_max_m_s = 30.0F;
+
+/// Half extents of the world, metres, around the origin. Positions must fit quantised poses and float voxels;
+/// edits beyond are refused, pieces beyond become dust.
+inline constexpr float world_half_width_m = 4096.0F;
+inline constexpr float world_half_height_m = 512.0F;
+
+/// Voxels along a side of an edit's window; bounds what bytes off a wire can make us allocate.
+inline constexpr int window_side_max = 128;
+
+/// Bytes of one message on the wire, either way. Above: the connection is refused.
+inline constexpr size_t message_bytes_max = size_t{1} << 20;
+
+/// Radius of interest that a client may ask for, metres; more is cut to this.
+inline constexpr float interest_radius_max_m = 256.0F;
+
+/// Generated chunks kept in memory by a field (32 KiB each at most); above: all are dropped and made anew on
+/// demand.
+inline constexpr size_t generated_chunks_max = 8192;
+
+/// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
+inline constexpr int64_t piece_mass_min = 2 * 254;
+
+}  // namespace scree::limits

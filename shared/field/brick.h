@@ -1,0 +1,52 @@
+// Bricks of codes: how the field is stored, hashed and sent.
+//
+// A code c is a signed distance of c · 3/127 voxels, negative inside, saturating at ±127 (±3 voxels, the
+// narrow band). The code is the truth: every edit ends in codes, on the server and on every client.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "shared/field/coord.h"
+
+namespace scree {
+
+using Code = int8_t;
+
+inline constexpr int brick_voxels = brick_size * brick_size * brick_size;
+inline constexpr Code code_air = 127;
+inline constexpr Code code_solid = -127;
+inline constexpr float band_voxels = 3.0F;
+inline constexpr float codes_per_voxel = 127.0F / band_voxels;
+
+/// 8³ codes, index (x·8 + y)·8 + z: the order of an OpenVDB leaf.
+struct alignas(64) Brick {
+  std::array<Code, brick_voxels> codes;
+
+  bool operator==(const Brick&) const = default;
+  static constexpr int index(int x, int y, int z) { return (x << 6) | (y << 3) | z; }
+};
+
+/// Nearest code of a distance in voxels; halves round away from zero.
+inline Code encode(float distance_voxels) {
+  const float scaled = distance_voxels * codes_per_voxel;
+  const float clamped = scaled < -127.0F ? -127.0F : (scaled > 127.0F ? 127.0F : scaled);
+  return static_cast<Code>(static_cast<int>(clamped + (clamped < 0.0F ? -0.5F : 0.5F)));
+}
+
+/// Distance in voxels.
+inline float decode(Code code) {
+  return static_cast<float>(code) * (band_voxels / 127.0F);
+}
+
+/// The shared bricks of nothing but air, and of nothing but rock.
+const Brick& air_brick();
+const Brick& solid_brick();
+
+/// air_brick or solid_brick when every code saturates that way, else nullptr.
+const Brick* uniform_equivalent(const Brick& brick);
+
+/// XXH3 of the coordinate and the codes.
+uint64_t brick_hash(BrickCoord coord, const Brick& brick);
+
+}  // namespace scree

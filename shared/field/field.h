@@ -1,0 +1,101 @@
+// The field: every voxel of the world, of which only the edited bricks are stored.
+//
+// Reading any brick always answers: edited ones from the store, others generated and cached. Not thread-safe.
+// Invariant: hash() is the sum of brick_hash over the edited bricks; chunk_hash the same of one chunk.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "shared/field/terrain.h"
+#include "shared/field/window.h"
+
+namespace scree {
+
+class Field {
+ public:
+  explicit Field(const TerrainSource& source);
+  virtual ~Field() = default;
+  Field(const Field&) = delete;
+  Field& operator=(const Field&) = delete;
+
+  const TerrainSource& source() const { return source_; }
+
+  /// The reference holds until the next call that is not const.
+  const Brick& brick(BrickCoord coord);
+  /// As generated, whether edited since or not; same lifetime.
+  const Brick& generated_brick(BrickCoord coord);
+  bool is_edited(BrickCoord coord) const { return find_edited(coord) != nullptr; }
+  /// Marks the brick as edited, even when the codes are those generated.
+  void set_brick(BrickCoord coord, const Brick& brick);
+  /// Forgets the edits of a chunk: it reads as generated again.
+  void forget_chunk(ChunkCoord chunk);
+
+  uint64_t hash() const { return hash_; }
+  uint64_t chunk_hash(ChunkCoord chunk) const;
+  /// Edited chunks, in order; and one's edited bricks, in order.
+  std::vector<ChunkCoord> edited_chunks() const;
+  std::vector<BrickCoord> edited_bricks(ChunkCoord chunk) const;
+
+  /// Hands over a chunk that another thread generated, so that brick() need not.
+  void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
+  bool has_generated(ChunkCoord chunk) const { return generated_.contains(chunk); }
+
+ protected:
+  virtual const Brick* find_edited(BrickCoord coord) const = 0;
+  virtual void store_edited(BrickCoord coord, const Brick& brick) = 0;
+  virtual void erase_edited(BrickCoord coord) = 0;
+
+ private:
+  struct EditedChunk {
+    uint64_t hash = 0;
+    uint64_t bricks = 0;  ///< bit i: brick i of the chunk is edited
+  };
+  const GeneratedChunk& generated_chunk(ChunkCoord chunk);
+
+  TerrainSource source_;
+  std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> generated_;
+  std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
+  uint64_t hash_ = 0;
+};
+
+/// A field whose edited bricks lie in a hash map: the client's, and the tests'.
+class MapField final : public Field {
+ public:
+  using Field::Field;
+
+ protected:
+  const Brick* find_edited(BrickCoord coord) const override;
+  void store_edited(BrickCoord coord, const Brick& brick) override;
+  void erase_edited(BrickCoord coord) override;
+
+ private:
+  struct Slot {
+    const Brick* brick;
+    std::unique_ptr<Brick> own;  ///< null when `brick` is one of the shared uniform ones
+  };
+  std::unordered_map<BrickCoord, Slot, CoordHash> slots_;
+};
+
+/// Copies a box of voxels out of the field.
+Window gather(Field& field, const VoxelBox& box);
+
+/// Writes a window back; bricks whose codes do not change are left alone. Returns the changed ones, in order.
+std::vector<BrickCoord> scatter(Field& field, const Window& window);
+
+/// Trilinear distance and gradient at a point (voxels); gradient is not normalised, zero where the codes
+/// saturate.
+struct FieldSample {
+  float distance_voxels;
+  glm::vec3 gradient;
+};
+FieldSample sample(Field& field, glm::vec3 p_voxels);
+
+/// Sphere traces from `from` (voxels) along unit `direction`; the distance to the surface in voxels, or
+/// nothing within `reach_voxels`. Starts inside rock: 0.
+std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction, float reach_voxels);
+
+}  // namespace scree

@@ -1,0 +1,30 @@
+// Mass in integer units, so that the ledger is exact by construction.
+//
+// A voxel holds 254 units when inside, none outside, and a ramp of one voxel's width across the surface:
+// occupancy(c) = clamp(127 − 6c, 0, 254), which is 254 · clamp(½ − d) for the distance d = 3c/127 voxels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "shared/field/brick.h"
+
+namespace scree {
+
+/// Units of mass; a full voxel of density 1 has 254.
+using MassUnits = int64_t;
+
+inline constexpr int units_per_voxel = 254;
+
+inline constexpr int occupancy(int code) {
+  const int ramp = 127 - 6 * code;
+  return ramp < 0 ? 0 : (ramp > units_per_voxel ? units_per_voxel : ramp);
+}
+
+inline MassUnits brick_mass(const Brick& brick) {
+  int sum = 0;
+  for (const Code code : brick.codes) sum += occupancy(code);
+  return sum;
+}
+
+}  // namespace scree

@@ -1,0 +1,81 @@
+// Operations: everything that ever changes a field, as it is simulated, sent, recorded and replayed.
+//
+// apply() is the only way to change a field, on the server, in a client's mirror and in a replay: same field,
+// pieces and operation in, same bits out. Lengths in metres.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "shared/field/field.h"
+#include "shared/field/piece.h"
+#include "shared/field/shape.h"
+#include "shared/field/voronoi.h"
+
+namespace scree {
+
+/// Carves the shape out and breaks it along Voronoi cells into pieces first_piece, first_piece + 1, …
+struct CarveOperation {
+  Shape shape;
+  SeedPattern pattern = SeedPattern::uniform;
+  uint32_t seeds = 1;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};
+  PieceId first_piece = 0;
+
+  bool operator==(const CarveOperation&) const = default;
+};
+
+/// Adds a solid shape; its mass is entered in the ledger as poured.
+struct FillOperation {
+  Shape shape;
+
+  bool operator==(const FillOperation&) const = default;
+};
+
+/// A piece becomes terrain at this pose.
+struct StampOperation {
+  PieceId piece = 0;
+  QuantisedPose pose;
+  int32_t shift = 0;  ///< of the iso-level, 1/64 voxel
+
+  bool operator==(const StampOperation&) const = default;
+};
+
+/// A piece that left the world becomes dust.
+struct DiscardOperation {
+  PieceId piece = 0;
+
+  bool operator==(const DiscardOperation&) const = default;
+};
+
+using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation>;
+
+/// A piece that an operation made: its id, and where its seeds lie (voxels) for those who need the cells
+/// again.
+struct CreatedPiece {
+  PieceId id = 0;
+  std::vector<uint32_t> seeds;  ///< indices into Applied::seeds_voxels
+};
+
+struct Applied {
+  std::vector<BrickCoord> changed;    ///< bricks whose codes changed, in order
+  std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
+  std::vector<glm::vec3> seeds_voxels;
+  MassUnits terrain_gain = 0;  ///< negative for a carve
+  MassUnits dust = 0;          ///< mass that went into no piece (carve), or a discarded piece's
+};
+
+/// The voxels that apply() reads. A field that holds these bricks (and, for a stamp, the piece) can apply it.
+/// Empty for a discard. `pieces` must hold the piece of a stamp.
+VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
+
+/// Applies a valid operation. A stamp or discard takes its piece out of the table; it must be there.
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces);
+
+/// Whether `apply` can be called at all: shape valid, counts within limits, piece known. For what comes off a
+/// wire.
+Result<void> validate(const Operation& operation, const PieceTable& pieces);
+
+}  // namespace scree

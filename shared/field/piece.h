@@ -1,0 +1,50 @@
+// A piece of broken terrain: a small field of its own, and how it lies in the world.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+
+#include "shared/base/ids.h"
+#include "shared/field/mass.h"
+#include "shared/field/window.h"
+
+namespace scree {
+
+/// A piece's shape, in the voxel frame of the terrain that it was cut from. Outside the window is air.
+struct Volume {
+  Window window;
+  MassUnits mass = 0;             ///< what the terrain lost to it; never changes
+  glm::vec3 centre_voxels{0.0F};  ///< centre of mass, in the window's frame, voxels
+};
+
+/// Where a piece is: its centre of mass, and the rotation from its volume's axes to the world's.
+struct Pose {
+  glm::vec3 position_m{0.0F};
+  glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+};
+
+/// A pose as it crosses the wire, and the only form in which the field kernels see one.
+/// Position: multiples of 1/1024 m. Rotation: "smallest three", 2 + 3·10 bits (Fiedler, Snapshot
+/// Compression).
+struct QuantisedPose {
+  int32_t x = 0;
+  int32_t y = 0;
+  int32_t z = 0;
+  uint32_t rotation = 0;
+
+  bool operator==(const QuantisedPose&) const = default;
+};
+
+inline constexpr float pose_steps_per_m = 1024.0F;
+
+/// Positions must lie within ±2^20 m.
+QuantisedPose quantise(const Pose& pose);
+/// Bit for bit the same everywhere. Any bits give a unit rotation.
+Pose dequantise(const QuantisedPose& pose);
+
+/// Ordered by id, so that every walk over it has the same order everywhere.
+using PieceTable = std::map<PieceId, std::shared_ptr<const Volume>>;
+
+}  // namespace scree

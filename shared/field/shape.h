@@ -1,0 +1,52 @@
+// Solids to carve with and to fill.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "shared/base/result.h"
+#include "shared/field/coord.h"
+
+namespace scree {
+
+enum class ShapeKind : uint8_t { sphere = 0, box = 1, capsule = 2 };
+
+/// In metres. sphere: centre a, radius. box: centre a, half extents b, corners rounded by radius (≥ 0).
+/// capsule: from a to b, radius.
+struct Shape {
+  ShapeKind kind = ShapeKind::sphere;
+  glm::vec3 a{0.0F};
+  glm::vec3 b{0.0F};
+  float radius_m = 0.0F;
+
+  bool operator==(const Shape&) const = default;
+};
+
+inline Shape sphere(glm::vec3 centre_m, float radius_m) {
+  return {ShapeKind::sphere, centre_m, glm::vec3(0.0F), radius_m};
+}
+inline Shape box(glm::vec3 centre_m, glm::vec3 half_extents_m) {
+  return {ShapeKind::box, centre_m, half_extents_m, 0.0F};
+}
+inline Shape capsule(glm::vec3 from_m, glm::vec3 to_m, float radius_m) {
+  return {ShapeKind::capsule, from_m, to_m, radius_m};
+}
+
+/// The shape with every length divided by the voxel size.
+Shape in_voxels(const Shape& shape, float voxel_size_m);
+
+/// Signed distance from p to the shape's surface, negative inside; exact, in the shape's own unit.
+float distance(const Shape& shape, glm::vec3 p);
+
+/// The voxels within the shape (in voxels) or less than the narrow band away from it.
+VoxelBox band_box(const Shape& shape_voxels);
+
+/// Centre of the shape's bounds, and half its longest extent; in the shape's unit.
+glm::vec3 centre_of(const Shape& shape);
+float reach_of(const Shape& shape);
+
+/// Refuses what no world can take: a kind that is none, numbers that are not finite, radii that are negative,
+/// a shape without volume.
+Result<void> validate(const Shape& shape);
+
+}  // namespace scree

@@ -1,0 +1,42 @@
+// Where unedited terrain comes from. Server and client generate it alike; it never crosses the wire.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "shared/field/brick.h"
+
+namespace scree {
+
+/// flat: rock below y = 0. noise: the paper's repeating noise (section 2.2), with overhangs and caves.
+/// canyon: noise, with a cliff along x = 0 and an arch in front of it.
+enum class TerrainKind : uint8_t { flat = 0, noise = 1, canyon = 2 };
+
+struct TerrainSource {
+  TerrainKind kind = TerrainKind::canyon;
+  uint32_t seed = 1;
+  float voxel_size_m = 0.25F;
+
+  bool operator==(const TerrainSource&) const = default;
+};
+
+std::string_view name_of(TerrainKind kind);
+std::optional<TerrainKind> terrain_kind_named(std::string_view name);
+
+/// A chunk as generated. bricks[i] is never null; uniform bricks point to the shared ones.
+struct GeneratedChunk {
+  std::array<const Brick*, chunk_bricks * chunk_bricks * chunk_bricks> bricks;
+  std::unique_ptr<Brick[]> storage;
+};
+
+/// A pure function of its arguments, safe to call from any thread; one-voxel steps change the distance by at
+/// most one voxel (1-Lipschitz along the axes, up to the rounding of codes).
+GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk);
+
+/// Height of the undisturbed ground under the sky at (x, z), found by marching down from above. Metres.
+float ground_height_m(const TerrainSource& source, float x_m, float z_m);
+
+}  // namespace scree

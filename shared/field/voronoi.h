@@ -1,0 +1,38 @@
+// Fracture: seeds scattered in a volume, and the volume cut along their Voronoi cells, without any mesh
+// (paper, section 2.3; cell of seed i = intersection of the half-spaces nearer to i than to j).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shared/field/piece.h"
+
+namespace scree {
+
+/// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
+enum class SeedPattern : uint8_t { uniform = 0, radial = 1 };
+
+/// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room.
+std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
+                                     uint32_t random_seed, glm::vec3 impact_voxels);
+
+/// A piece, and the seeds whose cells it is made of (indices): one, or several where cells were too small to
+/// stand alone and joined their largest neighbour.
+struct CutPiece {
+  Volume volume;
+  std::vector<uint32_t> seeds;
+};
+
+struct Cut {
+  std::vector<CutPiece> pieces;  ///< in the order of their first seeds
+  MassUnits dust = 0;            ///< mass of a volume too small for any piece
+};
+
+/// Cuts `volume` (= before ∩ shape). The mass that the terrain lost, Σ occupancy(before) − occupancy(after),
+/// is shared out by nearest seed, so that Σ piece mass + dust is exactly that. All three windows have the
+/// same box.
+Cut cut_cells(const Window& volume, const Window& before, const Window& after,
+              const std::vector<glm::vec3>& seeds_voxels);
+
+}  // namespace scree

@@ -1,0 +1,34 @@
+// A dense box of codes, gathered from a field for a kernel to work on, or a piece's own little field.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "shared/field/brick.h"
+
+namespace scree {
+
+/// Codes of the voxels in `box`, z fastest: index = ((x − lo.x) · size.y + (y − lo.y)) · size.z + (z − lo.z).
+struct Window {
+  VoxelBox box;
+  std::vector<Code> codes;
+
+  Window() = default;
+  explicit Window(const VoxelBox& b, Code fill = code_air) : box(b), codes(count(b), fill) {}
+
+  static size_t count(const VoxelBox& b) {
+    const VoxelCoord s = b.size();
+    return b.empty() ? 0 : static_cast<size_t>(s.x) * static_cast<size_t>(s.y) * static_cast<size_t>(s.z);
+  }
+  size_t index(int x, int y, int z) const {
+    const VoxelCoord s = box.size();
+    return (static_cast<size_t>(x - box.lo.x) * static_cast<size_t>(s.y) +
+            static_cast<size_t>(y - box.lo.y)) *
+               static_cast<size_t>(s.z) +
+           static_cast<size_t>(z - box.lo.z);
+  }
+  Code& at(int x, int y, int z) { return codes[index(x, y, z)]; }
+  Code at(int x, int y, int z) const { return codes[index(x, y, z)]; }
+};
+
+}  // namespace scree
