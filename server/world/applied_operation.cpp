@@ -1,0 +1,21 @@
+#include "server/world/applied_operation.h"
+
+#include <algorithm>
+
+namespace scree {
+
+AppliedOperation describe(const Operation& operation, const VoxelBox& reads, const Applied& applied) {
+  AppliedOperation described;
+  described.operation = operation;
+  for_each_chunk(reads, [&](ChunkCoord chunk) { described.reads.push_back(chunk); });
+  described.writes.reserve(applied.changed.size());
+  for (const BrickCoord brick : applied.changed) described.writes.push_back(chunk_of(brick));
+  std::ranges::sort(described.writes);
+  const auto duplicates = std::ranges::unique(described.writes);
+  described.writes.erase(duplicates.begin(), duplicates.end());
+  described.created.reserve(applied.created.size());
+  for (const CreatedPiece& piece : applied.created) described.created.push_back(piece.id);
+  return described;
+}
+
+}  // namespace scree
