@@ -51,13 +51,6 @@ struct BrickState {
   uint64_t hash = 0;
 };
 
-struct PieceState {
-  PieceId id = 0;
-  QuantisedPose pose;
-
-  bool operator==(const PieceState&) const = default;
-};
-
 struct SpawnedPiece {
   PieceId id = 0;
   std::shared_ptr<const Volume> volume;

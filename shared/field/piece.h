@@ -44,6 +44,14 @@ QuantisedPose quantise(const Pose& pose);
 /// Bit for bit the same everywhere. Any bits give a unit rotation.
 Pose dequantise(const QuantisedPose& pose);
 
+/// Where a piece is after a tick.
+struct PieceState {
+  PieceId id = 0;
+  QuantisedPose pose;
+
+  bool operator==(const PieceState&) const = default;
+};
+
 /// Ordered by id, so that every walk over it has the same order everywhere.
 using PieceTable = std::map<PieceId, std::shared_ptr<const Volume>>;
 

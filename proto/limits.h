@@ -1,0 +1,39 @@
+// Bounds on what a message may hold; with shared/base/limits.h, all that a decoder enforces.
+// A sender keeps within them; a receiver refuses what is beyond, naming the limit, before it allocates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Bricks in one message: 2 MiB of codes, about what compresses into message_bytes_max. A tick that changes
+/// more for one client drops chunks instead and streams them again.
+inline constexpr size_t bricks_per_message_max = 4096;
+
+/// Operations in one frame. A tick merges and carves a few dozen; the rest is margin.
+inline constexpr size_t operations_per_frame_max = 4096;
+
+/// Chunks dropped, or pieces removed or moved, in one frame.
+inline constexpr size_t entries_per_frame_max = 65536;
+
+/// Chunks in one repair request; more mismatches wait for the next request.
+inline constexpr size_t repair_chunks_max = 1024;
+
+/// Length of a client's name, bytes.
+inline constexpr size_t client_name_bytes_max = 64;
+
+/// Length of a refusal or a reply's reason, bytes; an encoder cuts what is longer.
+inline constexpr size_t reason_bytes_max = 1024;
+
+/// Voxel coordinates lie within ± this, so that no sum of an offset and a window overflows an int32.
+inline constexpr int32_t voxel_coordinate_max = 1 << 24;
+
+/// Quantised positions lie within ± this (2^20 m), the range of QuantisedPose.
+inline constexpr int32_t pose_coordinate_max = 1 << 30;
+
+/// Voxel sizes that a server may announce, metres: the world's half width stays within voxel_coordinate_max.
+inline constexpr float voxel_size_min_m = 0.03125F;
+inline constexpr float voxel_size_max_m = 8.0F;
+
+}  // namespace scree::limits

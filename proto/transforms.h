@@ -1,0 +1,24 @@
+// The poses of many pieces in one run of bytes: FrameMessage::transforms.
+//
+// Ordered by id, strictly ascending. Per piece: id as a varint difference to the one before, position as
+// three zigzag varint differences to the one before (neighbours were often cut from the same rock), 32 bits
+// of rotation: 11 bytes where neighbours are within 8 m. Layout: proto/scree.proto, Frame.transforms.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "proto/limits.h"
+#include "shared/base/result.h"
+#include "shared/field/piece.h"
+
+namespace scree {
+
+/// `pieces` must be ordered by id without repetition; none gives no bytes.
+std::vector<uint8_t> pack_transforms(std::span<const PieceState> pieces);
+
+/// Refuses disorder, positions out of range, bytes left over, and more than limits::entries_per_frame_max.
+Result<std::vector<PieceState>> unpack_transforms(std::span<const uint8_t> bytes);
+
+}  // namespace scree
