@@ -1,0 +1,205 @@
+#include "shared/field/field.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+int floor_to_int(float x) {
+  const int i = static_cast<int>(x);
+  return x < static_cast<float>(i) ? i - 1 : i;
+}
+
+/// The part of a brick that lies in a box, as ranges relative to the brick.
+struct Overlap {
+  VoxelCoord lo;
+  VoxelCoord hi;
+};
+
+Overlap overlap(BrickCoord brick, const VoxelBox& box) {
+  const VoxelCoord first = first_voxel(brick);
+  const auto low = [](int a, int b) { return std::max(a - b, 0); };
+  const auto high = [](int a, int b) { return std::min(a - b, brick_size); };
+  return {{low(box.lo.x, first.x), low(box.lo.y, first.y), low(box.lo.z, first.z)},
+          {high(box.hi.x, first.x), high(box.hi.y, first.y), high(box.hi.z, first.z)}};
+}
+
+/// Calls f(offset in the brick, offset in the window, count) for each row along z.
+template <typename F>
+void for_each_row(BrickCoord brick, const Window& window, F&& f) {
+  const Overlap part = overlap(brick, window.box);
+  const VoxelCoord first = first_voxel(brick);
+  const auto count = static_cast<size_t>(part.hi.z - part.lo.z);
+  for (int x = part.lo.x; x < part.hi.x; ++x)
+    for (int y = part.lo.y; y < part.hi.y; ++y)
+      f(static_cast<size_t>(Brick::index(x, y, part.lo.z)),
+        window.index(first.x + x, first.y + y, first.z + part.lo.z), count);
+}
+
+}  // namespace
+
+Field::Field(const TerrainSource& source) : source_(source) {}
+
+const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
+  const auto found = generated_.find(chunk);
+  if (found != generated_.end()) return found->second;
+  if (generated_.size() >= limits::generated_chunks_max) generated_.clear();
+  return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
+}
+
+const Brick& Field::generated_brick(BrickCoord coord) {
+  return *generated_chunk(chunk_of(coord)).bricks[static_cast<size_t>(index_in_chunk(coord))];
+}
+
+const Brick& Field::brick(BrickCoord coord) {
+  const auto chunk = edited_.find(chunk_of(coord));
+  if (chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0)
+    return *find_edited(coord);
+  return generated_brick(coord);
+}
+
+void Field::set_brick(BrickCoord coord, const Brick& brick) {
+  EditedChunk& chunk = edited_[chunk_of(coord)];
+  const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
+  uint64_t change = brick_hash(coord, brick);
+  if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
+  store_edited(coord, brick);
+  chunk.bricks |= bit;
+  chunk.hash += change;
+  hash_ += change;
+}
+
+void Field::forget_chunk(ChunkCoord chunk) {
+  const auto found = edited_.find(chunk);
+  if (found == edited_.end()) return;
+  hash_ -= found->second.hash;
+  for (const BrickCoord coord : edited_bricks(chunk)) erase_edited(coord);
+  edited_.erase(found);
+}
+
+uint64_t Field::chunk_hash(ChunkCoord chunk) const {
+  const auto found = edited_.find(chunk);
+  return found == edited_.end() ? 0 : found->second.hash;
+}
+
+std::vector<ChunkCoord> Field::edited_chunks() const {
+  std::vector<ChunkCoord> chunks;
+  chunks.reserve(edited_.size());
+  for (const auto& [coord, chunk] : edited_) chunks.push_back(coord);
+  std::ranges::sort(chunks);
+  return chunks;
+}
+
+std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
+  std::vector<BrickCoord> bricks;
+  const auto found = edited_.find(chunk);
+  if (found == edited_.end()) return bricks;
+  for (uint64_t left = found->second.bricks; left != 0; left &= left - 1)
+    bricks.push_back(brick_in_chunk(chunk, std::countr_zero(left)));
+  return bricks;
+}
+
+void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
+  if (generated_.size() >= limits::generated_chunks_max) generated_.clear();
+  generated_.try_emplace(chunk, std::move(generated));
+}
+
+const Brick* MapField::find_edited(BrickCoord coord) const {
+  const auto found = slots_.find(coord);
+  return found == slots_.end() ? nullptr : found->second.brick;
+}
+
+void MapField::store_edited(BrickCoord coord, const Brick& brick) {
+  Slot& slot = slots_[coord];
+  if (const Brick* uniform = uniform_equivalent(brick)) {
+    slot = {uniform, nullptr};
+    return;
+  }
+  if (slot.own == nullptr) slot.own = std::make_unique<Brick>();
+  *slot.own = brick;
+  slot.brick = slot.own.get();
+}
+
+void MapField::erase_edited(BrickCoord coord) {
+  slots_.erase(coord);
+}
+
+Window gather(Field& field, const VoxelBox& box) {
+  Window window(box);
+  for_each_brick(box, [&](BrickCoord coord) {
+    const Brick& brick = field.brick(coord);
+    for_each_row(coord, window, [&](size_t from, size_t to, size_t count) {
+      std::memcpy(window.codes.data() + to, brick.codes.data() + from, count);
+    });
+  });
+  return window;
+}
+
+std::vector<BrickCoord> scatter(Field& field, const Window& window) {
+  std::vector<BrickCoord> changed;
+  for_each_brick(window.box, [&](BrickCoord coord) {
+    const Brick& old = field.brick(coord);
+    bool same = true;
+    for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
+      same = same && std::memcmp(old.codes.data() + to, window.codes.data() + from, count) == 0;
+    });
+    if (same) return;
+    Brick brick = old;
+    for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
+      std::memcpy(brick.codes.data() + to, window.codes.data() + from, count);
+    });
+    field.set_brick(coord, brick);
+    changed.push_back(coord);
+  });
+  return changed;
+}
+
+FieldSample sample(Field& field, glm::vec3 p_voxels) {
+  const VoxelCoord v{floor_to_int(p_voxels.x), floor_to_int(p_voxels.y), floor_to_int(p_voxels.z)};
+  const float fx = p_voxels.x - static_cast<float>(v.x);
+  const float fy = p_voxels.y - static_cast<float>(v.y);
+  const float fz = p_voxels.z - static_cast<float>(v.z);
+  float c[8];
+  const BrickCoord home = brick_of(v);
+  const VoxelCoord in{v.x & 7, v.y & 7, v.z & 7};
+  if (in.x < 7 && in.y < 7 && in.z < 7) {
+    const Brick& brick = field.brick(home);
+    for (int i = 0; i < 8; ++i)
+      c[i] = brick.codes[static_cast<size_t>(
+          Brick::index(in.x + (i >> 2), in.y + ((i >> 1) & 1), in.z + (i & 1)))];
+  } else {
+    for (int i = 0; i < 8; ++i) {
+      const VoxelCoord at{v.x + (i >> 2), v.y + ((i >> 1) & 1), v.z + (i & 1)};
+      c[i] = field.brick(brick_of(at)).codes[static_cast<size_t>(Brick::index(at.x & 7, at.y & 7, at.z & 7))];
+    }
+  }
+  const float x00 = c[0] + (c[4] - c[0]) * fx, x01 = c[1] + (c[5] - c[1]) * fx;
+  const float x10 = c[2] + (c[6] - c[2]) * fx, x11 = c[3] + (c[7] - c[3]) * fx;
+  const float y0 = x00 + (x10 - x00) * fy, y1 = x01 + (x11 - x01) * fy;
+  const float low_x = (c[4] - c[0]) * (1 - fy) + (c[6] - c[2]) * fy;
+  const float high_x = (c[5] - c[1]) * (1 - fy) + (c[7] - c[3]) * fy;
+  const float scale = band_voxels / 127.0F;
+  return {
+      (y0 + (y1 - y0) * fz) * scale,
+      glm::vec3(low_x + (high_x - low_x) * fz, (x10 - x00) * (1 - fz) + (x11 - x01) * fz, y1 - y0) * scale};
+}
+
+std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction, float reach_voxels) {
+  constexpr float close_enough = 0.02F;
+  float along = 0.0F;
+  while (along <= reach_voxels) {
+    const float distance = sample(field, from_voxels + direction * along).distance_voxels;
+    if (distance < close_enough) return along;
+    along += distance * 0.9F;
+  }
+  return std::nullopt;
+}
+
+}  // namespace scree

@@ -1,0 +1,228 @@
+#include "shared/field/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shared/field/redistance.h"
+
+namespace scree {
+
+namespace {
+
+/// The density function is sampled every second voxel and interpolated: it is smooth on that scale.
+constexpr int lattice_step = 2;
+/// Voxels around a chunk that decide its distances: the narrow band, and one.
+constexpr int apron = 4;
+
+struct Octave {
+  float amplitude_m;
+  float cell_m;
+};
+constexpr Octave octaves[] = {{7.0F, 20.0F}, {3.4F, 8.5F}, {1.1F, 3.5F}};
+constexpr float amplitude_sum_m = 7.0F + 3.4F + 1.1F;
+
+constexpr float cliff_height_m = 16.0F;
+constexpr float canyon_roughness = 0.4F;  ///< the canyon's noise, relative to the open terrain's
+constexpr float arch_x_m = 15.0F;
+constexpr float arch_radius_m = 7.5F;
+constexpr float arch_thickness_m = 1.9F;
+
+int floor_to_int(float x) {
+  const int i = static_cast<int>(x);
+  return x < static_cast<float>(i) ? i - 1 : i;
+}
+
+/// A value in [-1, 1) of a lattice point; repeats every 64 points, as the paper's noise texture does.
+float lattice_value(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
+  uint32_t h = ((x & 63U) | ((y & 63U) << 6U) | ((z & 63U) << 12U)) * 0x9E3779B1U + seed * 0x85EBCA77U;
+  h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
+  h = (h ^ (h >> 12U)) * 0x297A2D39U;
+  h ^= h >> 15U;
+  return static_cast<float>(h >> 8U) * (2.0F / 16777216.0F) - 1.0F;
+}
+
+float blend(float t) {
+  return t * t * (3.0F - 2.0F * t);
+}
+
+/// Value noise in [-1, 1), cells of one unit.
+float noise(glm::vec3 p, uint32_t seed) {
+  const int x = floor_to_int(p.x), y = floor_to_int(p.y), z = floor_to_int(p.z);
+  const float u = blend(p.x - static_cast<float>(x));
+  const float v = blend(p.y - static_cast<float>(y));
+  const float w = blend(p.z - static_cast<float>(z));
+  float c[8];
+  for (int i = 0; i < 8; ++i)
+    c[i] = lattice_value(static_cast<uint32_t>(x + (i >> 2)), static_cast<uint32_t>(y + ((i >> 1) & 1)),
+                         static_cast<uint32_t>(z + (i & 1)), seed);
+  for (int i = 0; i < 4; ++i) c[i] += (c[i + 4] - c[i]) * u;
+  for (int i = 0; i < 2; ++i) c[i] += (c[i + 2] - c[i]) * v;
+  return c[0] + (c[1] - c[0]) * w;
+}
+
+float rough(glm::vec3 p, uint32_t seed) {
+  float sum = 0.0F;
+  for (uint32_t i = 0; i < std::size(octaves); ++i)
+    sum += octaves[i].amplitude_m * noise(p / octaves[i].cell_m, seed * 31U + i);
+  return sum;
+}
+
+/// A half torus that stands across the z axis.
+float arch(glm::vec3 p) {
+  const float ring = std::sqrt(p.y * p.y + p.z * p.z) - arch_radius_m;
+  const float x = p.x - arch_x_m;
+  return std::sqrt(ring * ring + x * x) - arch_thickness_m;
+}
+
+/// Negative inside rock; the zero set is the surface. In metres, but not a distance.
+float density(const TerrainSource& source, glm::vec3 p) {
+  switch (source.kind) {
+    case TerrainKind::flat:
+      return p.y;
+    case TerrainKind::noise:
+      return p.y + rough(p, source.seed);
+    case TerrainKind::canyon:
+      break;
+  }
+  const float bump = rough(p, source.seed);
+  const float step = blend(std::clamp(0.5F - p.x / 5.0F, 0.0F, 1.0F));
+  const float ground = p.y - cliff_height_m * step + canyon_roughness * bump;
+  return std::min(ground, arch(p) + 0.12F * bump);
+}
+
+/// Above `top` there is only air, below `bottom` only rock.
+struct Heights {
+  float bottom_m;
+  float top_m;
+};
+
+Heights heights(TerrainKind kind) {
+  switch (kind) {
+    case TerrainKind::flat:
+      return {0.0F, 0.0F};
+    case TerrainKind::noise:
+      return {-amplitude_sum_m, amplitude_sum_m};
+    case TerrainKind::canyon:
+      break;
+  }
+  return {-amplitude_sum_m, cliff_height_m + amplitude_sum_m};
+}
+
+/// Densities at the even voxels of `box`, whose bounds are even.
+struct Lattice {
+  int n[3];
+  std::vector<float> values;
+  bool uniform = true;
+
+  Lattice(const TerrainSource& source, const VoxelBox& box) {
+    const VoxelCoord size = box.size();
+    n[0] = size.x / lattice_step + 1;
+    n[1] = size.y / lattice_step + 1;
+    n[2] = size.z / lattice_step + 1;
+    values.reserve(static_cast<size_t>(n[0]) * static_cast<size_t>(n[1]) * static_cast<size_t>(n[2]));
+    for (int x = 0; x < n[0]; ++x)
+      for (int y = 0; y < n[1]; ++y)
+        for (int z = 0; z < n[2]; ++z) {
+          const glm::vec3 voxel(static_cast<float>(box.lo.x + x * lattice_step),
+                                static_cast<float>(box.lo.y + y * lattice_step),
+                                static_cast<float>(box.lo.z + z * lattice_step));
+          values.push_back(density(source, voxel * source.voxel_size_m));
+          uniform = uniform && (values.back() < 0.0F) == (values.front() < 0.0F);
+        }
+  }
+
+  float at(int x, int y, int z) const {
+    return values[(static_cast<size_t>(x) * static_cast<size_t>(n[1]) + static_cast<size_t>(y)) *
+                      static_cast<size_t>(n[2]) +
+                  static_cast<size_t>(z)];
+  }
+
+  /// Trilinear value at a voxel, relative to the box.
+  float level(int x, int y, int z) const {
+    const int i = x / 2, j = y / 2, k = z / 2;
+    const int i1 = i + (x & 1), j1 = j + (y & 1), k1 = k + (z & 1);
+    const float low = (at(i, j, k) + at(i, j, k1)) + (at(i, j1, k) + at(i, j1, k1));
+    const float high = (at(i1, j, k) + at(i1, j, k1)) + (at(i1, j1, k) + at(i1, j1, k1));
+    return (low + high) * 0.125F;
+  }
+};
+
+GeneratedChunk uniform_chunk(const Brick& brick) {
+  GeneratedChunk chunk;
+  chunk.bricks.fill(&brick);
+  return chunk;
+}
+
+GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
+  GeneratedChunk chunk;
+  std::vector<Brick> own;
+  std::array<int, 64> slot;
+  for (int i = 0; i < 64; ++i) {
+    const VoxelCoord first = first_voxel(brick_in_chunk(coord, i));
+    Brick brick;
+    for (int x = 0; x < brick_size; ++x)
+      for (int y = 0; y < brick_size; ++y)
+        std::copy_n(window.codes.data() + window.index(first.x + x, first.y + y, first.z), brick_size,
+                    brick.codes.data() + Brick::index(x, y, 0));
+    chunk.bricks[static_cast<size_t>(i)] = uniform_equivalent(brick);
+    slot[static_cast<size_t>(i)] = static_cast<int>(own.size());
+    if (chunk.bricks[static_cast<size_t>(i)] == nullptr) own.push_back(brick);
+  }
+  chunk.storage = std::make_unique<Brick[]>(own.size());
+  std::ranges::copy(own, chunk.storage.get());
+  for (size_t i = 0; i < 64; ++i)
+    if (chunk.bricks[i] == nullptr) chunk.bricks[i] = chunk.storage.get() + slot[i];
+  return chunk;
+}
+
+}  // namespace
+
+std::string_view name_of(TerrainKind kind) {
+  switch (kind) {
+    case TerrainKind::flat:
+      return "flat";
+    case TerrainKind::noise:
+      return "noise";
+    case TerrainKind::canyon:
+      break;
+  }
+  return "canyon";
+}
+
+std::optional<TerrainKind> terrain_kind_named(std::string_view name) {
+  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon})
+    if (name == name_of(kind)) return kind;
+  return std::nullopt;
+}
+
+GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
+  const VoxelCoord first = first_voxel(chunk);
+  const VoxelBox box = VoxelBox{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}.grown(apron);
+  const Heights bounds = heights(source.kind);
+  if (static_cast<float>(box.lo.y) * source.voxel_size_m > bounds.top_m) return uniform_chunk(air_brick());
+  if (static_cast<float>(box.hi.y) * source.voxel_size_m < bounds.bottom_m)
+    return uniform_chunk(solid_brick());
+  const Lattice lattice(source, box);
+  if (lattice.uniform) return uniform_chunk(lattice.values.front() < 0.0F ? solid_brick() : air_brick());
+  Window window(box);
+  std::vector<float> levels(window.codes.size());
+  const VoxelCoord size = box.size();
+  size_t i = 0;
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y)
+      for (int z = 0; z < size.z; ++z, ++i) levels[i] = lattice.level(x, y, z);
+  distances_from_levels(levels, window);
+  return split_into_bricks(window, chunk);
+}
+
+float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
+  constexpr float step_m = 0.25F;
+  const Heights bounds = heights(source.kind);
+  float y = bounds.top_m + step_m;
+  while (y > bounds.bottom_m && density(source, {x_m, y, z_m}) >= 0.0F) y -= step_m;
+  return y;
+}
+
+}  // namespace scree

@@ -1,0 +1,328 @@
+#include "shared/field/voronoi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+using Label = uint16_t;
+static_assert(limits::seeds_max <= std::numeric_limits<Label>::max());
+
+/// Side of the blocks of voxels that share a list of candidate seeds.
+constexpr int block_side = 4;
+
+glm::vec3 as_vec3(int x, int y, int z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+/// The seeds that can be nearest to some voxel of a block with that centre.
+void find_candidates(const std::vector<glm::vec3>& seeds, glm::vec3 centre, std::vector<float>& distances,
+                     std::vector<Label>& out) {
+  constexpr float half_diagonal = 2.6F;  // 1.5 · √3, rounded up
+  float nearest = std::numeric_limits<float>::max();
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    const glm::vec3 off = seeds[i] - centre;
+    distances[i] = std::sqrt(glm::dot(off, off));
+    nearest = std::min(nearest, distances[i]);
+  }
+  out.clear();
+  for (size_t i = 0; i < seeds.size(); ++i)
+    if (distances[i] <= nearest + 2.0F * half_diagonal) out.push_back(static_cast<Label>(i));
+}
+
+/// Index of the nearest seed of every voxel; the lowest index wins a tie.
+std::vector<Label> label_voxels(const Window& window, const std::vector<glm::vec3>& seeds) {
+  std::vector<Label> labels(window.codes.size());
+  std::vector<float> distances(seeds.size());
+  std::vector<Label> candidates;
+  const VoxelBox& box = window.box;
+  const auto label_block = [&](VoxelCoord lo, VoxelCoord hi) {
+    find_candidates(seeds, as_vec3(lo.x, lo.y, lo.z) + 1.5F, distances, candidates);
+    for (int x = lo.x; x < hi.x; ++x)
+      for (int y = lo.y; y < hi.y; ++y)
+        for (int z = lo.z; z < hi.z; ++z) {
+          float nearest = std::numeric_limits<float>::max();
+          Label& label = labels[window.index(x, y, z)];
+          for (const Label i : candidates) {
+            const glm::vec3 off = seeds[i] - as_vec3(x, y, z);
+            const float d2 = glm::dot(off, off);
+            if (d2 < nearest) nearest = d2, label = i;
+          }
+        }
+  };
+  for (int x = box.lo.x; x < box.hi.x; x += block_side)
+    for (int y = box.lo.y; y < box.hi.y; y += block_side)
+      for (int z = box.lo.z; z < box.hi.z; z += block_side)
+        label_block({x, y, z}, {std::min(x + block_side, box.hi.x), std::min(y + block_side, box.hi.y),
+                                std::min(z + block_side, box.hi.z)});
+  return labels;
+}
+
+/// Mass, and first moment of it, that the terrain lost in one cell.
+struct CellMass {
+  MassUnits mass = 0;
+  MassUnits x = 0;
+  MassUnits y = 0;
+  MassUnits z = 0;
+};
+
+std::vector<CellMass> share_out(const Window& before, const Window& after, const std::vector<Label>& labels,
+                                size_t cells) {
+  std::vector<CellMass> masses(cells);
+  const VoxelBox& box = before.box;
+  size_t i = 0;
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
+        const MassUnits lost = occupancy(before.codes[i]) - occupancy(after.codes[i]);
+        if (lost == 0) continue;
+        CellMass& cell = masses[labels[i]];
+        cell.mass += lost;
+        cell.x += lost * (x - box.lo.x);
+        cell.y += lost * (y - box.lo.y);
+        cell.z += lost * (z - box.lo.z);
+      }
+  return masses;
+}
+
+/// Pairs of cells (low, high) that touch within the volume, sorted.
+std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const std::vector<Label>& labels) {
+  std::vector<std::pair<Label, Label>> pairs;
+  const VoxelCoord size = volume.box.size();
+  const auto nz = static_cast<ptrdiff_t>(size.z);
+  const ptrdiff_t nyz = nz * size.y;
+  const auto touch = [&](size_t i, ptrdiff_t step) {
+    const Label a = labels[i];
+    const Label b = labels[static_cast<size_t>(static_cast<ptrdiff_t>(i) + step)];
+    if (a == b) return;
+    const std::pair<Label, Label> pair = std::minmax(a, b);
+    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
+  };
+  // Half of the 26 neighbours: cells that meet only along an edge still bound each other.
+  constexpr int forward[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
+                                  {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
+                                  {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
+  for (int x = 1; x + 1 < size.x; ++x)
+    for (int y = 1; y + 1 < size.y; ++y)
+      for (int z = 1; z + 1 < size.z; ++z) {
+        const size_t i = static_cast<size_t>(x * nyz + y * nz + z);
+        if (volume.codes[i] == code_air) continue;
+        for (const auto& step : forward) touch(i, step[0] * nyz + step[1] * nz + step[2]);
+      }
+  std::ranges::sort(pairs);
+  const auto rest = std::ranges::unique(pairs);
+  pairs.erase(rest.begin(), rest.end());
+  return pairs;
+}
+
+/// Which cells make up which piece: cells too light to stand alone join the heaviest piece that they touch.
+class Grouping {
+ public:
+  Grouping(const std::vector<CellMass>& cells, const std::vector<std::pair<Label, Label>>& touching)
+      : parent_(cells.size()), mass_(cells.size()) {
+    std::iota(parent_.begin(), parent_.end(), Label{0});
+    for (size_t i = 0; i < cells.size(); ++i) mass_[i] = cells[i].mass;
+    for (bool joined = true; joined;) joined = join_round(touching);
+    join_stragglers();
+  }
+
+  Label root(Label i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+  MassUnits mass(Label root) const { return mass_[root]; }
+
+ private:
+  bool light(Label root) const { return mass_[root] < limits::piece_mass_min; }
+
+  /// The lower index stays the root, so that pieces keep the order of their first seeds.
+  void join(Label a, Label b) {
+    const auto [low, high] = std::minmax(a, b);
+    parent_[high] = low;
+    mass_[low] += mass_[high];
+  }
+
+  bool join_round(const std::vector<std::pair<Label, Label>>& touching) {
+    std::vector<int> heaviest(parent_.size(), -1);
+    const auto offer = [&](Label to, Label other) {
+      if (light(to) && (heaviest[to] < 0 || mass_[other] > mass_[static_cast<size_t>(heaviest[to])]))
+        heaviest[to] = other;
+    };
+    for (const auto& [a, b] : touching) {
+      const Label ra = root(a), rb = root(b);
+      if (ra == rb) continue;
+      offer(ra, rb);
+      offer(rb, ra);
+    }
+    bool joined = false;
+    for (size_t i = 0; i < heaviest.size(); ++i) {
+      if (heaviest[i] < 0) continue;
+      const Label a = root(static_cast<Label>(i)), b = root(static_cast<Label>(heaviest[i]));
+      if (a == b || !light(a)) continue;
+      join(a, b);
+      joined = true;
+    }
+    return joined;
+  }
+
+  /// Light cells that touch nothing go to the heaviest piece there is.
+  void join_stragglers() {
+    Label heaviest = 0;
+    for (size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] == i && mass_[i] > mass_[heaviest]) heaviest = static_cast<Label>(i);
+    for (size_t i = 0; i < parent_.size(); ++i) {
+      const auto cell = static_cast<Label>(i);
+      heaviest = root(heaviest);
+      if (parent_[i] == i && light(cell) && cell != heaviest) join(cell, heaviest);
+    }
+  }
+
+  std::vector<Label> parent_;
+  std::vector<MassUnits> mass_;
+};
+
+/// The plane half-way between two seeds, as distance(v) = offset + dot(normal, v); positive beyond it.
+struct Bisector {
+  glm::vec3 normal;
+  float offset;
+
+  Bisector(glm::vec3 own, glm::vec3 other) {
+    const glm::vec3 along = other - own;
+    normal = along / std::sqrt(glm::dot(along, along));
+    offset = -glm::dot(normal, (own + other) * 0.5F);
+  }
+};
+
+/// d := max(d, min over `own` of the distance beyond the bisector to `other`), for every voxel of the window.
+void cut_off(const VoxelBox& box, const std::vector<glm::vec3>& own, glm::vec3 other, std::vector<float>& d) {
+  std::vector<Bisector> planes;
+  for (const glm::vec3& seed : own) planes.emplace_back(seed, other);
+  const auto nz = static_cast<size_t>(box.hi.z - box.lo.z);
+  std::vector<float> row(nz);
+  float* out = d.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y, out += nz) {
+      for (size_t p = 0; p < planes.size(); ++p) {
+        const float slope = planes[p].normal.z;
+        const float base = planes[p].offset + glm::dot(planes[p].normal, as_vec3(x, y, box.lo.z));
+        for (size_t z = 0; z < nz; ++z) {
+          const float beyond = base + slope * static_cast<float>(static_cast<int>(z));
+          row[z] = p == 0 ? beyond : std::min(row[z], beyond);
+        }
+      }
+      for (size_t z = 0; z < nz; ++z) out[z] = std::max(out[z], row[z]);
+    }
+}
+
+/// The part of the volume nearer to the group's seeds than to any neighbour's.
+Window cut_group(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
+                 const std::vector<glm::vec3>& neighbours) {
+  Window cut(box);
+  std::vector<float> d(cut.codes.size());
+  const auto nz = static_cast<size_t>(box.hi.z - box.lo.z);
+  size_t i = 0;
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y) {
+      const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
+      for (size_t z = 0; z < nz; ++z, ++i) d[i] = decode(from[z]);
+    }
+  for (const glm::vec3& other : neighbours) cut_off(box, own, other, d);
+  for (i = 0; i < d.size(); ++i) cut.codes[i] = encode(d[i]);
+  return cut;
+}
+
+/// Per piece: the bounds of its voxels in or near the volume, grown so that its surface lies within.
+std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>& labels,
+                                  const Grouping& groups, size_t cells) {
+  const VoxelBox nothing{volume.box.hi, volume.box.lo};
+  std::vector<VoxelBox> boxes(cells, nothing);
+  std::vector<Label> roots(cells);
+  for (size_t i = 0; i < cells; ++i) roots[i] = groups.root(static_cast<Label>(i));
+  constexpr Code near_surface = 43;  // one voxel
+  const VoxelBox& all = volume.box;
+  size_t i = 0;
+  for (int x = all.lo.x; x < all.hi.x; ++x)
+    for (int y = all.lo.y; y < all.hi.y; ++y)
+      for (int z = all.lo.z; z < all.hi.z; ++z, ++i) {
+        if (volume.codes[i] >= near_surface) continue;
+        VoxelBox& b = boxes[roots[labels[i]]];
+        b.lo = {std::min(b.lo.x, x), std::min(b.lo.y, y), std::min(b.lo.z, z)};
+        b.hi = {std::max(b.hi.x, x + 1), std::max(b.hi.y, y + 1), std::max(b.hi.z, z + 1)};
+      }
+  constexpr int margin = 2;
+  for (VoxelBox& b : boxes) {
+    if (b.empty()) b = {all.lo, all.lo};
+    b = b.grown(margin);
+    b.lo = {std::max(b.lo.x, all.lo.x), std::max(b.lo.y, all.lo.y), std::max(b.lo.z, all.lo.z)};
+    b.hi = {std::min(b.hi.x, all.hi.x), std::min(b.hi.y, all.hi.y), std::min(b.hi.z, all.hi.z)};
+  }
+  return boxes;
+}
+
+glm::vec3 centre_of_mass(const CellMass& sum, VoxelCoord origin) {
+  const auto mass = static_cast<double>(sum.mass);
+  return {static_cast<float>(static_cast<double>(sum.x) / mass + origin.x),
+          static_cast<float>(static_cast<double>(sum.y) / mass + origin.y),
+          static_cast<float>(static_cast<double>(sum.z) / mass + origin.z)};
+}
+
+}  // namespace
+
+Cut cut_cells(const Window& volume, const Window& before, const Window& after,
+              const std::vector<glm::vec3>& seeds_voxels) {
+  CHECK(volume.codes.size() == before.codes.size() && volume.codes.size() == after.codes.size());
+  Cut cut;
+  if (seeds_voxels.empty()) {
+    for (size_t i = 0; i < before.codes.size(); ++i)
+      cut.dust += occupancy(before.codes[i]) - occupancy(after.codes[i]);
+    return cut;
+  }
+  const size_t cells = seeds_voxels.size();
+  const std::vector<Label> labels = label_voxels(volume, seeds_voxels);
+  const std::vector<CellMass> masses = share_out(before, after, labels, cells);
+  const auto touching = touching_cells(volume, labels);
+  const Grouping groups(masses, touching);
+  const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
+
+  std::vector<std::vector<uint32_t>> members(cells);
+  std::vector<CellMass> sums(cells);
+  for (size_t i = 0; i < cells; ++i) {
+    const Label root = groups.root(static_cast<Label>(i));
+    members[root].push_back(static_cast<uint32_t>(i));
+    CellMass& sum = sums[root];
+    sum = {sum.mass + masses[i].mass, sum.x + masses[i].x, sum.y + masses[i].y, sum.z + masses[i].z};
+  }
+  std::vector<std::vector<glm::vec3>> neighbours(cells);
+  for (const auto& [a, b] : touching) {
+    const Label ra = groups.root(a), rb = groups.root(b);
+    if (ra == rb) continue;
+    neighbours[ra].push_back(seeds_voxels[b]);
+    neighbours[rb].push_back(seeds_voxels[a]);
+  }
+  for (size_t root = 0; root < cells; ++root) {
+    if (members[root].empty()) continue;
+    if (sums[root].mass < limits::piece_mass_min) {
+      cut.dust += sums[root].mass;
+      continue;
+    }
+    std::vector<glm::vec3> own;
+    for (const uint32_t i : members[root]) own.push_back(seeds_voxels[i]);
+    CutPiece piece;
+    piece.volume.window = cut_group(volume, boxes[root], own, neighbours[root]);
+    piece.volume.mass = sums[root].mass;
+    piece.volume.centre_voxels = centre_of_mass(sums[root], before.box.lo);
+    piece.seeds = members[root];
+    cut.pieces.push_back(std::move(piece));
+  }
+  return cut;
+}
+
+}  // namespace scree
