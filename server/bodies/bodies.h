@@ -1,0 +1,101 @@
+// Pieces of terrain as rigid bodies, simulated by Bullet.
+//
+// Deterministic: the same calls in the same order give the same bits, on any build. Bullet's own snapshots do
+// not restore that (docs/architecture.md, Bodies), so a Bodies is never copied. Not thread-safe. Metres,
+// seconds, kilograms; a body's position is its centre of mass.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/field/field.h"
+#include "shared/field/piece.h"
+
+namespace scree {
+
+/// What Bullet needs to know of a piece. `hull_m`: corners of its convex hull, at least 4 and not all in one
+/// plane, relative to the centre of mass, in the volume's axes (the world's axes at birth).
+/// See server/fracture/hull.h.
+struct BodyShape {
+  std::vector<glm::vec3> hull_m;
+  float mass_kg = 0.0F;
+  glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes
+};
+
+struct BodyState {
+  PieceId id = 0;
+  Pose pose;
+  glm::vec3 velocity_m_s{0.0F};
+  glm::vec3 spin_rad_s{0.0F};
+};
+
+/// `upper` lies on `lower` (or leans on it from above).
+struct Carried {
+  PieceId upper = 0;
+  PieceId lower = 0;
+
+  auto operator<=>(const Carried&) const = default;
+};
+
+/// Who lay on what in the last step.
+struct BodyContacts {
+  std::vector<PieceId> on_terrain;  ///< ordered
+  std::vector<Carried> carried;     ///< ordered, without duplicates
+};
+
+/// How bodies find the terrain. Later methods (mesh, rays) go beside it.
+enum class TerrainColliderKind : uint8_t { field = 0 };
+
+struct BodiesConfig {
+  uint32_t tick_rate_hz = 60;
+  float gravity_m_s2 = 9.81F;
+  float friction = 0.7F;      ///< coefficient, between any two of pieces and terrain
+  float restitution = 0.05F;  ///< rubble hardly bounces
+  TerrainColliderKind terrain_collider = TerrainColliderKind::field;
+};
+
+class Bodies {
+ public:
+  /// `field` must outlive this; it is read in step() alone.
+  Bodies(Field& field, const BodiesConfig& config);
+  ~Bodies();
+  Bodies(const Bodies&) = delete;
+  Bodies& operator=(const Bodies&) = delete;
+
+  /// `state.id` must not be present. Speeds above what the tick can carry are cut (server/bodies/limits.h).
+  void add(const BodyShape& shape, const BodyState& state);
+  /// Removes a body that is present, and wakes those that touch its bounds.
+  void remove(PieceId id);
+  bool contains(PieceId id) const;
+  size_t size() const;
+
+  /// Advances by one tick.
+  void step();
+
+  /// The terrain changed within this box of voxels (after any operation: the box of its changed bricks).
+  /// Must be called before the next step; bodies near it wake and look at the ground afresh.
+  void terrain_changed(const VoxelBox& box);
+
+  /// Of every body, ordered by id.
+  std::vector<BodyState> states() const;
+  /// Of a body that is present.
+  BodyState state(PieceId id) const;
+  BodyContacts contacts() const;
+  /// Radius of the sphere about the centre of mass that holds the body's hull; metres.
+  float reach_m(PieceId id) const;
+  /// Bodies that are awake.
+  size_t awake() const;
+
+  /// XXH3 of the exact transforms and velocities, in order of id.
+  uint64_t state_hash() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scree

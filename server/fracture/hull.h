@@ -1,0 +1,30 @@
+// Convex hulls, masses and inertias of freshly cut pieces, for the rigid bodies.
+//
+// A hull is the convex hull of the corners of the piece's Voronoi cells (voro++), pulled onto the surface of
+// its volume where they lie outside it, and of the volume's own surface. Deterministic; metres, kilograms.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shared/field/operation.h"
+
+namespace scree {
+
+struct PieceHull {
+  PieceId id = 0;
+  std::vector<glm::vec3> corners_m;  ///< relative to the centre of mass, in the volume's axes; at least 4
+  glm::vec3 inertia_m2{0.0F};        ///< diagonal, about the volume's axes, of a mass of 1 kg
+  float size_m3 = 0.0F;              ///< mass / density: Volume::mass in cubic metres of full voxels
+};
+
+/// Most corners of one hull: GJK's cost grows with them, and 20 already follow a cell well.
+inline constexpr int hull_corners_max = 20;
+
+/// Of each of applied.created, in the same order. Every one must be in `pieces`.
+std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m);
+
+/// Of one volume by its own surface alone, without cells: for a piece whose seeds are not at hand (restored).
+PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m);
+
+}  // namespace scree

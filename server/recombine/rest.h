@@ -1,0 +1,71 @@
+// Which pieces have come to rest, and may become terrain again.
+//
+// Judged per piece, not per Bullet island, where one restless piece keeps a whole heap awake. A piece is at
+// rest when no point of it has strayed farther than a leash from where it was, for long enough: jitter about
+// a place is rest, creeping away is not. The leash grows with the piece's age, so that every pile ends.
+// A piece at rest may merge when it lies on terrain, or on a piece that merges in the same tick before it:
+// from the ground up. Deterministic. Not thread-safe. Metres and ticks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/field/piece.h"
+
+namespace scree {
+
+struct RestConfig {
+  uint32_t rest_ticks = 24;        ///< 0.4 s at 60 Hz: longer than the apex of any toss within the leash
+  float leash_m = 0.04F;           ///< a sixth of a default voxel: what a merge rounds away anyway
+  uint32_t patience_ticks = 240;   ///< age at which the leash begins to grow
+  float leash_growth_m_s = 0.05F;  ///< and how fast
+  float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving
+  uint32_t contact_ticks = 12;     ///< a contact counts as long after it was last seen: contacts flicker
+};
+
+/// A piece as the bodies left it. `reach_m`: radius about its centre of mass.
+struct RestPiece {
+  PieceId id = 0;
+  Pose pose;
+  float reach_m = 0.0F;
+};
+
+/// `upper` lies on `lower`.
+struct RestSupport {
+  PieceId upper = 0;
+  PieceId lower = 0;
+};
+
+class RestDetector {
+ public:
+  explicit RestDetector(const RestConfig& config, uint32_t tick_rate_hz);
+
+  /// Call once a tick, after the bodies' step, with every piece alive (ordered by id), those in touch with
+  /// terrain, and who lies on whom. Pieces that are no longer given are forgotten. Returns the pieces that
+  /// may merge now, in the order in which to merge them: those on terrain first, lowest first, then those on
+  /// them. At most `merges_max`; merging only a beginning of the list is fine.
+  std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
+                              std::span<const RestSupport> supports, size_t merges_max);
+
+  /// How many pieces were at rest in the last update, on the ground or not.
+  size_t at_rest() const { return at_rest_; }
+
+ private:
+  struct Watch {
+    Pose anchor;  ///< where the leash is tied
+    uint32_t age_ticks = 0;
+    uint32_t still_ticks = 0;    ///< since the anchor was set
+    uint32_t terrain_ticks = 0;  ///< since terrain was last touched, + 1; 0: never
+  };
+
+  RestConfig config_;
+  float leash_growth_m_tick_;
+  std::map<PieceId, Watch> watches_;
+  size_t at_rest_ = 0;
+};
+
+}  // namespace scree
