@@ -26,6 +26,11 @@ inline constexpr float world_half_height_m = 512.0F;
 /// Voxels along a side of an edit's window; bounds what bytes off a wire can make us allocate.
 inline constexpr int window_side_max = 128;
 
+/// Voxel sizes that a world may have, metres. Below, the largest edit would not fit window_side_max; above, a piece would
+/// be coarser than anything it lies on. Refused at start-up.
+inline constexpr float voxel_size_min_m = 0.15F;
+inline constexpr float voxel_size_max_m = 2.0F;
+
 /// Bytes of one message on the wire, either way. Above: the connection is refused.
 inline constexpr size_t message_bytes_max = size_t{1} << 20;
 

@@ -27,6 +27,12 @@ using VoxelCoord = Coord<struct VoxelTag>;
 using BrickCoord = Coord<struct BrickTag>;
 using ChunkCoord = Coord<struct ChunkTag>;
 
+/// Largest integer not above x, which must fit an int; without libm, so the same everywhere.
+inline int floor_to_int(float x) {
+  const int i = static_cast<int>(x);
+  return x < static_cast<float>(i) ? i - 1 : i;
+}
+
 /// Arithmetic shift is floor division, also of negatives (C++20).
 inline BrickCoord brick_of(VoxelCoord v) {
   return {v.x >> 3, v.y >> 3, v.z >> 3};

@@ -12,11 +12,6 @@ namespace scree {
 
 namespace {
 
-int floor_to_int(float x) {
-  const int i = static_cast<int>(x);
-  return x < static_cast<float>(i) ? i - 1 : i;
-}
-
 /// The part of a brick that lies in a box, as ranges relative to the brick.
 struct Overlap {
   VoxelCoord lo;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
@@ -34,10 +33,7 @@ class SpacedSeeds {
   std::vector<glm::vec3> seeds;
 
  private:
-  static VoxelCoord cell(glm::vec3 p) {
-    return {static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)),
-            static_cast<int>(std::floor(p.z))};
-  }
+  static VoxelCoord cell(glm::vec3 p) { return {floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)}; }
   std::unordered_map<VoxelCoord, glm::vec3, CoordHash> cells_;
 };
 

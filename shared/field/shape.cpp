@@ -48,11 +48,6 @@ float capsule_distance(const Shape& shape, glm::vec3 p) {
   return std::sqrt(glm::dot(off, off)) - shape.radius_m;
 }
 
-int floor_to_int(float x) {
-  const int i = static_cast<int>(x);
-  return x < static_cast<float>(i) ? i - 1 : i;
-}
-
 }  // namespace
 
 Shape in_voxels(const Shape& shape, float voxel_size_m) {

@@ -21,10 +21,12 @@ void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, floa
 
 struct StampPlan {
   int shift = 0;
-  MassUnits gain = 0;  ///< what the window gains with that shift; never more than the budget
+  MassUnits gain = 0;  ///< what the window gains with that shift
 };
 
-/// The largest shift whose gain stays within `budget`, and the exact gain of stamp() with it.
+/// The largest shift found (by bisection) whose gain stays within `budget`, and the exact gain of stamp()
+/// with it. Only where old seams in the window are worth more than the budget is the gain above it, with the
+/// least shift.
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget);
 

@@ -29,11 +29,6 @@ constexpr float arch_x_m = 15.0F;
 constexpr float arch_radius_m = 7.5F;
 constexpr float arch_thickness_m = 1.9F;
 
-int floor_to_int(float x) {
-  const int i = static_cast<int>(x);
-  return x < static_cast<float>(i) ? i - 1 : i;
-}
-
 /// A value in [-1, 1) of a lattice point; repeats every 64 points, as the paper's noise texture does.
 float lattice_value(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
   uint32_t h = ((x & 63U) | ((y & 63U) << 6U) | ((z & 63U) << 12U)) * 0x9E3779B1U + seed * 0x85EBCA77U;

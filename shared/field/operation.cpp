@@ -1,0 +1,156 @@
+#include "shared/field/operation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+#include "shared/field/edit.h"
+#include "shared/field/stamp.h"
+
+namespace scree {
+
+namespace {
+
+MassUnits mass_of(const Window& window) {
+  MassUnits sum = 0;
+  for (const Code code : window.codes) sum += occupancy(code);
+  return sum;
+}
+
+bool in_world(glm::vec3 p) {
+  return std::abs(p.x) <= limits::world_half_width_m && std::abs(p.z) <= limits::world_half_width_m &&
+         std::abs(p.y) <= limits::world_half_height_m;
+}
+
+Result<void> validate_place(const Shape& shape) {
+  if (Result<void> valid = validate(shape); !valid) return valid;
+  const float reach = reach_of(shape);
+  if (reach > limits::edit_reach_max_m)
+    return fail("reach " + std::to_string(reach) + " m is over the limit of " +
+                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
+  if (reach < limits::edit_reach_min_m)
+    return fail("reach " + std::to_string(reach) + " m is under the limit of " +
+                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
+  if (!in_world(centre_of(shape)))
+    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
+  return {};
+}
+
+Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pieces) {
+  const float dx = field.source().voxel_size_m;
+  const Shape shape = in_voxels(carve_op.shape, dx);
+  const Window before = gather(field, band_box(shape));
+  Window after = before;
+  carve(after, shape);
+  const Window volume = extract(before, shape);
+  Applied applied;
+  applied.seeds_voxels =
+      scatter_seeds(volume, carve_op.pattern, carve_op.seeds, carve_op.random_seed, carve_op.impact_m / dx);
+  Cut cut = cut_cells(volume, before, after, applied.seeds_voxels);
+  PieceId id = carve_op.first_piece;
+  for (CutPiece& piece : cut.pieces) {
+    pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
+    applied.created.push_back({id, std::move(piece.seeds)});
+    ++id;
+  }
+  applied.changed = scatter(field, after);
+  applied.terrain_gain = mass_of(after) - mass_of(before);
+  applied.dust = cut.dust;
+  return applied;
+}
+
+Applied apply_fill(const FillOperation& fill_op, Field& field) {
+  const Shape shape = in_voxels(fill_op.shape, field.source().voxel_size_m);
+  Window window = gather(field, band_box(shape));
+  Applied applied;
+  applied.terrain_gain = -mass_of(window);
+  fill(window, shape);
+  applied.terrain_gain += mass_of(window);
+  applied.changed = scatter(field, window);
+  return applied;
+}
+
+std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
+  const auto found = pieces.find(id);
+  CHECK(found != pieces.end());
+  std::shared_ptr<const Volume> volume = std::move(found->second);
+  pieces.erase(found);
+  return volume;
+}
+
+Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces) {
+  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+  const float dx = field.source().voxel_size_m;
+  Window window = gather(field, stamp_box(*volume, op.pose, dx));
+  Applied applied;
+  applied.terrain_gain = -mass_of(window);
+  stamp(window, *volume, op.pose, dx, op.shift);
+  applied.terrain_gain += mass_of(window);
+  applied.changed = scatter(field, window);
+  return applied;
+}
+
+Result<void> known(PieceId id, const PieceTable& pieces) {
+  if (pieces.contains(id)) return {};
+  return fail("there is no piece " + std::to_string(id));
+}
+
+struct Validator {
+  const PieceTable& pieces;
+
+  Result<void> operator()(const CarveOperation& op) const {
+    if (Result<void> valid = validate_place(op.shape); !valid) return valid;
+    if (op.pattern > SeedPattern::radial)
+      return fail("the seed pattern is none that is known (uniform, radial)");
+    if (op.seeds == 0) return fail("a carve needs at least one seed");
+    if (op.seeds > limits::seeds_max)
+      return fail(std::to_string(op.seeds) + " seeds are over the limit of " +
+                  std::to_string(limits::seeds_max) + " (limits.seeds_max)");
+    if (!std::isfinite(op.impact_m.x) || !std::isfinite(op.impact_m.y) || !std::isfinite(op.impact_m.z))
+      return fail("the impact's position is not a finite number");
+    if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
+    if (op.first_piece > UINT32_MAX - op.seeds) return fail("the piece ids are used up");
+    return {};
+  }
+  Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
+  Result<void> operator()(const StampOperation& op) const {
+    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    if (std::abs(op.shift) > stamp_shift_max)
+      return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
+    if (!in_world(dequantise(op.pose).position_m))
+      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    return {};
+  }
+  Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
+};
+
+}  // namespace
+
+VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
+  if (const auto* op = std::get_if<CarveOperation>(&operation))
+    return band_box(in_voxels(op->shape, voxel_size_m));
+  if (const auto* op = std::get_if<FillOperation>(&operation))
+    return band_box(in_voxels(op->shape, voxel_size_m));
+  const auto* op = std::get_if<StampOperation>(&operation);
+  if (op == nullptr) return {};
+  const auto found = pieces.find(op->piece);
+  CHECK(found != pieces.end());
+  return stamp_box(*found->second, op->pose, voxel_size_m);
+}
+
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces) {
+  if (const auto* op = std::get_if<CarveOperation>(&operation)) return apply_carve(*op, field, pieces);
+  if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
+  if (const auto* op = std::get_if<StampOperation>(&operation)) return apply_stamp(*op, field, pieces);
+  Applied applied;
+  applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
+  return applied;
+}
+
+Result<void> validate(const Operation& operation, const PieceTable& pieces) {
+  return std::visit(Validator{pieces}, operation);
+}
+
+}  // namespace scree

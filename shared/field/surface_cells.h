@@ -1,0 +1,41 @@
+// Which sheets of surface a cell holds, by the signs of its 8 corners: the tables of surface_nets.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace scree {
+
+inline constexpr int cell_corners = 8;
+inline constexpr int cell_edges = 12;
+inline constexpr int cell_faces = 6;
+
+/// Corner i lies at (i >> 2, (i >> 1) & 1, i & 1): z fastest, as in a window.
+/// Edge 4·axis + k runs along the axis; k counts the other two axes' offsets, the later axis fastest.
+/// Face 2·axis + side.
+struct CellEdge {
+  uint8_t from;
+  uint8_t to;
+};
+
+inline constexpr uint8_t no_sheet = 255;
+inline constexpr uint8_t no_face = 255;
+
+struct CellCase {
+  uint8_t sheets = 0;                               ///< 0..4
+  std::array<uint8_t, cell_edges> sheet_of_edge{};  ///< no_sheet where the edge is not crossed
+  /// Of this one face both halves belong to one sheet. If the neighbour across says the same, the two cells
+  /// would share an edge of four triangles: both must then use the split case.
+  uint8_t pinched_face = no_face;
+};
+
+struct CellTables {
+  std::array<CellEdge, cell_edges> edges;
+  std::array<CellCase, 256> joined;  ///< ambiguous faces join their air corners
+  std::array<CellCase, 256> split;   ///< ambiguous faces join their rock corners
+};
+
+/// Case index: bit i set when corner i is rock.
+const CellTables& cell_tables();
+
+}  // namespace scree
