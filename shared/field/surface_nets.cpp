@@ -32,6 +32,10 @@ uint64_t sign_bits(const Code* codes, int count) {
   return bits;
 }
 
+int rounded(float value) {
+  return static_cast<int>(value + (value < 0.0F ? -0.5F : 0.5F));
+}
+
 /// The four rows of voxels around a row of cells, as sign bits.
 struct SignRows {
   uint64_t r00, r01, r10, r11;
@@ -197,27 +201,27 @@ class Builder {
     normal = length > 0.0F ? normal / length : glm::vec3(0.0F, 1.0F, 0.0F);
     SurfaceVertex vertex;
     const auto step = [](int whole, float part) {
-      return static_cast<uint16_t>(whole * static_cast<int>(surface_steps_per_voxel) +
-                                   static_cast<int>(part * surface_steps_per_voxel + 0.5F));
+      // Strictly inside the cell, so that no two cells' vertices ever coincide and edges keep their ends.
+      const int inner = std::clamp(static_cast<int>(part * surface_steps_per_voxel + 0.5F), 1, 255);
+      return static_cast<uint16_t>(whole * static_cast<int>(surface_steps_per_voxel) + inner);
     };
     vertex.position = {step(at.x, f.x), step(at.y, f.y), step(at.z, f.z)};
     for (int i = 0; i < 3; ++i)
-      vertex.normal[static_cast<size_t>(i)] = static_cast<int8_t>(std::lround(normal[i] * 127.0F));
+      vertex.normal[static_cast<size_t>(i)] = static_cast<int8_t>(rounded(normal[i] * 127.0F));
     vertex.openness = openness(cell, f + normal * probe_voxels);
     if (before_ != nullptr) {
       const Code* then = before_->codes.data() + (cell - window_.codes.data());
-      vertex.before = static_cast<Code>(std::lround(reader_.value(then, weights)));
+      vertex.before = static_cast<Code>(rounded(reader_.value(then, weights)));
     }
     mesh_.vertices.push_back(vertex);
   }
 
   /// Over open ground the distance grows as fast as one climbs; in a crevice it does not.
   uint8_t openness(const Code* cell, glm::vec3 f) const {
-    const glm::vec3 base = glm::floor(f);
-    const Code* there = cell + static_cast<std::ptrdiff_t>(base.x) * reader_.stride_x +
-                        static_cast<std::ptrdiff_t>(base.y) * reader_.stride_y +
-                        static_cast<std::ptrdiff_t>(base.z);
-    const float found = reader_.value(there, CellReader::weights(f - base));
+    // f > −4, so that truncation after a shift is floor.
+    const glm::ivec3 base = glm::ivec3(f + 4.0F) - 4;
+    const Code* there = cell + base.x * reader_.stride_x + base.y * reader_.stride_y + base.z;
+    const float found = reader_.value(there, CellReader::weights(f - glm::vec3(base)));
     const float ratio = found / (probe_voxels * codes_per_voxel);
     return static_cast<uint8_t>(std::clamp(ratio, 0.0F, 1.0F) * 255.0F + 0.5F);
   }
