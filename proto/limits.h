@@ -32,8 +32,4 @@ inline constexpr int32_t voxel_coordinate_max = 1 << 24;
 /// Quantised positions lie within ± this (2^20 m), the range of QuantisedPose.
 inline constexpr int32_t pose_coordinate_max = 1 << 30;
 
-/// Voxel sizes that a server may announce, metres: the world's half width stays within voxel_coordinate_max.
-inline constexpr float voxel_size_min_m = 0.03125F;
-inline constexpr float voxel_size_max_m = 8.0F;
-
 }  // namespace scree::limits

@@ -1,0 +1,168 @@
+#include "proto/byte_stream.h"
+
+#include <bit>
+#include <cmath>
+
+namespace scree {
+
+namespace {
+
+constexpr int width_bits = 5;
+
+uint32_t fold_sign(int32_t value) {
+  return (static_cast<uint32_t>(value) << 1U) ^ static_cast<uint32_t>(value >> 31);
+}
+
+int32_t unfold_sign(uint32_t value) {
+  return static_cast<int32_t>((value >> 1U) ^ (0U - (value & 1U)));
+}
+
+}  // namespace
+
+void ByteWriter::u32(uint32_t value) {
+  for (int i = 0; i < 4; ++i) u8(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+void ByteWriter::varint(uint64_t value) {
+  while (value >= 0x80) {
+    u8(static_cast<uint8_t>(value | 0x80U));
+    value >>= 7U;
+  }
+  u8(static_cast<uint8_t>(value));
+}
+
+void ByteWriter::zigzag(int64_t value) {
+  varint((static_cast<uint64_t>(value) << 1U) ^ static_cast<uint64_t>(value >> 63));
+}
+
+void ByteWriter::f32(float value) {
+  u32(std::bit_cast<uint32_t>(value));
+}
+
+void ByteWriter::vec3(glm::vec3 value) {
+  f32(value.x);
+  f32(value.y);
+  f32(value.z);
+}
+
+void ByteWriter::position(const QuantisedPose& pose) {
+  const uint32_t folded[3] = {fold_sign(pose.x), fold_sign(pose.y), fold_sign(pose.z)};
+  const int width = std::bit_width(folded[0] | folded[1] | folded[2]);
+  uint64_t pending = static_cast<uint64_t>(width);
+  int pending_bits = width_bits;
+  for (const uint32_t value : folded) {
+    pending |= static_cast<uint64_t>(value) << pending_bits;  // at most 7 + 31 bits wait at a time
+    for (pending_bits += width; pending_bits >= 8; pending_bits -= 8, pending >>= 8U)
+      u8(static_cast<uint8_t>(pending));
+  }
+  if (pending_bits > 0) u8(static_cast<uint8_t>(pending));
+}
+
+void ByteReader::refuse(const std::string& reason) {
+  if (!failed()) error_.message = std::string(subject_) + ": " + reason;
+}
+
+bool ByteReader::take(size_t count, const char* what) {
+  if (failed()) return false;
+  if (bytes_.size() - next_ < count) {
+    refuse(std::string("ends within ") + what);
+    return false;
+  }
+  next_ += count;
+  return true;
+}
+
+uint64_t ByteReader::varint(const char* what, uint64_t max) {
+  uint64_t value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    if (!take(1, what)) return 0;
+    const uint8_t byte = bytes_[next_ - 1];
+    if (shift == 63 && byte > 1) break;
+    value |= static_cast<uint64_t>(byte & 0x7FU) << shift;
+    if ((byte & 0x80U) != 0) continue;
+    if (value <= max) return value;
+    refuse(std::string(what) + " is " + std::to_string(value) + ", over the limit of " + std::to_string(max));
+    return 0;
+  }
+  refuse(std::string(what) + " is a varint of more than 64 bits");
+  return 0;
+}
+
+int64_t ByteReader::zigzag(const char* what, int64_t max) {
+  const uint64_t folded = varint(what);
+  const auto value = static_cast<int64_t>((folded >> 1U) ^ (0ULL - (folded & 1U)));
+  if (value >= -max && value <= max) return value;
+  refuse(std::string(what) + " is " + std::to_string(value) + ", beyond ±" + std::to_string(max));
+  return 0;
+}
+
+uint8_t ByteReader::u8(const char* what, uint8_t max) {
+  if (!take(1, what)) return 0;
+  const uint8_t value = bytes_[next_ - 1];
+  if (value <= max) return value;
+  refuse(std::string(what) + " is " + std::to_string(value) + ", over the limit of " + std::to_string(max));
+  return 0;
+}
+
+uint32_t ByteReader::u32(const char* what) {
+  if (!take(4, what)) return 0;
+  uint32_t value = 0;
+  for (unsigned i = 0; i < 4; ++i) value |= static_cast<uint32_t>(bytes_[next_ - 4 + i]) << (8 * i);
+  return value;
+}
+
+float ByteReader::f32(const char* what) {
+  const auto value = std::bit_cast<float>(u32(what));
+  if (std::isfinite(value)) return value;
+  refuse(std::string(what) + " is not a finite number");
+  return 0.0F;
+}
+
+glm::vec3 ByteReader::vec3(const char* what) {
+  const float x = f32(what);
+  const float y = f32(what);
+  return {x, y, f32(what)};
+}
+
+QuantisedPose ByteReader::position(const char* what) {
+  uint64_t pending = 0;
+  int pending_bits = 0;
+  const auto bits = [&](int count) {
+    while (pending_bits < count && take(1, what)) {
+      pending |= static_cast<uint64_t>(bytes_[next_ - 1]) << pending_bits;
+      pending_bits += 8;
+    }
+    if (failed()) return uint32_t{0};
+    const auto value = static_cast<uint32_t>(pending & ((uint64_t{1} << count) - 1));
+    pending >>= static_cast<unsigned>(count);
+    pending_bits -= count;
+    return value;
+  };
+  const auto axis = [&](int width) {
+    const int32_t value = unfold_sign(bits(width));
+    if (value < -limits::pose_coordinate_max || value > limits::pose_coordinate_max)
+      refuse(std::string(what) + " is beyond ±2^30 steps");
+    return value;
+  };
+  const auto width = static_cast<int>(bits(width_bits));
+  QuantisedPose pose;
+  pose.x = axis(width);
+  pose.y = axis(width);
+  pose.z = axis(width);
+  if (!failed() && pending != 0) refuse(std::string(what) + " is followed by bits that are not zero");
+  return pose;
+}
+
+std::span<const uint8_t> ByteReader::rest() {
+  if (failed()) return {};
+  const std::span<const uint8_t> rest = bytes_.subspan(next_);
+  next_ = bytes_.size();
+  return rest;
+}
+
+void ByteReader::finish() {
+  if (!failed() && next_ != bytes_.size())
+    refuse(std::to_string(bytes_.size() - next_) + " bytes left over at the end");
+}
+
+}  // namespace scree

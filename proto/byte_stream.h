@@ -1,0 +1,97 @@
+// Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/.
+//
+// A reader never fails half-way through an expression: after the first breach it remembers why and answers
+// zeros, and whoever reads looks at failed() before it believes, allocates or loops.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "proto/limits.h"
+#include "shared/base/result.h"
+#include "shared/field/coord.h"
+#include "shared/field/piece.h"
+
+namespace scree {
+
+class ByteWriter {
+ public:
+  explicit ByteWriter(std::vector<uint8_t>& bytes) : bytes_(bytes) {}
+
+  void u8(uint8_t value) { bytes_.push_back(value); }
+  void u32(uint32_t value);
+  void varint(uint64_t value);
+  void zigzag(int64_t value);
+  void f32(float value);
+  void vec3(glm::vec3 value);
+  /// Three equally wide numbers after their width, in bits (scree.proto, "position").
+  void position(const QuantisedPose& pose);
+
+ private:
+  std::vector<uint8_t>& bytes_;
+};
+
+class ByteReader {
+ public:
+  /// `subject` begins every reason that the reader gives.
+  ByteReader(std::span<const uint8_t> bytes, const char* subject) : bytes_(bytes), subject_(subject) {}
+
+  uint64_t varint(const char* what, uint64_t max = std::numeric_limits<uint64_t>::max());
+  /// Within ± max.
+  int64_t zigzag(const char* what, int64_t max);
+  uint8_t u8(const char* what, uint8_t max);
+  uint32_t u32(const char* what);
+  float f32(const char* what);
+  glm::vec3 vec3(const char* what);
+  /// x, y and z of a pose.
+  QuantisedPose position(const char* what);
+  std::span<const uint8_t> rest();
+
+  bool at_end() const { return failed() || next_ == bytes_.size(); }
+  bool failed() const { return !error_.message.empty(); }
+  /// The first refusal wins.
+  void refuse(const std::string& reason);
+  /// Refuses bytes left over.
+  void finish();
+  const Error& error() const { return error_; }
+
+ private:
+  bool take(size_t count, const char* what);
+
+  std::span<const uint8_t> bytes_;
+  const char* subject_;
+  size_t next_ = 0;
+  Error error_;
+};
+
+/// Differences of coordinates, one entry after the other.
+template <typename Tag>
+void write_coords(ByteWriter& writer, std::span<const Coord<Tag>> coords) {
+  Coord<Tag> before;
+  for (const Coord<Tag>& c : coords) {
+    writer.zigzag(int64_t{c.x} - before.x);
+    writer.zigzag(int64_t{c.y} - before.y);
+    writer.zigzag(int64_t{c.z} - before.z);
+    before = c;
+  }
+}
+
+/// The entry after `before`, each number within ± max.
+template <typename Tag>
+Coord<Tag> read_coord(ByteReader& reader, const Coord<Tag>& before, int32_t max, const char* what) {
+  const auto axis = [&](int32_t from) {
+    const int64_t value = from + reader.zigzag(what, int64_t{2} * max);
+    if (value < -max || value > max)
+      reader.refuse(std::string(what) + " is " + std::to_string(value) + ", beyond ±" + std::to_string(max));
+    return static_cast<int32_t>(value);
+  };
+  const int32_t x = axis(before.x);
+  const int32_t y = axis(before.y);
+  return {x, y, axis(before.z)};
+}
+
+}  // namespace scree

@@ -1,0 +1,124 @@
+// ClientMessage to bytes and back.
+#include "proto/codec.h"
+#include "proto/wire_values.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+struct Writing {
+  wire::ClientMessage& to;
+
+  void operator()(const HelloMessage& from) const {
+    wire::Hello& hello = *to.mutable_hello();
+    hello.set_protocol(from.protocol);
+    hello.set_client(clean_text(from.client, limits::client_name_bytes_max));
+    write(*hello.mutable_eye(), from.eye_m);
+    hello.set_interest_radius_m(from.interest_radius_m);
+  }
+  void operator()(const InterestMessage& from) const {
+    wire::Interest& interest = *to.mutable_interest();
+    write(*interest.mutable_eye(), from.eye_m);
+    interest.set_radius_m(from.interest_radius_m);
+  }
+  void operator()(const CarveMessage& from) const {
+    wire::Carve& carve = *to.mutable_carve();
+    carve.set_request(from.request);
+    write(*carve.mutable_shape(), from.shape);
+    carve.set_pattern(static_cast<wire::SeedPattern>(from.pattern));
+    carve.set_seeds(from.seeds);
+    carve.set_random_seed(from.random_seed);
+    write(*carve.mutable_impact(), from.impact_m);
+    carve.set_blast_speed_m_s(from.blast_speed_m_s);
+  }
+  void operator()(const FillMessage& from) const {
+    wire::Fill& fill = *to.mutable_fill();
+    fill.set_request(from.request);
+    write(*fill.mutable_shape(), from.shape);
+  }
+  void operator()(const RepairRequest& from) const {
+    wire::Repair& repair = *to.mutable_repair();
+    repair.set_tick(from.tick);
+    repair.set_chunks(pack_chunks(from.chunks));
+    repair.mutable_hashes()->Add(from.hashes.begin(), from.hashes.end());
+  }
+  void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
+};
+
+HelloMessage read(const wire::Hello& from, FieldChecker& check) {
+  HelloMessage hello;
+  hello.protocol = from.protocol();
+  // Another version may mean other things by its fields: only its number is read, to be answered.
+  if (hello.protocol != protocol_version) return hello;
+  hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
+  hello.eye_m = check.vec3(from.eye(), "eye");
+  hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
+  return hello;
+}
+
+InterestMessage read(const wire::Interest& from, FieldChecker& check) {
+  return {check.vec3(from.eye(), "eye"), check.not_negative(from.radius_m(), "radius_m")};
+}
+
+CarveMessage read(const wire::Carve& from, FieldChecker& check) {
+  CarveMessage carve;
+  carve.request = from.request();
+  carve.shape = check.shape(from.shape());
+  carve.pattern = static_cast<SeedPattern>(check.choice(from.pattern(), wire::RADIAL, "pattern"));
+  carve.seeds = from.seeds();
+  carve.random_seed = from.random_seed();
+  carve.impact_m = check.vec3(from.impact(), "impact");
+  carve.blast_speed_m_s = check.finite(from.blast_speed_m_s(), "blast_speed_m_s");
+  return carve;
+}
+
+RepairRequest read(const wire::Repair& from, FieldChecker& check) {
+  RepairRequest repair;
+  repair.tick = from.tick();
+  repair.chunks = check.chunks(from.chunks(), limits::repair_chunks_max, "chunks of a repair");
+  repair.hashes.assign(from.hashes().begin(), from.hashes().end());
+  if (repair.hashes.size() != repair.chunks.size())
+    check.refuse(std::to_string(repair.hashes.size()) + " hashes for " +
+                 std::to_string(repair.chunks.size()) + " chunks");
+  return repair;
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const ClientMessage& message) {
+  wire::ClientMessage to;
+  std::visit(Writing{to}, message);
+  return frame_of(to);
+}
+
+Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
+  if (body.size() > limits::message_bytes_max) return fail("client message: over limits.message_bytes_max");
+  wire::ClientMessage from;
+  if (!from.ParseFromArray(body.data(), static_cast<int>(body.size())))
+    return fail("client message: not a protobuf of this protocol");
+  FieldChecker check("client message");
+  const auto checked = [&](auto value) -> Result<ClientMessage> {
+    if (check.failed()) return tl::unexpected(check.error());
+    return value;
+  };
+  switch (from.kind_case()) {
+    case wire::ClientMessage::kHello:
+      return checked(read(from.hello(), check));
+    case wire::ClientMessage::kInterest:
+      return checked(read(from.interest(), check));
+    case wire::ClientMessage::kCarve:
+      return checked(read(from.carve(), check));
+    case wire::ClientMessage::kFill:
+      return checked(FillMessage{from.fill().request(), check.shape(from.fill().shape())});
+    case wire::ClientMessage::kRepair:
+      return checked(read(from.repair(), check));
+    case wire::ClientMessage::kAck:
+      return AckMessage{from.ack().tick()};
+    case wire::ClientMessage::KIND_NOT_SET:
+      break;
+  }
+  return fail("client message: of no known kind");
+}
+
+}  // namespace scree

@@ -1,0 +1,28 @@
+#include "proto/frame_reader.h"
+
+#include <string>
+
+#include "proto/codec.h"
+
+namespace scree {
+
+void FrameReader::push(std::span<const uint8_t> bytes) {
+  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<ptrdiff_t>(start_));
+  start_ = 0;
+  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+}
+
+Result<std::optional<std::span<const uint8_t>>> FrameReader::next() {
+  if (buffered_bytes() < length_prefix_bytes) return std::nullopt;
+  size_t length = 0;
+  for (size_t i = 0; i < length_prefix_bytes; ++i) length |= size_t{buffer_[start_ + i]} << (8 * i);
+  if (length > message_bytes_max_)
+    return fail("a message of " + std::to_string(length) + " bytes was announced, over the limit of " +
+                std::to_string(message_bytes_max_) + " (limits.message_bytes_max)");
+  if (buffered_bytes() < length_prefix_bytes + length) return std::nullopt;
+  const std::span<const uint8_t> body(buffer_.data() + start_ + length_prefix_bytes, length);
+  start_ += length_prefix_bytes + length;
+  return body;
+}
+
+}  // namespace scree

@@ -1,0 +1,148 @@
+#include "proto/operation_codec.h"
+
+#include "proto/byte_stream.h"
+#include "shared/base/limits.h"
+#include "shared/field/stamp.h"
+
+namespace scree {
+
+namespace {
+
+constexpr const char* subject = "operation";
+
+enum Kind : uint8_t { kind_carve = 0, kind_fill = 1, kind_stamp = 2, kind_discard = 3 };
+constexpr unsigned kind_bits = 3;
+constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
+
+void write_head(ByteWriter& writer, Kind kind, PieceId id) {
+  writer.varint((uint64_t{id} << kind_bits) | kind);
+}
+
+void write_shape(ByteWriter& writer, const Shape& shape) {
+  writer.u8(static_cast<uint8_t>(shape.kind));
+  writer.vec3(shape.a);
+  if (shape.kind != ShapeKind::sphere) writer.vec3(shape.b);
+  writer.f32(shape.radius_m);
+}
+
+Shape read_shape(ByteReader& reader) {
+  Shape shape;
+  shape.kind = static_cast<ShapeKind>(reader.u8("kind of shape", static_cast<uint8_t>(ShapeKind::capsule)));
+  shape.a = reader.vec3("shape");
+  if (shape.kind != ShapeKind::sphere) shape.b = reader.vec3("shape");
+  shape.radius_m = reader.f32("radius of the shape");
+  return shape;
+}
+
+struct Writing {
+  ByteWriter& writer;
+
+  void operator()(const CarveOperation& carve) const {
+    write_head(writer, kind_carve, carve.first_piece);
+    write_shape(writer, carve.shape);
+    writer.u8(static_cast<uint8_t>(carve.pattern));
+    writer.varint(carve.seeds);
+    writer.u32(carve.random_seed);
+    writer.vec3(carve.impact_m);
+  }
+  void operator()(const FillOperation& fill) const {
+    write_head(writer, kind_fill, 0);
+    write_shape(writer, fill.shape);
+  }
+  void operator()(const StampOperation& stamp) const {
+    write_head(writer, kind_stamp, stamp.piece);
+    writer.position(stamp.pose);
+    writer.u32(stamp.pose.rotation);
+    writer.zigzag(stamp.shift);
+  }
+  void operator()(const DiscardOperation& discard) const { write_head(writer, kind_discard, discard.piece); }
+};
+
+CarveOperation read_carve(ByteReader& reader, PieceId id) {
+  CarveOperation carve;
+  carve.first_piece = id;
+  carve.shape = read_shape(reader);
+  carve.pattern =
+      static_cast<SeedPattern>(reader.u8("pattern of seeds", static_cast<uint8_t>(SeedPattern::radial)));
+  carve.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
+  if (carve.seeds == 0) reader.refuse("a carve without seeds");
+  if (id > 0xFFFFFFFFU - carve.seeds) reader.refuse("piece ids run over 2^32");
+  carve.random_seed = reader.u32("random seed");
+  carve.impact_m = reader.vec3("impact");
+  return carve;
+}
+
+StampOperation read_stamp(ByteReader& reader, PieceId id) {
+  StampOperation stamp;
+  stamp.piece = id;
+  stamp.pose = reader.position("position of a stamp");
+  stamp.pose.rotation = reader.u32("rotation of a stamp");
+  stamp.shift = static_cast<int32_t>(reader.zigzag("shift of a stamp", stamp_shift_max));
+  return stamp;
+}
+
+Operation read_operation(ByteReader& reader) {
+  const uint64_t head = reader.varint("id and kind", head_max);
+  const auto id = static_cast<PieceId>(head >> kind_bits);
+  switch (head & 7U) {
+    case kind_carve:
+      return read_carve(reader, id);
+    case kind_fill:
+      if (id != 0) reader.refuse("a fill with a piece id");
+      return FillOperation{read_shape(reader)};
+    case kind_stamp:
+      return read_stamp(reader, id);
+    case kind_discard:
+      return DiscardOperation{id};
+    default:
+      reader.refuse("kind " + std::to_string(head & 7U) + " is unknown");
+      return DiscardOperation{};
+  }
+}
+
+}  // namespace
+
+void append_operation(std::vector<uint8_t>& bytes, const Operation& operation) {
+  ByteWriter writer(bytes);
+  std::visit(Writing{writer}, operation);
+}
+
+std::vector<uint8_t> encode_operation(const Operation& operation) {
+  std::vector<uint8_t> bytes;
+  append_operation(bytes, operation);
+  return bytes;
+}
+
+std::vector<uint8_t> encode_operations(std::span<const Operation> operations) {
+  std::vector<uint8_t> bytes;
+  for (const Operation& operation : operations) append_operation(bytes, operation);
+  return bytes;
+}
+
+Result<Operation> decode_operation(std::span<const uint8_t> bytes) {
+  ByteReader reader(bytes, subject);
+  Operation operation = read_operation(reader);
+  reader.finish();
+  if (reader.failed()) return tl::unexpected(reader.error());
+  return operation;
+}
+
+Result<std::vector<Operation>> decode_operations(std::span<const uint8_t> bytes) {
+  ByteReader reader(bytes, subject);
+  std::vector<Operation> operations;
+  while (!reader.at_end()) {
+    if (operations.size() == limits::operations_per_frame_max) {
+      reader.refuse("more than " + std::to_string(limits::operations_per_frame_max) + " in one frame");
+      break;
+    }
+    operations.push_back(read_operation(reader));
+  }
+  if (reader.failed()) return tl::unexpected(reader.error());
+  return operations;
+}
+
+size_t operation_bytes(const Operation& operation) {
+  return encode_operation(operation).size();
+}
+
+}  // namespace scree

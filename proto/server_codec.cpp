@@ -1,0 +1,244 @@
+// ServerMessage to bytes and back.
+#include "proto/byte_stream.h"
+#include "proto/codec.h"
+#include "proto/operation_codec.h"
+#include "proto/transforms.h"
+#include "proto/wire_values.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr uint32_t rate_max = 1000;
+constexpr size_t bricks_per_chunk = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
+
+std::string pack_ids(const std::vector<PieceId>& ids) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  PieceId before = 0;
+  for (const PieceId id : ids) {
+    writer.zigzag(int64_t{id} - before);
+    before = id;
+  }
+  return to_string(bytes);
+}
+
+std::vector<PieceId> unpack_ids(const std::string& packed, FieldChecker& check) {
+  std::vector<PieceId> ids;
+  ByteReader reader(as_span(packed), "removed pieces");
+  int64_t id = 0;
+  while (!reader.at_end()) {
+    if (ids.size() == limits::entries_per_frame_max) reader.refuse("too many");
+    id += reader.zigzag("piece id", 0xFFFFFFFFLL);
+    if (id < 0 || id > 0xFFFFFFFFLL) reader.refuse("a piece id is beyond 32 bits");
+    ids.push_back(static_cast<PieceId>(id));
+  }
+  if (reader.failed()) check.refuse(reader.error().message);
+  return ids;
+}
+
+void write(wire::Frame& to, const FrameMessage& from) {
+  to.set_tick(from.tick);
+  to.set_operations(to_string(encode_operations(from.operations)));
+  to.set_patches(to_string(encode_bricks(from.patches)));
+  to.set_dropped_chunks(pack_chunks(from.dropped_chunks));
+  to.set_removed_pieces(pack_ids(from.removed_pieces));
+  to.set_transforms(to_string(from.transforms));
+  if (from.has_check) to.set_check(from.check);
+}
+
+void write(wire::Status& to, const StatusMessage& from) {
+  to.set_tick(from.tick);
+  to.set_clients(from.clients);
+  to.set_pieces(from.pieces);
+  to.set_ledger_terrain(from.ledger_terrain);
+  to.set_ledger_pieces(from.ledger_pieces);
+  to.set_ledger_dust(from.ledger_dust);
+  to.set_ledger_poured(from.ledger_poured);
+  to.set_ledger_moved(from.ledger_moved);
+  to.set_tick_median_ms(from.tick_median_ms);
+  to.set_tick_worst_ms(from.tick_worst_ms);
+  to.set_sent_bytes(from.sent_bytes);
+  to.set_pieces_made(from.pieces_made);
+  to.set_pieces_merged(from.pieces_merged);
+  to.set_field_hash(from.field_hash);
+  to.set_repairs(from.repairs);
+}
+
+struct Writing {
+  wire::ServerMessage& to;
+
+  void operator()(const WelcomeMessage& from) const {
+    wire::Welcome& welcome = *to.mutable_welcome();
+    welcome.set_protocol(from.protocol);
+    welcome.set_session(from.session);
+    welcome.set_tick(from.tick);
+    welcome.set_tick_rate_hz(from.tick_rate_hz);
+    welcome.set_ticks_per_transform(from.ticks_per_transform);
+    welcome.mutable_terrain()->set_kind(static_cast<wire::TerrainKind>(from.terrain.kind));
+    welcome.mutable_terrain()->set_seed(from.terrain.seed);
+    welcome.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
+    welcome.set_interest_radius_m(from.interest_radius_m);
+    welcome.set_replay(from.replay);
+  }
+  void operator()(const RefusalMessage& from) const {
+    to.mutable_refusal()->set_reason(clean_text(from.reason, limits::reason_bytes_max));
+  }
+  void operator()(const FrameMessage& from) const { write(*to.mutable_frame(), from); }
+  void operator()(const ChunkMessage& from) const {
+    wire::Chunk& chunk = *to.mutable_chunk();
+    chunk.set_chunk(pack_chunks({from.chunk}));
+    chunk.set_version(from.version);
+    chunk.set_bricks(to_string(encode_bricks(from.bricks)));
+    chunk.set_hash(from.hash);
+  }
+  void operator()(const PieceMessage& from) const {
+    wire::Piece& piece = *to.mutable_piece();
+    piece.set_id(from.id);
+    piece.set_volume(to_string(encode_volume(from.volume)));
+    piece.set_x(from.pose.x);
+    piece.set_y(from.pose.y);
+    piece.set_z(from.pose.z);
+    piece.set_rotation(from.pose.rotation);
+  }
+  void operator()(const ResetMessage&) const { to.mutable_reset(); }
+  void operator()(const ReplyMessage& from) const {
+    wire::Reply& reply = *to.mutable_reply();
+    reply.set_request(from.request);
+    reply.set_refusal(clean_text(from.refusal, limits::reason_bytes_max));
+    reply.set_pieces(from.pieces);
+  }
+  void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
+};
+
+WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
+  WelcomeMessage welcome;
+  welcome.protocol = from.protocol();
+  welcome.session = from.session();
+  welcome.tick = from.tick();
+  welcome.tick_rate_hz = check.within(from.tick_rate_hz(), 1, rate_max, "tick_rate_hz");
+  welcome.ticks_per_transform = check.within(from.ticks_per_transform(), 1, rate_max, "ticks_per_transform");
+  welcome.terrain.kind =
+      static_cast<TerrainKind>(check.choice(from.terrain().kind(), wire::CANYON, "kind of terrain"));
+  welcome.terrain.seed = from.terrain().seed();
+  const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
+  if (voxel_size_m < limits::voxel_size_min_m || voxel_size_m > limits::voxel_size_max_m)
+    check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
+  welcome.terrain.voxel_size_m = voxel_size_m;
+  welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
+  welcome.replay = from.replay();
+  return welcome;
+}
+
+FrameMessage read(const wire::Frame& from, FieldChecker& check) {
+  FrameMessage frame;
+  frame.tick = from.tick();
+  frame.operations = check.take(decode_operations(as_span(from.operations())));
+  frame.patches = check.take(decode_bricks(as_span(from.patches())));
+  frame.dropped_chunks = check.chunks(from.dropped_chunks(), limits::entries_per_frame_max, "dropped chunks");
+  frame.removed_pieces = unpack_ids(from.removed_pieces(), check);
+  frame.transforms.assign(from.transforms().begin(), from.transforms().end());
+  check.take(unpack_transforms(frame.transforms));
+  frame.has_check = from.has_check();
+  frame.check = from.check();
+  return frame;
+}
+
+ChunkMessage read(const wire::Chunk& from, FieldChecker& check) {
+  ChunkMessage chunk;
+  const std::vector<ChunkCoord> coords = check.chunks(from.chunk(), 1, "chunk");
+  if (coords.empty()) {
+    check.refuse("a chunk without a coordinate");
+    return chunk;
+  }
+  chunk.chunk = coords.front();
+  chunk.version = from.version();
+  chunk.bricks = check.take(decode_bricks(as_span(from.bricks()), bricks_per_chunk));
+  for (const BrickPatch& patch : chunk.bricks)
+    if (chunk_of(patch.coord) != chunk.chunk) check.refuse("a brick of another chunk");
+  chunk.hash = from.hash();
+  return chunk;
+}
+
+PieceMessage read(const wire::Piece& from, FieldChecker& check) {
+  PieceMessage piece;
+  piece.id = from.id();
+  piece.volume = check.take(decode_volume(as_span(from.volume())));
+  for (const int32_t position : {from.x(), from.y(), from.z()})
+    if (position < -limits::pose_coordinate_max || position > limits::pose_coordinate_max)
+      check.refuse("position of a piece is beyond ±2^30 steps");
+  piece.pose = {from.x(), from.y(), from.z(), from.rotation()};
+  return piece;
+}
+
+StatusMessage read(const wire::Status& from, FieldChecker& check) {
+  StatusMessage status;
+  status.tick = from.tick();
+  status.clients = from.clients();
+  status.pieces = from.pieces();
+  status.ledger_terrain = from.ledger_terrain();
+  status.ledger_pieces = from.ledger_pieces();
+  status.ledger_dust = from.ledger_dust();
+  status.ledger_poured = from.ledger_poured();
+  status.ledger_moved = from.ledger_moved();
+  status.tick_median_ms = check.finite(from.tick_median_ms(), "tick_median_ms");
+  status.tick_worst_ms = check.finite(from.tick_worst_ms(), "tick_worst_ms");
+  status.sent_bytes = from.sent_bytes();
+  status.pieces_made = from.pieces_made();
+  status.pieces_merged = from.pieces_merged();
+  status.field_hash = from.field_hash();
+  status.repairs = from.repairs();
+  return status;
+}
+
+Result<ServerMessage> read(const wire::ServerMessage& from) {
+  FieldChecker check("server message");
+  const auto checked = [&](auto value) -> Result<ServerMessage> {
+    if (check.failed()) return tl::unexpected(check.error());
+    return value;
+  };
+  const auto reason = [&](const std::string& text) {
+    return check.text(text, limits::reason_bytes_max, "reason");
+  };
+  switch (from.kind_case()) {
+    case wire::ServerMessage::kWelcome:
+      return checked(read(from.welcome(), check));
+    case wire::ServerMessage::kRefusal:
+      return checked(RefusalMessage{reason(from.refusal().reason())});
+    case wire::ServerMessage::kFrame:
+      return checked(read(from.frame(), check));
+    case wire::ServerMessage::kChunk:
+      return checked(read(from.chunk(), check));
+    case wire::ServerMessage::kPiece:
+      return checked(read(from.piece(), check));
+    case wire::ServerMessage::kReset:
+      return ResetMessage{};
+    case wire::ServerMessage::kReply:
+      return checked(
+          ReplyMessage{from.reply().request(), reason(from.reply().refusal()), from.reply().pieces()});
+    case wire::ServerMessage::kStatus:
+      return checked(read(from.status(), check));
+    case wire::ServerMessage::KIND_NOT_SET:
+      break;
+  }
+  return fail("server message: of no known kind");
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const ServerMessage& message) {
+  wire::ServerMessage to;
+  std::visit(Writing{to}, message);
+  return frame_of(to);
+}
+
+Result<ServerMessage> decode_server(std::span<const uint8_t> body) {
+  if (body.size() > limits::message_bytes_max) return fail("server message: over limits.message_bytes_max");
+  wire::ServerMessage from;
+  if (!from.ParseFromArray(body.data(), static_cast<int>(body.size())))
+    return fail("server message: not a protobuf of this protocol");
+  return read(from);
+}
+
+}  // namespace scree

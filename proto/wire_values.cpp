@@ -1,0 +1,130 @@
+#include "proto/wire_values.h"
+
+#include <cmath>
+
+#include "proto/byte_stream.h"
+#include "proto/codec.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+bool is_control(char c) {
+  const auto byte = static_cast<uint8_t>(c);
+  return byte < 0x20 || byte == 0x7F;
+}
+
+}  // namespace
+
+void FieldChecker::refuse(const std::string& reason) {
+  if (!failed()) error_.message = std::string(subject_) + ": " + reason;
+}
+
+float FieldChecker::finite(float value, const char* what) {
+  if (std::isfinite(value)) return value;
+  refuse(std::string(what) + " is not a finite number");
+  return 0.0F;
+}
+
+float FieldChecker::not_negative(float value, const char* what) {
+  if (finite(value, what) >= 0.0F) return value;
+  refuse(std::string(what) + " is negative");
+  return 0.0F;
+}
+
+uint32_t FieldChecker::within(uint32_t value, uint32_t min, uint32_t max, const char* what) {
+  if (value >= min && value <= max) return value;
+  refuse(std::string(what) + " is " + std::to_string(value) + ", not within " + std::to_string(min) + " to " +
+         std::to_string(max));
+  return min;
+}
+
+glm::vec3 FieldChecker::vec3(const wire::Vec3& value, const char* what) {
+  return {finite(value.x(), what), finite(value.y(), what), finite(value.z(), what)};
+}
+
+std::string FieldChecker::text(const std::string& value, size_t bytes_max, const char* what) {
+  if (value.size() > bytes_max) {
+    refuse(std::string(what) + " has " + std::to_string(value.size()) + " bytes, over the limit of " +
+           std::to_string(bytes_max));
+    return {};
+  }
+  for (const char c : value)
+    if (is_control(c)) refuse(std::string(what) + " holds control characters");
+  return failed() ? std::string() : value;
+}
+
+uint8_t FieldChecker::choice(int value, int max, const char* what) {
+  if (value >= 0 && value <= max) return static_cast<uint8_t>(value);
+  refuse(std::string(what) + " " + std::to_string(value) + " is unknown");
+  return 0;
+}
+
+Shape FieldChecker::shape(const wire::Shape& value) {
+  Shape shape;
+  shape.kind = static_cast<ShapeKind>(choice(value.kind(), wire::CAPSULE, "kind of shape"));
+  shape.a = vec3(value.a(), "shape.a");
+  if (shape.kind != ShapeKind::sphere) shape.b = vec3(value.b(), "shape.b");
+  shape.radius_m = finite(value.radius_m(), "shape.radius_m");
+  return shape;
+}
+
+std::vector<ChunkCoord> FieldChecker::chunks(const std::string& packed, size_t count_max, const char* what) {
+  std::vector<ChunkCoord> chunks;
+  ByteReader reader(as_span(packed), what);
+  while (!reader.at_end()) {
+    if (chunks.size() == count_max) {
+      reader.refuse("more than " + std::to_string(count_max) + " chunks");
+      break;
+    }
+    const ChunkCoord before = chunks.empty() ? ChunkCoord{} : chunks.back();
+    chunks.push_back(
+        read_coord(reader, before, limits::voxel_coordinate_max / chunk_size, "chunk coordinate"));
+  }
+  if (reader.failed()) refuse(reader.error().message);
+  return chunks;
+}
+
+void write(wire::Vec3& to, glm::vec3 from) {
+  to.set_x(from.x);
+  to.set_y(from.y);
+  to.set_z(from.z);
+}
+
+void write(wire::Shape& to, const Shape& from) {
+  to.set_kind(static_cast<wire::ShapeKind>(from.kind));
+  write(*to.mutable_a(), from.a);
+  if (from.kind != ShapeKind::sphere) write(*to.mutable_b(), from.b);
+  to.set_radius_m(from.radius_m);
+}
+
+std::string clean_text(std::string text, size_t bytes_max) {
+  if (text.size() > bytes_max) {
+    size_t end = bytes_max;
+    while (end > 0 && (static_cast<uint8_t>(text[end]) & 0xC0U) == 0x80U) --end;
+    text.resize(end);
+  }
+  for (char& c : text)
+    if (is_control(c)) c = ' ';
+  return text;
+}
+
+std::string pack_chunks(const std::vector<ChunkCoord>& chunks) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  write_coords<ChunkTag>(writer, chunks);
+  return to_string(bytes);
+}
+
+std::vector<uint8_t> frame_of(const google::protobuf::MessageLite& message) {
+  const size_t length = message.ByteSizeLong();
+  std::vector<uint8_t> bytes;
+  bytes.reserve(length_prefix_bytes + length);
+  ByteWriter(bytes).u32(static_cast<uint32_t>(length));
+  bytes.resize(length_prefix_bytes + length);
+  CHECK(message.SerializeToArray(bytes.data() + length_prefix_bytes, static_cast<int>(length)));
+  return bytes;
+}
+
+}  // namespace scree

@@ -1,0 +1,62 @@
+// Values that several messages share, between our types and Protobuf's. Internal to proto/.
+#pragma once
+
+#include <scree.pb.h>
+#include <string>
+#include <vector>
+
+#include "proto/messages.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// Believes nothing that was parsed: each call checks one field; the first breach is remembered and named.
+class FieldChecker {
+ public:
+  explicit FieldChecker(const char* subject) : subject_(subject) {}
+
+  float finite(float value, const char* what);
+  /// Finite, and at least zero.
+  float not_negative(float value, const char* what);
+  uint32_t within(uint32_t value, uint32_t min, uint32_t max, const char* what);
+  glm::vec3 vec3(const wire::Vec3& value, const char* what);
+  std::string text(const std::string& value, size_t bytes_max, const char* what);
+  /// The number of a known value of an enum whose values are 0 … max.
+  uint8_t choice(int value, int max, const char* what);
+  Shape shape(const wire::Shape& value);
+  /// Coordinates of chunks, packed.
+  std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);
+  /// What another decoder gave; its refusal becomes this one's.
+  template <typename T>
+  T take(Result<T> result) {
+    if (result) return std::move(*result);
+    refuse(result.error().message);
+    return T{};
+  }
+
+  void refuse(const std::string& reason);
+  bool failed() const { return !error_.message.empty(); }
+  const Error& error() const { return error_; }
+
+ private:
+  const char* subject_;
+  Error error_;
+};
+
+void write(wire::Vec3& to, glm::vec3 from);
+void write(wire::Shape& to, const Shape& from);
+/// Cut to the limit at the end of a character, control characters replaced.
+std::string clean_text(std::string text, size_t bytes_max);
+std::string pack_chunks(const std::vector<ChunkCoord>& chunks);
+
+inline std::string to_string(const std::vector<uint8_t>& bytes) {
+  return {bytes.begin(), bytes.end()};
+}
+inline std::span<const uint8_t> as_span(const std::string& bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+/// Length in front, then the message.
+std::vector<uint8_t> frame_of(const google::protobuf::MessageLite& message);
+
+}  // namespace scree
