@@ -2,6 +2,7 @@
 #pragma once
 
 #include <scree.pb.h>
+#include <span>
 #include <string>
 #include <vector>
 
