@@ -20,7 +20,7 @@ inline constexpr float band_voxels = 3.0F;
 inline constexpr float codes_per_voxel = 127.0F / band_voxels;
 
 /// 8³ codes, index (x·8 + y)·8 + z: the order of an OpenVDB leaf.
-struct alignas(64) Brick {
+struct Brick {
   std::array<Code, brick_voxels> codes;
 
   bool operator==(const Brick&) const = default;

@@ -1,0 +1,63 @@
+#include "server/field/vdb_field.h"
+
+#include <algorithm>
+#include <openvdb/tree/Tree.h>
+#include <type_traits>
+
+namespace scree {
+
+namespace {
+
+using CodeTree = openvdb::tree::Tree4<Code, 5, 4, 3>::Type;
+using Leaf = CodeTree::LeafNodeType;
+static_assert(Leaf::DIM == brick_size && Leaf::SIZE == brick_voxels);
+static_assert(sizeof(Brick) == brick_voxels && alignof(Brick) == 1 && std::is_standard_layout_v<Brick>);
+
+/// Tree level of a tile as large as a brick.
+constexpr openvdb::Index brick_tile_level = 1;
+
+openvdb::Coord origin(BrickCoord coord) {
+  const VoxelCoord first = first_voxel(coord);
+  return {first.x, first.y, first.z};
+}
+
+}  // namespace
+
+struct VdbField::Tree {
+  CodeTree tree{code_air};
+  mutable openvdb::tree::ValueAccessor<CodeTree> accessor{tree};
+};
+
+VdbField::VdbField(const TerrainSource& source) : Field(source), tree_(std::make_unique<Tree>()) {}
+VdbField::~VdbField() = default;
+
+uint64_t VdbField::memory_bytes() const {
+  return tree_->tree.memUsage();
+}
+
+const Brick* VdbField::find_edited(BrickCoord coord) const {
+  const openvdb::Coord at = origin(coord);
+  // A leaf's buffer is 512 contiguous codes in a brick's order (asserted above): the leaf is the brick.
+  if (const Leaf* leaf = tree_->accessor.probeConstLeaf(at))
+    return reinterpret_cast<const Brick*>(leaf->buffer().data());
+  Code code = code_air;
+  if (!tree_->accessor.probeValue(at, code)) return nullptr;
+  return code == code_air ? &air_brick() : &solid_brick();
+}
+
+void VdbField::store_edited(BrickCoord coord, const Brick& brick) {
+  const openvdb::Coord at = origin(coord);
+  if (uniform_equivalent(brick) != nullptr) {
+    tree_->accessor.addTile(brick_tile_level, at, brick.codes.front(), true);
+    return;
+  }
+  Leaf* leaf = tree_->accessor.touchLeaf(at);
+  std::ranges::copy(brick.codes, leaf->buffer().data());
+  leaf->setValuesOn();
+}
+
+void VdbField::erase_edited(BrickCoord coord) {
+  tree_->accessor.addTile(brick_tile_level, origin(coord), code_air, false);
+}
+
+}  // namespace scree
