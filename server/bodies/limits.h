@@ -28,4 +28,37 @@ inline constexpr float sample_spacing_voxels = 2.0F;
 /// Points of one piece that are tested against the terrain. Above: spacing doubles until they are fewer.
 inline constexpr unsigned samples_max = 96;
 
+/// Bullet's margin around a hull, metres: a tenth of the piece's thickness, but not more than this. Thinner
+/// margins make GJK fall back to its slow penetration search; zero is slowest of all.
+inline constexpr float margin_max_m = 0.03F;
+
+/// Gap between the collision shapes of neighbours at birth, per side, metres.
+inline constexpr float birth_gap_m = 0.004F;
+
+/// Speed that a body loses to the air, per second, as a share; linear and angular. Keeps spin from lasting.
+inline constexpr float air_damping = 0.05F;
+inline constexpr float air_spin_damping = 0.2F;
+
+/// The same while in touch with terrain and slower than `creep_m_s`: rubble has no perfect corners to rock
+/// on.
+inline constexpr float ground_damping = 1.5F;
+inline constexpr float ground_spin_damping = 3.0F;
+inline constexpr float creep_m_s = 1.0F;
+
+/// Iterations of the contact solver. Heaps of rubble need no exact stacking; each costs a tenth of a step.
+inline constexpr int solver_iterations = 8;
+
+/// Least of a body's moments of inertia, as a share of its greatest: thinner splinters spin up without bound.
+inline constexpr float inertia_ratio_min = 0.25F;
+
+/// Overlap that the solver leaves alone, metres: contacts that last instead of flickering.
+inline constexpr float penetration_slop_m = 0.004F;
+
+/// Speeds below which Bullet counts a body as sleepy, m/s and rad/s; an island sleeps after two such seconds.
+inline constexpr float sleep_speed_m_s = 0.15F;
+inline constexpr float sleep_spin_rad_s = 0.3F;
+
+/// Upward share of a contact's normal from which on the upper piece counts as carried by the lower.
+inline constexpr float carrying_slope = 0.2F;
+
 }  // namespace scree::limits

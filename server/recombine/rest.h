@@ -62,6 +62,9 @@ class RestDetector {
     uint32_t terrain_ticks = 0;  ///< since terrain was last touched, + 1; 0: never
   };
 
+  /// Whether the piece is at rest.
+  bool watch(const RestPiece& piece, bool on_terrain);
+
   RestConfig config_;
   float leash_growth_m_tick_;
   std::map<PieceId, Watch> watches_;

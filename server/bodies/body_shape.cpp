@@ -1,0 +1,94 @@
+#include "server/bodies/body_shape.h"
+
+#include <LinearMath/btConvexHullComputer.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "server/bodies/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Distance of the hull's nearest face from the origin, or a little more: the least support over 26
+/// directions.
+float thickness_of(const std::vector<glm::vec3>& hull_m) {
+  float least = 1e30F;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const glm::vec3 along(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+        const float length = std::sqrt(glm::dot(along, along));
+        if (length == 0.0F) continue;
+        float support = -1e30F;
+        for (const glm::vec3& p : hull_m) support = std::max(support, glm::dot(p, along));
+        least = std::min(least, support / length);
+      }
+  return least;
+}
+
+/// Points inside a triangle, on a lattice of at most `spacing_m`; its corners left out.
+void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::vector<glm::vec3>& out) {
+  const float longest =
+      std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
+  const int steps = static_cast<int>(longest / spacing_m) + 1;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; i + j <= steps; ++j) {
+      if (i == steps || j == steps || i + j == 0) continue;
+      const float u = static_cast<float>(i) / static_cast<float>(steps);
+      const float v = static_cast<float>(j) / static_cast<float>(steps);
+      out.push_back(a + (b - a) * u + (c - a) * v);
+    }
+}
+
+bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance) {
+  return std::ranges::any_of(points,
+                             [&](glm::vec3 q) { return glm::dot(p - q, p - q) < distance * distance; });
+}
+
+}  // namespace
+
+std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m) {
+  const float thickness = std::max(thickness_of(hull_m), 0.01F);
+  const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
+  const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
+  auto shape = std::make_unique<btConvexHullShape>();
+  for (const glm::vec3& p : hull_m) shape->addPoint(btVector3(p.x * scale, p.y * scale, p.z * scale), false);
+  shape->setMargin(margin);
+  shape->recalcLocalAabb();  // setMargin leaves the cached bounds stale
+  return shape;
+}
+
+std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m) {
+  std::vector<glm::vec3> points = hull_m;
+  if (reach_of(hull_m) <= 2.0F * spacing_m) return points;  // its corners are near enough to each other
+  btConvexHullComputer computer;
+  computer.compute(&hull_m[0].x, sizeof(glm::vec3), static_cast<int>(hull_m.size()), 0.0F, 0.0F);
+  const auto corner = [&](int i) {
+    const btVector3& v = computer.vertices[i];
+    return glm::vec3(v.x(), v.y(), v.z());
+  };
+  for (float spacing = spacing_m;; spacing *= 2.0F) {
+    points = hull_m;
+    std::vector<glm::vec3> extra;
+    for (int f = 0; f < computer.faces.size(); ++f) {
+      const auto* first = &computer.edges[computer.faces[f]];
+      const glm::vec3 a = corner(first->getSourceVertex());
+      for (const auto* e = first->getNextEdgeOfFace(); e->getTargetVertex() != first->getSourceVertex();
+           e = e->getNextEdgeOfFace())
+        fill_triangle(a, corner(e->getSourceVertex()), corner(e->getTargetVertex()), spacing, extra);
+    }
+    for (const glm::vec3& p : extra)
+      if (!near_any(points, p, 0.5F * spacing)) points.push_back(p);
+    if (points.size() <= limits::samples_max || points.size() == hull_m.size()) return points;
+  }
+}
+
+float reach_of(const std::vector<glm::vec3>& points_m) {
+  float reach2 = 0.0F;
+  for (const glm::vec3& p : points_m) reach2 = std::max(reach2, glm::dot(p, p));
+  return std::sqrt(reach2);
+}
+
+}  // namespace scree

@@ -1,0 +1,98 @@
+#include "server/recombine/rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <tuple>
+
+namespace scree {
+
+namespace {
+
+/// Farthest that any point of a piece can have moved between two poses.
+float strayed_m(const Pose& from, const Pose& to, float reach_m) {
+  const glm::vec3 moved = to.position_m - from.position_m;
+  const float half_cosine = std::min(std::abs(glm::dot(from.rotation, to.rotation)), 1.0F);
+  const float half_sine = std::sqrt(1.0F - half_cosine * half_cosine);
+  return std::sqrt(glm::dot(moved, moved)) + 2.0F * reach_m * half_sine;
+}
+
+/// A piece at rest, before it is known whether it lies on anything.
+struct Resting {
+  PieceId id = 0;
+  float height_m = 0.0F;
+  uint32_t layer = 0;  ///< 1: on terrain; n + 1: on a piece of layer n; 0: on nothing so far
+};
+
+Resting* find(std::vector<Resting>& resting, PieceId id) {
+  const auto found = std::ranges::lower_bound(resting, id, {}, &Resting::id);
+  return found != resting.end() && found->id == id ? &*found : nullptr;
+}
+
+/// Raises the layers from the ground up, until nothing changes.
+void stack(std::vector<Resting>& resting, std::span<const RestSupport> supports) {
+  bool raised = true;
+  for (uint32_t layer = 1; raised; ++layer) {
+    raised = false;
+    for (const RestSupport& support : supports) {
+      Resting* upper = find(resting, support.upper);
+      if (upper == nullptr || upper->layer != 0) continue;
+      const Resting* lower = find(resting, support.lower);
+      if (lower == nullptr || lower->layer != layer) continue;
+      upper->layer = layer + 1;
+      raised = true;
+    }
+  }
+}
+
+}  // namespace
+
+RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
+    : config_(config), leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {}
+
+bool RestDetector::watch(const RestPiece& piece, bool on_terrain) {
+  const auto [found, is_new] = watches_.try_emplace(piece.id);
+  Watch& watch = found->second;
+  ++watch.age_ticks;
+  ++watch.still_ticks;
+  if (on_terrain)
+    watch.terrain_ticks = 1;
+  else if (watch.terrain_ticks > 0 && watch.terrain_ticks <= config_.contact_ticks)
+    ++watch.terrain_ticks;
+  const uint32_t impatient = watch.age_ticks - std::min(watch.age_ticks, config_.patience_ticks);
+  const float leash_m =
+      std::min(config_.leash_m + leash_growth_m_tick_ * static_cast<float>(impatient), config_.leash_max_m);
+  if (is_new || !(strayed_m(watch.anchor, piece.pose, piece.reach_m) <= leash_m)) {
+    watch.anchor = piece.pose;
+    watch.still_ticks = 0;
+  }
+  return watch.still_ticks >= config_.rest_ticks;
+}
+
+std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
+                                          std::span<const PieceId> on_terrain,
+                                          std::span<const RestSupport> supports, size_t merges_max) {
+  std::vector<Resting> resting;
+  auto known = watches_.begin();
+  for (const RestPiece& piece : pieces) {
+    while (known != watches_.end() && known->first < piece.id) known = watches_.erase(known);
+    if (known != watches_.end() && known->first == piece.id) ++known;
+    const bool touching = std::ranges::binary_search(on_terrain, piece.id);
+    if (!watch(piece, touching)) continue;
+    const uint32_t touched = watches_.find(piece.id)->second.terrain_ticks;
+    const bool grounded = touched > 0 && touched <= config_.contact_ticks;
+    resting.push_back({piece.id, piece.pose.position_m.y, grounded ? 1U : 0U});
+  }
+  watches_.erase(known, watches_.end());
+  at_rest_ = resting.size();
+
+  stack(resting, supports);
+  std::erase_if(resting, [](const Resting& piece) { return piece.layer == 0; });
+  std::ranges::sort(resting, {}, [](const Resting& r) { return std::tuple(r.layer, r.height_m, r.id); });
+  if (resting.size() > merges_max) resting.resize(merges_max);
+  std::vector<PieceId> ready;
+  for (const Resting& piece : resting) ready.push_back(piece.id);
+  return ready;
+}
+
+}  // namespace scree
