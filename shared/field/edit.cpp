@@ -1,37 +1,57 @@
 #include "shared/field/edit.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree {
 
 namespace {
 
-/// codes[i] := combine(codes[i], code of the shape's distance) for every voxel of the window.
-template <typename Combine>
-void combine_with(Window& window, const Shape& shape, Combine&& combine) {
-  const VoxelBox& box = window.box;
-  size_t i = 0;
+/// Writes the codes of `distance_at(voxel)` for every voxel of the box.
+template <typename Distance>
+void write_codes(Window& out, Distance&& distance_at) {
+  const VoxelBox& box = out.box;
+  const int count = box.hi.z - box.lo.z;
+  Code* to = out.codes.data();
   for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
-        const glm::vec3 p(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-        window.codes[i] = combine(window.codes[i], encode(distance(shape, p)));
-      }
+    for (int y = box.lo.y; y < box.hi.y; ++y, to += count)
+      for (int z = 0; z < count; ++z)
+        to[z] = encode(distance_at(
+            glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(box.lo.z + z))));
 }
 
 }  // namespace
 
-void carve(Window& window, const Shape& shape_voxels) {
-  combine_with(window, shape_voxels, [](Code c, Code s) { return std::max(c, static_cast<Code>(-s)); });
+Window codes_of(const Shape& shape_voxels, const VoxelBox& box) {
+  Window out(box);
+  const glm::vec3 centre = shape_voxels.a;
+  const float radius = shape_voxels.radius_m;
+  // Spheres are by far the most common: this loop vectorises, the general one does not.
+  if (shape_voxels.kind == ShapeKind::sphere) {
+    write_codes(out, [centre, radius](glm::vec3 p) {
+      const float x = p.x - centre.x, y = p.y - centre.y, z = p.z - centre.z;
+      return std::sqrt(x * x + y * y + z * z) - radius;
+    });
+  } else {
+    write_codes(out, [&](glm::vec3 p) { return distance(shape_voxels, p); });
+  }
+  return out;
 }
 
-void fill(Window& window, const Shape& shape_voxels) {
-  combine_with(window, shape_voxels, [](Code c, Code s) { return std::min(c, s); });
+void carve(Window& window, const Window& shape) {
+  for (size_t i = 0; i < window.codes.size(); ++i)
+    window.codes[i] = std::max(window.codes[i], static_cast<Code>(-shape.codes[i]));
 }
 
-Window extract(const Window& window, const Shape& shape_voxels) {
+void fill(Window& window, const Window& shape) {
+  for (size_t i = 0; i < window.codes.size(); ++i)
+    window.codes[i] = std::min(window.codes[i], shape.codes[i]);
+}
+
+Window extract(const Window& window, const Window& shape) {
   Window volume = window;
-  combine_with(volume, shape_voxels, [](Code c, Code s) { return std::max(c, s); });
+  for (size_t i = 0; i < volume.codes.size(); ++i)
+    volume.codes[i] = std::max(volume.codes[i], shape.codes[i]);
   return volume;
 }
 

@@ -1,5 +1,5 @@
 // Carve, fill and extract: constructive solid geometry on windows of codes (paper, sections 2.2 and 2.3).
-// Shapes are in voxels (in_voxels). Outside what they touch the window is left alone.
+// All windows of one call have the same box. Lengths in voxels.
 #pragma once
 
 #include "shared/field/shape.h"
@@ -7,13 +7,16 @@
 
 namespace scree {
 
+/// The shape's own field over a box. A shape in voxels (in_voxels).
+Window codes_of(const Shape& shape_voxels, const VoxelBox& box);
+
 /// window := window − shape. Keeps the field a lower bound of the distance outside.
-void carve(Window& window, const Shape& shape_voxels);
+void carve(Window& window, const Window& shape);
 
 /// window := window ∪ shape.
-void fill(Window& window, const Shape& shape_voxels);
+void fill(Window& window, const Window& shape);
 
 /// window ∩ shape: what a carve of the same shape would take out.
-Window extract(const Window& window, const Shape& shape_voxels);
+Window extract(const Window& window, const Window& shape);
 
 }  // namespace scree

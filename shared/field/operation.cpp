@@ -42,9 +42,10 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   const float dx = field.source().voxel_size_m;
   const Shape shape = in_voxels(carve_op.shape, dx);
   const Window before = gather(field, band_box(shape));
+  const Window solid = codes_of(shape, before.box);
   Window after = before;
-  carve(after, shape);
-  const Window volume = extract(before, shape);
+  carve(after, solid);
+  const Window volume = extract(before, solid);
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume, carve_op.pattern, carve_op.seeds, carve_op.random_seed, carve_op.impact_m / dx);
@@ -66,7 +67,7 @@ Applied apply_fill(const FillOperation& fill_op, Field& field) {
   Window window = gather(field, band_box(shape));
   Applied applied;
   applied.terrain_gain = -mass_of(window);
-  fill(window, shape);
+  fill(window, codes_of(shape, window.box));
   applied.terrain_gain += mass_of(window);
   applied.changed = scatter(field, window);
   return applied;

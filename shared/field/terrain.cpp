@@ -20,8 +20,8 @@ struct Octave {
   float amplitude_m;
   float cell_m;
 };
-constexpr Octave octaves[] = {{7.0F, 20.0F}, {3.4F, 8.5F}, {1.1F, 3.5F}};
-constexpr float amplitude_sum_m = 7.0F + 3.4F + 1.1F;
+constexpr Octave octaves[] = {{8.0F, 16.0F}, {7.0F, 7.0F}, {1.5F, 3.0F}};
+constexpr float amplitude_sum_m = 8.0F + 7.0F + 1.5F;
 
 constexpr float cliff_height_m = 16.0F;
 constexpr float canyon_roughness = 0.4F;  ///< the canyon's noise, relative to the open terrain's

@@ -1,6 +1,8 @@
 #include "shared/field/voronoi.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -38,31 +40,55 @@ void find_candidates(const std::vector<glm::vec3>& seeds, glm::vec3 centre, std:
     if (distances[i] <= nearest + 2.0F * half_diagonal) out.push_back(static_cast<Label>(i));
 }
 
-/// Index of the nearest seed of every voxel; the lowest index wins a tie.
-std::vector<Label> label_voxels(const Window& window, const std::vector<glm::vec3>& seeds) {
-  std::vector<Label> labels(window.codes.size());
+/// Labels a row of block_side voxels from (x, y, z) on; the lowest index wins a tie.
+void label_row(const std::vector<glm::vec3>& seeds, const std::vector<Label>& candidates, glm::vec3 first,
+               std::array<int, block_side>& labels) {
+  std::array<float, block_side> nearest;
+  nearest.fill(std::numeric_limits<float>::max());
+  for (const Label i : candidates) {
+    const glm::vec3 off = first - seeds[i];
+    const float across2 = off.x * off.x + off.y * off.y;
+    for (int k = 0; k < block_side; ++k) {
+      const float along = off.z + static_cast<float>(k);
+      const float d2 = across2 + along * along;
+      labels[k] = d2 < nearest[k] ? i : labels[k];
+      nearest[k] = std::min(nearest[k], d2);
+    }
+  }
+}
+
+bool all_air(const Window& volume, const VoxelBox& block) {
+  for (int x = block.lo.x; x < block.hi.x; ++x)
+    for (int y = block.lo.y; y < block.hi.y; ++y)
+      for (int z = block.lo.z; z < block.hi.z; ++z)
+        if (volume.at(x, y, z) != code_air) return false;
+  return true;
+}
+
+/// Index of the nearest seed of every voxel; 0 in blocks of nothing but air, which no piece has a part in.
+std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec3>& seeds) {
+  std::vector<Label> labels(volume.codes.size());
   std::vector<float> distances(seeds.size());
   std::vector<Label> candidates;
-  const VoxelBox& box = window.box;
-  const auto label_block = [&](VoxelCoord lo, VoxelCoord hi) {
-    find_candidates(seeds, as_vec3(lo.x, lo.y, lo.z) + 1.5F, distances, candidates);
-    for (int x = lo.x; x < hi.x; ++x)
-      for (int y = lo.y; y < hi.y; ++y)
-        for (int z = lo.z; z < hi.z; ++z) {
-          float nearest = std::numeric_limits<float>::max();
-          Label& label = labels[window.index(x, y, z)];
-          for (const Label i : candidates) {
-            const glm::vec3 off = seeds[i] - as_vec3(x, y, z);
-            const float d2 = glm::dot(off, off);
-            if (d2 < nearest) nearest = d2, label = i;
-          }
-        }
+  const VoxelBox& box = volume.box;
+  const auto label_block = [&](const VoxelBox& block) {
+    if (all_air(volume, block)) return;
+    find_candidates(seeds, as_vec3(block.lo.x, block.lo.y, block.lo.z) + 1.5F, distances, candidates);
+    std::array<int, block_side> row{};
+    for (int x = block.lo.x; x < block.hi.x; ++x)
+      for (int y = block.lo.y; y < block.hi.y; ++y) {
+        label_row(seeds, candidates, as_vec3(x, y, block.lo.z), row);
+        Label* out = labels.data() + volume.index(x, y, block.lo.z);
+        for (int k = 0; k < block.hi.z - block.lo.z; ++k)
+          out[k] = static_cast<Label>(row[static_cast<size_t>(k)]);
+      }
   };
   for (int x = box.lo.x; x < box.hi.x; x += block_side)
     for (int y = box.lo.y; y < box.hi.y; y += block_side)
       for (int z = box.lo.z; z < box.hi.z; z += block_side)
-        label_block({x, y, z}, {std::min(x + block_side, box.hi.x), std::min(y + block_side, box.hi.y),
-                                std::min(z + block_side, box.hi.z)});
+        label_block({{x, y, z},
+                     {std::min(x + block_side, box.hi.x), std::min(y + block_side, box.hi.y),
+                      std::min(z + block_side, box.hi.z)}});
   return labels;
 }
 
@@ -93,34 +119,60 @@ std::vector<CellMass> share_out(const Window& before, const Window& after, const
   return masses;
 }
 
+/// Which cells touch which: a symmetric matrix of bits.
+class TouchMatrix {
+ public:
+  explicit TouchMatrix(size_t cells) : cells_(cells), words_((cells + 63) / 64), bits_(cells * words_) {}
+
+  void set(Label a, Label b) { bits_[a * words_ + b / 64] |= uint64_t{1} << (b % 64); }
+
+  /// Pairs (low, high), sorted.
+  std::vector<std::pair<Label, Label>> pairs() const {
+    std::vector<std::pair<Label, Label>> out;
+    for (size_t a = 0; a < cells_; ++a)
+      for (size_t w = 0; w < words_; ++w)
+        for (uint64_t left = bits_[a * words_ + w]; left != 0; left &= left - 1) {
+          const size_t b = w * 64 + static_cast<size_t>(std::countr_zero(left));
+          if (a < b) out.emplace_back(static_cast<Label>(a), static_cast<Label>(b));
+        }
+    return out;
+  }
+
+ private:
+  size_t cells_;
+  size_t words_;
+  std::vector<uint64_t> bits_;
+};
+
 /// Pairs of cells (low, high) that touch within the volume, sorted.
-std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const std::vector<Label>& labels) {
-  std::vector<std::pair<Label, Label>> pairs;
+std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const std::vector<Label>& labels,
+                                                    size_t cells) {
+  TouchMatrix touch(cells);
   const VoxelCoord size = volume.box.size();
   const auto nz = static_cast<ptrdiff_t>(size.z);
   const ptrdiff_t nyz = nz * size.y;
-  const auto touch = [&](size_t i, ptrdiff_t step) {
-    const Label a = labels[i];
-    const Label b = labels[static_cast<size_t>(static_cast<ptrdiff_t>(i) + step)];
-    if (a == b) return;
-    const std::pair<Label, Label> pair = std::minmax(a, b);
-    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
-  };
   // Half of the 26 neighbours: cells that meet only along an edge still bound each other.
   constexpr int forward[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
                                   {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                   {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
+  std::array<ptrdiff_t, 13> steps;
+  for (size_t k = 0; k < steps.size(); ++k)
+    steps[k] = forward[k][0] * nyz + forward[k][1] * nz + forward[k][2];
   for (int x = 1; x + 1 < size.x; ++x)
     for (int y = 1; y + 1 < size.y; ++y)
       for (int z = 1; z + 1 < size.z; ++z) {
-        const size_t i = static_cast<size_t>(x * nyz + y * nz + z);
-        if (volume.codes[i] == code_air) continue;
-        for (const auto& step : forward) touch(i, step[0] * nyz + step[1] * nz + step[2]);
+        const ptrdiff_t i = x * nyz + y * nz + z;
+        if (volume.codes[static_cast<size_t>(i)] == code_air) continue;
+        const Label here = labels[static_cast<size_t>(i)];
+        for (const ptrdiff_t step : steps) {
+          const auto j = static_cast<size_t>(i + step);
+          const Label there = labels[j];
+          if (here == there || volume.codes[j] == code_air) continue;
+          touch.set(here, there);
+          touch.set(there, here);
+        }
       }
-  std::ranges::sort(pairs);
-  const auto rest = std::ranges::unique(pairs);
-  pairs.erase(rest.begin(), rest.end());
-  return pairs;
+  return touch.pairs();
 }
 
 /// Which cells make up which piece: cells too light to stand alone join the heaviest piece that they touch.
@@ -201,41 +253,48 @@ struct Bisector {
   }
 };
 
-/// d := max(d, min over `own` of the distance beyond the bisector to `other`), for every voxel of the window.
-void cut_off(const VoxelBox& box, const std::vector<glm::vec3>& own, glm::vec3 other, std::vector<float>& d) {
-  std::vector<Bisector> planes;
-  for (const glm::vec3& seed : own) planes.emplace_back(seed, other);
-  const auto nz = static_cast<size_t>(box.hi.z - box.lo.z);
-  std::vector<float> row(nz);
-  float* out = d.data();
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y, out += nz) {
-      for (size_t p = 0; p < planes.size(); ++p) {
-        const float slope = planes[p].normal.z;
-        const float base = planes[p].offset + glm::dot(planes[p].normal, as_vec3(x, y, box.lo.z));
-        for (size_t z = 0; z < nz; ++z) {
-          const float beyond = base + slope * static_cast<float>(static_cast<int>(z));
-          row[z] = p == 0 ? beyond : std::min(row[z], beyond);
-        }
+/// Voxels along z that are cut at a time: two vectors of four floats.
+constexpr int cut_width = 8;
+using CutRow = std::array<float, cut_width>;
+
+/// d := max over the neighbours of (min over the own seeds of the distance beyond the bisector), and d
+/// itself. `planes` holds own · neighbours bisectors, those of one neighbour together.
+void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& d) {
+  for (size_t p = 0; p < planes.size(); p += own) {
+    CutRow beyond;
+    beyond.fill(std::numeric_limits<float>::max());
+    for (size_t k = 0; k < own; ++k) {
+      const Bisector& plane = planes[p + k];
+      const float base =
+          plane.offset + (plane.normal.x * first.x + plane.normal.y * first.y + plane.normal.z * first.z);
+      for (int z = 0; z < cut_width; ++z) {
+        const float at = base + plane.normal.z * static_cast<float>(z);
+        beyond[z] = std::min(beyond[z], at);
       }
-      for (size_t z = 0; z < nz; ++z) out[z] = std::max(out[z], row[z]);
     }
+    for (int z = 0; z < cut_width; ++z) d[z] = std::max(d[z], beyond[z]);
+  }
 }
 
 /// The part of the volume nearer to the group's seeds than to any neighbour's.
 Window cut_group(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
                  const std::vector<glm::vec3>& neighbours) {
+  std::vector<Bisector> planes;
+  for (const glm::vec3& other : neighbours)
+    for (const glm::vec3& seed : own) planes.emplace_back(seed, other);
   Window cut(box);
-  std::vector<float> d(cut.codes.size());
-  const auto nz = static_cast<size_t>(box.hi.z - box.lo.z);
-  size_t i = 0;
   for (int x = box.lo.x; x < box.hi.x; ++x)
     for (int y = box.lo.y; y < box.hi.y; ++y) {
       const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
-      for (size_t z = 0; z < nz; ++z, ++i) d[i] = decode(from[z]);
+      Code* to = cut.codes.data() + cut.index(x, y, box.lo.z);
+      for (int z = box.lo.z; z < box.hi.z; z += cut_width, from += cut_width, to += cut_width) {
+        const int count = std::min(cut_width, box.hi.z - z);
+        CutRow d{};
+        for (int k = 0; k < count; ++k) d[static_cast<size_t>(k)] = decode(from[k]);
+        cut_row(planes, own.size(), as_vec3(x, y, z), d);
+        for (int k = 0; k < count; ++k) to[k] = encode(d[static_cast<size_t>(k)]);
+      }
     }
-  for (const glm::vec3& other : neighbours) cut_off(box, own, other, d);
-  for (i = 0; i < d.size(); ++i) cut.codes[i] = encode(d[i]);
   return cut;
 }
 
@@ -288,7 +347,7 @@ Cut cut_cells(const Window& volume, const Window& before, const Window& after,
   const size_t cells = seeds_voxels.size();
   const std::vector<Label> labels = label_voxels(volume, seeds_voxels);
   const std::vector<CellMass> masses = share_out(before, after, labels, cells);
-  const auto touching = touching_cells(volume, labels);
+  const auto touching = touching_cells(volume, labels, cells);
   const Grouping groups(masses, touching);
   const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
 

@@ -1,0 +1,103 @@
+// The field's storage: bricks, windows, hashes, generated and edited terrain.
+#include "shared/field/field.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/base/random.h"
+#include "shared/field/mass.h"
+
+namespace scree {
+namespace {
+
+Brick random_brick(Random& random) {
+  Brick brick;
+  for (Code& code : brick.codes) code = static_cast<Code>(static_cast<int>(random.below(255)) - 127);
+  return brick;
+}
+
+TEST(field, codes_round_to_the_nearest_and_saturate) {
+  EXPECT_EQ(encode(0.0F), 0);
+  EXPECT_EQ(encode(3.0F), 127);
+  EXPECT_EQ(encode(100.0F), 127);
+  EXPECT_EQ(encode(-100.0F), -127);
+  for (int code = -127; code <= 127; ++code) EXPECT_EQ(encode(decode(static_cast<Code>(code))), code);
+}
+
+TEST(field, occupancy_ramps_over_one_voxel_across_the_surface) {
+  EXPECT_EQ(occupancy(code_solid), units_per_voxel);
+  EXPECT_EQ(occupancy(code_air), 0);
+  EXPECT_EQ(occupancy(0), units_per_voxel / 2);
+  EXPECT_EQ(occupancy(encode(0.5F)), 1);
+  EXPECT_EQ(occupancy(encode(0.53F)), 0);
+}
+
+TEST(field, unedited_terrain_reads_as_generated_and_hashes_to_zero) {
+  MapField field({TerrainKind::flat, 1, 0.25F});
+  EXPECT_EQ(field.brick({0, 5, 0}), air_brick());
+  EXPECT_EQ(field.brick({0, -5, 0}), solid_brick());
+  EXPECT_EQ(field.hash(), 0U);
+  EXPECT_FALSE(field.is_edited({0, 5, 0}));
+}
+
+TEST(field, hash_is_the_sum_over_edited_bricks_whatever_their_order) {
+  Random random(7);
+  const Brick a = random_brick(random), b = random_brick(random);
+  MapField one({TerrainKind::flat, 1, 0.25F}), other({TerrainKind::flat, 1, 0.25F});
+  one.set_brick({0, 0, 0}, a);
+  one.set_brick({-9, 3, 4}, b);
+  other.set_brick({-9, 3, 4}, a);
+  other.set_brick({0, 0, 0}, a);
+  other.set_brick({-9, 3, 4}, b);
+  EXPECT_EQ(one.hash(), other.hash());
+  EXPECT_EQ(one.hash(), brick_hash({0, 0, 0}, a) + brick_hash({-9, 3, 4}, b));
+  EXPECT_EQ(one.chunk_hash(chunk_of(BrickCoord{0, 0, 0})), brick_hash({0, 0, 0}, a));
+  EXPECT_NE(brick_hash({0, 0, 0}, a), brick_hash({0, 0, 1}, a));
+}
+
+TEST(field, a_forgotten_chunk_reads_as_generated_again) {
+  Random random(8);
+  MapField field({TerrainKind::canyon, 3, 0.25F});
+  const Brick before = field.brick({1, 1, 1});
+  field.set_brick({1, 1, 1}, random_brick(random));
+  field.set_brick({1, 2, 1}, solid_brick());
+  EXPECT_EQ(field.edited_bricks({0, 0, 0}).size(), 2U);
+  field.forget_chunk({0, 0, 0});
+  EXPECT_EQ(field.brick({1, 1, 1}), before);
+  EXPECT_EQ(field.hash(), 0U);
+  EXPECT_TRUE(field.edited_chunks().empty());
+}
+
+TEST(field, scatter_writes_what_gather_read_and_reports_only_changes) {
+  MapField field({TerrainKind::canyon, 3, 0.25F});
+  const VoxelBox box{{-11, -3, 5}, {9, 17, 26}};
+  Window window = gather(field, box);
+  EXPECT_TRUE(scatter(field, window).empty());
+  window.at(-11, -3, 5) = 55;
+  window.at(8, 16, 25) = -55;
+  const std::vector<BrickCoord> changed = scatter(field, window);
+  ASSERT_EQ(changed.size(), 2U);
+  EXPECT_EQ(changed[0], brick_of(VoxelCoord{-11, -3, 5}));
+  EXPECT_EQ(changed[1], brick_of(VoxelCoord{8, 16, 25}));
+  EXPECT_EQ(gather(field, box).codes, window.codes);
+}
+
+TEST(field, sampling_a_plane_gives_its_distance_and_normal_across_brick_borders) {
+  MapField field({TerrainKind::flat, 1, 0.25F});
+  for (const float y : {-2.0F, -0.25F, 0.4F, 1.9F}) {
+    const FieldSample s = sample(field, {7.5F, y, -0.5F});
+    EXPECT_NEAR(s.distance_voxels, y, 0.02F);
+    EXPECT_NEAR(s.gradient.y, 1.0F, 0.03F);
+    EXPECT_NEAR(s.gradient.x, 0.0F, 1e-6F);
+  }
+}
+
+TEST(field, tracing_down_meets_the_ground) {
+  MapField field({TerrainKind::flat, 1, 0.25F});
+  const std::optional<float> hit = trace(field, {3.0F, 40.0F, 3.0F}, {0.0F, -1.0F, 0.0F}, 100.0F);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(*hit, 40.0F, 0.1F);
+  EXPECT_FALSE(trace(field, {3.0F, 40.0F, 3.0F}, {0.0F, 1.0F, 0.0F}, 100.0F).has_value());
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,188 @@
+// Operations on a field: what a carve takes out is what its pieces weigh; what a stamp adds is what was
+// planned.
+#include "shared/field/operation.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "shared/base/limits.h"
+#include "shared/field/stamp.h"
+
+namespace scree {
+namespace {
+
+constexpr float dx = 0.25F;
+const TerrainSource flat{TerrainKind::flat, 1, dx};
+
+MassUnits mass_in(Field& field, const VoxelBox& box) {
+  MassUnits sum = 0;
+  for (const Code code : gather(field, box).codes) sum += occupancy(code);
+  return sum;
+}
+
+MassUnits mass_of(const PieceTable& pieces) {
+  MassUnits sum = 0;
+  for (const auto& [id, volume] : pieces) sum += volume->mass;
+  return sum;
+}
+
+CarveOperation ball(uint32_t seeds, SeedPattern pattern = SeedPattern::uniform) {
+  return {sphere({0.3F, -0.4F, 0.1F}, 2.0F), pattern, seeds, 42, {0.3F, 0.0F, 0.1F}, 1};
+}
+
+TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
+  for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial})
+    for (const uint32_t seeds : {1U, 7U, 64U, 500U}) {
+      MapField field(flat);
+      PieceTable pieces;
+      const VoxelBox box = band_box(in_voxels(ball(1).shape, dx));
+      const MassUnits before = mass_in(field, box);
+      const Applied applied = apply(ball(seeds, pattern), field, pieces);
+      EXPECT_EQ(mass_in(field, box) - before, applied.terrain_gain);
+      EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
+      EXPECT_EQ(pieces.size(), applied.created.size());
+      EXPECT_GE(pieces.size(), std::min(seeds, 64U) * 9 / 10);
+      for (const auto& [id, volume] : pieces) EXPECT_GE(volume->mass, limits::piece_mass_min);
+    }
+}
+
+TEST(operation, a_carve_of_air_makes_nothing) {
+  MapField field(flat);
+  PieceTable pieces;
+  CarveOperation op = ball(16);
+  op.shape = sphere({0.0F, 20.0F, 0.0F}, 2.0F);
+  const Applied applied = apply(op, field, pieces);
+  EXPECT_TRUE(applied.changed.empty());
+  EXPECT_TRUE(pieces.empty());
+  EXPECT_EQ(applied.dust, 0);
+}
+
+TEST(operation, pieces_are_the_same_solid_as_the_volume_that_they_came_from) {
+  MapField field(flat);
+  PieceTable pieces;
+  const CarveOperation op = ball(64);
+  const Shape shape = in_voxels(op.shape, dx);
+  const Window before = gather(field, band_box(shape));
+  apply(op, field, pieces);
+  // Every voxel well inside the ball is inside exactly one piece, but for those on the cuts.
+  int covered = 0, uncovered = 0, twice = 0;
+  for (int x = before.box.lo.x; x < before.box.hi.x; ++x)
+    for (int y = before.box.lo.y; y < before.box.hi.y; ++y)
+      for (int z = before.box.lo.z; z < before.box.hi.z; ++z) {
+        if (before.at(x, y, z) >= 0 || distance(shape, glm::vec3(x, y, z)) >= 0.0F) continue;
+        int pieces_here = 0;
+        for (const auto& [id, v] : pieces) {
+          const VoxelBox& b = v->window.box;
+          if (x < b.lo.x || y < b.lo.y || z < b.lo.z || x >= b.hi.x || y >= b.hi.y || z >= b.hi.z) continue;
+          pieces_here += v->window.at(x, y, z) < 0 ? 1 : 0;
+        }
+        (pieces_here == 0 ? uncovered : pieces_here == 1 ? covered : twice) += 1;
+      }
+  EXPECT_LT(uncovered, covered / 20);
+  EXPECT_LT(twice, covered / 20);
+}
+
+TEST(operation, a_stamp_gains_what_was_planned_and_stays_within_the_budget) {
+  MapField field(flat);
+  PieceTable pieces;
+  apply(ball(40), field, pieces);
+  const PieceTable made = pieces;
+  for (const auto& [id, volume] : made) {
+    StampOperation op{
+        id,
+        quantise({{static_cast<float>(id % 7) - 3.0F, 0.2F + 0.1F * static_cast<float>(id), 1.0F},
+                  glm::normalize(glm::quat(1.0F, 0.1F * static_cast<float>(id), 0.3F, -0.2F))}),
+        0};
+    const Window window = gather(field, stamp_box(*volume, op.pose, dx));
+    const StampPlan plan = plan_stamp(window, *volume, op.pose, dx, volume->mass);
+    op.shift = plan.shift;
+    const Applied applied = apply(op, field, pieces);
+    EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
+    EXPECT_LE(applied.terrain_gain, volume->mass);
+    EXPECT_GT(applied.terrain_gain, volume->mass * 85 / 100) << "piece " << id;
+  }
+  EXPECT_TRUE(pieces.empty());
+}
+
+TEST(operation, an_apply_reads_and_writes_only_its_read_box) {
+  MapField field({TerrainKind::canyon, 2, dx});
+  PieceTable pieces;
+  const Operation op = ball(8);
+  const VoxelBox box = read_box(op, pieces, dx);
+  for (const BrickCoord coord : apply(op, field, pieces).changed) {
+    bool inside = false;
+    for_each_brick(box, [&](BrickCoord b) { inside = inside || b == coord; });
+    EXPECT_TRUE(inside);
+  }
+}
+
+TEST(operation, two_fields_that_apply_the_same_operations_stay_equal) {
+  MapField one({TerrainKind::canyon, 2, dx}), other({TerrainKind::canyon, 2, dx});
+  PieceTable pieces_one, pieces_other;
+  const std::vector<Operation> operations = {
+      FillOperation{box({3.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})},
+      FillOperation{capsule({0.0F, 6.0F, 0.0F}, {8.0F, 7.0F, 2.0F}, 0.7F)}, ball(32),
+      StampOperation{3, quantise({{1.0F, 0.0F, 1.0F}, glm::quat(0.5F, 0.5F, 0.5F, 0.5F)}), 5},
+      DiscardOperation{4}};
+  for (const Operation& op : operations) {
+    const Applied a = apply(op, one, pieces_one);
+    const Applied b = apply(op, other, pieces_other);
+    EXPECT_EQ(a.changed, b.changed);
+    EXPECT_EQ(a.terrain_gain, b.terrain_gain);
+    EXPECT_EQ(one.hash(), other.hash());
+  }
+  EXPECT_NE(one.hash(), 0U);
+}
+
+TEST(operation, what_no_world_can_take_is_refused_by_name) {
+  const PieceTable none;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const auto refused = [&](const Operation& op, const char* word) {
+    const Result<void> result = validate(op, none);
+    ASSERT_FALSE(result.has_value()) << word;
+    EXPECT_NE(result.error().message.find(word), std::string::npos) << result.error().message;
+  };
+  CarveOperation op = ball(8);
+  const auto with = [&](Shape shape) {
+    CarveOperation changed = op;
+    changed.shape = shape;
+    return changed;
+  };
+  refused(with(sphere({0, 0, 0}, nan)), "radius is not a finite");
+  refused(with(sphere({0, 0, 0}, infinite)), "radius is not a finite");
+  refused(with(sphere({0, 0, 0}, -1.0F)), "negative");
+  refused(with(sphere({0, 0, 0}, 0.0F)), "zero");
+  refused(with(sphere({0, 0, 0}, 9.0F)), "edit_reach_max_m");
+  refused(with(sphere({0, 0, 0}, 0.01F)), "edit_reach_min_m");
+  refused(with(sphere({1e6F, 0, 0}, 1.0F)), "outside the world");
+  refused(with(sphere({nan, 0, 0}, 1.0F)), "position");
+  refused(with({static_cast<ShapeKind>(9), {}, {}, 1.0F}), "kind");
+  refused(with(box({0, 0, 0}, {1.0F, 0.0F, 1.0F})), "half extent");
+  refused(FillOperation{capsule({0, 0, 0}, {50.0F, 0, 0}, 1.0F)}, "edit_reach_max_m");
+  op.seeds = 0;
+  refused(op, "at least one seed");
+  op.seeds = limits::seeds_max + 1;
+  refused(op, "seeds_max");
+  refused(StampOperation{77, {}, 0}, "no piece 77");
+  refused(DiscardOperation{78}, "no piece 78");
+}
+
+TEST(pose, quantising_keeps_position_and_rotation_within_a_step) {
+  const Pose pose{{12.345F, -3.21F, 1000.5F}, glm::normalize(glm::quat(0.3F, -0.8F, 0.2F, 0.4F))};
+  const Pose back = dequantise(quantise(pose));
+  EXPECT_NEAR(glm::distance(pose.position_m, back.position_m), 0.0F, 1e-3F);
+  EXPECT_NEAR(std::abs(glm::dot(pose.rotation, back.rotation)), 1.0F, 1e-5F);
+  EXPECT_EQ(quantise(back), quantise(pose));
+}
+
+TEST(pose, any_bits_are_a_unit_rotation) {
+  for (const uint32_t bits : {0U, 0xFFFFFFFFU, 0x3FFFFFFFU, 0x80000000U, 0x12345678U}) {
+    const glm::quat q = dequantise({0, 0, 0, bits}).rotation;
+    EXPECT_NEAR(glm::dot(q, q), 1.0F, 1e-5F);
+  }
+}
+
+}  // namespace
+}  // namespace scree
