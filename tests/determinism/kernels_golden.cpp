@@ -1,0 +1,263 @@
+// Prints a hash of what each field kernel computes on fixed inputs, one "name hash" a line. The output must
+// be the same from every compiler at every optimisation (tests/determinism/CMakeLists.txt).
+#include <bit>
+#include <cinttypes>
+#include <cstdio>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "shared/base/random.h"
+#include "shared/field/edit.h"
+#include "shared/field/operation.h"
+#include "shared/field/redistance.h"
+#include "shared/field/stamp.h"
+#include "shared/field/terrain.h"
+#include "shared/field/voronoi.h"
+
+namespace scree {
+namespace {
+
+/// FNV-1a, so that the hash under test (brick_hash) does not judge itself.
+class Digest {
+ public:
+  void add(uint64_t value) {
+    for (int i = 0; i < 8; ++i) add_byte(static_cast<uint8_t>(value >> (8 * i)));
+  }
+  void add(float value) { add(uint64_t{std::bit_cast<uint32_t>(value)}); }
+  void add(glm::vec3 v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const Window& window) {
+    for (const int side : {window.box.lo.x, window.box.lo.y, window.box.lo.z, window.box.hi.x,
+                           window.box.hi.y, window.box.hi.z})
+      add(static_cast<uint64_t>(side));
+    for (const Code code : window.codes) add_byte(static_cast<uint8_t>(code));
+  }
+  void add(const Volume& volume) {
+    add(volume.window);
+    add(static_cast<uint64_t>(volume.mass));
+    add(volume.centre_voxels);
+  }
+  void add(const Pose& pose) {
+    add(pose.position_m);
+    for (int i = 0; i < 4; ++i) add(pose.rotation[i]);
+  }
+  void print(const std::string& name) const { std::printf("%-28s %016" PRIx64 "\n", name.c_str(), hash_); }
+
+ private:
+  void add_byte(uint8_t byte) { hash_ = (hash_ ^ byte) * 0x100000001b3ULL; }
+  uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+/// Some rock with a surface through it: canyon terrain around the top of the ground at (x, z).
+Window terrain_window(float x_m, float z_m, int side) {
+  const TerrainSource source{TerrainKind::canyon, 7, 0.25F};
+  MapField field(source);
+  const float y_m = ground_height_m(source, x_m, z_m);
+  const VoxelCoord lo{static_cast<int>(x_m / 0.25F) - side / 2, static_cast<int>(y_m / 0.25F) - side / 2,
+                      static_cast<int>(z_m / 0.25F) - side / 2};
+  return gather(field, {lo, lo + VoxelCoord{side, side, side}});
+}
+
+glm::vec3 centre(const Window& window) {
+  const VoxelCoord c = window.box.lo + window.box.hi;
+  return glm::vec3(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)) * 0.5F;
+}
+
+std::vector<std::pair<std::string, Shape>> shapes_around(glm::vec3 c) {
+  Shape rounded = box(c, {5.3F, 4.1F, 3.7F});
+  rounded.radius_m = 1.25F;
+  return {{"sphere", sphere(c, 6.3F)},
+          {"box", box(c, {6.5F, 4.25F, 5.1F})},
+          {"rounded_box", rounded},
+          {"capsule", capsule(c - glm::vec3(5.0F, 2.0F, 1.0F), c + glm::vec3(4.0F, 3.0F, 2.5F), 3.3F)}};
+}
+
+void print_generate() {
+  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon}) {
+    for (const uint32_t seed : {1U, 77U}) {
+      const TerrainSource source{kind, seed, 0.25F};
+      Digest digest;
+      for (const ChunkCoord chunk : {ChunkCoord{0, 0, 0}, ChunkCoord{-1, 0, 2}, ChunkCoord{3, -1, -4},
+                                     ChunkCoord{-7, 1, 5}, ChunkCoord{120, 0, -333}}) {
+        const GeneratedChunk generated = generate_chunk(source, chunk);
+        for (int i = 0; i < 64; ++i)
+          digest.add(brick_hash(brick_in_chunk(chunk, i), *generated.bricks[static_cast<size_t>(i)]));
+      }
+      for (int i = 0; i < 8; ++i)
+        digest.add(ground_height_m(source, 13.7F * static_cast<float>(i), -5.3F * static_cast<float>(i)));
+      digest.print("generate_" + std::string(name_of(kind)) + "_" + std::to_string(seed));
+    }
+  }
+}
+
+void print_edits() {
+  const Window before = terrain_window(3.0F, 11.0F, 40);
+  for (const auto& [name, shape] : shapes_around(centre(before))) {
+    Digest carved, filled, extracted;
+    Window window = before;
+    carve(window, codes_of(shape, window.box));
+    carved.add(window);
+    carved.print("carve_" + name);
+    window = before;
+    fill(window, codes_of(shape, window.box));
+    filled.add(window);
+    filled.print("fill_" + name);
+    extracted.add(extract(before, codes_of(shape, before.box)));
+    extracted.print("extract_" + name);
+  }
+}
+
+void print_redistance() {
+  Window window = terrain_window(-9.0F, 4.0F, 32);
+  Random random(5);
+  std::vector<float> levels;
+  for (Code& code : window.codes) {
+    levels.push_back(decode(code) * (0.5F + random.unit()));
+    code = static_cast<Code>(code / 2);  // every distance wrong, every sign right
+  }
+  Digest digest;
+  redistance(window);
+  digest.add(window);
+  distances_from_levels(levels, window);
+  digest.add(window);
+  digest.print("redistance");
+}
+
+void print_sample() {
+  MapField field({TerrainKind::canyon, 7, 0.25F});
+  Random random(11);
+  Digest digest;
+  for (int i = 0; i < 500; ++i) {
+    // Braces: arguments in parentheses are evaluated in whatever order the compiler likes.
+    const glm::vec3 p{random.unit() * 60.0F - 30.0F, random.unit() * 40.0F, random.unit() * 60.0F - 30.0F};
+    const FieldSample found = sample(field, p);
+    digest.add(found.distance_voxels);
+    digest.add(found.gradient);
+    if (i % 10 == 0) digest.add(trace(field, p, {0.0F, -1.0F, 0.0F}, 100.0F).value_or(-1.0F));
+  }
+  digest.print("sample_and_trace");
+}
+
+struct Fracture {
+  Window before;
+  Window after;
+  Cut cut;
+};
+
+Fracture fracture(SeedPattern pattern, uint32_t count, Digest& digest) {
+  Fracture result;
+  result.before = terrain_window(3.0F, 11.0F, 32);
+  const glm::vec3 c = centre(result.before);
+  const Shape shape = sphere(c, 8.0F);
+  const Window volume = extract(result.before, codes_of(shape, result.before.box));
+  result.after = result.before;
+  carve(result.after, codes_of(shape, result.after.box));
+  const auto seeds = scatter_seeds(volume, pattern, count, 99, c);
+  for (const glm::vec3& seed : seeds) digest.add(seed);
+  result.cut = cut_cells(volume, result.before, result.after, seeds);
+  return result;
+}
+
+void print_fracture() {
+  for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial}) {
+    for (const uint32_t count : {1U, 8U, 64U}) {
+      Digest digest;
+      const Fracture fractured = fracture(pattern, count, digest);
+      for (const CutPiece& piece : fractured.cut.pieces) {
+        digest.add(piece.volume);
+        for (const uint32_t seed : piece.seeds) digest.add(uint64_t{seed});
+      }
+      digest.add(static_cast<uint64_t>(fractured.cut.dust));
+      digest.print(std::string(pattern == SeedPattern::uniform ? "cut_uniform_" : "cut_radial_") +
+                   std::to_string(count));
+    }
+  }
+}
+
+/// Some pose near `position_m`, turned anyhow.
+QuantisedPose some_pose(glm::vec3 position_m, Random& random) {
+  return {static_cast<int32_t>(position_m.x * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
+          static_cast<int32_t>(position_m.y * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
+          static_cast<int32_t>(position_m.z * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
+          random.next()};
+}
+
+void print_poses() {
+  Random random(21);
+  Digest digest;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose pose = dequantise(some_pose({100.0F, -20.0F, 3.0F}, random));
+    digest.add(pose);
+    const QuantisedPose again = quantise(pose);
+    for (const int32_t part : {again.x, again.y, again.z}) digest.add(static_cast<uint64_t>(part));
+    digest.add(uint64_t{again.rotation});
+  }
+  digest.print("poses");
+}
+
+void print_stamp() {
+  constexpr float voxel_size_m = 0.25F;
+  Digest unused, digest;
+  const Fracture fractured = fracture(SeedPattern::uniform, 8, unused);
+  MapField field({TerrainKind::canyon, 7, voxel_size_m});
+  Random random(31);
+  for (const CutPiece& piece : fractured.cut.pieces) {
+    const glm::vec3 place_m = piece.volume.centre_voxels * voxel_size_m;
+    const QuantisedPose pose = some_pose(place_m, random);
+    Window window = gather(field, stamp_box(piece.volume, pose, voxel_size_m));
+    const StampPlan plan = plan_stamp(window, piece.volume, pose, voxel_size_m, piece.volume.mass);
+    digest.add(static_cast<uint64_t>(plan.shift));
+    digest.add(static_cast<uint64_t>(plan.gain));
+    stamp(window, piece.volume, pose, voxel_size_m, plan.shift);
+    digest.add(window);
+  }
+  digest.print("plan_and_stamp");
+}
+
+/// Carves, fills, and stamps or discards what was carved, through apply() alone, as a session does.
+void print_session(TerrainKind kind) {
+  const TerrainSource source{kind, 3, 0.25F};
+  MapField field(source);
+  PieceTable pieces;
+  Random random(41);
+  Digest digest;
+  PieceId next_piece = 1;
+  for (int round = 0; round < 6; ++round) {
+    const glm::vec2 at{random.unit() * 12.0F - 6.0F, random.unit() * 12.0F - 6.0F};
+    const glm::vec3 ground(at.x, ground_height_m(source, at.x, at.y), at.y);
+    const Applied carved = apply(CarveOperation{sphere(ground, 1.5F + random.unit()), SeedPattern::radial, 12,
+                                                random.next(), ground, next_piece},
+                                 field, pieces);
+    next_piece += static_cast<PieceId>(carved.created.size());
+    digest.add(static_cast<uint64_t>(carved.terrain_gain));
+    digest.add(static_cast<uint64_t>(carved.dust));
+    apply(FillOperation{capsule(ground, ground + glm::vec3(2.0F, 1.0F, 0.5F), 0.7F)}, field, pieces);
+    while (pieces.size() > 3) {
+      const PieceId id = pieces.begin()->first;
+      if (random.below(8) == 0)
+        apply(DiscardOperation{id}, field, pieces);
+      else
+        apply(StampOperation{id, some_pose(ground, random), static_cast<int32_t>(random.below(32)) - 8},
+              field, pieces);
+      digest.add(field.hash());
+    }
+  }
+  digest.print("session_" + std::string(name_of(kind)));
+}
+
+}  // namespace
+}  // namespace scree
+
+int main() {
+  scree::print_generate();
+  scree::print_edits();
+  scree::print_redistance();
+  scree::print_sample();
+  scree::print_poses();
+  scree::print_fracture();
+  scree::print_stamp();
+  for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
+    scree::print_session(kind);
+  return 0;
+}
