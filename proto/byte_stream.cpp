@@ -141,7 +141,7 @@ QuantisedPose ByteReader::position(const char* what) {
   const auto axis = [&](int width) {
     const int32_t value = unfold_sign(bits(width));
     if (value < -limits::pose_coordinate_max || value > limits::pose_coordinate_max)
-      refuse(std::string(what) + " is beyond ±2^30 steps");
+      refuse(std::string(what) + " is 2^30 steps or more from the origin");
     return value;
   };
   const auto width = static_cast<int>(bits(width_bits));

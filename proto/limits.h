@@ -29,7 +29,7 @@ inline constexpr size_t reason_bytes_max = 1024;
 /// Voxel coordinates lie within ± this, so that no sum of an offset and a window overflows an int32.
 inline constexpr int32_t voxel_coordinate_max = 1 << 24;
 
-/// Quantised positions lie within ± this (2^20 m), the range of QuantisedPose.
-inline constexpr int32_t pose_coordinate_max = 1 << 30;
+/// Quantised positions lie within ± this, just under 2^20 m: with their sign they fit 31 bits.
+inline constexpr int32_t pose_coordinate_max = (1 << 30) - 1;
 
 }  // namespace scree::limits

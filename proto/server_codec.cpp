@@ -167,7 +167,7 @@ PieceMessage read(const wire::Piece& from, FieldChecker& check) {
   piece.volume = check.take(decode_volume(as_span(from.volume())));
   for (const int32_t position : {from.x(), from.y(), from.z()})
     if (position < -limits::pose_coordinate_max || position > limits::pose_coordinate_max)
-      check.refuse("position of a piece is beyond ±2^30 steps");
+      check.refuse("position of a piece is 2^30 steps or more from the origin");
   piece.pose = {from.x(), from.y(), from.z(), from.rotation()};
   return piece;
 }

@@ -12,7 +12,7 @@ constexpr const char* subject = "transforms";
 int32_t coordinate(ByteReader& reader, int32_t before) {
   const int64_t value = before + reader.zigzag("position", int64_t{2} * limits::pose_coordinate_max);
   if (value < -limits::pose_coordinate_max || value > limits::pose_coordinate_max)
-    reader.refuse("position is beyond ±2^30 steps");
+    reader.refuse("position is 2^30 steps or more from the origin");
   return static_cast<int32_t>(value);
 }
 

@@ -1,0 +1,102 @@
+// One message of every kind with every field set, for the tests of the wire.
+#pragma once
+
+#include <vector>
+
+#include "proto/codec.h"
+#include "proto/transforms.h"
+#include "shared/base/random.h"
+
+namespace scree::samples {
+
+inline Brick noisy_brick(uint32_t seed) {
+  Random random(seed);
+  Brick brick;
+  for (Code& code : brick.codes) code = static_cast<Code>(static_cast<int>(random.below(255)) - 127);
+  return brick;
+}
+
+inline Volume volume() {
+  Volume volume;
+  volume.window = Window(VoxelBox{{-3, 10, 7}, {5, 15, 13}});
+  for (size_t i = 0; i < volume.window.codes.size(); ++i)
+    volume.window.codes[i] = static_cast<Code>(static_cast<int>(i % 255) - 127);
+  volume.mass = 12345;
+  volume.centre_voxels = {1.5F, 12.0F, 9.25F};
+  return volume;
+}
+
+inline CarveOperation carve_operation() {
+  return {sphere({1.0F, 2.0F, 3.0F}, 2.0F), SeedPattern::radial, 64, 0xDEADBEEFU, {1.0F, 4.0F, 3.0F}, 77777};
+}
+
+inline StampOperation stamp_operation() {
+  return {77790, {-65000, 21234, 65535, 0x87654321U}, -12};
+}
+
+inline FrameMessage frame() {
+  FrameMessage frame;
+  frame.tick = 123456;
+  frame.operations = {carve_operation(), FillOperation{box({-1.0F, 0.5F, 9.0F}, {1.0F, 2.0F, 0.5F})},
+                      FillOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F)}, stamp_operation(),
+                      DiscardOperation{77791}};
+  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2)}};
+  frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
+  frame.removed_pieces = {9, 4000000000U, 12};
+  frame.transforms = pack_transforms(
+      std::vector<PieceState>{{3, {10, -20, 30, 7}}, {900, {5000, -900000, 12, 0xFFFFFFFFU}}});
+  frame.has_check = true;
+  frame.check = 0x12345678U;
+  return frame;
+}
+
+inline std::vector<ServerMessage> server_messages() {
+  WelcomeMessage welcome;
+  welcome.session = 0x1234567890ABCDEFULL;
+  welcome.tick = 42;
+  welcome.terrain = {TerrainKind::noise, 99, 0.25F};
+  welcome.interest_radius_m = 64.0F;
+  welcome.replay = true;
+  ChunkMessage chunk;
+  chunk.chunk = {-1, 2, 0};
+  chunk.version = 17;
+  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3)}, {{-1, 11, 3}, noisy_brick(4)}};
+  chunk.hash = 0xFEDCBA9876543210ULL;
+  StatusMessage status;
+  status.tick = 5;
+  status.clients = 3;
+  status.ledger_terrain = -99999999999LL;
+  status.ledger_pieces = 99999999998LL;
+  status.ledger_dust = 1;
+  status.tick_median_ms = 1.5F;
+  status.tick_worst_ms = 8.25F;
+  status.field_hash = 1ULL << 63U;
+  status.repairs = 2;
+  return {welcome,        RefusalMessage{"protocol 9 is not 1"},
+          frame(),        FrameMessage{},
+          chunk,          PieceMessage{31, volume(), {1, -2, 3, 4}},
+          ResetMessage{}, ReplyMessage{7, "radius 12 m is over 8 m", 0},
+          status};
+}
+
+inline std::vector<ClientMessage> client_messages() {
+  CarveMessage carve;
+  carve.request = 5;
+  carve.shape = capsule({1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, 1.5F);
+  carve.pattern = SeedPattern::uniform;
+  carve.random_seed = 0xFFFFFFFFU;
+  carve.impact_m = {1.0F, -2.0F, 0.5F};
+  return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F},
+          InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
+          carve,
+          FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
+          RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
+          AckMessage{1ULL << 40U}};
+}
+
+/// What is inside the length prefix.
+inline std::span<const uint8_t> body_of(const std::vector<uint8_t>& framed) {
+  return std::span<const uint8_t>(framed).subspan(length_prefix_bytes);
+}
+
+}  // namespace scree::samples
