@@ -1,0 +1,197 @@
+// Rigid bodies on the field: they fall, rest, stay out of the rock, wake, and do so the same every time.
+#include "server/bodies/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "server/bodies/limits.h"
+#include "shared/base/random.h"
+#include "shared/field/operation.h"
+
+namespace scree {
+namespace {
+
+constexpr float voxel_m = 0.25F;
+
+TerrainSource terrain(TerrainKind kind) {
+  return {kind, 7, voxel_m};
+}
+
+BodyShape box_shape(glm::vec3 half_m) {
+  BodyShape shape;
+  for (int i = 0; i < 8; ++i)
+    shape.hull_m.emplace_back((i & 4) != 0 ? half_m.x : -half_m.x, (i & 2) != 0 ? half_m.y : -half_m.y,
+                              (i & 1) != 0 ? half_m.z : -half_m.z);
+  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * limits::rock_density_kg_m3;
+  const glm::vec3 squares = half_m * half_m;
+  shape.inertia_kg_m2 =
+      glm::vec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (shape.mass_kg / 3.0F);
+  return shape;
+}
+
+BodyState body_at(PieceId id, glm::vec3 position_m, glm::vec3 velocity_m_s = glm::vec3(0.0F)) {
+  return {id, {position_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)}, velocity_m_s, glm::vec3(0.0F)};
+}
+
+void step(Bodies& bodies, int ticks) {
+  for (int i = 0; i < ticks; ++i) bodies.step();
+}
+
+float speed_of(const BodyState& state) {
+  return std::sqrt(glm::dot(state.velocity_m_s, state.velocity_m_s));
+}
+
+/// Takes a ball out of the ground, and tells the bodies.
+void dig(Field& field, Bodies& bodies, glm::vec3 centre_m, float radius_m) {
+  CarveOperation carve;
+  carve.shape = sphere(centre_m, radius_m);
+  PieceTable pieces;
+  apply(carve, field, pieces);
+  bodies.terrain_changed(band_box(in_voxels(carve.shape, voxel_m)));
+}
+
+/// Boxes of all sizes thrown about over a patch of ground.
+void rain(Bodies& bodies, const TerrainSource& source, PieceId count) {
+  Random random(42);
+  for (PieceId id = 1; id <= count; ++id) {
+    const float x = random.unit() * 12.0F, z = random.unit() * 12.0F;
+    const float y = ground_height_m(source, x, z) + 1.5F + random.unit() * 8.0F;
+    const glm::vec3 half = 0.12F + 0.4F * glm::vec3(random.unit(), random.unit(), random.unit());
+    const glm::vec3 velocity = 20.0F * (glm::vec3(random.unit(), random.unit(), random.unit()) - 0.5F);
+    BodyState state = body_at(id, {x, y, z}, velocity);
+    state.spin_rad_s = 10.0F * (glm::vec3(random.unit(), random.unit(), random.unit()) - 0.5F);
+    bodies.add(box_shape(half), state);
+  }
+}
+
+TEST(Bodies, falls_and_rests_on_flat_ground) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.1F, 4.0F, 0.1F}));
+  step(bodies, 30);
+  EXPECT_NEAR(bodies.state(1).pose.position_m.y, 4.0F - 0.5F * 9.81F * 0.25F, 0.1F);
+  EXPECT_TRUE(bodies.contacts().on_terrain.empty());
+  step(bodies, 150);
+  const BodyState rest = bodies.state(1);
+  EXPECT_NEAR(rest.pose.position_m.y, 0.5F, 0.02F);
+  EXPECT_LT(speed_of(rest), 0.02F);
+  EXPECT_EQ(bodies.contacts().on_terrain, std::vector<PieceId>{1});
+}
+
+TEST(Bodies, a_stack_says_who_carries_whom) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  for (PieceId id = 1; id <= 3; ++id)
+    bodies.add(box_shape(glm::vec3(0.5F)), body_at(id, {0.0F, 1.1F * static_cast<float>(id), 0.0F}));
+  step(bodies, 180);
+  EXPECT_NEAR(bodies.state(3).pose.position_m.y, 2.5F, 0.05F);
+  const BodyContacts contacts = bodies.contacts();
+  EXPECT_EQ(contacts.on_terrain, std::vector<PieceId>{1});
+  EXPECT_EQ(contacts.carried, (std::vector<Carried>{{2, 1}, {3, 2}}));
+}
+
+TEST(Bodies, none_of_two_hundred_falls_through_noise_terrain) {
+  MapField field(terrain(TerrainKind::noise));
+  Bodies bodies(field, {});
+  rain(bodies, field.source(), 200);
+  float deepest_voxels = 0.0F;
+  for (int tick = 0; tick < 480; ++tick) {
+    bodies.step();
+    for (const BodyState& state : bodies.states())
+      deepest_voxels =
+          std::min(deepest_voxels, sample(field, state.pose.position_m / voxel_m).distance_voxels);
+  }
+  EXPECT_GT(deepest_voxels, -0.5F) << "a centre of mass is in the rock";
+  double sum = 0.0;
+  for (const BodyState& state : bodies.states()) sum += speed_of(state);
+  EXPECT_LT(sum / 200.0, 0.1) << "the heap does not settle";
+}
+
+TEST(Bodies, a_speck_at_top_speed_does_not_pass_the_ground) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  for (PieceId id = 1; id <= 20; ++id)
+    bodies.add(box_shape(glm::vec3(0.1F)),
+               body_at(id, {static_cast<float>(id), 3.0F + 0.037F * static_cast<float>(id), 0.0F},
+                       {0.0F, -500.0F, 0.0F}));
+  for (int tick = 0; tick < 120; ++tick) {
+    bodies.step();
+    for (const BodyState& state : bodies.states()) ASSERT_GT(state.pose.position_m.y, 0.0F);
+  }
+}
+
+TEST(Bodies, a_spike_does_not_pass_through_a_big_face) {
+  MapField field(terrain(TerrainKind::flat));
+  PieceTable pieces;
+  apply(FillOperation{capsule({0.0F, -1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.4F)}, field, pieces);
+  Bodies bodies(field, {});
+  bodies.add(box_shape({4.0F, 0.5F, 4.0F}), body_at(1, {0.0F, 3.0F, 0.0F}));
+  step(bodies, 45);
+  EXPECT_GT(bodies.state(1).pose.position_m.y, 1.5F) << "the plate fell past the spike's top at 1.4 m";
+}
+
+TEST(Bodies, buried_bodies_are_pushed_out) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.3F)), body_at(1, {0.0F, -2.0F, 0.0F}));
+  step(bodies, 240);
+  EXPECT_GT(bodies.state(1).pose.position_m.y, 0.0F);
+}
+
+TEST(Bodies, a_sleeping_body_wakes_when_the_ground_is_taken_away) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.6F, 0.0F}));
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {20.0F, 0.6F, 0.0F}));
+  step(bodies, 400);
+  ASSERT_EQ(bodies.awake(), 0U);
+  dig(field, bodies, {0.0F, 0.0F, 0.0F}, 3.0F);
+  EXPECT_EQ(bodies.awake(), 1U);
+  step(bodies, 120);
+  EXPECT_LT(bodies.state(1).pose.position_m.y, -1.5F);
+  EXPECT_NEAR(bodies.state(2).pose.position_m.y, 0.5F, 0.02F);
+}
+
+TEST(Bodies, a_sleeping_body_wakes_when_what_carries_it_is_removed) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {0.0F, 1.5F, 0.0F}));
+  step(bodies, 400);
+  ASSERT_EQ(bodies.awake(), 0U);
+  bodies.remove(1);
+  EXPECT_FALSE(bodies.contains(1));
+  EXPECT_EQ(bodies.size(), 1U);
+  step(bodies, 60);
+  EXPECT_NEAR(bodies.state(2).pose.position_m.y, 0.5F, 0.05F);
+}
+
+TEST(Bodies, two_worlds_with_the_same_calls_agree_bit_for_bit) {
+  MapField field_a(terrain(TerrainKind::noise)), field_b(terrain(TerrainKind::noise));
+  Bodies a(field_a, {}), b(field_b, {});
+  rain(a, field_a.source(), 100);
+  rain(b, field_b.source(), 100);
+  const glm::vec3 hole(6.0F, ground_height_m(field_a.source(), 6.0F, 6.0F), 6.0F);
+  for (int tick = 1; tick <= 300; ++tick) {
+    a.step();
+    b.step();
+    if (tick == 90) dig(field_a, a, hole, 2.0F), dig(field_b, b, hole, 2.0F);
+    if (tick % 50 == 0) a.remove(static_cast<PieceId>(tick / 10)), b.remove(static_cast<PieceId>(tick / 10));
+    ASSERT_EQ(a.state_hash(), b.state_hash()) << "at tick " << tick;
+  }
+}
+
+TEST(Bodies, what_is_no_number_is_stopped_where_it_was) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 5.0F, 0.0F}, {nan, 0.0F, 0.0F}));
+  step(bodies, 200);
+  EXPECT_NEAR(bodies.state(1).pose.position_m.y, 0.5F, 0.05F);
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,137 @@
+// Hulls of freshly cut pieces: within their volumes, near to them, and with sane masses.
+#include "server/fracture/hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "server/fracture/cells.h"
+#include "shared/field/window_sample.h"
+
+namespace scree {
+namespace {
+
+constexpr float voxel_m = 0.25F;
+
+struct Blast {
+  MapField field{{TerrainKind::noise, 3, voxel_m}};
+  PieceTable pieces;
+  Applied applied;
+  std::vector<PieceHull> hulls;
+
+  explicit Blast(uint32_t seeds, SeedPattern pattern = SeedPattern::uniform) {
+    CarveOperation carve;
+    const glm::vec3 at(3.0F, ground_height_m(field.source(), 3.0F, 3.0F) - 0.5F, 3.0F);
+    carve.shape = sphere(at, 2.0F);
+    carve.pattern = pattern;
+    carve.seeds = seeds;
+    carve.impact_m = at;
+    carve.first_piece = 10;
+    applied = apply(carve, field, pieces);
+    hulls = make_hulls(applied, pieces, voxel_m);
+  }
+};
+
+TEST(Hull, every_piece_gets_one_in_order) {
+  const Blast blast(64);
+  ASSERT_EQ(blast.hulls.size(), blast.applied.created.size());
+  for (size_t i = 0; i < blast.hulls.size(); ++i) {
+    EXPECT_EQ(blast.hulls[i].id, blast.applied.created[i].id);
+    EXPECT_GE(blast.hulls[i].corners_m.size(), 4U);
+    EXPECT_LE(blast.hulls[i].corners_m.size(), static_cast<size_t>(hull_corners_max));
+  }
+}
+
+TEST(Hull, corners_lie_on_or_in_the_volume) {
+  const Blast blast(64, SeedPattern::radial);
+  for (const PieceHull& hull : blast.hulls) {
+    const Volume& volume = *blast.pieces.at(hull.id);
+    if (volume.mass < 8 * units_per_voxel) continue;  // splinters fall back to a cube
+    for (const glm::vec3& corner : hull.corners_m) {
+      const glm::vec3 p = corner / voxel_m + volume.centre_voxels;
+      ASSERT_TRUE(covers(volume.window, p));
+      EXPECT_LT(sample_covered(volume.window, p).distance_voxels, 0.3F) << "piece " << hull.id;
+    }
+  }
+}
+
+/// Largest |x|, |y|, |z| extents of corners.
+glm::vec3 extent_of(const std::vector<glm::vec3>& corners) {
+  glm::vec3 lo(1e30F), hi(-1e30F);
+  for (const glm::vec3& p : corners) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  return hi - lo;
+}
+
+TEST(Hull, of_one_seed_spans_the_whole_ball) {
+  const Blast blast(1);
+  ASSERT_EQ(blast.hulls.size(), 1U);
+  const glm::vec3 extent = extent_of(blast.hulls[0].corners_m);
+  EXPECT_GT(extent.x, 3.4F);
+  EXPECT_LT(extent.x, 4.2F);
+  EXPECT_GT(extent.z, 3.4F);
+  EXPECT_LT(extent.z, 4.2F);
+}
+
+TEST(Hull, masses_and_inertias_are_sane) {
+  const Blast blast(64);
+  float size_m3 = 0.0F;
+  MassUnits mass = 0;
+  for (const PieceHull& hull : blast.hulls) {
+    size_m3 += hull.size_m3;
+    mass += blast.pieces.at(hull.id)->mass;
+    EXPECT_GT(hull.size_m3, 0.0F);
+    const glm::vec3 extent = extent_of(hull.corners_m) + voxel_m;
+    const float most = glm::dot(extent, extent) / 4.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GT(hull.inertia_m2[axis], 0.0F);
+      EXPECT_LT(hull.inertia_m2[axis], most);
+    }
+    EXPECT_LE(hull.inertia_m2.x, hull.inertia_m2.y + hull.inertia_m2.z);
+  }
+  EXPECT_NEAR(size_m3, static_cast<float>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m, 0.01F);
+}
+
+TEST(Hull, of_a_volume_alone_is_nearly_the_same) {
+  const Blast blast(32);
+  for (const PieceHull& hull : blast.hulls) {
+    const PieceHull alone = make_hull(hull.id, *blast.pieces.at(hull.id), voxel_m);
+    const glm::vec3 difference = glm::abs(extent_of(hull.corners_m) - extent_of(alone.corners_m));
+    EXPECT_LT(std::max({difference.x, difference.y, difference.z}), 0.15F);
+    EXPECT_EQ(alone.size_m3, hull.size_m3);
+  }
+}
+
+TEST(Hull, is_the_same_every_time) {
+  const Blast a(64), b(64);
+  ASSERT_EQ(a.hulls.size(), b.hulls.size());
+  for (size_t i = 0; i < a.hulls.size(); ++i) EXPECT_EQ(a.hulls[i].corners_m, b.hulls[i].corners_m);
+}
+
+TEST(Cells, odd_seeds_are_survived) {
+  const glm::vec3 lo(0.0F), hi(10.0F, 10.0F, 10.0F);
+  EXPECT_TRUE(cell_corners({}, lo, hi).empty());
+  const std::vector<glm::vec3> seeds = {
+      {5.0F, 5.0F, 5.0F}, {5.0F, 5.0F, 5.0F}, {50.0F, 0.0F, 0.0F}, {10.0F, 10.0F, 10.0F}, {2.0F, 5.0F, 5.0F}};
+  const auto cells = cell_corners(seeds, lo, hi);
+  ASSERT_EQ(cells.size(), seeds.size());
+  EXPECT_EQ(cells[0].size(), 8U);
+  EXPECT_TRUE(cells[1].empty()) << "coincides with the first";
+  EXPECT_TRUE(cells[2].empty()) << "lies outside";
+  EXPECT_EQ(cells[4].size(), 8U);
+  EXPECT_TRUE(cell_corners(seeds, hi, lo)[0].empty()) << "a box that is none";
+}
+
+TEST(Cells, coplanar_and_lattice_seeds_all_get_cells) {
+  std::vector<glm::vec3> seeds;
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y)
+      for (int z = 0; z < 3; ++z)
+        seeds.emplace_back(1.0F + static_cast<float>(x), 1.0F + static_cast<float>(y),
+                           1.0F + static_cast<float>(z));
+  for (const auto& corners : cell_corners(seeds, glm::vec3(0.0F), glm::vec3(8.0F)))
+    EXPECT_GE(corners.size(), 8U);
+}
+
+}  // namespace
+}  // namespace scree
