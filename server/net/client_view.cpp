@@ -1,0 +1,265 @@
+#include "server/net/client_view.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "server/net/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// The piece that an operation takes out of the world, if any.
+std::optional<PieceId> piece_ended_by(const Operation& operation) {
+  if (const auto* stamp = std::get_if<StampOperation>(&operation)) return stamp->piece;
+  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) return discard->piece;
+  return std::nullopt;
+}
+
+/// Keeps the `count` smallest, in order.
+template <typename T>
+void keep_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
+  const size_t kept = std::min(count, candidates.size());
+  std::ranges::partial_sort(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(kept));
+  candidates.resize(kept);
+}
+
+uint32_t fold(uint64_t hash) {
+  return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
+}
+
+uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
+  uint64_t sum = 0;
+  for (const ChunkCoord chunk : chunks) {
+    const auto found = state.chunks().find(chunk);
+    if (found != state.chunks().end()) sum += found->second.hash;
+  }
+  return fold(sum);
+}
+
+}  // namespace
+
+TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const PublishedState& after,
+                         float size_m)
+    : delta(d), state(after), voxel_size_m(size_m) {
+  for (const BrickState& brick : d.bricks) bricks[chunk_of(brick.coord)].push_back(&brick);
+  for (const auto& [chunk, list] : bricks) {
+    if (!before.chunks().contains(chunk)) fresh.insert(chunk);
+    orphan.insert(chunk);
+  }
+  for (const AppliedOperation& operation : d.operations)
+    for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
+}
+
+ClientView::ClientView(glm::vec3 eye_m, float radius_m)
+    : eye_m_(eye_m), radius_m_(radius_m), next_eye_m_(eye_m), next_radius_m_(radius_m) {}
+
+void ClientView::set_interest(glm::vec3 eye_m, float radius_m) {
+  next_eye_m_ = eye_m;
+  next_radius_m_ = radius_m;
+  rescan_due_ = true;
+}
+
+void ClientView::reset() {
+  held_.clear();
+  stale_.clear();
+  wanted_.clear();
+  known_.clear();
+  rescan_due_ = true;
+  rescanned_ = 0;
+}
+
+float ClientView::distance_m(ChunkCoord chunk, float voxel_size_m) const {
+  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
+  const glm::vec3 lo(static_cast<float>(chunk.x) * side_m, static_cast<float>(chunk.y) * side_m,
+                     static_cast<float>(chunk.z) * side_m);
+  const glm::vec3 nearest = glm::clamp(eye_m_, lo, lo + side_m);
+  return glm::length(nearest - eye_m_);
+}
+
+bool ClientView::near(ChunkCoord chunk, float voxel_size_m) const {
+  return distance_m(chunk, voxel_size_m) <= radius_m_;
+}
+
+bool ClientView::near(const QuantisedPose& pose, float factor) const {
+  return glm::length(dequantise(pose).position_m - eye_m_) <= radius_m_ * factor;
+}
+
+/// An operation can be applied by a client that has, bit for bit, every brick that it reads: held chunks, and
+/// chunks that nothing has changed yet but operations of this very frame.
+bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges& changes,
+                           const ChunkSet& tainted) const {
+  const auto readable = [&](ChunkCoord chunk) {
+    if (tainted.contains(chunk)) return false;
+    if (held_.contains(chunk) || changes.fresh.contains(chunk)) return true;
+    return !changes.state.chunks().contains(chunk);
+  };
+  if (!std::ranges::all_of(operation.reads, readable)) return false;
+  if (!std::ranges::all_of(operation.writes, readable)) return false;
+  const auto ended = piece_ended_by(operation.operation);
+  return !ended || known_.contains(*ended);
+}
+
+bool ClientView::concerns(const AppliedOperation& operation, const TickChanges& changes) const {
+  const auto ended = piece_ended_by(operation.operation);
+  if (ended && known_.contains(*ended)) return true;
+  const auto followed = [&](ChunkCoord chunk) {
+    return held_.contains(chunk) || near(chunk, changes.voxel_size_m);
+  };
+  if (std::ranges::any_of(operation.writes, followed)) return true;
+  return std::ranges::any_of(operation.created, [&](PieceId id) {
+    const auto piece = changes.state.pieces().find(id);
+    return piece != changes.state.pieces().end() && near(piece->second.pose, 1.0F);
+  });
+}
+
+void ClientView::forget_piece(PieceId piece, FrameSelection& frame) {
+  if (known_.erase(piece) != 0) frame.removed.push_back(piece);
+}
+
+void ClientView::select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
+                                   ChunkSet& changed) {
+  for (uint32_t i = 0; i < changes.delta.operations.size(); ++i) {
+    const AppliedOperation& operation = changes.delta.operations[i];
+    const auto ended = piece_ended_by(operation.operation);
+    if (!can_apply(operation, changes, tainted) || !concerns(operation, changes)) {
+      tainted.insert(operation.writes.begin(), operation.writes.end());
+      if (ended) forget_piece(*ended, frame);
+      continue;
+    }
+    frame.operations.push_back(i);
+    for (const ChunkCoord chunk : operation.writes) {
+      changed.insert(chunk);
+      // A write beyond interest is followed all the same, until the next scan drops it.
+      if (held_.insert(chunk).second && !near(chunk, changes.voxel_size_m)) rescan_due_ = true;
+    }
+    for (const PieceId id : operation.created) known_[id] = {};
+    if (ended) known_.erase(*ended);
+  }
+}
+
+void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tainted, FrameSelection& frame,
+                                ChunkSet& changed) {
+  std::vector<std::pair<float, ChunkCoord>> order;
+  for (const ChunkCoord chunk : tainted) order.emplace_back(distance_m(chunk, changes.voxel_size_m), chunk);
+  std::ranges::sort(order);
+  size_t bricks = 0;
+  for (const auto& [distance, chunk] : order) {
+    const auto found = changes.bricks.find(chunk);
+    if (found == changes.bricks.end()) continue;
+    const bool is_held = held_.contains(chunk);
+    const bool is_near = distance <= radius_m_;
+    const bool complete = is_held || (is_near && changes.fresh.contains(chunk) && !stale_.contains(chunk));
+    if (complete && bricks + found->second.size() <= limits::patch_bricks_max) {
+      bricks += found->second.size();
+      frame.patched.push_back(chunk);
+      held_.insert(chunk);
+      changed.insert(chunk);
+      continue;
+    }
+    if (is_held) distrust(chunk);
+    if (is_held || is_near) wanted_.insert(chunk);
+  }
+}
+
+/// Follows the eye: what came into interest is wanted, what left it is dropped.
+void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame) {
+  eye_m_ = next_eye_m_;
+  radius_m_ = next_radius_m_;
+  rescan_due_ = false;
+  rescanned_ = changes.delta.tick;
+  const float keep_m = radius_m_ * limits::interest_keep_factor;
+  const auto drop_far = [&](ChunkSet& chunks) {
+    std::erase_if(chunks, [&](ChunkCoord chunk) {
+      if (distance_m(chunk, changes.voxel_size_m) <= keep_m) return false;
+      if (changed.contains(chunk)) {  // checked in this frame: dropped after the next scan
+        rescan_due_ = true;
+        return false;
+      }
+      frame.dropped.push_back(chunk);
+      return true;
+    });
+  };
+  drop_far(held_);
+  drop_far(stale_);
+  std::ranges::sort(frame.dropped);
+  wanted_.clear();
+  for (const auto& [chunk, published] : changes.state.chunks())
+    if (!held_.contains(chunk) && near(chunk, changes.voxel_size_m)) wanted_.insert(chunk);
+  wanted_.insert(stale_.begin(), stale_.end());
+}
+
+void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame) {
+  const auto& alive = changes.state.pieces();
+  for (auto known = known_.begin(); known != known_.end();) {
+    const auto piece = alive.find(known->first);
+    if (piece == alive.end() || !near(piece->second.pose, limits::interest_keep_factor)) {
+      frame.removed.push_back(known->first);
+      known = known_.erase(known);
+      continue;
+    }
+    if (known->second.sent != piece->second.pose) {
+      frame.moved.push_back({known->first, piece->second.pose});
+      known->second.sent = piece->second.pose;
+    }
+    ++known;
+  }
+}
+
+FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_poses) {
+  FrameSelection frame;
+  ChunkSet tainted = changes.orphan;
+  ChunkSet changed;
+  select_operations(changes, frame, tainted, changed);
+  // A chunk may have been changed by operations that were sent before one that was not.
+  for (const ChunkCoord chunk : tainted) changed.erase(chunk);
+  select_patches(changes, tainted, frame, changed);
+  if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
+    rescan(changes, changed, frame);
+  if (with_poses) select_poses(changes, frame);
+  std::ranges::sort(frame.removed);
+  frame.has_check = !changed.empty();
+  frame.check = check_of(changed, changes.state);
+  return frame;
+}
+
+std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size_t count) const {
+  std::vector<std::pair<float, ChunkCoord>> candidates;
+  candidates.reserve(wanted_.size());
+  for (const ChunkCoord chunk : wanted_)
+    candidates.emplace_back(distance_m(chunk, changes.voxel_size_m), chunk);
+  keep_nearest(candidates, count);
+  std::vector<ChunkCoord> chunks;
+  for (const auto& [distance, chunk] : candidates) chunks.push_back(chunk);
+  return chunks;
+}
+
+std::vector<PieceId> ClientView::next_pieces(const PublishedState& state, size_t count) const {
+  std::vector<std::pair<float, PieceId>> candidates;
+  for (const auto& [id, piece] : state.pieces()) {
+    if (known_.contains(id) || !near(piece.pose, 1.0F)) continue;
+    candidates.emplace_back(glm::length(dequantise(piece.pose).position_m - eye_m_), id);
+  }
+  keep_nearest(candidates, count);
+  std::vector<PieceId> pieces;
+  for (const auto& [distance, id] : candidates) pieces.push_back(id);
+  return pieces;
+}
+
+void ClientView::sent_chunk(ChunkCoord chunk) {
+  wanted_.erase(chunk);
+  stale_.erase(chunk);
+  held_.insert(chunk);
+}
+
+void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
+  known_[piece] = {pose};
+}
+
+void ClientView::distrust(ChunkCoord chunk) {
+  if (held_.erase(chunk) == 0) return;
+  stale_.insert(chunk);
+  wanted_.insert(chunk);
+}
+
+}  // namespace scree

@@ -1,0 +1,106 @@
+// What one client knows of the world, and what it needs next: pure selection, no bytes, no sockets.
+//
+// Invariants: `held` chunks read on the client exactly as published, once it has applied what was selected so
+// far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it. An
+// edited chunk within interest is held or wanted. `known` pieces are those that the client has.
+// Lengths in metres. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "server/world/published_state.h"
+
+namespace scree {
+
+using ChunkSet = std::unordered_set<ChunkCoord, CoordHash>;
+
+/// What a tick changed, prepared once for all clients. `state` is that after the tick.
+struct TickChanges {
+  const TickDelta& delta;
+  const PublishedState& state;
+  float voxel_size_m = 0.0F;
+  std::unordered_map<ChunkCoord, std::vector<const BrickState*>, CoordHash> bricks;
+  ChunkSet fresh;   ///< changed in this tick, never before
+  ChunkSet orphan;  ///< changed by no operation (a keyframe)
+
+  TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
+              float voxel_size_m);
+};
+
+/// A frame's content, by reference into the tick. Clients with equal selections get the same bytes.
+struct FrameSelection {
+  std::vector<uint32_t> operations;  ///< indices into TickDelta::operations
+  std::vector<ChunkCoord> patched;   ///< their bricks that changed in this tick are sent
+  std::vector<ChunkCoord> dropped;
+  std::vector<PieceId> removed;
+  std::vector<PieceState> moved;
+  bool has_check = false;
+  uint32_t check = 0;
+
+  bool operator==(const FrameSelection&) const = default;
+};
+
+class ClientView {
+ public:
+  ClientView(glm::vec3 eye_m, float radius_m);
+
+  /// Takes effect within limits::rescan_ticks_min ticks.
+  void set_interest(glm::vec3 eye_m, float radius_m);
+
+  /// Selects a frame and takes note of it as sent. `with_poses`: also what moved, came and went out of
+  /// interest.
+  FrameSelection select_frame(const TickChanges& changes, bool with_poses);
+
+  /// Up to `count` chunks (pieces) to send whole, nearest first.
+  std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
+  std::vector<PieceId> next_pieces(const PublishedState& state, size_t count) const;
+  void sent_chunk(ChunkCoord chunk);
+  void sent_piece(PieceId piece, const QuantisedPose& pose);
+
+  /// The client's copy of a held chunk is wrong: it will be sent again, whole.
+  void distrust(ChunkCoord chunk);
+  /// The client forgot everything.
+  void reset();
+
+  const ChunkSet& held() const { return held_; }
+  bool knows(PieceId piece) const { return known_.contains(piece); }
+  size_t known_pieces() const { return known_.size(); }
+  size_t wanted_chunks() const { return wanted_.size(); }
+
+ private:
+  struct Known {
+    std::optional<QuantisedPose> sent;  ///< nothing yet: the client has it where it was cut
+  };
+  float distance_m(ChunkCoord chunk, float voxel_size_m) const;
+  bool near(ChunkCoord chunk, float voxel_size_m) const;
+  bool near(const QuantisedPose& pose, float factor) const;
+  bool can_apply(const AppliedOperation& operation, const TickChanges& changes,
+                 const ChunkSet& tainted) const;
+  bool concerns(const AppliedOperation& operation, const TickChanges& changes) const;
+  void select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
+                         ChunkSet& changed);
+  void select_patches(const TickChanges& changes, const ChunkSet& tainted, FrameSelection& frame,
+                      ChunkSet& changed);
+  void select_poses(const TickChanges& changes, FrameSelection& frame);
+  void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
+  void forget_piece(PieceId piece, FrameSelection& frame);
+
+  glm::vec3 eye_m_;
+  float radius_m_;
+  glm::vec3 next_eye_m_;
+  float next_radius_m_;
+  bool rescan_due_ = true;
+  Tick rescanned_ = 0;
+  ChunkSet held_;
+  ChunkSet stale_;   ///< not held, but the client has edits there: replaced by a whole chunk, or dropped
+  ChunkSet wanted_;  ///< edited, within interest, not held
+  std::map<PieceId, Known> known_;
+};
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+// Commands on their way from the network to the simulation. Bounded: what does not fit is refused, never
+// waited for. Safe to use from any thread.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "server/net/limits.h"
+#include "server/world/command.h"
+
+namespace scree {
+
+class CommandQueue {
+ public:
+  explicit CommandQueue(size_t commands_max = limits::commands_waiting_max) : commands_max_(commands_max) {}
+
+  /// False when the queue is full.
+  [[nodiscard]] bool push(const Command& command) {
+    const std::scoped_lock lock(mutex_);
+    if (commands_.size() >= commands_max_) return false;
+    commands_.push_back(command);
+    return true;
+  }
+
+  /// Everything that waits, in order of arrival.
+  std::vector<Command> drain() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(commands_, {});
+  }
+
+  size_t commands_max() const { return commands_max_; }
+
+ private:
+  const size_t commands_max_;
+  std::mutex mutex_;
+  std::vector<Command> commands_;
+};
+
+}  // namespace scree

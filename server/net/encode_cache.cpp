@@ -1,0 +1,70 @@
+#include "server/net/encode_cache.h"
+
+#include "proto/codec.h"
+#include "proto/transforms.h"
+#include "server/net/limits.h"
+
+namespace scree {
+
+namespace {
+
+SharedBytes share(std::vector<uint8_t> bytes) {
+  return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+FrameMessage frame_of(const FrameSelection& selection, const TickChanges& changes) {
+  FrameMessage message;
+  message.tick = changes.delta.tick;
+  for (const uint32_t index : selection.operations)
+    message.operations.push_back(changes.delta.operations[index].operation);
+  for (const ChunkCoord chunk : selection.patched)
+    for (const BrickState* state : changes.bricks.at(chunk))
+      message.patches.push_back({state->coord, *state->brick});
+  message.dropped_chunks = selection.dropped;
+  message.removed_pieces = selection.removed;
+  message.transforms = pack_transforms(selection.moved);
+  message.has_check = selection.has_check;
+  message.check = selection.check;
+  return message;
+}
+
+}  // namespace
+
+void EncodeCache::start_tick() {
+  frames_.clear();
+  pieces_.clear();
+}
+
+const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const TickChanges& changes) {
+  for (const auto& frame : frames_)
+    if (frame->selection == selection) return *frame;
+  const FrameMessage message = frame_of(selection, changes);
+  frames_.push_back(std::make_unique<Frame>());
+  Frame& frame = *frames_.back();
+  frame.selection = std::move(selection);
+  frame.transform_bytes = message.transforms.size();
+  frame.bytes = share(encode(ServerMessage(message)));
+  return frame;
+}
+
+SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
+  if (chunks_.size() >= limits::encoded_chunks_max && !chunks_.contains(coord)) chunks_.clear();
+  EncodedChunk& encoded = chunks_[coord];
+  if (encoded.bytes && encoded.version == chunk.version && encoded.hash == chunk.hash) return encoded.bytes;
+  ChunkMessage message;
+  message.chunk = coord;
+  message.version = chunk.version;
+  message.hash = chunk.hash;
+  message.bricks.reserve(chunk.bricks.size());
+  for (const auto& [brick, state] : chunk.bricks) message.bricks.push_back({brick, *state.brick});
+  encoded = {chunk.version, chunk.hash, share(encode(ServerMessage(std::move(message))))};
+  return encoded.bytes;
+}
+
+SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
+  SharedBytes& bytes = pieces_[id];
+  if (!bytes) bytes = share(encode(ServerMessage(PieceMessage{id, *piece.volume, piece.pose})));
+  return bytes;
+}
+
+}  // namespace scree

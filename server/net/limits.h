@@ -1,0 +1,73 @@
+// Bounds of the server's network side. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Interest ends, and what a client follows is dropped, at this multiple of its radius: a viewer that walks
+/// to and fro across the edge must not have its chunks sent again and again.
+inline constexpr float interest_keep_factor = 1.25F;
+
+/// Bytes of chunks sent to one client in a tick: about 1 MB/s at 60 Hz. Above: the rest waits for the next
+/// ticks, nearest first.
+inline constexpr int64_t chunk_bytes_per_tick = 16 * 1024;
+
+/// Bytes of pieces' volumes sent to one client in a tick. Above: the rest waits, nearest first.
+inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
+
+/// Bricks sent as patches to one client in one frame: 512 KiB of codes, so that a frame stays within
+/// message_bytes_max even when nothing compresses. Chunks beyond are streamed as wholes instead.
+inline constexpr size_t patch_bricks_max = 1024;
+
+/// Ticks between two walks over the edited chunks for one client that moves; bounds what fast movement costs.
+inline constexpr uint32_t rescan_ticks_min = 6;
+
+/// Bytes waiting for one client above which it gets no transforms and no streaming: it has enough to read.
+inline constexpr size_t outbox_soft_bytes = 256 * 1024;
+
+/// Bytes waiting for one client above which it gets no frames: when it has read all, it joins anew.
+inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
+
+/// Bytes waiting for one client at which it is cut off, whatever they are: replies that it never reads.
+inline constexpr size_t outbox_hard_bytes = 16 * 1024 * 1024;
+
+/// Bytes of the kernel's send buffer for one client; what lies there can no longer be replaced by newer
+/// state.
+inline constexpr int socket_send_buffer_bytes = 256 * 1024;
+
+/// Encoded chunks kept to be sent to several clients; above: all are forgotten and encoded anew.
+inline constexpr size_t encoded_chunks_max = 1024;
+
+/// Seconds within which a client must read something of what waits for it; beyond: cut off.
+inline constexpr double stall_seconds_max = 20.0;
+
+/// Seconds from the connection to the hello; beyond: refused and closed.
+inline constexpr double hello_seconds_max = 5.0;
+
+/// Seconds that a refused client has to read the refusal before its connection is closed.
+inline constexpr double linger_seconds_max = 2.0;
+
+/// Connections that have not said hello yet, all together; above: refused at once.
+inline constexpr uint32_t pending_sessions_max = 64;
+
+/// Clients at once, unless configured otherwise; above: refused.
+inline constexpr uint32_t sessions_max_default = 64;
+
+/// Carves and fills of one client, per second and at once; above: each gets a reply that refuses it.
+inline constexpr double requests_per_second_max = 30.0;
+inline constexpr double requests_burst_max = 60.0;
+
+/// Messages of any kind from one client, per second and at once. No client needs as many: refused and closed.
+inline constexpr double messages_per_second_max = 500.0;
+inline constexpr double messages_burst_max = 1000.0;
+
+/// Commands that wait for the next tick; above: each gets a reply that refuses it.
+inline constexpr size_t commands_waiting_max = 1024;
+
+/// Ticks published that the network thread has not taken yet; above: the simulation waits for it, and the
+/// wait is counted.
+inline constexpr size_t deltas_in_flight_max = 128;
+
+}  // namespace scree::limits

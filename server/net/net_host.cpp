@@ -1,0 +1,246 @@
+#include "server/net/net_host.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <spdlog/spdlog.h>
+
+#include "proto/codec.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// How often sessions are looked at for having been silent for too long, and while stopping.
+constexpr std::chrono::milliseconds timer_period{100};
+constexpr std::chrono::milliseconds timer_period_stopping{5};
+/// Given to clients to read the goodbye.
+constexpr double stop_seconds_max = 0.5;
+
+double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Command command_of(uint64_t session, const CarveMessage& m) {
+  return {session, m.request,
+          CarveRequest{m.shape, m.pattern, m.seeds, m.random_seed, m.impact_m, m.blast_speed_m_s}};
+}
+
+Command command_of(uint64_t session, const FillMessage& m) {
+  return {session, m.request, FillRequest{m.shape}};
+}
+
+PublisherConfig publisher_config(const NetConfig& config) {
+  return {config.terrain.voxel_size_m, std::max(1U, config.tick_rate_hz),
+          std::max(1U, config.ticks_per_transform)};
+}
+
+Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
+  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
+    return fail("the eye's position is not a number");
+  if (!std::isfinite(radius_m) || radius_m < 0.0F)
+    return fail("the radius of interest must be a number, and not negative");
+  return std::min(radius_m, limits::interest_radius_max_m);
+}
+
+}  // namespace
+
+NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
+    : config_(config),
+      commands_(commands),
+      acceptor_(context_),
+      timer_(context_),
+      publisher_(publisher_config(config)) {}
+
+Result<void> NetHost::listen() {
+  const std::string where = config_.bind + ":" + std::to_string(config_.port);
+  asio::error_code error;
+  const auto address = asio::ip::make_address(config_.bind, error);
+  if (error) return fail("cannot listen on " + where + ": '" + config_.bind + "' is no IP address (--bind)");
+  const asio::ip::tcp::endpoint endpoint(address, config_.port);
+  acceptor_.open(endpoint.protocol(), error);
+  if (!error) acceptor_.set_option(asio::ip::tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use)
+    return fail("cannot listen on " + where +
+                ": the port is in use; stop what uses it, or choose another one (--port)");
+  if (error) return fail("cannot listen on " + where + ": " + error.message());
+  port_ = acceptor_.local_endpoint(error).port();
+  if (error) return fail("cannot listen on " + where + ": " + error.message());
+  accept();
+  tick_timer();
+  return {};
+}
+
+void NetHost::run() {
+  context_.run();
+}
+
+void NetHost::accept() {
+  acceptor_.async_accept([this](asio::error_code error, asio::ip::tcp::socket socket) {
+    if (error == asio::error::operation_aborted || stopping_) return;
+    if (error)
+      spdlog::warn("cannot accept a connection: {}", error.message());
+    else
+      accepted(std::move(socket));
+    accept();
+  });
+}
+
+void NetHost::accepted(asio::ip::tcp::socket socket) {
+  const uint64_t id = next_session_++;
+  const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
+  const auto session = std::make_shared<Session>(std::move(socket), id, *this, times, steady_now_s());
+  const size_t pending = sessions_.size() - joined_count();
+  const double burst = std::max(
+      1.0, config_.requests_per_second * limits::requests_burst_max / limits::requests_per_second_max);
+  sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst)});
+  spdlog::debug("session {}: {} connected", id, session->peer());
+  if (pending >= limits::pending_sessions_max)
+    session->refuse("too many connections that have not said hello (limits.pending_sessions_max); try again");
+  session->start();
+}
+
+void NetHost::tick_timer() {
+  timer_.expires_after(stopping_ ? timer_period_stopping : timer_period);
+  timer_.async_wait([this](asio::error_code error) {
+    if (error) return;
+    const double now_s = steady_now_s();
+    std::vector<std::shared_ptr<Session>> sessions;
+    for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
+    for (const auto& session : sessions) session->check_time(now_s);
+    if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
+      for (const auto& session : sessions) session->close("the server stops");
+      return;
+    }
+    tick_timer();
+  });
+}
+
+uint32_t NetHost::joined_count() const {
+  return static_cast<uint32_t>(std::ranges::count_if(
+      sessions_, [](const auto& entry) { return entry.second.session->phase() == Session::Phase::joined; }));
+}
+
+Result<WelcomeMessage> NetHost::admit(Session& session, const HelloMessage& hello) {
+  if (hello.protocol != protocol_version)
+    return fail("this server speaks protocol version " + std::to_string(protocol_version) +
+                ", the client version " + std::to_string(hello.protocol) +
+                ": use a client and a server of the same release");
+  if (stopping_) return fail("the server stops");
+  if (joined_count() >= config_.sessions_max)
+    return fail("the server is full: " + std::to_string(config_.sessions_max) +
+                " sessions (--sessions-max); try again later");
+  const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
+  if (!radius_m) return tl::unexpected(radius_m.error());
+  publisher_.join(session.id(), hello.eye_m, *radius_m);
+  ++counts_.sessions_joined;
+  update_stats();
+  spdlog::info("session {}: {} joined from {}, interest {} m", session.id(), hello.client, session.peer(),
+               *radius_m);
+  WelcomeMessage welcome;
+  welcome.session = session.id();
+  welcome.tick = publisher_.state().tick();
+  welcome.tick_rate_hz = config_.tick_rate_hz;
+  welcome.ticks_per_transform = config_.ticks_per_transform;
+  welcome.terrain = config_.terrain;
+  welcome.interest_radius_m = *radius_m;
+  welcome.replay = config_.replay;
+  return welcome;
+}
+
+Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
+  if (const auto* carve = std::get_if<CarveMessage>(&message)) {
+    request(session, command_of(session.id(), *carve));
+  } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
+    request(session, command_of(session.id(), *fill));
+  } else if (const auto* interest = std::get_if<InterestMessage>(&message)) {
+    const auto radius_m = granted_radius(interest->eye_m, interest->interest_radius_m);
+    if (!radius_m) return tl::unexpected(radius_m.error());
+    publisher_.set_interest(session.id(), interest->eye_m, *radius_m);
+  } else if (const auto* repair = std::get_if<RepairRequest>(&message)) {
+    spdlog::warn("session {}: {} chunks differ at tick {}", session.id(), repair->chunks.size(),
+                 repair->tick);
+    publisher_.repair(session.id(), *repair);
+  }
+  // An Ack needs no answer: on TCP the bytes that wait for a client say how far behind it is.
+  return {};
+}
+
+void NetHost::request(Session& session, const Command& command) {
+  ++counts_.requests;
+  std::string refusal;
+  if (config_.replay)
+    refusal = "this server plays a recording: nothing in it can be changed";
+  else if (!sessions_.at(session.id()).requests.take(steady_now_s()))
+    refusal = "more than " + std::to_string(static_cast<int>(config_.requests_per_second)) +
+              " requests a second (limits.requests_per_second_max); ask again more slowly";
+  else if (!commands_.push(command))
+    refusal = "the server is busy: " + std::to_string(commands_.commands_max()) +
+              " commands wait already (limits.commands_waiting_max); try again";
+  if (refusal.empty()) return;
+  ++counts_.requests_refused;
+  session.send(ServerMessage(ReplyMessage{command.request, refusal, 0}));
+}
+
+void NetHost::refused(Session& session, const std::string& reason) {
+  ++counts_.sessions_refused;
+  spdlog::warn("session {}: {} refused: {}", session.id(), session.peer(), reason);
+  publisher_.leave(session.id());
+  update_stats();
+}
+
+void NetHost::closed(Session& session, const std::string& reason) {
+  if (session.was_cut()) {
+    ++counts_.sessions_cut;
+    spdlog::warn("session {}: {} cut off: {}", session.id(), session.peer(), reason);
+  } else {
+    spdlog::info("session {}: {} closed: {}", session.id(), session.peer(), reason);
+  }
+  publisher_.leave(session.id());
+  sessions_.erase(session.id());
+  update_stats();
+}
+
+void NetHost::publish(const TickDelta& delta) {
+  const auto backlog = [this](uint64_t id) {
+    const auto entry = sessions_.find(id);
+    return entry == sessions_.end() ? size_t{0} : entry->second.session->backlog_bytes();
+  };
+  for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
+    const auto entry = sessions_.find(outgoing.session);
+    if (entry == sessions_.end()) continue;
+    const auto session = entry->second.session;  // sending may end it
+    session->send(std::move(outgoing.bytes));
+  }
+  update_stats();
+}
+
+void NetHost::shut_down() {
+  if (stopping_) return;
+  stopping_ = true;
+  stop_deadline_s_ = steady_now_s() + stop_seconds_max;
+  asio::error_code ignored;
+  acceptor_.close(ignored);
+  std::vector<std::shared_ptr<Session>> sessions;
+  for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
+  for (const auto& session : sessions) session->refuse("the server stops");
+  timer_.cancel();
+  tick_timer();
+}
+
+void NetHost::update_stats() {
+  counts_.published = publisher_.stats();
+  counts_.sessions = joined_count();
+  const std::scoped_lock lock(stats_mutex_);
+  stats_ = counts_;
+}
+
+NetStats NetHost::stats() const {
+  const std::scoped_lock lock(stats_mutex_);
+  return stats_;
+}
+
+}  // namespace scree

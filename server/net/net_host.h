@@ -1,0 +1,67 @@
+// The network thread's side of NetServer: every session, and the publisher that serves them. Used by
+// net_server.cpp only (Asio). Runs on the network thread; stats() and the counters are for any thread.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/steady_timer.hpp>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "server/net/net_server.h"
+#include "server/net/session.h"
+
+namespace scree {
+
+class NetHost final : public SessionHost {
+ public:
+  NetHost(const NetConfig& config, CommandQueue& commands);
+  ~NetHost() override = default;
+
+  /// Before the thread runs.
+  Result<void> listen();
+  uint16_t port() const { return port_; }
+  void run();
+
+  // ---- on the network thread
+  void publish(const TickDelta& delta);
+  void shut_down();
+
+  asio::io_context& context() { return context_; }
+  NetStats stats() const;
+
+ private:
+  Result<WelcomeMessage> admit(Session& session, const HelloMessage& hello) override;
+  Result<void> receive(Session& session, const ClientMessage& message) override;
+  void refused(Session& session, const std::string& reason) override;
+  void closed(Session& session, const std::string& reason) override;
+
+  void accept();
+  void accepted(asio::ip::tcp::socket socket);
+  void tick_timer();
+  void request(Session& session, const Command& command);
+  uint32_t joined_count() const;
+  void update_stats();
+
+  struct Entry {
+    std::shared_ptr<Session> session;
+    RateLimit requests;
+  };
+  const NetConfig config_;
+  CommandQueue& commands_;
+  asio::io_context context_;
+  asio::ip::tcp::acceptor acceptor_;
+  asio::steady_timer timer_;
+  uint16_t port_ = 0;
+  bool stopping_ = false;
+  double stop_deadline_s_ = 0.0;
+  uint64_t next_session_ = 1;  ///< 0 is the server itself
+  std::map<uint64_t, Entry> sessions_;
+  Publisher publisher_;
+  NetStats counts_;
+  mutable std::mutex stats_mutex_;
+  NetStats stats_;  ///< guarded by stats_mutex_
+};
+
+}  // namespace scree

@@ -1,0 +1,84 @@
+#include "server/net/net_server.h"
+
+#include <asio/post.hpp>
+#include <atomic>
+#include <condition_variable>
+#include <thread>
+
+#include "server/net/net_host.h"
+
+namespace scree {
+
+struct NetServer::Impl {
+  Impl(const NetConfig& config, CommandQueue& commands) : host(config, commands) {}
+
+  NetHost host;
+  std::thread thread;
+  std::mutex mutex;
+  std::condition_variable taken;
+  size_t in_flight = 0;  ///< guarded by mutex
+  bool stopped = false;  ///< guarded by mutex
+  std::atomic<uint64_t> waits{0};
+};
+
+NetServer::NetServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+NetServer::~NetServer() {
+  stop();
+}
+
+Result<std::unique_ptr<NetServer>> NetServer::listen(const NetConfig& config, CommandQueue& commands) {
+  auto impl = std::make_unique<Impl>(config, commands);
+  const auto listening = impl->host.listen();
+  if (!listening) return tl::unexpected(listening.error());
+  impl->thread = std::thread([host = &impl->host] { host->run(); });
+  return std::unique_ptr<NetServer>(new NetServer(std::move(impl)));
+}
+
+uint16_t NetServer::port() const {
+  return impl_->host.port();
+}
+
+void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
+  {
+    std::unique_lock lock(impl_->mutex);
+    if (impl_->in_flight >= limits::deltas_in_flight_max) ++impl_->waits;
+    impl_->taken.wait(lock,
+                      [&] { return impl_->stopped || impl_->in_flight < limits::deltas_in_flight_max; });
+    if (impl_->stopped) return;
+    ++impl_->in_flight;
+  }
+  asio::post(impl_->host.context(), [impl = impl_.get(), delta = std::move(delta)] {
+    impl->host.publish(*delta);
+    {
+      const std::scoped_lock lock(impl->mutex);
+      --impl->in_flight;
+    }
+    impl->taken.notify_all();
+  });
+}
+
+void NetServer::flush() {
+  std::unique_lock lock(impl_->mutex);
+  impl_->taken.wait(lock, [&] { return impl_->stopped || impl_->in_flight == 0; });
+}
+
+NetStats NetServer::stats() const {
+  NetStats stats = impl_->host.stats();
+  stats.publish_waits = impl_->waits;
+  return stats;
+}
+
+void NetServer::stop() {
+  if (impl_->thread.joinable()) {
+    asio::post(impl_->host.context(), [host = &impl_->host] { host->shut_down(); });
+    impl_->thread.join();
+  }
+  {
+    const std::scoped_lock lock(impl_->mutex);
+    impl_->stopped = true;
+  }
+  impl_->taken.notify_all();
+}
+
+}  // namespace scree

@@ -1,0 +1,74 @@
+// The server's network side: accepts clients, hands their requests to the simulation, and sends them what the
+// Publisher selects for them.
+//
+// All sockets live on one thread of its own; it only queues, decodes and sends. The simulation calls
+// publish(), which costs it a post. A client that misbehaves is told why and closed; no other client notices.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/net/command_queue.h"
+#include "server/net/limits.h"
+#include "server/net/publisher.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+struct NetConfig {
+  std::string bind = "127.0.0.1";
+  uint16_t port = 0;  ///< 0: one that is free
+  TerrainSource terrain;
+  uint32_t tick_rate_hz = 60;
+  uint32_t ticks_per_transform = 3;
+  uint32_t sessions_max = limits::sessions_max_default;
+  bool replay = false;  ///< a recording: carves and fills are refused
+  double requests_per_second = limits::requests_per_second_max;
+  double hello_seconds = limits::hello_seconds_max;
+  double stall_seconds = limits::stall_seconds_max;
+};
+
+/// Counts since the start.
+struct NetStats {
+  PublisherStats published;
+  uint32_t sessions = 0;  ///< now
+  uint64_t sessions_joined = 0;
+  uint64_t sessions_refused = 0;  ///< or closed with a reason
+  uint64_t sessions_cut = 0;      ///< for not reading
+  uint64_t requests = 0;
+  uint64_t requests_refused = 0;  ///< by a limit of the network side
+  uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
+};
+
+class NetServer {
+ public:
+  /// Listens at once. `commands` must outlive the server.
+  static Result<std::unique_ptr<NetServer>> listen(const NetConfig& config, CommandQueue& commands);
+  /// Stops.
+  ~NetServer();
+  NetServer(const NetServer&) = delete;
+  NetServer& operator=(const NetServer&) = delete;
+
+  uint16_t port() const;
+
+  /// Hands a tick to the network thread; waits when limits::deltas_in_flight_max are there already. From one
+  /// thread only.
+  void publish(std::shared_ptr<const TickDelta> delta);
+
+  /// Waits until everything published has been taken by the network thread and handed to the sockets.
+  void flush();
+
+  /// As of the last tick that was sent. From any thread.
+  NetStats stats() const;
+
+  /// Tells every client that the server stops, closes, and joins the thread. Harmless when repeated.
+  void stop();
+
+ private:
+  struct Impl;
+  explicit NetServer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scree

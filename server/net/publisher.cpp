@@ -1,0 +1,201 @@
+#include "server/net/publisher.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "proto/codec.h"
+#include "proto/operation_codec.h"
+#include "server/net/limits.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Chunks or pieces looked at in one go; a budget of bytes ends the streaming long before.
+constexpr size_t stream_batch = 64;
+
+SharedBytes bytes_of(const ServerMessage& message) {
+  return std::make_shared<const std::vector<uint8_t>>(encode(message));
+}
+
+int64_t size_of(const SharedBytes& bytes) {
+  return static_cast<int64_t>(bytes->size());
+}
+
+}  // namespace
+
+Publisher::Publisher(const PublisherConfig& config) : config_(config), clock_(config.tick_rate_hz) {}
+
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m) {
+  clients_.erase(session);
+  clients_.emplace(session, Client{ClientView(eye_m, radius_m)});
+}
+
+void Publisher::leave(uint64_t session) {
+  clients_.erase(session);
+}
+
+void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) {
+  const auto client = clients_.find(session);
+  if (client != clients_.end()) client->second.view.set_interest(eye_m, radius_m);
+}
+
+void Publisher::repair(uint64_t session, const RepairRequest& request) {
+  const auto found = clients_.find(session);
+  if (found == clients_.end()) return;
+  Client& client = found->second;
+  const size_t count = std::min(request.chunks.size(), request.hashes.size());
+  for (size_t i = 0; i < count; ++i) {
+    const ChunkCoord chunk = request.chunks[i];
+    if (!client.view.held().contains(chunk)) continue;  // being streamed already, or none of its business
+    if (state_.hash_at(chunk, request.tick) == request.hashes[i]) continue;
+    client.view.distrust(chunk);
+    ++client.repairs;
+    ++stats_.repairs;
+  }
+}
+
+const ClientView* Publisher::view(uint64_t session) const {
+  const auto client = clients_.find(session);
+  return client == clients_.end() ? nullptr : &client->second.view;
+}
+
+std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
+                                         const std::function<size_t(uint64_t)>& backlog_bytes) {
+  out_.clear();
+  const bool restarted = state_.tick() != 0 && delta.tick != state_.tick() + 1;
+  if (restarted) {
+    state_ = PublishedState();
+    for (auto& [session, client] : clients_) client.reset_due = true;
+  }
+  // What was edited before this tick must be known, and the state is not copied for it: changes are prepared
+  // against the old state, and refer to the same object after apply().
+  const TickChanges changes(delta, state_, state_, config_.voxel_size_m);
+  state_.apply(delta);
+  clock_.add(delta.times.total_ms);
+  count_operations(delta);
+  cache_.start_tick();
+  for (auto& [session, client] : clients_) serve(session, client, changes, backlog_bytes(session));
+  send_replies(delta);
+  return std::exchange(out_, {});
+}
+
+void Publisher::count_operations(const TickDelta& delta) {
+  for (const AppliedOperation& applied : delta.operations) {
+    if (std::holds_alternative<CarveOperation>(applied.operation)) {
+      ++stats_.carves;
+      stats_.carve_operation_bytes += operation_bytes(applied.operation);
+    } else if (std::holds_alternative<StampOperation>(applied.operation)) {
+      ++stats_.stamps;
+      stats_.stamp_operation_bytes += operation_bytes(applied.operation);
+    }
+  }
+}
+
+/// Whether the client takes frames at all in this tick; a client that fell behind comes back here.
+bool Publisher::ready(uint64_t session, Client& client, size_t backlog_bytes) {
+  if (!client.stopped && backlog_bytes > limits::outbox_resync_bytes) client.stopped = true;
+  if (client.stopped) {
+    if (backlog_bytes != 0) return false;
+    client.stopped = false;
+    client.reset_due = true;
+    ++stats_.resets;
+  }
+  if (client.reset_due) {
+    client.reset_due = false;
+    client.view.reset();
+    send(session, client, bytes_of(ResetMessage{}));
+  }
+  return true;
+}
+
+void Publisher::serve(uint64_t session, Client& client, const TickChanges& changes, size_t backlog_bytes) {
+  if (!ready(session, client, backlog_bytes)) return;
+  const Tick tick = changes.delta.tick;
+  const bool reads_along = backlog_bytes <= limits::outbox_soft_bytes;
+  const bool with_poses = reads_along && tick % config_.ticks_per_transform == 0;
+  if (!send_frame(session, client, changes, with_poses)) return;
+  if (reads_along) stream_chunks(session, client, changes);
+  if (with_poses) stream_pieces(session, client);
+  if (tick % config_.tick_rate_hz == 0) send_status(session, client);
+}
+
+bool Publisher::send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses) {
+  const EncodeCache::Frame& frame = cache_.frame(client.view.select_frame(changes, with_poses), changes);
+  if (frame.bytes->size() > limits::message_bytes_max) {
+    // No frame of this size may cross the wire: the client starts afresh and gets it all in small messages.
+    client.reset_due = true;
+    return false;
+  }
+  stats_.frame_bytes += frame.bytes->size();
+  stats_.transform_bytes += frame.transform_bytes;
+  send(session, client, frame.bytes);
+  return true;
+}
+
+void Publisher::stream_chunks(uint64_t session, Client& client, const TickChanges& changes) {
+  client.chunk_credit_bytes =
+      std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
+  if (client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
+  for (const ChunkCoord coord : client.view.next_chunks(changes, stream_batch)) {
+    if (client.chunk_credit_bytes <= 0) return;
+    const SharedBytes bytes = cache_.chunk(coord, state_.chunks().at(coord));
+    client.chunk_credit_bytes -= size_of(bytes);
+    stats_.chunk_bytes += bytes->size();
+    client.view.sent_chunk(coord);
+    send(session, client, bytes);
+  }
+}
+
+void Publisher::stream_pieces(uint64_t session, Client& client) {
+  const int64_t budget = limits::piece_bytes_per_tick * config_.ticks_per_transform;
+  client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
+  if (client.piece_credit_bytes <= 0) return;
+  for (const PieceId id : client.view.next_pieces(state_, stream_batch)) {
+    if (client.piece_credit_bytes <= 0) return;
+    const PublishedPiece& piece = state_.pieces().at(id);
+    const SharedBytes bytes = cache_.piece(id, piece);
+    if (bytes->size() > limits::message_bytes_max) continue;  // its merge will reach the client as bricks
+    client.piece_credit_bytes -= size_of(bytes);
+    stats_.piece_bytes += bytes->size();
+    client.view.sent_piece(id, piece.pose);
+    send(session, client, bytes);
+  }
+}
+
+void Publisher::send_replies(const TickDelta& delta) {
+  for (const Reply& reply : delta.replies) {
+    const auto client = clients_.find(reply.session);
+    if (client == clients_.end()) continue;
+    send(reply.session, client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces}));
+  }
+}
+
+void Publisher::send_status(uint64_t session, Client& client) {
+  StatusMessage status;
+  status.tick = state_.tick();
+  status.clients = static_cast<uint32_t>(clients_.size());
+  status.pieces = static_cast<uint32_t>(state_.pieces().size());
+  status.ledger_terrain = state_.ledger().terrain;
+  status.ledger_pieces = state_.ledger().pieces;
+  status.ledger_dust = state_.ledger().dust;
+  status.ledger_poured = state_.ledger().poured;
+  status.ledger_moved = state_.ledger().moved;
+  status.tick_median_ms = clock_.median_ms();
+  status.tick_worst_ms = clock_.worst_ms();
+  status.sent_bytes = client.sent_bytes;
+  status.pieces_made = state_.pieces_made();
+  status.pieces_merged = state_.pieces_merged();
+  status.field_hash = state_.field_hash();
+  status.repairs = client.repairs;
+  send(session, client, bytes_of(status));
+}
+
+void Publisher::send(uint64_t session, Client& client, SharedBytes bytes) {
+  client.sent_bytes += bytes->size();
+  stats_.sent_bytes += bytes->size();
+  out_.push_back({session, std::move(bytes)});
+}
+
+}  // namespace scree

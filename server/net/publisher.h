@@ -1,0 +1,100 @@
+// Turns the ticks of the world into messages for each client: selection by ClientView, encoding once for all
+// clients that get the same bytes, and less for those that read slowly.
+//
+// A slow client gets newer state, not a longer queue: above limits::outbox_soft_bytes waiting it gets no
+// poses and no streaming, above outbox_resync_bytes no frames either; when it has read everything it is told
+// to forget what it has (ResetMessage) and joins anew.
+//
+// No sockets and no clock: whoever owns it delivers the bytes in order. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "proto/messages.h"
+#include "server/net/client_view.h"
+#include "server/net/encode_cache.h"
+#include "server/net/tick_clock.h"
+
+namespace scree {
+
+struct PublisherConfig {
+  float voxel_size_m = 0.25F;
+  uint32_t tick_rate_hz = 60;
+  uint32_t ticks_per_transform = 3;
+};
+
+/// Bytes for a client, length prefix included.
+struct Outgoing {
+  uint64_t session = 0;
+  SharedBytes bytes;
+};
+
+/// Counts since the start, over all clients.
+struct PublisherStats {
+  uint64_t sent_bytes = 0;
+  uint64_t frame_bytes = 0;      ///< of which transform_bytes
+  uint64_t transform_bytes = 0;  ///< packed poses within frames
+  uint64_t chunk_bytes = 0;
+  uint64_t piece_bytes = 0;
+  uint64_t carves = 0;  ///< operations published, and their encoded size
+  uint64_t carve_operation_bytes = 0;
+  uint64_t stamps = 0;
+  uint64_t stamp_operation_bytes = 0;
+  uint64_t repairs = 0;  ///< chunks sent again because a check failed
+  uint64_t resets = 0;   ///< clients that fell behind and joined anew
+};
+
+class Publisher {
+ public:
+  explicit Publisher(const PublisherConfig& config);
+
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m);
+  void leave(uint64_t session);
+  void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
+  /// Chunks whose hash the client got wrong are sent again, and no others.
+  void repair(uint64_t session, const RepairRequest& request);
+
+  /// Takes the next tick and says what each client gets. `backlog_bytes(session)` is what still waits for it.
+  /// A tick out of sequence is a keyframe: the world starts anew with it, and so does every client.
+  std::vector<Outgoing> publish(const TickDelta& delta, const std::function<size_t(uint64_t)>& backlog_bytes);
+
+  const PublishedState& state() const { return state_; }
+  const PublisherStats& stats() const { return stats_; }
+  size_t clients() const { return clients_.size(); }
+  /// For tests; null when there is no such client.
+  const ClientView* view(uint64_t session) const;
+
+ private:
+  struct Client {
+    ClientView view;
+    int64_t chunk_credit_bytes = 0;
+    int64_t piece_credit_bytes = 0;
+    bool stopped = false;  ///< gets no frames until it has read what waits
+    bool reset_due = false;
+    uint64_t sent_bytes = 0;
+    uint32_t repairs = 0;
+  };
+  void count_operations(const TickDelta& delta);
+  void serve(uint64_t session, Client& client, const TickChanges& changes, size_t backlog_bytes);
+  bool ready(uint64_t session, Client& client, size_t backlog_bytes);
+  bool send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses);
+  void stream_chunks(uint64_t session, Client& client, const TickChanges& changes);
+  void stream_pieces(uint64_t session, Client& client);
+  void send_replies(const TickDelta& delta);
+  void send_status(uint64_t session, Client& client);
+  void send(uint64_t session, Client& client, SharedBytes bytes);
+
+  PublisherConfig config_;
+  PublishedState state_;
+  std::map<uint64_t, Client> clients_;
+  EncodeCache cache_;
+  TickClock clock_;
+  PublisherStats stats_;
+  std::vector<Outgoing> out_;
+};
+
+}  // namespace scree

@@ -1,0 +1,198 @@
+#include "server/net/session.h"
+
+#include <array>
+#include <asio/buffer.hpp>
+#include <chrono>
+
+#include "proto/codec.h"
+#include "server/net/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Buffers handed to one write.
+constexpr size_t gather_max = 16;
+
+std::string peer_of(const asio::ip::tcp::socket& socket) {
+  asio::error_code error;
+  const auto endpoint = socket.remote_endpoint(error);
+  if (error) return "unknown peer";
+  return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
+}
+
+double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Session::Session(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, const SessionTimes& times,
+                 double now_s)
+    : socket_(std::move(socket)),
+      id_(id),
+      host_(host),
+      times_(times),
+      peer_(peer_of(socket_)),
+      phase_since_s_(now_s),
+      progress_s_(now_s),
+      now_s_(now_s),
+      messages_(limits::messages_per_second_max, limits::messages_burst_max) {
+  asio::error_code ignored;  // a socket that takes no options still works
+  socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+  socket_.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
+}
+
+void Session::start() {
+  read();
+}
+
+void Session::read() {
+  socket_.async_read_some(asio::buffer(incoming_),
+                          [self = shared_from_this()](asio::error_code error, size_t bytes) {
+                            if (self->phase_ == Phase::closed) return;
+                            if (error)
+                              self->read_failed(error == asio::error::eof, error.message());
+                            else
+                              self->read_done(bytes);
+                          });
+}
+
+void Session::read_failed(bool orderly, const std::string& why) {
+  if (phase_ == Phase::refused) return close("refused before");
+  peer_ended_ = true;
+  if (orderly && reader_.buffered_bytes() != 0)
+    return refuse("the connection ended in the middle of a message, after " +
+                  std::to_string(reader_.buffered_bytes()) + " bytes of it");
+  close(orderly ? "left" : why);
+}
+
+void Session::read_done(size_t bytes) {
+  now_s_ = steady_now_s();
+  if (phase_ != Phase::refused) {
+    reader_.push(std::span<const uint8_t>(incoming_.data(), bytes));
+    while (phase_ == Phase::hello || phase_ == Phase::joined) {
+      const auto message = reader_.next();
+      if (!message) {
+        refuse(message.error().message);
+        break;
+      }
+      if (!message->has_value() || !take_message(**message)) break;
+    }
+  }
+  if (phase_ != Phase::closed) read();
+}
+
+/// False when the session was ended by it.
+bool Session::take_message(std::span<const uint8_t> body) {
+  const auto fail_with = [&](const std::string& reason) {
+    refuse(reason);
+    return false;
+  };
+  if (!messages_.take(now_s_))
+    return fail_with("more than " + std::to_string(static_cast<int>(limits::messages_per_second_max)) +
+                     " messages a second (limits.messages_per_second_max)");
+  const auto message = decode_client(body);
+  if (!message) return fail_with(message.error().message);
+  const auto* hello = std::get_if<HelloMessage>(&*message);
+  if (phase_ == Phase::hello) {
+    if (hello == nullptr) return fail_with("the first message must be a hello");
+    const auto welcome = host_.admit(*this, *hello);
+    if (!welcome) return fail_with(welcome.error().message);
+    phase_ = Phase::joined;
+    phase_since_s_ = now_s_;
+    send(ServerMessage(*welcome));
+    return true;
+  }
+  if (hello != nullptr) return fail_with("a second hello: this connection has joined already");
+  const auto received = host_.receive(*this, *message);
+  if (!received) return fail_with(received.error().message);
+  return phase_ == Phase::joined;
+}
+
+void Session::send(const ServerMessage& message) {
+  send(std::make_shared<const std::vector<uint8_t>>(encode(message)));
+}
+
+void Session::send(SharedBytes bytes) {
+  if (phase_ == Phase::refused || phase_ == Phase::closed) return;
+  if (backlog_bytes_ == 0) progress_s_ = steady_now_s();
+  backlog_bytes_ += bytes->size();
+  outbox_.push_back(std::move(bytes));
+  if (backlog_bytes_ > limits::outbox_hard_bytes) {
+    was_cut_ = true;
+    return close("read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
+                 " bytes waited for it (limits.outbox_hard_bytes)");
+  }
+  write();
+}
+
+void Session::write() {
+  if (writing_ || outbox_.empty() || phase_ == Phase::closed) return;
+  writing_ = true;
+  std::vector<asio::const_buffer> buffers;
+  size_t skip = front_sent_bytes_;
+  for (size_t i = 0; i < outbox_.size() && i < gather_max; ++i) {
+    buffers.push_back(asio::buffer(*outbox_[i]) + skip);
+    skip = 0;
+  }
+  socket_.async_write_some(buffers, [self = shared_from_this()](asio::error_code error, size_t bytes) {
+    self->writing_ = false;
+    if (self->phase_ == Phase::closed) return;
+    if (error) return self->close(error.message());
+    self->write_done(bytes);
+  });
+}
+
+void Session::write_done(size_t bytes) {
+  progress_s_ = steady_now_s();
+  backlog_bytes_ -= bytes;
+  size_t sent = front_sent_bytes_ + bytes;
+  while (!outbox_.empty() && sent >= outbox_.front()->size()) {
+    sent -= outbox_.front()->size();
+    outbox_.pop_front();
+  }
+  front_sent_bytes_ = sent;
+  if (outbox_.empty() && phase_ == Phase::refused) return finish_sending();
+  write();
+}
+
+void Session::refuse(const std::string& reason) {
+  if (phase_ == Phase::refused || phase_ == Phase::closed) return;
+  send(ServerMessage(RefusalMessage{reason}));
+  if (phase_ == Phase::closed) return;
+  phase_ = Phase::refused;
+  phase_since_s_ = steady_now_s();
+  host_.refused(*this, reason);
+}
+
+/// Closing a socket with unread bytes resets the connection, and the refusal could be lost: so the sending
+/// half is closed first, and the rest when the client has closed, too, or its time is over.
+void Session::finish_sending() {
+  if (peer_ended_) return close("refused before");
+  asio::error_code ignored;
+  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+}
+
+void Session::close(const std::string& reason) {
+  if (phase_ == Phase::closed) return;
+  const auto self = shared_from_this();
+  phase_ = Phase::closed;
+  asio::error_code ignored;
+  socket_.close(ignored);
+  outbox_.clear();
+  backlog_bytes_ = 0;
+  host_.closed(*this, reason);
+}
+
+void Session::check_time(double now_s) {
+  if (phase_ == Phase::hello && now_s - phase_since_s_ > times_.hello_s)
+    return refuse("no hello within " + std::to_string(times_.hello_s) + " s of connecting");
+  if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");
+  if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s) {
+    was_cut_ = true;
+    close("read nothing for " + std::to_string(times_.stall_s) + " s");
+  }
+}
+
+}  // namespace scree

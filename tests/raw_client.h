@@ -1,0 +1,105 @@
+// A bare socket that speaks to a server on loopback, for tests that send what no real client would.
+// Every wait has a deadline.
+#pragma once
+
+#include <arpa/inet.h>
+#include <chrono>
+#include <netinet/in.h>
+#include <optional>
+#include <poll.h>
+#include <span>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <vector>
+
+#include "proto/codec.h"
+#include "proto/frame_reader.h"
+
+namespace scree {
+
+class RawClient {
+ public:
+  explicit RawClient(uint16_t port, int receive_buffer_bytes = 0)
+      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    if (receive_buffer_bytes != 0)
+      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    connected_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  }
+  ~RawClient() { ::close(socket_); }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  bool connected() const { return connected_; }
+
+  bool send_bytes(std::span<const uint8_t> bytes) {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  }
+  bool send(const ClientMessage& message) { return send_bytes(encode(message)); }
+  void finish_sending() { ::shutdown(socket_, SHUT_WR); }
+
+  /// The next message; nothing at the end of the stream or after the deadline.
+  std::optional<ServerMessage> receive(std::chrono::milliseconds within = std::chrono::seconds(10)) {
+    const auto deadline = std::chrono::steady_clock::now() + within;
+    for (;;) {
+      const auto message = reader_.next();
+      if (!message) return std::nullopt;
+      if (message->has_value()) {
+        auto decoded = decode_server(**message);
+        return decoded ? std::optional(std::move(*decoded)) : std::nullopt;
+      }
+      if (!fill(deadline)) return std::nullopt;
+    }
+  }
+
+  /// The next message of one kind; others are skipped.
+  template <typename T>
+  std::optional<T> receive_as(std::chrono::milliseconds within = std::chrono::seconds(10)) {
+    const auto deadline = std::chrono::steady_clock::now() + within;
+    while (std::chrono::steady_clock::now() < deadline) {
+      const auto left = deadline - std::chrono::steady_clock::now();
+      const auto message = receive(std::chrono::duration_cast<std::chrono::milliseconds>(left));
+      if (!message) return std::nullopt;
+      if (const T* wanted = std::get_if<T>(&*message)) return *wanted;
+    }
+    return std::nullopt;
+  }
+
+  /// Whether the server closes the connection before the deadline.
+  bool closed_within(std::chrono::milliseconds within) {
+    const auto deadline = std::chrono::steady_clock::now() + within;
+    while (!ended_ && fill(deadline)) {
+      while (reader_.buffered_bytes() != 0) {
+        const auto message = reader_.next();
+        if (!message || !message->has_value()) break;
+      }
+    }
+    return ended_;
+  }
+
+ private:
+  bool fill(std::chrono::steady_clock::time_point deadline) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    pollfd waiting{socket_, POLLIN, 0};
+    if (left.count() <= 0 || ::poll(&waiting, 1, static_cast<int>(left.count())) <= 0) return false;
+    std::vector<uint8_t> bytes(65536);
+    const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    if (count <= 0) {
+      ended_ = true;
+      return false;
+    }
+    reader_.push(std::span<const uint8_t>(bytes.data(), static_cast<size_t>(count)));
+    return true;
+  }
+
+  int socket_;
+  bool connected_ = false;
+  bool ended_ = false;
+  FrameReader reader_;
+};
+
+}  // namespace scree
