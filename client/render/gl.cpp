@@ -1,0 +1,59 @@
+#include "client/render/gl.h"
+
+#include <string>
+
+namespace scree::gl {
+namespace {
+
+/// Desktop GL and ES differ in the version line and in ES's precisions.
+std::string preamble() {
+  if (epoxy_is_desktop_gl()) return "#version 330 core\n";
+  return "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n";
+}
+
+Result<GLuint> compile(GLenum stage, std::string_view name, std::span<const std::string_view> parts) {
+  std::string source = preamble();
+  for (const std::string_view part : parts) source += part;
+  const GLuint shader = glCreateShader(stage);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint done = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  if (done == GL_TRUE) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<size_t>(length));
+  glDeleteShader(shader);
+  return fail("shader " + std::string(name) + " does not compile: " + log);
+}
+
+}  // namespace
+
+Result<Program> Program::link(std::string_view name, std::span<const std::string_view> vertex_parts,
+                              std::span<const std::string_view> fragment_parts) {
+  const Result<GLuint> vertex = compile(GL_VERTEX_SHADER, name, vertex_parts);
+  if (!vertex) return fail(vertex.error().message);
+  const Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, name, fragment_parts);
+  if (!fragment) {
+    glDeleteShader(*vertex);
+    return fail(fragment.error().message);
+  }
+  Program program(glCreateProgram());
+  glAttachShader(program.name_, *vertex);
+  glAttachShader(program.name_, *fragment);
+  glLinkProgram(program.name_);
+  glDeleteShader(*vertex);
+  glDeleteShader(*fragment);
+  GLint done = GL_FALSE;
+  glGetProgramiv(program.name_, GL_LINK_STATUS, &done);
+  if (done == GL_TRUE) return program;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<size_t>(length));
+  return fail("shader " + std::string(name) + " does not link: " + log);
+}
+
+}  // namespace scree::gl

@@ -1,0 +1,37 @@
+// Bounds of drawing. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstddef>
+
+#include "shared/base/limits.h"
+
+namespace scree::limits {
+
+/// Radius within which terrain is drawn, metres: at least one chunk, at most what a server lets one follow.
+/// Other values are refused by the viewer's options.
+inline constexpr float view_radius_min_m = 8.0F;
+inline constexpr float view_radius_max_m = interest_radius_max_m;
+
+/// Beyond the view radius times this, meshes are dropped; between the two they stay, so that pacing about a
+/// border builds nothing.
+inline constexpr float view_radius_keep = 1.15F;
+
+/// Chunks being generated, and chunks being meshed for the first time, at any moment. More would only delay
+/// the edits that queue behind them; the rest waits, nearest first.
+inline constexpr size_t chunks_generating_max = 16;
+inline constexpr size_t chunks_loading_max = 16;
+
+/// Waiting chunks looked at in one frame: bounds the main thread's part (about 0.1 ms).
+inline constexpr size_t chunks_examined_max = 64;
+
+/// Threads that generate and mesh. Two keep a viewer fluent beside a server on a small machine; more than
+/// four find nothing to do.
+inline constexpr unsigned worker_threads_max = 4;
+
+/// Texels along a side of the shadow map, 16 MiB at 32 bits; over 96 m that is 5 cm a texel.
+inline constexpr int shadow_map_side = 2048;
+
+/// Pixels along a side of an offscreen image; a larger --size is refused.
+inline constexpr int image_side_max = 8192;
+
+}  // namespace scree::limits

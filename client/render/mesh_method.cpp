@@ -1,0 +1,220 @@
+#include "client/render/mesh_method.h"
+
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "client/render/gl.h"
+#include "client/render/gpu_mesh.h"
+#include "client/render/mesh_scheduler.h"
+#include "client/render/shader_sources.h"
+
+namespace scree {
+namespace {
+
+glm::vec3 as_vector(VoxelCoord v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// 0..1, different for neighbours in the order of ids.
+float tint_of(PieceId id) {
+  return static_cast<float>((id * 0x9E3779B1U) >> 8U) / 16777216.0F;
+}
+
+/// The uniforms of surface.vert that differ from mesh to mesh, looked up once.
+struct SurfaceProgram {
+  gl::Program program;
+  GLint origin_m, centre_m, place_m, rotation, loose, tint;
+
+  explicit SurfaceProgram(gl::Program&& linked)
+      : program(std::move(linked)),
+        origin_m(program.uniform("u_origin_m")),
+        centre_m(program.uniform("u_centre_m")),
+        place_m(program.uniform("u_place_m")),
+        rotation(program.uniform("u_rotation")),
+        loose(program.uniform("u_loose")),
+        tint(program.uniform("u_tint")) {}
+};
+
+Result<SurfaceProgram> link_surface() {
+  const std::array vertex{shader_source("surface.vert")};
+  const std::array fragment{shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
+                            shader_source("surface.frag")};
+  Result<gl::Program> program = gl::Program::link("surface", vertex, fragment);
+  if (!program) return fail(program.error().message);
+  return SurfaceProgram(std::move(*program));
+}
+
+Result<SurfaceProgram> link_shadow() {
+  Result<gl::Program> program = gl::Program::link("surface_shadow", std::array{shader_source("surface.vert")},
+                                                  std::array{shader_source("surface_shadow.frag")});
+  if (!program) return fail(program.error().message);
+  return SurfaceProgram(std::move(*program));
+}
+
+struct PieceView {
+  std::optional<GpuMesh> mesh;  ///< none: too small for the grid
+  glm::vec3 centre_m;
+  float radius_m;
+  Pose pose;  ///< the last known: a piece that has merged stays there until the rock is shown
+};
+
+class MeshMethod final : public DrawMethod {
+ public:
+  MeshMethod(WorkPool& pool, float view_radius_m, SurfaceProgram&& surface, SurfaceProgram&& shadow)
+      : scheduler_(pool, view_radius_m), surface_(std::move(surface)), shadow_(std::move(shadow)) {}
+
+  std::string_view name() const override { return "mesh"; }
+  void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
+  bool complete() const override { return scheduler_.complete(); }
+  void update(const Scene& scene, const Camera& camera) override;
+  void draw(const DrawPass& pass) override;
+  DrawStats stats() const override;
+
+ private:
+  void show(MeshUpdate&& update);
+  void show_piece(const PieceMesh& piece);
+  void draw_terrain(const SurfaceProgram& program, const Frustum& frustum);
+  void draw_pieces(const SurfaceProgram& program, const Frustum& frustum);
+  void count(const GpuMesh& mesh);
+
+  MeshScheduler scheduler_;
+  SurfaceProgram surface_;
+  SurfaceProgram shadow_;
+  float voxel_m_ = 0.0F;
+  std::unordered_map<BlockCoord, GpuMesh, CoordHash> blocks_;
+  std::unordered_map<PieceId, PieceView> pieces_;
+  size_t gpu_bytes_ = 0;
+  DrawStats pass_;
+};
+
+void MeshMethod::update(const Scene& scene, const Camera& camera) {
+  voxel_m_ = scene.field.source().voxel_size_m;
+  show(scheduler_.update(scene, camera.eye_m));
+  for (auto& [id, view] : pieces_) {
+    const auto piece = scene.pieces.find(id);
+    if (piece != scene.pieces.end()) view.pose = piece->second.pose;
+  }
+}
+
+void MeshMethod::show(MeshUpdate&& update) {
+  for (const ChunkCoord chunk : update.dropped_chunks) {
+    for (int i = 0; i < 8; ++i) {
+      const BlockCoord block{chunk.x * 2 + (i >> 2), chunk.y * 2 + ((i >> 1) & 1), chunk.z * 2 + (i & 1)};
+      if (const auto found = blocks_.find(block); found != blocks_.end()) {
+        gpu_bytes_ -= found->second.bytes();
+        blocks_.erase(found);
+      }
+    }
+  }
+  for (const BlockMesh& mesh : update.blocks) {
+    if (const auto old = blocks_.find(mesh.block); old != blocks_.end()) {
+      gpu_bytes_ -= old->second.bytes();
+      blocks_.erase(old);
+    }
+    if (mesh.mesh.empty()) continue;
+    gpu_bytes_ += blocks_.emplace(mesh.block, GpuMesh(mesh.mesh)).first->second.bytes();
+  }
+  for (const PieceId id : update.removed_pieces) {
+    const auto found = pieces_.find(id);
+    if (found == pieces_.end()) continue;
+    if (found->second.mesh) gpu_bytes_ -= found->second.mesh->bytes();
+    pieces_.erase(found);
+  }
+  for (const PieceMesh& piece : update.pieces) show_piece(piece);
+}
+
+void MeshMethod::show_piece(const PieceMesh& piece) {
+  PieceView view;
+  if (!piece.mesh.empty()) {
+    view.mesh.emplace(piece.mesh);
+    gpu_bytes_ += view.mesh->bytes();
+  }
+  view.pose = piece.piece.pose;
+  view.centre_m = piece.piece.volume->centre_voxels * voxel_m_;
+  const VoxelBox& box = piece.piece.volume->window.box;
+  view.radius_m = glm::length(as_vector(box.size())) * voxel_m_;
+  pieces_.insert_or_assign(piece.id, std::move(view));
+}
+
+void MeshMethod::draw(const DrawPass& pass) {
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  const SurfaceProgram& program = shadow ? shadow_ : surface_;
+  program.program.use();
+  program.program.set("u_view_projection", pass.view_projection);
+  program.program.set("u_step_m", voxel_m_ / surface_steps_per_voxel);
+  if (!shadow) {
+    program.program.set("u_eye", pass.eye_m);
+    program.program.set("u_sun", pass.lighting.sun);
+    program.program.set("u_fog_m", pass.lighting.fog_m);
+    program.program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
+    program.program.set("u_shadow_map", 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, pass.lighting.shadow_map);
+  }
+  pass_ = {};
+  const Frustum frustum(pass.view_projection);
+  draw_terrain(program, frustum);
+  draw_pieces(program, frustum);
+  glBindVertexArray(0);
+}
+
+void MeshMethod::count(const GpuMesh& mesh) {
+  mesh.draw();
+  ++pass_.draws;
+  pass_.triangles += mesh.triangles();
+}
+
+void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum) {
+  glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
+  glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
+  glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
+  glUniform1f(program.loose, 0.0F);
+  constexpr float half = 0.5F * static_cast<float>(block_size + 1);
+  const float radius_m = half * 1.7321F * voxel_m_;
+  for (const auto& [block, mesh] : blocks_) {
+    const glm::vec3 origin = as_vector(mesh.origin());
+    if (!frustum.touches((origin + half) * voxel_m_, radius_m)) continue;
+    const glm::vec3 origin_m = origin * voxel_m_;
+    glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
+    count(mesh);
+  }
+}
+
+void MeshMethod::draw_pieces(const SurfaceProgram& program, const Frustum& frustum) {
+  glUniform1f(program.loose, 1.0F);
+  for (const auto& [id, view] : pieces_) {
+    if (!view.mesh || !frustum.touches(view.pose.position_m, view.radius_m)) continue;
+    const glm::vec3 origin_m = as_vector(view.mesh->origin()) * voxel_m_;
+    const glm::vec3 place_m = view.pose.position_m;
+    const glm::quat& turn = view.pose.rotation;
+    glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
+    glUniform3f(program.centre_m, view.centre_m.x, view.centre_m.y, view.centre_m.z);
+    glUniform3f(program.place_m, place_m.x, place_m.y, place_m.z);
+    glUniform4f(program.rotation, turn.x, turn.y, turn.z, turn.w);
+    glUniform1f(program.tint, tint_of(id));
+    count(*view.mesh);
+  }
+}
+
+DrawStats MeshMethod::stats() const {
+  DrawStats stats = pass_;
+  stats.gpu_bytes = gpu_bytes_;
+  stats.waiting = scheduler_.waiting();
+  return stats;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m) {
+  Result<SurfaceProgram> surface = link_surface();
+  if (!surface) return fail(surface.error().message);
+  Result<SurfaceProgram> shadow = link_shadow();
+  if (!shadow) return fail(shadow.error().message);
+  return std::make_unique<MeshMethod>(pool, view_radius_m, std::move(*surface), std::move(*shadow));
+}
+
+}  // namespace scree

@@ -1,0 +1,15 @@
+// Drawing by cached polygons: surface nets of blocks of terrain and of pieces, rebuilt on worker threads when
+// they change (mesh_scheduler.h). Within OpenGL ES 3.0's subset.
+#pragma once
+
+#include <memory>
+
+#include "client/render/draw_method.h"
+#include "client/render/work_pool.h"
+
+namespace scree {
+
+/// `pool` must outlive the method. Needs the GL context current. Fails when a shader does.
+Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m);
+
+}  // namespace scree

@@ -1,0 +1,181 @@
+#include "client/render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "client/render/gl.h"
+#include "client/render/gl_errors.h"
+#include "client/render/limits.h"
+#include "client/render/shader_sources.h"
+#include "client/render/shadow_map.h"
+
+namespace scree {
+namespace {
+
+/// Late afternoon, from over the canyon's mouth: the cliff along x = 0 faces it.
+const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
+
+constexpr int image_samples = 4;
+
+std::string describe() {
+  const auto text = [](GLenum what) {
+    const auto* found = reinterpret_cast<const char*>(glGetString(what));
+    return std::string(found == nullptr ? "unknown" : found);
+  };
+  return (epoxy_is_desktop_gl() ? "OpenGL " : "") + text(GL_VERSION) + " (" + text(GL_RENDERER) + ")";
+}
+
+Result<void> check_version() {
+  const int version = epoxy_gl_version();
+  const bool desktop = epoxy_is_desktop_gl();
+  if (version >= (desktop ? 33 : 30)) return {};
+  return fail("found " + describe() + "; OpenGL 3.3 or OpenGL ES 3.0 is needed: install a newer driver, " +
+              "or Mesa's software one (libgl1-mesa-dri) and set LIBGL_ALWAYS_SOFTWARE=1");
+}
+
+/// A framebuffer of renderbuffers.
+struct Canvas {
+  gl::Framebuffer framebuffer;
+  gl::Renderbuffer colour;
+  gl::Renderbuffer depth;
+
+  Canvas(int width, int height, int samples) {
+    glBindRenderbuffer(GL_RENDERBUFFER, colour.name());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width, height);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth.name());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+  }
+  bool complete() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  }
+};
+
+Image read_pixels(int width, int height) {
+  std::vector<uint8_t> rgba(static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  Image image{width, height, {}};
+  image.rgb.reserve(rgba.size() / 4 * 3);
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) {
+      const auto at = (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * 4;
+      image.rgb.insert(image.rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+  gl::Program sky;
+  float view_radius_m;
+  ShadowMap shadows;
+  gl::VertexArray nothing;  ///< core profiles draw with an array bound only
+  std::string description;
+  gl::ErrorLog errors;
+
+  Parts(gl::Program&& sky_program, float radius_m)
+      : sky(std::move(sky_program)), view_radius_m(radius_m), description(describe()) {}
+
+  void draw_sky(const DrawPass& pass) const {
+    sky.use();
+    sky.set("u_inverse_view_projection", glm::inverse(pass.view_projection));
+    sky.set("u_eye", pass.eye_m);
+    sky.set("u_sun", sun);
+    glDepthFunc(GL_LEQUAL);
+    glBindVertexArray(nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthFunc(GL_LESS);
+  }
+};
+
+Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
+  parts_->errors.attach();
+}
+
+Renderer::~Renderer() {
+  parts_->errors.detach();
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
+  if (const Result<void> version = check_version(); !version) return fail(version.error().message);
+  Result<gl::Program> sky =
+      gl::Program::link("sky", std::array{shader_source("sky.vert")},
+                        std::array{shader_source("atmosphere.glsl"), shader_source("sky.frag")});
+  if (!sky) return fail(sky.error().message);
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Parts>(std::move(*sky), view_radius_m)));
+}
+
+void Renderer::draw(DrawMethod& method, const Camera& camera, unsigned framebuffer, int width, int height) {
+  if (width <= 0 || height <= 0) return;
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_CULL_FACE);
+  DrawPass pass;
+  pass.kind = DrawPass::Kind::shadow;
+  pass.eye_m = camera.eye_m;
+  pass.view_projection = parts_->shadows.begin(camera, sun, parts_->view_radius_m);
+  method.draw(pass);
+  parts_->shadows.end();
+
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width, height);
+  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  pass.kind = DrawPass::Kind::colour;
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  pass.view_projection =
+      camera.projection(aspect, parts_->view_radius_m * limits::view_radius_keep * 2.0F) * camera.view();
+  pass.lighting = {sun, parts_->view_radius_m, parts_->shadows.matrix(), parts_->shadows.texture()};
+  method.draw(pass);
+  parts_->draw_sky(pass);
+  parts_->errors.poll();
+}
+
+Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height) {
+  GLint largest = 0;
+  GLint samples = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  glGetIntegerv(GL_MAX_SAMPLES, &samples);
+  if (std::max(width, height) > largest)
+    return fail("an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                " pixels is over this driver's " + std::to_string(largest) + " a side: use a smaller --size");
+  const Canvas many(width, height, std::min(samples, image_samples));
+  const Canvas one(width, height, 0);
+  if (!many.complete() || !one.complete())
+    return fail("the driver refuses a framebuffer of " + std::to_string(width) + "x" +
+                std::to_string(height) + " pixels: use a smaller --size");
+  draw(method, camera, many.framebuffer.name(), width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, many.framebuffer.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, one.framebuffer.name());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, one.framebuffer.name());
+  Image image = read_pixels(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  parts_->errors.poll();
+  return image;
+}
+
+const std::string& Renderer::description() const {
+  return parts_->description;
+}
+
+uint64_t Renderer::gl_errors() const {
+  return parts_->errors.count();
+}
+
+const std::string& Renderer::first_gl_error() const {
+  return parts_->errors.first();
+}
+
+}  // namespace scree

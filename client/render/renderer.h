@@ -1,0 +1,43 @@
+// Draws a frame: shadows, what the method draws, the sky. Needs the GL context current, the destructor too.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/render/draw_method.h"
+
+namespace scree {
+
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgb;  ///< rows from the top, 3 bytes a pixel
+};
+
+class Renderer {
+ public:
+  /// Fails when there is no OpenGL 3.3 or OpenGL ES 3.0, saying what was found.
+  static Result<std::unique_ptr<Renderer>> create(float view_radius_m);
+  ~Renderer();
+
+  /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing.
+  void draw(DrawMethod& method, const Camera& camera, unsigned framebuffer, int width, int height);
+
+  /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
+  Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height);
+
+  /// "OpenGL 4.5 (llvmpipe …)", for people.
+  const std::string& description() const;
+  /// Errors that GL reported since the start (by its debug output, where the context has one), and the first.
+  uint64_t gl_errors() const;
+  const std::string& first_gl_error() const;
+
+ private:
+  struct Parts;
+  explicit Renderer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace scree

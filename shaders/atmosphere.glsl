@@ -1,0 +1,29 @@
+// Sun, sky and fog, shared by everything that is drawn. Colours are linear; tone() makes them fit for the screen.
+
+uniform vec3 u_sun;  // unit, towards the sun
+
+const vec3 sun_colour = vec3(1.0, 0.86, 0.66) * 3.1;
+const vec3 zenith_colour = vec3(0.115, 0.265, 0.60);
+const vec3 horizon_colour = vec3(0.62, 0.71, 0.80);
+const vec3 ground_colour = vec3(0.30, 0.235, 0.18);
+
+vec3 sky(vec3 direction) {
+  float up = clamp(direction.y, -0.05, 1.0);
+  vec3 colour = mix(horizon_colour, zenith_colour, 1.0 - exp(-3.2 * max(up, 0.0)));
+  float towards_sun = max(dot(direction, u_sun), 0.0);
+  colour += vec3(1.0, 0.72, 0.42) * (0.22 * pow(towards_sun, 6.0) + 0.35 * pow(towards_sun, 60.0));
+  return colour;
+}
+
+// Light from the whole sky on a surface: bluish from above, warm from the rock below.
+vec3 ambient(vec3 normal) {
+  float up = normal.y * 0.5 + 0.5;
+  return mix(ground_colour * 0.55, mix(horizon_colour, zenith_colour, 0.45) * 0.95, up);
+}
+
+// ACES curve as fitted by Narkowicz (2016), then gamma.
+vec3 tone(vec3 colour) {
+  vec3 x = colour * 0.72;
+  vec3 mapped = clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  return pow(mapped, vec3(1.0 / 2.2));
+}

@@ -1,0 +1,35 @@
+// Meshes of surface nets: blocks of terrain and pieces (shared/field/surface_nets.h, SurfaceVertex).
+
+layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in float a_openness;
+layout(location = 3) in float a_before;  // code / 127 of the field as generated
+
+uniform mat4 u_view_projection;
+uniform float u_step_m;       // metres a step of a_position
+uniform vec3 u_origin_m;      // of the mesh, in the frame of the rock that it is or was
+uniform vec3 u_centre_m;      // in that frame: what lies at u_place_m
+uniform vec3 u_place_m;
+uniform vec4 u_rotation;      // quaternion x, y, z, w
+
+out vec3 v_world;
+out vec3 v_rock;  // in the frame of the rock: patterns stay with a piece that moves
+out vec3 v_normal;
+out vec3 v_rock_normal;
+out float v_openness;
+out float v_before;
+
+vec3 rotate(vec3 v) {
+  vec3 t = 2.0 * cross(u_rotation.xyz, v);
+  return v + u_rotation.w * t + cross(u_rotation.xyz, t);
+}
+
+void main() {
+  v_rock = u_origin_m + a_position * u_step_m;
+  v_world = u_place_m + rotate(v_rock - u_centre_m);
+  v_rock_normal = a_normal;
+  v_normal = rotate(a_normal);
+  v_openness = a_openness;
+  v_before = a_before;
+  gl_Position = u_view_projection * vec4(v_world, 1.0);
+}
