@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "shared/base/limits.h"
+
 namespace scree::limits {
 
 /// Bricks in one message: 2 MiB of codes, about what compresses into message_bytes_max. A tick that changes

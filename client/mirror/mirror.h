@@ -3,10 +3,15 @@
 //
 // Time: messages are applied when they are handed in. A viewer that wants smooth motion holds each Frame back
 // until its playback clock reaches the frame's tick. Not thread-safe.
+// Invariant: the edited bricks of every held chunk are the server's, as of the last frame, unless a check has
+// just failed; then a repair request waits or is under way.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
@@ -20,7 +25,7 @@ namespace scree {
 
 /// What a message changed, for those who keep meshes of it.
 struct MirrorChanges {
-  std::vector<BrickCoord> bricks;  ///< codes changed (or forgotten: generated again)
+  std::vector<BrickCoord> bricks;  ///< codes changed (or forgotten: generated again); some may come twice
   std::vector<PieceId> pieces_added;
   std::vector<PieceId> pieces_removed;
 };
@@ -34,6 +39,29 @@ struct PieceMotion {
   Tick to_tick = 0;
 };
 
+/// What has been applied since the welcome.
+struct MirrorCounters {
+  uint64_t frames = 0;
+  uint64_t carves = 0;  ///< operations
+  uint64_t fills = 0;
+  uint64_t stamps = 0;
+  uint64_t discards = 0;
+  uint64_t operation_bytes = 0;
+  uint64_t patched_bricks = 0;
+  uint64_t transforms = 0;  ///< poses
+  uint64_t transform_bytes = 0;
+  uint64_t chunks = 0;  ///< received whole
+  uint64_t dropped_chunks = 0;
+  uint64_t pieces_made = 0;    ///< by operations
+  uint64_t pieces_sent = 0;    ///< received whole
+  uint64_t pieces_merged = 0;  ///< by operations
+  uint64_t checks = 0;
+  uint64_t mismatches = 0;       ///< frames whose check failed
+  uint64_t repairs_asked = 0;    ///< chunks
+  uint64_t repairs_arrived = 0;  ///< chunks
+  uint64_t resets = 0;
+};
+
 class Mirror {
  public:
   explicit Mirror(const WelcomeMessage& welcome);
@@ -42,21 +70,56 @@ class Mirror {
   /// of no use any more, and the caller reconnects.
   Result<MirrorChanges> apply(const ServerMessage& message);
 
-  /// The chunks whose hash did not match after the last frame; empties the list. To be reported to the
-  /// server.
+  /// Chunks whose hash did not match after a frame; to be reported to the server. Call until it has nothing.
   std::optional<RepairRequest> take_repair_request();
 
-  const std::map<PieceId, PieceMotion>& pieces() const;
+  const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
   /// Pose at a (fractional) tick, clamped to what is known.
   Pose pose_at(const PieceMotion& motion, double tick) const;
 
-  Field& field();
-  const TerrainSource& terrain() const;
+  Field& field() { return field_; }
+  const TerrainSource& terrain() const { return field_.source(); }
   /// Chunks that follow the server: their edited bricks are exactly the server's.
-  const std::unordered_set<ChunkCoord, CoordHash>& held_chunks() const;
-  Tick tick() const;            ///< of the last frame applied
-  uint64_t mismatches() const;  ///< frames whose check failed
-  const std::optional<StatusMessage>& status() const;
+  const std::unordered_set<ChunkCoord, CoordHash>& held_chunks() const { return held_; }
+  Tick tick() const { return tick_; }                           ///< of the last frame applied
+  uint64_t mismatches() const { return counters_.mismatches; }  ///< frames whose check failed
+  const std::optional<StatusMessage>& status() const { return status_; }
+  const MirrorCounters& counters() const { return counters_; }
+
+ private:
+  using ChunkSet = std::unordered_set<ChunkCoord, CoordHash>;
+  struct Mismatch {
+    Tick tick = 0;
+    uint64_t hash = 0;
+  };
+
+  Result<void> apply_frame(const FrameMessage& frame, MirrorChanges& changes);
+  Result<void> apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
+                               MirrorChanges& changes);
+  void apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed, MirrorChanges& changes);
+  Result<void> apply_transforms(const std::vector<uint8_t>& packed, Tick tick);
+  Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
+  Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
+  void apply_reset(MirrorChanges& changes);
+  Result<void> within_limits() const;
+
+  void check(const FrameMessage& frame, const ChunkSet& changed);
+  void forget_chunk(ChunkCoord chunk, MirrorChanges& changes);
+  void add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
+                 MirrorChanges& changes);
+  void remove_piece(PieceId id, MirrorChanges& changes);
+  void count(const Operation& operation);
+
+  MapField field_;
+  PieceTable table_;                        ///< what operations work on
+  std::map<PieceId, PieceMotion> motions_;  ///< the same pieces, and where they are
+  ChunkSet held_;
+  Tick tick_;
+  uint32_t ticks_per_transform_;
+  std::optional<StatusMessage> status_;
+  std::map<ChunkCoord, Mismatch> mismatched_;                        ///< to be asked for
+  std::unordered_map<ChunkCoord, Tick, CoordHash> repairs_awaited_;  ///< asked for, at the tick of the check
+  MirrorCounters counters_;
 };
 
 }  // namespace scree

@@ -1,0 +1,20 @@
+// Bounds of a client's copy of the world: what a server, however hostile, can make it hold.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Chunks held: 1 GiB of codes when every brick is edited. A server with more edits within the radius of
+/// interest is left, with the advice to ask for a smaller radius.
+inline constexpr size_t mirror_chunks_max = 32768;
+
+/// Pieces alive, many times what a server simulates; above: the connection is given up.
+inline constexpr size_t mirror_pieces_max = 65536;
+
+/// Ticks that a repair may take before the same chunk is asked for again: two seconds at 60 Hz. Until then,
+/// further mismatches of the chunk are expected.
+inline constexpr uint64_t repair_patience_ticks = 120;
+
+}  // namespace scree::limits

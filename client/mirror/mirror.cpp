@@ -1,0 +1,249 @@
+#include "client/mirror/mirror.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <string>
+
+#include "client/mirror/limits.h"
+#include "proto/operation_codec.h"
+#include "proto/transforms.h"
+
+namespace scree {
+
+namespace {
+
+uint32_t fold(uint64_t hash) {
+  return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
+}
+
+}  // namespace
+
+Mirror::Mirror(const WelcomeMessage& welcome)
+    : field_(welcome.terrain), tick_(welcome.tick), ticks_per_transform_(welcome.ticks_per_transform) {}
+
+Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
+  MirrorChanges changes;
+  Result<void> applied;
+  if (const auto* frame = std::get_if<FrameMessage>(&message)) {
+    applied = apply_frame(*frame, changes);
+  } else if (const auto* chunk = std::get_if<ChunkMessage>(&message)) {
+    applied = apply_chunk(*chunk, changes);
+  } else if (const auto* piece = std::get_if<PieceMessage>(&message)) {
+    applied = apply_piece(*piece, changes);
+  } else if (std::holds_alternative<ResetMessage>(message)) {
+    apply_reset(changes);
+  } else if (const auto* status = std::get_if<StatusMessage>(&message)) {
+    status_ = *status;
+  } else if (const auto* refusal = std::get_if<RefusalMessage>(&message)) {
+    return fail("the server refused: " + refusal->reason);
+  } else if (std::holds_alternative<WelcomeMessage>(message)) {
+    return fail("a second welcome on one connection");
+  }
+  if (applied) applied = within_limits();
+  if (!applied) return tl::unexpected(applied.error());
+  return changes;
+}
+
+Result<void> Mirror::within_limits() const {
+  if (held_.size() > limits::mirror_chunks_max)
+    return fail(std::to_string(held_.size()) + " edited chunks are over this client's " +
+                std::to_string(limits::mirror_chunks_max) +
+                " (limits.mirror_chunks_max); ask for a smaller radius of interest");
+  if (motions_.size() > limits::mirror_pieces_max)
+    return fail(std::to_string(motions_.size()) + " pieces are over this client's " +
+                std::to_string(limits::mirror_pieces_max) + " (limits.mirror_pieces_max)");
+  return {};
+}
+
+Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& changes) {
+  if (frame.tick < tick_)
+    return fail("a frame of tick " + std::to_string(frame.tick) + " came after that of tick " +
+                std::to_string(tick_));
+  ChunkSet changed;
+  for (const Operation& operation : frame.operations) {
+    Result<void> applied = apply_operation(operation, frame.tick, changed, changes);
+    if (!applied) return fail("tick " + std::to_string(frame.tick) + ": " + applied.error().message);
+    if (applied = within_limits(); !applied) return applied;
+  }
+  apply_patches(frame.patches, changed, changes);
+  held_.insert(changed.begin(), changed.end());
+  tick_ = frame.tick;
+  // Before the drops: what is checked is what operations and patches left.
+  check(frame, changed);
+  for (const ChunkCoord chunk : frame.dropped_chunks) {
+    forget_chunk(chunk, changes);
+    held_.erase(chunk);
+    ++counters_.dropped_chunks;
+  }
+  for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);
+  ++counters_.frames;
+  return apply_transforms(frame.transforms, frame.tick);
+}
+
+Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
+                                     MirrorChanges& changes) {
+  if (Result<void> valid = validate(operation, table_); !valid) return valid;
+  if (const auto* carve = std::get_if<CarveOperation>(&operation)) {
+    const auto taken = table_.lower_bound(carve->first_piece);
+    if (taken != table_.end() && taken->first < carve->first_piece + carve->seeds)
+      return fail("piece " + std::to_string(taken->first) + " is made a second time");
+  }
+  const Applied applied = scree::apply(operation, field_, table_);
+  for (const BrickCoord brick : applied.changed) changed.insert(chunk_of(brick));
+  changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());
+  for (const CreatedPiece& piece : applied.created) {
+    const std::shared_ptr<const Volume>& volume = table_.at(piece.id);
+    const Pose pose{volume->centre_voxels * field_.source().voxel_size_m, {1.0F, 0.0F, 0.0F, 0.0F}};
+    add_piece(piece.id, volume, pose, tick, changes);
+  }
+  counters_.pieces_made += applied.created.size();
+  count(operation);
+  if (const auto* stamp = std::get_if<StampOperation>(&operation)) remove_piece(stamp->piece, changes);
+  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) remove_piece(discard->piece, changes);
+  return {};
+}
+
+void Mirror::count(const Operation& operation) {
+  counters_.operation_bytes += operation_bytes(operation);
+  if (std::holds_alternative<CarveOperation>(operation)) {
+    ++counters_.carves;
+  } else if (std::holds_alternative<FillOperation>(operation)) {
+    ++counters_.fills;
+  } else if (std::holds_alternative<StampOperation>(operation)) {
+    ++counters_.stamps;
+    ++counters_.pieces_merged;
+  } else {
+    ++counters_.discards;
+  }
+}
+
+void Mirror::apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed,
+                           MirrorChanges& changes) {
+  for (const BrickPatch& patch : patches) {
+    field_.set_brick(patch.coord, patch.brick);
+    changed.insert(chunk_of(patch.coord));
+    changes.bricks.push_back(patch.coord);
+  }
+  counters_.patched_bricks += patches.size();
+}
+
+void Mirror::check(const FrameMessage& frame, const ChunkSet& changed) {
+  if (!frame.has_check) return;
+  ++counters_.checks;
+  uint64_t sum = 0;
+  for (const ChunkCoord chunk : changed) sum += field_.chunk_hash(chunk);
+  if (fold(sum) == frame.check) return;
+  ++counters_.mismatches;
+  for (const ChunkCoord chunk : changed) {
+    const auto awaited = repairs_awaited_.find(chunk);
+    if (awaited != repairs_awaited_.end() && frame.tick < awaited->second + limits::repair_patience_ticks)
+      continue;
+    mismatched_[chunk] = {frame.tick, field_.chunk_hash(chunk)};
+  }
+}
+
+std::optional<RepairRequest> Mirror::take_repair_request() {
+  if (mismatched_.empty()) return std::nullopt;
+  RepairRequest request;
+  request.tick = mismatched_.begin()->second.tick;
+  for (auto entry = mismatched_.begin(); entry != mismatched_.end();) {
+    if (request.chunks.size() == limits::repair_chunks_max) break;
+    if (entry->second.tick != request.tick) {
+      ++entry;
+      continue;
+    }
+    request.chunks.push_back(entry->first);
+    request.hashes.push_back(entry->second.hash);
+    repairs_awaited_[entry->first] = request.tick;
+    entry = mismatched_.erase(entry);
+  }
+  counters_.repairs_asked += request.chunks.size();
+  return request;
+}
+
+Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick tick) {
+  const Result<std::vector<PieceState>> states = unpack_transforms(packed);
+  if (!states) return tl::unexpected(states.error());
+  for (const PieceState& state : *states) {
+    const auto found = motions_.find(state.id);
+    if (found == motions_.end())
+      return fail("the pose of piece " + std::to_string(state.id) + ", which is not known here");
+    PieceMotion& motion = found->second;
+    // A piece that lay still had no pose sent: it starts where it lay, not where it was long ago.
+    const Tick start = tick > ticks_per_transform_ ? tick - ticks_per_transform_ : 0;
+    motion.from = motion.to;
+    motion.from_tick = std::max(motion.to_tick, start);
+    motion.to = dequantise(state.pose);
+    motion.to_tick = tick;
+  }
+  counters_.transforms += states->size();
+  counters_.transform_bytes += packed.size();
+  return {};
+}
+
+Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& changes) {
+  forget_chunk(message.chunk, changes);
+  for (const BrickPatch& patch : message.bricks) {
+    field_.set_brick(patch.coord, patch.brick);
+    changes.bricks.push_back(patch.coord);
+  }
+  if (field_.chunk_hash(message.chunk) != message.hash)
+    return fail("chunk (" + std::to_string(message.chunk.x) + ", " + std::to_string(message.chunk.y) + ", " +
+                std::to_string(message.chunk.z) + ") does not have the hash that came with it");
+  held_.insert(message.chunk);
+  mismatched_.erase(message.chunk);
+  counters_.repairs_arrived += repairs_awaited_.erase(message.chunk);
+  ++counters_.chunks;
+  return {};
+}
+
+Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& changes) {
+  if (motions_.contains(message.id))
+    return fail("piece " + std::to_string(message.id) + " is sent a second time");
+  auto volume = std::make_shared<const Volume>(message.volume);
+  table_[message.id] = volume;
+  add_piece(message.id, std::move(volume), dequantise(message.pose), tick_, changes);
+  ++counters_.pieces_sent;
+  return {};
+}
+
+void Mirror::apply_reset(MirrorChanges& changes) {
+  for (const ChunkCoord chunk : field_.edited_chunks()) forget_chunk(chunk, changes);
+  for (const auto& [id, motion] : motions_) changes.pieces_removed.push_back(id);
+  motions_.clear();
+  table_.clear();
+  held_.clear();
+  mismatched_.clear();
+  repairs_awaited_.clear();
+  tick_ = 0;  // a recording may go on from anywhere
+  ++counters_.resets;
+}
+
+void Mirror::forget_chunk(ChunkCoord chunk, MirrorChanges& changes) {
+  const std::vector<BrickCoord> bricks = field_.edited_bricks(chunk);
+  changes.bricks.insert(changes.bricks.end(), bricks.begin(), bricks.end());
+  field_.forget_chunk(chunk);
+  mismatched_.erase(chunk);
+}
+
+void Mirror::add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
+                       MirrorChanges& changes) {
+  motions_[id] = {std::move(volume), pose, pose, tick, tick};
+  changes.pieces_added.push_back(id);
+}
+
+void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
+  table_.erase(id);
+  if (motions_.erase(id) != 0) changes.pieces_removed.push_back(id);
+}
+
+Pose Mirror::pose_at(const PieceMotion& motion, double tick) const {
+  if (motion.to_tick <= motion.from_tick || tick >= static_cast<double>(motion.to_tick)) return motion.to;
+  if (tick <= static_cast<double>(motion.from_tick)) return motion.from;
+  const auto t = static_cast<float>((tick - static_cast<double>(motion.from_tick)) /
+                                    static_cast<double>(motion.to_tick - motion.from_tick));
+  return {glm::mix(motion.from.position_m, motion.to.position_m, t),
+          glm::slerp(motion.from.rotation, motion.to.rotation, t)};
+}
+
+}  // namespace scree
