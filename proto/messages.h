@@ -14,6 +14,9 @@ namespace scree {
 
 inline constexpr uint32_t protocol_version = 1;
 
+/// TCP port of a server when nobody says otherwise.
+inline constexpr uint16_t default_port = 4177;
+
 // ---- client to server
 
 struct HelloMessage {
