@@ -67,75 +67,89 @@ void add_surface(const Window& window, std::vector<glm::vec3>& points) {
       }
 }
 
-/// Directions in which a hull is compared with its shape: to the faces, edges and corners of a cube, and
-/// half-way between those.
-const std::vector<glm::vec3>& directions() {
-  static const std::vector<glm::vec3> all = [] {
-    std::vector<glm::vec3> found;
-    for (int x = -2; x <= 2; ++x)
-      for (int y = -2; y <= 2; ++y)
-        for (int z = -2; z <= 2; ++z) {
-          const int twos = (x * x == 4) + (y * y == 4) + (z * z == 4);
-          const int zeros = (x == 0) + (y == 0) + (z == 0);
-          const bool cube = twos == 0 && zeros < 3;
-          const bool between = twos == 1 && zeros == 0;
-          if (!cube && !between) continue;
-          const glm::vec3 v(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-          found.push_back(v / std::sqrt(glm::dot(v, v)));
-        }
-    return found;
-  }();
+/// Lines along which a hull is compared with its shape: to the faces, edges and corners of a cube, and
+/// half-way between those. Coordinates apart, so that loops over them run in vectors.
+struct Lines {
+  static constexpr size_t count = (6 + 12 + 8 + 24) / 2;
+  std::array<float, count> x, y, z;
+};
+
+Lines make_lines() {
+  Lines found{};
+  size_t count = 0;
+  for (int x = 0; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z) {
+        const int twos = (x * x == 4) + (y * y == 4) + (z * z == 4);
+        const int zeros = (x == 0) + (y == 0) + (z == 0);
+        const bool cube = twos == 0 && zeros < 3;
+        const bool between = twos == 1 && zeros == 0;
+        const bool mirrored = x == 0 && (y < 0 || (y == 0 && z < 0));
+        if ((!cube && !between) || mirrored) continue;
+        const float length = std::sqrt(static_cast<float>(x * x + y * y + z * z));
+        found.x[count] = static_cast<float>(x) / length;
+        found.y[count] = static_cast<float>(y) / length;
+        found.z[count] = static_cast<float>(z) / length;
+        ++count;
+      }
+  CHECK(count == Lines::count);
+  return found;
+}
+
+const Lines& lines() {
+  static const Lines all = make_lines();
   return all;
 }
 
-/// The candidate farthest in each direction, and how far.
-struct Support {
-  std::vector<size_t> point;
-  std::vector<float> reach;
+/// How far some points reach along each line, both ways, and which of them do.
+struct Extent {
+  std::array<float, Lines::count> low, high;
+  std::array<int, Lines::count> lowest{}, highest{};
 
-  explicit Support(const std::vector<glm::vec3>& candidates) {
-    for (const glm::vec3& along : directions()) {
-      size_t best = 0;
-      float best_reach = -1e30F;
-      for (size_t i = 0; i < candidates.size(); ++i) {
-        const float r = glm::dot(candidates[i], along);
-        if (r > best_reach) best_reach = r, best = i;
-      }
-      point.push_back(best);
-      reach.push_back(best_reach);
+  Extent() {
+    low.fill(1e30F);
+    high.fill(-1e30F);
+  }
+
+  void add(glm::vec3 p, int number) {
+    const Lines& along = lines();
+    for (size_t i = 0; i < Lines::count; ++i) {
+      const float r = p.x * along.x[i] + p.y * along.y[i] + p.z * along.z[i];
+      const bool above = r > high[i], below = r < low[i];
+      high[i] = above ? r : high[i];
+      highest[i] = above ? number : highest[i];
+      low[i] = below ? r : low[i];
+      lowest[i] = below ? number : lowest[i];
     }
+  }
+  bool is_solid() const {
+    for (size_t i = 0; i < Lines::count; ++i)
+      if (high[i] - low[i] < thickness_min_voxels) return false;
+    return true;
   }
 };
 
 /// A few of the candidates, whose hull is nearly that of all: always the one that the hull misses most.
+/// Empty when their hull is too thin to collide.
 std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) {
-  const Support wanted(candidates);
-  const size_t count = directions().size();
-  std::vector<float> have(count, -1e30F);
+  Extent wanted, have;
+  for (size_t i = 0; i < candidates.size(); ++i) wanted.add(candidates[i], static_cast<int>(i));
   std::vector<glm::vec3> corners;
+  if (!wanted.is_solid()) return corners;
   while (corners.size() < static_cast<size_t>(hull_corners_max)) {
-    size_t worst = 0;
-    for (size_t d = 1; d < count; ++d)
-      if (wanted.reach[d] - have[d] > wanted.reach[worst] - have[worst]) worst = d;
-    if (corners.size() >= 4 && wanted.reach[worst] - have[worst] < hull_error_voxels) break;
-    const glm::vec3 corner = candidates[wanted.point[worst]];
-    corners.push_back(corner);
-    for (size_t d = 0; d < count; ++d) have[d] = std::max(have[d], glm::dot(corner, directions()[d]));
-  }
-  return corners;
-}
-
-/// Whether the hull's extent is at least the thinnest in every direction looked at.
-bool is_solid(const std::vector<glm::vec3>& corners) {
-  if (corners.size() < 4) return false;
-  return std::ranges::all_of(directions(), [&](glm::vec3 along) {
-    float low = 1e30F, high = -1e30F;
-    for (const glm::vec3& p : corners) {
-      low = std::min(low, glm::dot(p, along));
-      high = std::max(high, glm::dot(p, along));
+    float missed = -1.0F;
+    int next = 0;
+    for (size_t i = 0; i < Lines::count; ++i) {
+      const float above = wanted.high[i] - have.high[i], below = have.low[i] - wanted.low[i];
+      if (above > missed) missed = above, next = wanted.highest[i];
+      if (below > missed) missed = below, next = wanted.lowest[i];
     }
-    return high - low >= thickness_min_voxels;
-  });
+    if (corners.size() >= 4 && missed < hull_error_voxels) break;
+    corners.push_back(candidates[static_cast<size_t>(next)]);
+    have.add(corners.back(), 0);
+  }
+  if (corners.size() < 4 || !have.is_solid()) corners.clear();
+  return corners;
 }
 
 /// A cube of that mass: what a volume that is all edge collides as. Half its side, voxels.
@@ -172,8 +186,8 @@ PieceHull finish(PieceId id, const Volume& volume, std::vector<glm::vec3> candid
   for (glm::vec3& p : candidates) p -= volume.centre_voxels;
   PieceHull hull;
   hull.id = id;
-  if (!candidates.empty()) hull.corners_m = choose_corners(candidates);
-  if (!is_solid(hull.corners_m)) hull.corners_m = cube_of(volume.mass);
+  hull.corners_m = choose_corners(candidates);
+  if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
   for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;
   hull.inertia_m2 = inertia_of(volume) * (voxel_size_m * voxel_size_m);
   hull.size_m3 =
