@@ -42,27 +42,71 @@ float blend(float t) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-/// Value noise in [-1, 1), cells of one unit.
-float noise(glm::vec3 p, uint32_t seed) {
-  const int x = floor_to_int(p.x), y = floor_to_int(p.y), z = floor_to_int(p.z);
-  const float u = blend(p.x - static_cast<float>(x));
-  const float v = blend(p.y - static_cast<float>(y));
-  const float w = blend(p.z - static_cast<float>(z));
-  float c[8];
-  for (int i = 0; i < 8; ++i)
-    c[i] = lattice_value(static_cast<uint32_t>(x + (i >> 2)), static_cast<uint32_t>(y + ((i >> 1) & 1)),
-                         static_cast<uint32_t>(z + (i & 1)), seed);
-  for (int i = 0; i < 4; ++i) c[i] += (c[i + 4] - c[i]) * u;
-  for (int i = 0; i < 2; ++i) c[i] += (c[i + 2] - c[i]) * v;
-  return c[0] + (c[1] - c[0]) * w;
-}
+/// Value noise in [-1, 1), cells of one unit, along z at one (x, y): the corners of a cell are hashed once
+/// for all the points in it. Interpolates along x, then y, then z.
+class NoiseColumn {
+ public:
+  NoiseColumn(float x, float y, uint32_t seed)
+      : x_(floor_to_int(x)),
+        y_(floor_to_int(y)),
+        u_(blend(x - static_cast<float>(x_))),
+        v_(blend(y - static_cast<float>(y_))),
+        seed_(seed) {}
 
-float rough(glm::vec3 p, uint32_t seed) {
-  float sum = 0.0F;
-  for (uint32_t i = 0; i < std::size(octaves); ++i)
-    sum += octaves[i].amplitude_m * noise(p / octaves[i].cell_m, seed * 31U + i);
-  return sum;
-}
+  float at(float z) {
+    const int cell = floor_to_int(z);
+    if (!started_ || cell != cell_) {
+      low_ = started_ && cell == cell_ + 1 ? high_ : face(cell);
+      high_ = face(cell + 1);
+      cell_ = cell;
+      started_ = true;
+    }
+    return low_ + (high_ - low_) * blend(z - static_cast<float>(cell));
+  }
+
+ private:
+  float face(int z) const {
+    const auto corner = [&](int i, int j) {
+      return lattice_value(static_cast<uint32_t>(x_ + i), static_cast<uint32_t>(y_ + j),
+                           static_cast<uint32_t>(z), seed_);
+    };
+    const float a = corner(0, 0), b = corner(0, 1);
+    const float near = a + (corner(1, 0) - a) * u_;
+    const float far = b + (corner(1, 1) - b) * u_;
+    return near + (far - near) * v_;
+  }
+
+  int x_;
+  int y_;
+  float u_;
+  float v_;
+  uint32_t seed_;
+  bool started_ = false;
+  int cell_ = 0;
+  float low_ = 0.0F;
+  float high_ = 0.0F;
+};
+
+/// The octaves' sum along z at one (x, y), metres.
+class RoughColumn {
+ public:
+  RoughColumn(float x_m, float y_m, uint32_t seed)
+      : columns_{column(x_m, y_m, seed, 0), column(x_m, y_m, seed, 1), column(x_m, y_m, seed, 2)} {}
+
+  float at(float z_m) {
+    float sum = 0.0F;
+    for (size_t i = 0; i < std::size(octaves); ++i)
+      sum += octaves[i].amplitude_m * columns_[i].at(z_m / octaves[i].cell_m);
+    return sum;
+  }
+
+ private:
+  static NoiseColumn column(float x_m, float y_m, uint32_t seed, uint32_t octave) {
+    return {x_m / octaves[octave].cell_m, y_m / octaves[octave].cell_m, seed * 31U + octave};
+  }
+
+  std::array<NoiseColumn, std::size(octaves)> columns_;
+};
 
 /// A half torus that stands across the z axis.
 float arch(glm::vec3 p) {
@@ -71,17 +115,17 @@ float arch(glm::vec3 p) {
   return std::sqrt(ring * ring + x * x) - arch_thickness_m;
 }
 
-/// Negative inside rock; the zero set is the surface. In metres, but not a distance.
-float density(const TerrainSource& source, glm::vec3 p) {
-  switch (source.kind) {
+/// Negative inside rock; the zero set is the surface. In metres, but not a distance. `bump` is the noise at
+/// p.
+float density(TerrainKind kind, glm::vec3 p, float bump) {
+  switch (kind) {
     case TerrainKind::flat:
       return p.y;
     case TerrainKind::noise:
-      return p.y + rough(p, source.seed);
+      return p.y + bump;
     case TerrainKind::canyon:
       break;
   }
-  const float bump = rough(p, source.seed);
   const float step = blend(std::clamp(0.5F - p.x / 5.0F, 0.0F, 1.0F));
   const float ground = p.y - cliff_height_m * step + canyon_roughness * bump;
   return std::min(ground, arch(p) + 0.12F * bump);
@@ -118,14 +162,18 @@ struct Lattice {
     n[2] = size.z / lattice_step + 1;
     values.reserve(static_cast<size_t>(n[0]) * static_cast<size_t>(n[1]) * static_cast<size_t>(n[2]));
     for (int x = 0; x < n[0]; ++x)
-      for (int y = 0; y < n[1]; ++y)
+      for (int y = 0; y < n[1]; ++y) {
+        const auto metres = [&](int first, int steps) {
+          return static_cast<float>(first + steps * lattice_step) * source.voxel_size_m;
+        };
+        const float x_m = metres(box.lo.x, x), y_m = metres(box.lo.y, y);
+        RoughColumn rough(x_m, y_m, source.seed);
         for (int z = 0; z < n[2]; ++z) {
-          const glm::vec3 voxel(static_cast<float>(box.lo.x + x * lattice_step),
-                                static_cast<float>(box.lo.y + y * lattice_step),
-                                static_cast<float>(box.lo.z + z * lattice_step));
-          values.push_back(density(source, voxel * source.voxel_size_m));
+          const float z_m = metres(box.lo.z, z);
+          values.push_back(density(source.kind, {x_m, y_m, z_m}, rough.at(z_m)));
           uniform = uniform && (values.back() < 0.0F) == (values.front() < 0.0F);
         }
+      }
   }
 
   float at(int x, int y, int z) const {
@@ -216,7 +264,10 @@ float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
   constexpr float step_m = 0.25F;
   const Heights bounds = heights(source.kind);
   float y = bounds.top_m + step_m;
-  while (y > bounds.bottom_m && density(source, {x_m, y, z_m}) >= 0.0F) y -= step_m;
+  const auto level = [&](float y_m) {
+    return density(source.kind, {x_m, y_m, z_m}, RoughColumn(x_m, y_m, source.seed).at(z_m));
+  };
+  while (y > bounds.bottom_m && level(y) >= 0.0F) y -= step_m;
   return y;
 }
 

@@ -1,0 +1,28 @@
+#include "bench/bench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/benches.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+const std::vector<Bench>& all_benches() {
+  static const std::vector<Bench> benches = {
+      {"carve", "a 2 m carve into 64 pieces: each stage of the server's tick", run_carve_bench},
+      {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
+       run_ledger_bench},
+      {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
+  };
+  return benches;
+}
+
+double quantile(std::vector<double> samples, double share) {
+  CHECK(!samples.empty());
+  std::ranges::sort(samples);
+  const double rank = std::ceil(share * static_cast<double>(samples.size()));
+  return samples[static_cast<size_t>(std::max(rank, 1.0)) - 1];
+}
+
+}  // namespace scree

@@ -1,0 +1,50 @@
+// The form of every benchmark: a name, what it measures, and a report of metrics and checks.
+//
+// A bench measures its peer in the same run and checks the result that it timed; it never decides a test.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+struct Metric {
+  std::string name;  ///< snake_case, unit last: "carve_p99_ms"
+  double value = 0.0;
+};
+
+struct Check {
+  std::string name;
+  bool passed = false;
+  std::string detail;  ///< what was seen, beside what was wanted
+};
+
+struct BenchReport {
+  std::vector<Metric> metrics;
+  std::vector<Check> checks;
+
+  void metric(std::string name, double value) { metrics.push_back({std::move(name), value}); }
+  void check(std::string name, bool passed, std::string detail) {
+    checks.push_back({std::move(name), passed, std::move(detail)});
+  }
+};
+
+struct BenchOptions {
+  bool quick = false;  ///< fewer rounds: to see that it runs
+  std::function<void(double fraction)> progress = [](double) {};
+};
+
+struct Bench {
+  std::string name;
+  std::string summary;
+  BenchReport (*run)(const BenchOptions&);
+};
+
+/// Every benchmark there is, in alphabetical order.
+const std::vector<Bench>& all_benches();
+
+/// Value below which the given share of the samples lies (nearest rank). Samples must not be empty.
+double quantile(std::vector<double> samples, double share);
+
+}  // namespace scree

@@ -1,0 +1,12 @@
+// The benchmarks, one function each; all_benches() names them.
+#pragma once
+
+#include "bench/bench.h"
+
+namespace scree {
+
+BenchReport run_carve_bench(const BenchOptions& options);
+BenchReport run_ledger_bench(const BenchOptions& options);
+BenchReport run_wire_bench(const BenchOptions& options);
+
+}  // namespace scree

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include "bench/benches.h"
+#include "bench/scenes.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int ticks_between_carves = 240;
+
+struct Stage {
+  const char* name;
+  double StageTimes::*time;
+};
+
+constexpr Stage stages[] = {{"carve", &StageTimes::carve_ms},         {"spawn", &StageTimes::spawn_ms},
+                            {"bodies", &StageTimes::bodies_ms},       {"rest", &StageTimes::rest_ms},
+                            {"recombine", &StageTimes::recombine_ms}, {"publish", &StageTimes::publish_ms},
+                            {"total", &StageTimes::total_ms}};
+
+void report_stage(BenchReport& report, const std::string& when, const char* name,
+                  const std::vector<StageTimes>& times, double StageTimes::*time) {
+  std::vector<double> samples;
+  for (const StageTimes& t : times) samples.push_back(t.*time);
+  report.metric(fmt::format("{}_{}_median_ms", when, name), quantile(samples, 0.5));
+  report.metric(fmt::format("{}_{}_p99_ms", when, name), quantile(samples, 0.99));
+}
+
+}  // namespace
+
+BenchReport run_carve_bench(const BenchOptions& options) {
+  const int carves = options.quick ? 10 : 100;
+  WorldConfig config;
+  World world(config);
+  ScatteredBlows blows(config.terrain, 50.0F, 2.0F, 64, 11);
+  std::vector<StageTimes> carving, others;
+  std::vector<double> own_ms;
+  size_t pieces = 0;
+  for (int i = 0; i < carves; ++i) {
+    const CarveRequest blow = blows.next();
+    // The terrain around is generated at its first touch; a viewer or an earlier blow has usually been there.
+    gather(world.field(), band_box(in_voxels(blow.shape, config.terrain.voxel_size_m)).grown(chunk_size));
+    const Command command{0, static_cast<uint32_t>(i), blow};
+    const auto delta = world.step({&command, 1});
+    carving.push_back(delta->times);
+    own_ms.push_back(delta->times.carve_ms + delta->times.spawn_ms);
+    pieces += delta->spawned.size();
+    for (int tick = 1; tick < ticks_between_carves; ++tick) others.push_back(world.step({})->times);
+    options.progress(static_cast<double>(i + 1) / carves);
+  }
+  BenchReport report;
+  report.metric("carves", carves);
+  report.metric("pieces_per_carve", static_cast<double>(pieces) / carves);
+  for (const Stage& stage : stages) report_stage(report, "carve_tick", stage.name, carving, stage.time);
+  for (const Stage& stage : stages)
+    if (stage.time != &StageTimes::carve_ms && stage.time != &StageTimes::spawn_ms)
+      report_stage(report, "other_tick", stage.name, others, stage.time);
+  const double own_p99_ms = quantile(own_ms, 0.99);
+  report.metric("own_work_median_ms", quantile(own_ms, 0.5));
+  report.metric("own_work_p99_ms", own_p99_ms);
+  report.check(
+      "own_work_p99", own_p99_ms <= 4.0,
+      fmt::format("{:.2f} ms for carve, extract, fracture and hulls, wanted at most 4 ms", own_p99_ms));
+  report.check("pieces", pieces == static_cast<size_t>(carves) * 64,
+               fmt::format("{} pieces of {} carves, wanted 64 each", pieces, carves));
+  return report;
+}
+
+}  // namespace scree

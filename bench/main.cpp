@@ -1,0 +1,94 @@
+// scree-bench: lists and runs the benchmarks. A table for people, JSON for programs.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <unistd.h>
+
+#include "bench/bench.h"
+
+namespace {
+
+using scree::Bench;
+using scree::BenchReport;
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+nlohmann::ordered_json as_json(const Bench& bench, const BenchReport& report) {
+  nlohmann::ordered_json json;
+  json["bench"] = bench.name;
+  json["machine"] = {{"processor", processor()},
+                     {"threads", std::thread::hardware_concurrency()},
+                     {"compiler", __VERSION__}};
+  for (const scree::Metric& metric : report.metrics) json["metrics"][metric.name] = metric.value;
+  for (const scree::Check& check : report.checks)
+    json["checks"][check.name] = {{"passed", check.passed}, {"detail", check.detail}};
+  return json;
+}
+
+void print_table(const Bench& bench, const BenchReport& report) {
+  std::printf("%s: %s\n", bench.name.c_str(), bench.summary.c_str());
+  for (const scree::Metric& metric : report.metrics)
+    std::printf("  %-36s %14.6g\n", metric.name.c_str(), metric.value);
+  for (const scree::Check& check : report.checks)
+    std::printf("  %s %-33s %s\n", check.passed ? "ok  " : "MISS", check.name.c_str(), check.detail.c_str());
+}
+
+void print_progress(double fraction) {
+  std::fprintf(stderr, "\r%3d %%", static_cast<int>(fraction * 100.0));
+  if (fraction >= 1.0) std::fprintf(stderr, "\r     \r");
+}
+
+int list() {
+  for (const Bench& bench : scree::all_benches())
+    std::printf("%-12s %s\n", bench.name.c_str(), bench.summary.c_str());
+  return 0;
+}
+
+int run(const std::string& name, bool quick, const std::string& json_file) {
+  for (const Bench& bench : scree::all_benches()) {
+    if (bench.name != name) continue;
+    scree::BenchOptions options;
+    options.quick = quick;
+    if (isatty(STDERR_FILENO) != 0) options.progress = print_progress;
+    const BenchReport report = bench.run(options);
+    print_table(bench, report);
+    if (!json_file.empty()) {
+      std::ofstream out(json_file);
+      out << as_json(bench, report).dump(2) << '\n';
+      if (!out.flush()) {
+        std::fprintf(stderr, "cannot write %s\n", json_file.c_str());
+        return 1;
+      }
+    }
+    return 0;
+  }
+  std::fprintf(stderr, "there is no bench '%s'; `bench list` names them\n", name.c_str());
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Benchmarks of Scree", "scree-bench");
+  app.require_subcommand(1);
+  app.add_subcommand("list", "name every benchmark");
+  CLI::App* run_command = app.add_subcommand("run", "run one benchmark");
+  std::string name, json_file;
+  bool quick = false;
+  run_command->add_option("name", name, "which one")->required();
+  run_command->add_flag("--quick", quick, "fewer rounds: to see that it runs");
+  run_command->add_option("--json", json_file, "write the report to this file as JSON");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return run_command->parsed() ? run(name, quick, json_file) : list();
+}

@@ -1,0 +1,34 @@
+#include "bench/scenes.h"
+
+#include "shared/base/random.h"
+
+namespace scree {
+
+CarveRequest blow_at(const TerrainSource& terrain, float x_m, float z_m, float radius_m, uint32_t seeds,
+                     uint32_t random_seed) {
+  const float ground_m = ground_height_m(terrain, x_m, z_m);
+  CarveRequest request;
+  request.shape = sphere({x_m, ground_m - radius_m * 0.4F, z_m}, radius_m);
+  request.pattern = SeedPattern::radial;
+  request.seeds = seeds;
+  request.random_seed = random_seed;
+  request.impact_m = {x_m, ground_m - radius_m, z_m};
+  return request;
+}
+
+ScatteredBlows::ScatteredBlows(const TerrainSource& terrain, float half_width_m, float radius_m,
+                               uint32_t seeds, uint64_t random_seed)
+    : terrain_(terrain),
+      half_width_m_(half_width_m),
+      radius_m_(radius_m),
+      seeds_(seeds),
+      state_(random_seed) {}
+
+CarveRequest ScatteredBlows::next() {
+  Random random(state_++);
+  const auto place = [&] { return (random.unit() * 2.0F - 1.0F) * half_width_m_; };
+  const float x_m = place(), z_m = place();
+  return blow_at(terrain_, x_m, z_m, radius_m_, seeds_, random.next());
+}
+
+}  // namespace scree
