@@ -1,0 +1,144 @@
+// The simulation, tick by tick: mass, refusals, determinism.
+#include "server/world/world.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "bench/scenes.h"
+#include "server/world/published_state.h"
+
+namespace scree {
+namespace {
+
+constexpr int settle_ticks_max = 1800;
+
+std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
+  return world.step(commands);
+}
+
+Command blow(const World& world, float x_m, float z_m, uint32_t seeds, uint32_t request = 1) {
+  return {7, request, blow_at(world.config().terrain, x_m, z_m, 1.5F, seeds, 3)};
+}
+
+TEST(world, carve_fall_and_merge_conserve_mass_at_every_tick) {
+  World world({});
+  PublishedState published;
+  auto delta = step(world, {blow(world, 12.0F, 12.0F, 24)});
+  ASSERT_EQ(delta->spawned.size(), 24U);
+  EXPECT_GT(delta->ledger.moved, 0);
+  for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) {
+    EXPECT_EQ(delta->ledger.error(), 0);
+    published.apply(*delta);
+    delta = step(world);
+  }
+  published.apply(*delta);
+  EXPECT_TRUE(delta->pieces.empty()) << "pieces still alive";
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+  EXPECT_EQ(delta->ledger.terrain + delta->ledger.dust, 0);
+  EXPECT_EQ(published.pieces_merged(), 24U);
+  EXPECT_LT(std::abs(static_cast<double>(delta->ledger.dust)),
+            0.05 * static_cast<double>(delta->ledger.moved));
+}
+
+TEST(world, what_is_published_is_what_is_there) {
+  World world({});
+  PublishedState published;
+  for (int tick = 0; tick < 90; ++tick) {
+    std::vector<Command> commands;
+    if (tick % 30 == 0) commands.push_back(blow(world, 10.0F + static_cast<float>(tick) * 0.02F, 9.0F, 12));
+    published.apply(*step(world, commands));
+  }
+  uint64_t sum = 0;
+  for (const auto& [coord, chunk] : published.chunks()) sum += chunk.hash;
+  EXPECT_EQ(sum, world.field().hash());
+  EXPECT_EQ(published.field_hash(), world.field().hash());
+  for (const auto& [coord, chunk] : published.chunks())
+    EXPECT_EQ(published.hash_at(coord, chunk.version), world.field().chunk_hash(coord));
+  // A keyframe takes an empty state to the same place.
+  PublishedState resumed;
+  resumed.apply(published.as_delta());
+  EXPECT_EQ(resumed.tick(), published.tick());
+  EXPECT_EQ(resumed.pieces().size(), published.pieces().size());
+  EXPECT_EQ(resumed.chunks().size(), published.chunks().size());
+}
+
+TEST(world, two_worlds_with_the_same_commands_agree_at_every_tick) {
+  World one({}), other({});
+  for (int tick = 0; tick < 300; ++tick) {
+    std::vector<Command> commands;
+    if (tick % 100 == 0) commands.push_back(blow(one, 8.0F, static_cast<float>(tick) * 0.05F, 16));
+    const auto a = step(one, commands), b = step(other, commands);
+    ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
+    ASSERT_EQ(a->field_hash, b->field_hash) << "tick " << tick;
+  }
+}
+
+TEST(world, requests_that_cannot_be_carried_out_are_answered_by_name_and_change_nothing) {
+  World world({});
+  const auto refused = [&](const CarveRequest& request, const char* word) {
+    const auto delta = step(world, {{7, 42, request}});
+    ASSERT_EQ(delta->replies.size(), 1U);
+    EXPECT_EQ(delta->replies[0].session, 7U);
+    EXPECT_EQ(delta->replies[0].request, 42U);
+    EXPECT_NE(delta->replies[0].refusal.find(word), std::string::npos) << delta->replies[0].refusal;
+    EXPECT_TRUE(delta->bricks.empty());
+    EXPECT_EQ(delta->field_hash, 0U);
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const CarveRequest good = blow_at(world.config().terrain, 12.0F, 0.0F, 1.5F, 8, 1);
+  for (const auto& [radius, word] :
+       {std::pair{nan, "not a finite"}, std::pair{infinite, "not a finite"}, std::pair{-2.0F, "negative"},
+        std::pair{0.0F, "zero"}, std::pair{100.0F, "edit_reach_max_m"},
+        std::pair{1e-3F, "edit_reach_min_m"}}) {
+    CarveRequest bad = good;
+    bad.shape.radius_m = radius;
+    refused(bad, word);
+  }
+  CarveRequest far = good;
+  far.shape.a.x = 1e7F;
+  refused(far, "outside the world");
+  CarveRequest fast = good;
+  fast.blast_speed_m_s = nan;
+  refused(fast, "blast_speed_max_m_s");
+  CarveRequest many = good;
+  many.seeds = 100000;
+  refused(many, "seeds_max");
+}
+
+TEST(world, carves_beyond_the_most_pieces_are_refused_until_some_have_settled) {
+  WorldConfig config;
+  config.pieces_max = 20;
+  World world(config);
+  EXPECT_TRUE(step(world, {blow(world, 12.0F, 12.0F, 16)})->replies[0].refusal.empty());
+  const auto delta = step(world, {blow(world, 20.0F, 12.0F, 16)});
+  EXPECT_NE(delta->replies[0].refusal.find("pieces_max"), std::string::npos) << delta->replies[0].refusal;
+  EXPECT_EQ(delta->ledger.error(), 0);
+}
+
+TEST(world, a_carve_in_air_and_two_at_one_place_in_one_tick_conserve_mass) {
+  World world({});
+  Command air = blow(world, 12.0F, 12.0F, 8, 1);
+  std::get<CarveRequest>(air.body).shape.a.y += 60.0F;
+  const auto delta = step(world, {air, blow(world, 12.0F, 12.0F, 8, 2), blow(world, 12.0F, 12.0F, 8, 3),
+                                  blow(world, 12.4F, 12.0F, 8, 4)});
+  ASSERT_EQ(delta->replies.size(), 4U);
+  EXPECT_EQ(delta->replies[0].pieces, 0U);
+  EXPECT_EQ(delta->replies[1].pieces, 8U);
+  EXPECT_EQ(delta->replies[2].pieces, 0U) << "the first carve left nothing";
+  EXPECT_EQ(delta->ledger.error(), 0);
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+}
+
+TEST(world, a_fill_is_entered_as_poured) {
+  World world({});
+  const auto delta = step(world, {{1, 1, FillRequest{box({30.0F, 25.0F, 0.0F}, {1.0F, 1.0F, 1.0F})}}});
+  EXPECT_TRUE(delta->replies[0].refusal.empty()) << delta->replies[0].refusal;
+  EXPECT_NEAR(static_cast<double>(delta->ledger.poured) / units_per_voxel, 512.0, 30.0);
+  EXPECT_EQ(delta->ledger.terrain, delta->ledger.poured);
+  EXPECT_EQ(delta->ledger.error(), 0);
+}
+
+}  // namespace
+}  // namespace scree
