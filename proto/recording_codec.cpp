@@ -1,0 +1,191 @@
+#include "proto/recording_codec.h"
+
+#include <algorithm>
+#include <recording.pb.h>
+
+#include "proto/codec.h"
+#include "proto/operation_codec.h"
+#include "proto/transforms.h"
+#include "proto/wire_values.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr size_t program_bytes_max = 128;
+constexpr uint32_t tick_rate_max_hz = 1000;
+
+std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message) {
+  std::vector<uint8_t> bytes(message.ByteSizeLong());
+  message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+template <typename T>
+Result<T> parsed(std::span<const uint8_t> bytes, const char* what) {
+  T message;
+  if (bytes.size() > INT32_MAX || !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    return fail(std::string(what) + ": not of this format");
+  return message;
+}
+
+template <typename T>
+Result<T> checked(T value, const FieldChecker& check) {
+  if (check.failed()) return tl::unexpected(check.error());
+  return value;
+}
+
+void write(recorded::Ledger& to, const RecordedLedger& from) {
+  to.set_terrain(from.terrain);
+  to.set_pieces(from.pieces);
+  to.set_dust(from.dust);
+  to.set_poured(from.poured);
+  to.set_moved(from.moved);
+}
+
+RecordedLedger read(const recorded::Ledger& from) {
+  return {from.terrain(), from.pieces(), from.dust(), from.poured(), from.moved()};
+}
+
+std::string without_length(const std::vector<uint8_t>& message) {
+  return {message.begin() + length_prefix_bytes, message.end()};
+}
+
+PieceMessage read_piece(const std::string& bytes, FieldChecker& check) {
+  ServerMessage message = check.take(decode_server(as_span(bytes)));
+  if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
+  check.refuse("what should be a piece is another message");
+  return {};
+}
+
+RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
+  const ClientMessage message = check.take(decode_client(as_span(bytes)));
+  if (const auto* carve = std::get_if<CarveMessage>(&message)) return {session, *carve};
+  if (const auto* fill = std::get_if<FillMessage>(&message)) return {session, *fill};
+  check.refuse("what should be a carve or a fill is another message");
+  return {};
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const RecordedHeader& header) {
+  recorded::Header to;
+  to.set_format(header.format);
+  to.set_program(clean_text(header.program, program_bytes_max));
+  to.set_terrain_kind(static_cast<uint32_t>(header.terrain.kind));
+  to.set_terrain_seed(header.terrain.seed);
+  to.set_voxel_size_m(header.terrain.voxel_size_m);
+  to.set_tick_rate_hz(header.tick_rate_hz);
+  to.set_pieces_max(header.pieces_max);
+  to.set_merges_per_tick_max(header.merges_per_tick_max);
+  return bytes_of(to);
+}
+
+Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Header>(bytes, "header of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("header of the recording");
+  RecordedHeader header;
+  header.format = from->format();
+  // Another format may mean other things by its fields: only its number is read, to be answered.
+  if (header.format != recording_format) return header;
+  header.program = check.text(from->program(), program_bytes_max, "program");
+  header.terrain.kind = static_cast<TerrainKind>(
+      check.within(from->terrain_kind(), 0, static_cast<uint32_t>(TerrainKind::canyon), "terrain_kind"));
+  header.terrain.seed = from->terrain_seed();
+  header.terrain.voxel_size_m = check.finite(from->voxel_size_m(), "voxel_size_m");
+  if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||
+      header.terrain.voxel_size_m > limits::voxel_size_max_m)
+    check.refuse("voxel_size_m is out of range");
+  header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
+  header.pieces_max = from->pieces_max();
+  header.merges_per_tick_max = from->merges_per_tick_max();
+  return checked(std::move(header), check);
+}
+
+std::vector<uint8_t> encode(const RecordedFrame& frame) {
+  recorded::Frame to;
+  to.set_tick(frame.tick);
+  to.set_operations(to_string(encode_operations(frame.operations)));
+  to.set_moved(to_string(pack_transforms(frame.moved)));
+  write(*to.mutable_ledger(), frame.ledger);
+  to.set_field_hash(frame.field_hash);
+  to.set_state_hash(frame.state_hash);
+  return bytes_of(to);
+}
+
+Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Frame>(bytes, "frame of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("frame of the recording");
+  RecordedFrame frame;
+  frame.tick = from->tick();
+  frame.operations = check.take(decode_operations(as_span(from->operations())));
+  frame.moved = check.take(unpack_transforms(as_span(from->moved())));
+  frame.ledger = read(from->ledger());
+  frame.field_hash = from->field_hash();
+  frame.state_hash = from->state_hash();
+  return checked(std::move(frame), check);
+}
+
+std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
+  recorded::Keyframe to;
+  to.set_tick(keyframe.tick);
+  const std::span<const BrickPatch> bricks(keyframe.bricks);
+  for (size_t at = 0; at < bricks.size(); at += limits::bricks_per_message_max) {
+    const size_t count = std::min(limits::bricks_per_message_max, bricks.size() - at);
+    to.add_bricks(to_string(encode_bricks(bricks.subspan(at, count))));
+  }
+  for (const PieceMessage& piece : keyframe.pieces)
+    to.add_pieces(without_length(encode(ServerMessage(piece))));
+  write(*to.mutable_ledger(), keyframe.ledger);
+  to.set_field_hash(keyframe.field_hash);
+  to.set_state_hash(keyframe.state_hash);
+  return bytes_of(to);
+}
+
+Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Keyframe>(bytes, "keyframe of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("keyframe of the recording");
+  RecordedKeyframe keyframe;
+  keyframe.tick = from->tick();
+  for (const std::string& packed : from->bricks()) {
+    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed)));
+    if (check.failed()) break;
+    keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
+  }
+  for (const std::string& packed : from->pieces()) {
+    if (check.failed()) break;
+    keyframe.pieces.push_back(read_piece(packed, check));
+  }
+  keyframe.ledger = read(from->ledger());
+  keyframe.field_hash = from->field_hash();
+  keyframe.state_hash = from->state_hash();
+  return checked(std::move(keyframe), check);
+}
+
+std::vector<uint8_t> encode(std::span<const RecordedCommand> commands) {
+  recorded::Commands to;
+  for (const RecordedCommand& command : commands) {
+    to.add_sessions(command.session);
+    const ClientMessage request =
+        std::visit([](const auto& message) { return ClientMessage(message); }, command.request);
+    to.add_requests(without_length(encode(request)));
+  }
+  return bytes_of(to);
+}
+
+Result<std::vector<RecordedCommand>> decode_recorded_commands(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Commands>(bytes, "commands of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("commands of the recording");
+  if (from->sessions_size() != from->requests_size()) check.refuse("sessions and requests differ in number");
+  std::vector<RecordedCommand> commands;
+  for (int i = 0; i < from->requests_size() && !check.failed(); ++i)
+    commands.push_back(read_command(from->sessions(i), from->requests(i), check));
+  return checked(std::move(commands), check);
+}
+
+}  // namespace scree

@@ -1,0 +1,72 @@
+// The blobs of a recording as plain values, to bytes and back. proto/recording.proto is the specification.
+//
+// Decoders check everything: a recording is a file that anybody may have written. Pure functions, safe to
+// call from any thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "proto/messages.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// Of the blobs and the tables together. A reader refuses any other.
+inline constexpr uint32_t recording_format = 1;
+
+struct RecordedHeader {
+  uint32_t format = recording_format;
+  std::string program;
+  TerrainSource terrain;
+  uint32_t tick_rate_hz = 60;
+  uint32_t pieces_max = 0;
+  uint32_t merges_per_tick_max = 0;
+};
+
+/// As server/world/tick_delta.h, Ledger.
+struct RecordedLedger {
+  int64_t terrain = 0;
+  int64_t pieces = 0;
+  int64_t dust = 0;
+  int64_t poured = 0;
+  int64_t moved = 0;
+};
+
+struct RecordedFrame {
+  Tick tick = 0;
+  std::vector<Operation> operations;
+  std::vector<PieceState> moved;  ///< new, or elsewhere than a tick before; ordered by id
+  RecordedLedger ledger;
+  uint64_t field_hash = 0;
+  uint64_t state_hash = 0;
+};
+
+struct RecordedKeyframe {
+  Tick tick = 0;
+  std::vector<BrickPatch> bricks;
+  std::vector<PieceMessage> pieces;
+  RecordedLedger ledger;
+  uint64_t field_hash = 0;
+  uint64_t state_hash = 0;
+};
+
+struct RecordedCommand {
+  uint64_t session = 0;
+  std::variant<CarveMessage, FillMessage> request;
+};
+
+std::vector<uint8_t> encode(const RecordedHeader& header);
+std::vector<uint8_t> encode(const RecordedFrame& frame);
+std::vector<uint8_t> encode(const RecordedKeyframe& keyframe);
+std::vector<uint8_t> encode(std::span<const RecordedCommand> commands);
+
+Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes);
+Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes);
+Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes);
+Result<std::vector<RecordedCommand>> decode_recorded_commands(std::span<const uint8_t> bytes);
+
+}  // namespace scree

@@ -1,0 +1,121 @@
+#include "server/store/database.h"
+
+#include <filesystem>
+#include <sqlite3.h>
+#include <xxhash.h>
+
+#include "server/store/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// How long one program waits for another one that has the file open, ms.
+constexpr int busy_timeout_ms = 2000;
+
+int64_t checksum_of(std::span<const uint8_t> data) {
+  return static_cast<int64_t>(XXH3_64bits(data.data(), data.size()));
+}
+
+}  // namespace
+
+void DatabaseCloser::operator()(sqlite3* database) const {
+  sqlite3_close_v2(database);
+}
+void StatementCloser::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+tl::unexpected<Error> Database::failure(const std::string& what) const {
+  return fail(path_ + ": " + what + ": " + sqlite3_errmsg(database_.get()));
+}
+
+Result<Database> Database::create(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored))
+    return fail(path + " exists already: choose another name, or move it away");
+  sqlite3* raw = nullptr;
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_EXRESCODE;
+  const int code = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
+  Database database(path, raw);
+  if (code != SQLITE_OK) return database.failure("cannot be created");
+  return database;
+}
+
+Result<Database> Database::open(const std::string& path) {
+  sqlite3* raw = nullptr;
+  // What a crash left beside the file can be merged into it only by who may write; others read what is there.
+  int code = sqlite3_open_v2(path.c_str(), &raw, SQLITE_OPEN_READWRITE | SQLITE_OPEN_EXRESCODE, nullptr);
+  if (code != SQLITE_OK) {
+    sqlite3_close_v2(raw);
+    code = sqlite3_open_v2(path.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_EXRESCODE, nullptr);
+  }
+  Database database(path, raw);
+  if (code != SQLITE_OK) return database.failure("cannot be opened");
+  sqlite3_busy_timeout(raw, busy_timeout_ms);
+  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(limits::row_bytes_max));
+  return database;
+}
+
+Result<void> Database::execute(const std::string& sql) {
+  if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    return failure("cannot execute '" + sql.substr(0, 40) + "'");
+  return {};
+}
+
+Result<Statement> Database::prepare(const std::string& sql) {
+  sqlite3_stmt* raw = nullptr;
+  if (sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK)
+    return failure("cannot be read");
+  return Statement(raw);
+}
+
+Result<std::optional<int64_t>> Database::number(const std::string& sql) {
+  const auto statement = prepare(sql);
+  if (!statement) return tl::unexpected(statement.error());
+  const int code = sqlite3_step(statement->get());
+  if (code == SQLITE_DONE) return std::optional<int64_t>();
+  if (code != SQLITE_ROW) return failure("cannot be read");
+  if (sqlite3_column_type(statement->get(), 0) == SQLITE_NULL) return std::optional<int64_t>();
+  return std::optional<int64_t>(sqlite3_column_int64(statement->get(), 0));
+}
+
+Result<std::string> Database::text(const std::string& sql) {
+  const auto statement = prepare(sql);
+  if (!statement) return tl::unexpected(statement.error());
+  if (sqlite3_step(statement->get()) != SQLITE_ROW) return failure("cannot be read");
+  const auto* value = reinterpret_cast<const char*>(sqlite3_column_text(statement->get(), 0));
+  return std::string(value == nullptr ? "" : value);
+}
+
+Result<void> Database::put(const Statement& insert, uint64_t tick, std::span<const uint8_t> data) {
+  sqlite3_stmt* statement = insert.get();
+  sqlite3_reset(statement);
+  sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
+  sqlite3_bind_blob64(statement, 2, data.data(), data.size(), SQLITE_STATIC);
+  sqlite3_bind_int64(statement, 3, checksum_of(data));
+  const int code = sqlite3_step(statement);
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  if (code != SQLITE_DONE) return failure("cannot be written");
+  return {};
+}
+
+Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& select, uint64_t tick) {
+  sqlite3_stmt* statement = select.get();
+  sqlite3_reset(statement);
+  sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
+  const int code = sqlite3_step(statement);
+  if (code == SQLITE_DONE) return std::optional<std::vector<uint8_t>>();
+  if (code != SQLITE_ROW) return failure("tick " + std::to_string(tick) + " cannot be read");
+  const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 0));
+  const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, 0));
+  std::vector<uint8_t> bytes(data, data + size);
+  const int64_t checksum = sqlite3_column_int64(statement, 1);
+  sqlite3_reset(statement);
+  if (checksum != checksum_of(bytes))
+    return fail(path_ + ": damaged: the data of tick " + std::to_string(tick) + " is not what was recorded");
+  return std::optional(std::move(bytes));
+}
+
+}  // namespace scree

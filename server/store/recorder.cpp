@@ -1,0 +1,138 @@
+#include "server/store/recorder.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "server/store/limits.h"
+#include "server/store/recording_writer.h"
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Entry {
+  std::shared_ptr<const TickDelta> delta;
+  std::vector<Command> commands;
+};
+
+}  // namespace
+
+struct Recorder::State {
+  void run();
+  void write(const std::deque<Entry>& entries);
+  void note(const Result<void>& result);
+
+  std::unique_ptr<RecordingWriter> writer;  ///< the storage thread's own
+  Clock::time_point committed = Clock::now();
+  std::thread thread;
+
+  mutable std::mutex mutex;  ///< guards what follows
+  std::condition_variable changed;
+  std::deque<Entry> queue;
+  bool stopping = false;
+  std::optional<std::string> error;
+  uint64_t ticks_written = 0;
+  uint64_t waits = 0;
+};
+
+void Recorder::State::note(const Result<void>& result) {
+  if (result) return;
+  const std::scoped_lock lock(mutex);
+  if (!error) error = result.error().message;
+}
+
+void Recorder::State::write(const std::deque<Entry>& entries) {
+  for (const Entry& entry : entries) {
+    const auto added = writer->add(*entry.delta, entry.commands);
+    note(added);
+    if (!added) return;
+    const std::scoped_lock lock(mutex);
+    ++ticks_written;
+  }
+}
+
+void Recorder::State::run() {
+  const auto period =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits::seconds_per_commit));
+  for (;;) {
+    std::deque<Entry> entries;
+    bool last = false;
+    bool failed = false;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait_until(lock, committed + period, [&] { return stopping || !queue.empty(); });
+      entries.swap(queue);
+      last = stopping;
+      failed = error.has_value();
+    }
+    changed.notify_all();
+    if (!failed) {
+      write(entries);
+      if (last || Clock::now() >= committed + period) note(writer->commit());
+    }
+    if (Clock::now() >= committed + period) committed = Clock::now();
+    if (last) break;
+  }
+  note(writer->finish());
+  writer.reset();
+}
+
+Recorder::Recorder(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Recorder::~Recorder() {
+  static_cast<void>(finish());
+}
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header) {
+  auto writer = RecordingWriter::create(path, header);
+  if (!writer) return tl::unexpected(writer.error());
+  auto state = std::make_unique<State>();
+  state->writer = std::move(*writer);
+  state->thread = std::thread([s = state.get()] { s->run(); });
+  return std::unique_ptr<Recorder>(new Recorder(std::move(state)));
+}
+
+void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands) {
+  {
+    std::unique_lock lock(state_->mutex);
+    const auto room = [&] { return state_->error || state_->queue.size() < limits::recorder_queue_max; };
+    if (!room()) ++state_->waits;
+    state_->changed.wait(lock, room);
+    if (state_->error || state_->stopping) return;
+    state_->queue.push_back({std::move(delta), std::move(commands)});
+  }
+  state_->changed.notify_all();
+}
+
+Result<void> Recorder::finish() {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  if (state_->thread.joinable()) state_->thread.join();
+  if (state_->error) return fail(*state_->error);
+  return {};
+}
+
+std::optional<std::string> Recorder::error() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->error;
+}
+
+uint64_t Recorder::ticks_written() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->ticks_written;
+}
+
+uint64_t Recorder::waits() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->waits;
+}
+
+}  // namespace scree

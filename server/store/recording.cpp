@@ -1,0 +1,81 @@
+#include "server/store/recording.h"
+
+namespace scree {
+
+RecordedHeader to_recorded(const RecordingHeader& header) {
+  const WorldConfig& world = header.world;
+  return {recording_format,   header.program,   world.terrain,
+          world.tick_rate_hz, world.pieces_max, world.merges_per_tick_max};
+}
+
+RecordingHeader from_recorded(const RecordedHeader& header) {
+  RecordingHeader out;
+  out.program = header.program;
+  out.world.terrain = header.terrain;
+  out.world.tick_rate_hz = header.tick_rate_hz;
+  out.world.pieces_max = header.pieces_max;
+  out.world.merges_per_tick_max = header.merges_per_tick_max;
+  return out;
+}
+
+RecordedLedger to_recorded(const Ledger& ledger) {
+  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
+}
+
+Ledger from_recorded(const RecordedLedger& ledger) {
+  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
+}
+
+std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
+  std::vector<RecordedCommand> out;
+  for (const Command& command : commands) {
+    if (const auto* carve = std::get_if<CarveRequest>(&command.body))
+      out.push_back(
+          {command.session, CarveMessage{command.request, carve->shape, carve->pattern, carve->seeds,
+                                         carve->random_seed, carve->impact_m, carve->blast_speed_m_s}});
+    else if (const auto* fill = std::get_if<FillRequest>(&command.body))
+      out.push_back({command.session, FillMessage{command.request, fill->shape}});
+  }
+  return out;
+}
+
+std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
+  std::vector<Command> out;
+  for (const RecordedCommand& command : commands) {
+    if (const auto* carve = std::get_if<CarveMessage>(&command.request))
+      out.push_back({command.session, carve->request,
+                     CarveRequest{carve->shape, carve->pattern, carve->seeds, carve->random_seed,
+                                  carve->impact_m, carve->blast_speed_m_s}});
+    else if (const auto* fill = std::get_if<FillMessage>(&command.request))
+      out.push_back({command.session, fill->request, FillRequest{fill->shape}});
+  }
+  return out;
+}
+
+RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {
+  RecordedFrame frame;
+  frame.tick = delta.tick;
+  for (const AppliedOperation& applied : delta.operations) frame.operations.push_back(applied.operation);
+  for (const PieceState& piece : delta.pieces) {
+    const auto known = before.pieces().find(piece.id);
+    if (known == before.pieces().end() || known->second.pose != piece.pose) frame.moved.push_back(piece);
+  }
+  frame.ledger = to_recorded(delta.ledger);
+  frame.field_hash = delta.field_hash;
+  frame.state_hash = delta.state_hash;
+  return frame;
+}
+
+RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
+  RecordedKeyframe keyframe;
+  keyframe.tick = delta.tick;
+  for (const BrickState& state : delta.bricks) keyframe.bricks.push_back({state.coord, *state.brick});
+  for (size_t i = 0; i < delta.spawned.size(); ++i)
+    keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
+  keyframe.ledger = to_recorded(delta.ledger);
+  keyframe.field_hash = delta.field_hash;
+  keyframe.state_hash = delta.state_hash;
+  return keyframe;
+}
+
+}  // namespace scree

@@ -1,0 +1,35 @@
+// What a recording holds, in the simulation's own types.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "proto/recording_codec.h"
+#include "server/world/command.h"
+#include "server/world/published_state.h"
+#include "server/world/tick_delta.h"
+#include "server/world/world.h"
+
+namespace scree {
+
+struct RecordingHeader {
+  std::string program;  ///< name and version of what recorded
+  WorldConfig world;
+};
+
+RecordedHeader to_recorded(const RecordingHeader& header);
+RecordingHeader from_recorded(const RecordedHeader& header);
+
+RecordedLedger to_recorded(const Ledger& ledger);
+Ledger from_recorded(const RecordedLedger& ledger);
+
+std::vector<RecordedCommand> to_recorded(std::span<const Command> commands);
+std::vector<Command> from_recorded(std::span<const RecordedCommand> commands);
+
+/// The frame that takes `before` to the state after `delta`.
+RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before);
+
+RecordedKeyframe to_recorded_keyframe(const TickDelta& keyframe);
+
+}  // namespace scree

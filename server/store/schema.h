@@ -1,0 +1,33 @@
+// The tables of a recording: one SQLite file. What the blobs hold: proto/recording.proto.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "proto/recording_codec.h"
+
+namespace scree::schema {
+
+/// PRAGMA application_id, "SCRE": tells a recording from other SQLite files. PRAGMA user_version is the
+/// format.
+inline constexpr int64_t application_id = 0x53435245;
+
+/// frames: one row for every tick, without a gap. commands: for ticks that had any. keyframes: the state
+/// after the tick. header: one row, tick 0. checksum: XXH3 of the data.
+inline std::string create_tables() {
+  std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
+                    "PRAGMA user_version = " + std::to_string(recording_format) + ";";
+  for (const char* table : {"header", "frames", "keyframes", "commands"})
+    sql += std::string("CREATE TABLE ") + table +
+           " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
+  return sql;
+}
+
+inline std::string insert_into(const std::string& table) {
+  return "INSERT INTO " + table + " (tick, data, checksum) VALUES (?1, ?2, ?3)";
+}
+inline std::string select_from(const std::string& table) {
+  return "SELECT data, checksum FROM " + table + " WHERE tick = ?1";
+}
+
+}  // namespace scree::schema
