@@ -1,0 +1,316 @@
+#include "client/connection/connection.h"
+
+#include <asio/connect.hpp>
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/post.hpp>
+#include <asio/write.hpp>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "client/connection/limits.h"
+#include "proto/codec.h"
+#include "proto/frame_reader.h"
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using asio::ip::tcp;
+
+/// About what the decoded message takes; a few compressed bytes can hold megabytes of codes.
+size_t memory_of(const ServerMessage& message) {
+  size_t bytes = sizeof(ServerMessage);
+  if (const auto* frame = std::get_if<FrameMessage>(&message)) {
+    bytes += frame->patches.size() * sizeof(BrickPatch) + frame->operations.size() * sizeof(Operation) +
+             frame->transforms.size();
+  } else if (const auto* chunk = std::get_if<ChunkMessage>(&message)) {
+    bytes += chunk->bricks.size() * sizeof(BrickPatch);
+  } else if (const auto* piece = std::get_if<PieceMessage>(&message)) {
+    bytes += piece->volume.window.codes.size();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+/// Members without `mutex` are the network thread's. Until the welcome, connect() runs the context on its own
+/// thread; from then on `thread` does.
+struct Connection::Impl {
+  struct Waiting {
+    Received received;
+    size_t memory = 0;
+  };
+
+  asio::io_context context;
+  std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work;
+  std::thread thread;
+  tcp::resolver resolver{context};
+  tcp::socket socket{context};
+  FrameReader reader;
+  std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
+  std::deque<std::vector<uint8_t>> outbox;
+  size_t outbox_bytes = 0;
+  bool reading = false;  ///< a read is under way
+  bool paused = false;   ///< by pause_reading
+  bool ended = false;    ///< the socket is closed
+  std::optional<WelcomeMessage> welcome;
+
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Waiting> queue;  // guarded by mutex, as all below
+  size_t queue_memory = 0;
+  bool starved = false;  ///< reading stopped because the queue is full
+  bool open = false;
+  std::string reason;
+  ConnectionCounters counters;
+
+  void start(const std::string& host, uint16_t port, const HelloMessage& hello);
+  void end(const std::string& why);
+  void read();
+  void take_messages();
+  void enqueue(ServerMessage message, size_t bytes);
+  void handle(ServerMessage message, size_t bytes);
+  void push(std::vector<uint8_t> bytes);
+  void write();
+  std::vector<Received> take_all();
+};
+
+void Connection::Impl::start(const std::string& host, uint16_t port, const HelloMessage& hello) {
+  resolver.async_resolve(
+      host, std::to_string(port), [this, hello](const asio::error_code& error, const auto& found) {
+        if (error) return end("cannot find the host: " + error.message());
+        asio::async_connect(
+            socket, found, [this, hello](const asio::error_code& refused, const tcp::endpoint&) {
+              if (refused)
+                return end("cannot connect: " + refused.message() + "; is a server running there?");
+              asio::error_code ignored;
+              socket.set_option(tcp::no_delay(true), ignored);
+              push(encode(ClientMessage{hello}));
+              read();
+            });
+      });
+}
+
+void Connection::Impl::end(const std::string& why) {
+  if (ended) return;
+  ended = true;
+  asio::error_code ignored;
+  socket.shutdown(tcp::socket::shutdown_both, ignored);
+  socket.close(ignored);
+  work.reset();
+  {
+    const std::scoped_lock lock(mutex);
+    open = false;
+    reason = why;
+  }
+  changed.notify_all();
+  if (!welcome) context.stop();
+}
+
+void Connection::Impl::read() {
+  if (ended || reading || paused) return;
+  reading = true;
+  socket.async_read_some(asio::buffer(buffer), [this](const asio::error_code& error, size_t count) {
+    reading = false;
+    if (error == asio::error::operation_aborted) return;
+    if (error == asio::error::eof) return end("the server closed the connection");
+    if (error) return end("the connection was lost: " + error.message());
+    {
+      const std::scoped_lock lock(mutex);
+      counters.received_bytes += count;
+    }
+    reader.push(std::span<const uint8_t>(buffer).first(count));
+    take_messages();
+  });
+}
+
+/// Hands on what the reader holds, as far as the queue has room; then reads on.
+void Connection::Impl::take_messages() {
+  while (!ended) {
+    {
+      const std::scoped_lock lock(mutex);
+      const bool full =
+          queue.size() >= limits::received_messages_max || queue_memory >= limits::received_bytes_max;
+      if (full) {
+        if (!starved) ++counters.pauses;
+        starved = true;
+        return;
+      }
+    }
+    const auto next = reader.next();
+    if (!next) return end("what the server sent is not this protocol: " + next.error().message);
+    if (!*next) break;
+    Result<ServerMessage> message = decode_server(**next);
+    if (!message) return end("what the server sent is not this protocol: " + message.error().message);
+    handle(std::move(*message), (*next)->size() + length_prefix_bytes);
+  }
+  read();
+}
+
+void Connection::Impl::handle(ServerMessage message, size_t bytes) {
+  if (const auto* refusal = std::get_if<RefusalMessage>(&message))
+    return end("the server refused: " + refusal->reason);
+  if (welcome) {
+    if (std::holds_alternative<WelcomeMessage>(message)) return end("the server sent a second welcome");
+    enqueue(std::move(message), bytes);
+    return;
+  }
+  const auto* first = std::get_if<WelcomeMessage>(&message);
+  if (first == nullptr) return end("the server did not begin with a welcome");
+  if (first->protocol != protocol_version)
+    return end("the server speaks protocol " + std::to_string(first->protocol) + ", this client " +
+               std::to_string(protocol_version) + "; use the same version of both");
+  welcome = *first;
+  {
+    const std::scoped_lock lock(mutex);
+    open = true;
+  }
+  context.stop();  // connect() waits for this; the thread goes on from here
+}
+
+void Connection::Impl::enqueue(ServerMessage message, size_t bytes) {
+  const size_t memory = memory_of(message);
+  {
+    const std::scoped_lock lock(mutex);
+    queue.push_back({{std::move(message), bytes, Clock::now()}, memory});
+    queue_memory += memory;
+    ++counters.received_messages;
+  }
+  changed.notify_all();
+}
+
+void Connection::Impl::push(std::vector<uint8_t> bytes) {
+  if (ended) return;
+  outbox_bytes += bytes.size();
+  if (outbox_bytes > limits::unsent_bytes_max)
+    return end("the server does not read: " + std::to_string(outbox_bytes) +
+               " bytes wait to be sent (limits.unsent_bytes_max)");
+  outbox.push_back(std::move(bytes));
+  if (outbox.size() == 1) write();
+}
+
+void Connection::Impl::write() {
+  asio::async_write(socket, asio::buffer(outbox.front()), [this](const asio::error_code& error, size_t) {
+    if (error == asio::error::operation_aborted || ended) return;
+    if (error) {
+      // The server may have said why before it closed: what is still to be read says more than this error.
+      outbox.clear();
+      outbox_bytes = 0;
+      return;
+    }
+    outbox_bytes -= outbox.front().size();
+    outbox.pop_front();
+    if (!outbox.empty()) write();
+  });
+}
+
+std::vector<Received> Connection::Impl::take_all() {
+  std::vector<Received> all;
+  all.reserve(queue.size());
+  for (Waiting& waiting : queue) all.push_back(std::move(waiting.received));
+  queue.clear();
+  queue_memory = 0;
+  if (starved) asio::post(context, [this] { take_messages(); });
+  starved = false;
+  return all;
+}
+
+Connection::Connection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Result<std::unique_ptr<Connection>> Connection::connect(const std::string& host, uint16_t port,
+                                                        const HelloMessage& hello,
+                                                        std::chrono::milliseconds within) {
+  const std::string address = host + ":" + std::to_string(port) + ": ";
+  try {
+    auto impl = std::make_unique<Impl>();
+    impl->start(host, port, hello);
+    impl->context.run_for(within);
+    if (!impl->welcome) {
+      impl->end("no answer within " + std::to_string(within.count()) + " ms");
+      return fail(address + impl->reason);
+    }
+    if (!impl->ended) impl->work.emplace(impl->context.get_executor());
+    impl->context.restart();
+    impl->thread = std::thread([context = &impl->context] { context->run(); });
+    return std::unique_ptr<Connection>(new Connection(std::move(impl)));
+  } catch (const std::exception& error) {
+    return fail(address + error.what());
+  }
+}
+
+Connection::~Connection() {
+  close();
+  if (impl_->thread.joinable()) impl_->thread.join();
+}
+
+const WelcomeMessage& Connection::welcome() const {
+  return *impl_->welcome;
+}
+
+std::vector<Received> Connection::poll() {
+  const std::scoped_lock lock(impl_->mutex);
+  return impl_->take_all();
+}
+
+std::vector<Received> Connection::wait(std::chrono::milliseconds within) {
+  std::unique_lock lock(impl_->mutex);
+  impl_->changed.wait_for(lock, within, [this] { return !impl_->queue.empty() || !impl_->open; });
+  return impl_->take_all();
+}
+
+void Connection::send(const ClientMessage& message) {
+  std::vector<uint8_t> bytes = encode(message);
+  {
+    const std::scoped_lock lock(impl_->mutex);
+    if (!impl_->open) return;
+    impl_->counters.sent_bytes += bytes.size();
+    ++impl_->counters.sent_messages;
+  }
+  asio::post(impl_->context,
+             [impl = impl_.get(), bytes = std::move(bytes)]() mutable { impl->push(std::move(bytes)); });
+}
+
+bool Connection::connected() const {
+  const std::scoped_lock lock(impl_->mutex);
+  return impl_->open;
+}
+
+std::string Connection::close_reason() const {
+  const std::scoped_lock lock(impl_->mutex);
+  return impl_->reason;
+}
+
+ConnectionCounters Connection::counters() const {
+  const std::scoped_lock lock(impl_->mutex);
+  ConnectionCounters counters = impl_->counters;
+  counters.waiting_messages = impl_->queue.size();
+  return counters;
+}
+
+void Connection::close() {
+  asio::post(impl_->context, [impl = impl_.get()] { impl->end("closed here"); });
+}
+
+void Connection::pause_reading(bool pause) {
+  asio::post(impl_->context, [impl = impl_.get(), pause] {
+    impl->paused = pause;
+    if (!pause) impl->take_messages();
+  });
+}
+
+void Connection::cut() {
+  asio::post(impl_->context, [impl = impl_.get()] {
+    asio::error_code ignored;
+    impl->socket.set_option(asio::socket_base::linger(true, 0), ignored);
+    if (!impl->ended) impl->socket.close(ignored);
+    impl->end("cut here");
+  });
+}
+
+}  // namespace scree

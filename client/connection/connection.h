@@ -1,0 +1,75 @@
+// A client's connection to a server: bytes to messages and back, on a thread of its own.
+//
+// Received messages wait in a bounded queue for poll(); while it is full, nothing is read from the socket, so
+// that a slow client slows the server's sending and nothing else. All functions may be called from any
+// thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "proto/messages.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+struct Received {
+  ServerMessage message;
+  size_t bytes = 0;  ///< on the wire, length prefix included
+  std::chrono::steady_clock::time_point arrived;
+};
+
+struct ConnectionCounters {
+  uint64_t received_bytes = 0;
+  uint64_t received_messages = 0;
+  uint64_t sent_bytes = 0;  ///< handed to send()
+  uint64_t sent_messages = 0;
+  size_t waiting_messages = 0;  ///< received, not yet polled
+  uint64_t pauses = 0;          ///< times that reading stopped because the queue was full
+};
+
+class Connection {
+ public:
+  /// Connects, says hello and waits for the welcome. The error names the address and says what went wrong; a
+  /// refusal comes in the server's own words.
+  static Result<std::unique_ptr<Connection>> connect(const std::string& host, uint16_t port,
+                                                     const HelloMessage& hello,
+                                                     std::chrono::milliseconds within);
+  /// Closes.
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  const WelcomeMessage& welcome() const;
+
+  /// Everything that has arrived, in order, after the welcome. Does not wait. Messages that arrived before
+  /// the connection closed can still be polled.
+  std::vector<Received> poll();
+  /// As poll(), but waits for something to arrive, the connection to close, or the time to pass.
+  std::vector<Received> wait(std::chrono::milliseconds within);
+
+  /// Sends when the socket can take it; nothing after the connection has closed.
+  void send(const ClientMessage& message);
+
+  bool connected() const;
+  /// Why the connection closed; empty while it has not.
+  std::string close_reason() const;
+  ConnectionCounters counters() const;
+
+  void close();
+
+  /// For tests: stop taking bytes off the socket, as a stuck client does; and tear the connection down
+  /// without a farewell, as a lost link does.
+  void pause_reading(bool pause);
+  void cut();
+
+ private:
+  struct Impl;
+  explicit Connection(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scree
