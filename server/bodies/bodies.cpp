@@ -12,6 +12,7 @@
 #include <xxhash.h>
 
 #include "server/bodies/body_shape.h"
+#include "server/bodies/hull_algorithm.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/terrain_manifold.h"
 #include "shared/base/check.h"
@@ -31,6 +32,10 @@ glm::vec3 from_bullet(const btVector3& v) {
 btTransform to_bullet(const Pose& pose) {
   const glm::quat& q = pose.rotation;
   return btTransform(btQuaternion(q.x, q.y, q.z, q.w), to_bullet(pose.position_m));
+}
+
+glm::mat3 from_bullet(const btMatrix3x3& rows) {
+  return {from_bullet(rows.getColumn(0)), from_bullet(rows.getColumn(1)), from_bullet(rows.getColumn(2))};
 }
 
 Pose from_bullet(const btTransform& transform) {
@@ -53,6 +58,7 @@ btVector3 stable_inertia(glm::vec3 inertia) {
 
 struct Body {
   std::unique_ptr<btConvexHullShape> shape;
+  std::unique_ptr<HullCorners> corners;  ///< of `shape`, turned; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
   std::unique_ptr<TerrainProbe> probe;
   btPersistentManifold* ground = nullptr;  ///< the dispatcher's; body 0 is `rigid`
@@ -64,6 +70,12 @@ struct Body {
 /// The piece that a Bullet object is; ids are kept in its user index, bit for bit.
 PieceId id_of(const btCollisionObject* object) {
   return static_cast<PieceId>(object->getUserIndex());
+}
+
+btDefaultCollisionConstructionInfo sizes() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_customCollisionAlgorithmMaxElementSize = sizeof(HullAlgorithm);
+  return info;
 }
 
 bool touches(const btPersistentManifold& manifold) {
@@ -83,6 +95,7 @@ struct Bodies::State {
       : config(c),
         voxel_size_m(field.source().voxel_size_m),
         tick_s(1.0F / static_cast<float>(c.tick_rate_hz)),
+        collision_configuration(sizes()),
         dispatcher(&collision_configuration),
         dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
         terrain_collider(make_collider(c.terrain_collider, field)) {
@@ -93,6 +106,8 @@ struct Bodies::State {
     terrain_proxy.m_uniqueId = 0;
     terrain_proxy.m_clientObject = &terrain;
     terrain.setBroadphaseHandle(&terrain_proxy);
+    dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
+                                           &hull_algorithm);
     dynamics.setGravity(btVector3(0.0F, -c.gravity_m_s2, 0.0F));
     dynamics.setForceUpdateAllAabbs(false);
     dynamics.getDispatchInfo().m_deterministicOverlappingPairs = true;
@@ -109,6 +124,7 @@ struct Bodies::State {
   BodiesConfig config;
   float voxel_size_m;
   float tick_s;
+  HullAlgorithmCreator hull_algorithm;
   btDefaultCollisionConfiguration collision_configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
@@ -183,6 +199,8 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
   body.rigid = std::make_unique<btRigidBody>(info);
   body.rigid->setFlags(0);  // no gyroscopic torque: it costs a solve a body, and rubble does not show it
+  body.corners = std::make_unique<HullCorners>(corners_of(*body.shape));
+  body.rigid->setUserPointer(body.corners.get());
   body.rigid->setUserIndex(static_cast<int>(state.id));
   body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
@@ -218,6 +236,7 @@ size_t Bodies::size() const {
 void Bodies::step() {
   State& s = *state_;
   for (auto& [id, body] : s.bodies) {
+    body.corners->turn(from_bullet(body.rigid->getWorldTransform().getBasis()));
     if (!body.rigid->isActive()) continue;
     body.last = body.rigid->getWorldTransform();
     s.find_ground(body);
@@ -271,8 +290,9 @@ BodyContacts Bodies::contacts() const {
     if (up < -limits::carrying_slope) contacts.carried.push_back({b, a});
   }
   std::ranges::sort(contacts.carried);
-  const auto rest = std::ranges::unique(contacts.carried);
-  contacts.carried.erase(rest.begin(), rest.end());
+  // clang 14 does not compile libstdc++'s std::ranges::unique.
+  contacts.carried.erase(std::unique(contacts.carried.begin(), contacts.carried.end()),
+                         contacts.carried.end());
   return contacts;
 }
 

@@ -60,6 +60,15 @@ std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3
   return shape;
 }
 
+std::vector<glm::vec3> corners_of(const btConvexHullShape& shape) {
+  std::vector<glm::vec3> corners;
+  for (int i = 0; i < shape.getNumPoints(); ++i) {
+    const btVector3& p = shape.getUnscaledPoints()[i];
+    corners.emplace_back(p.x(), p.y(), p.z());
+  }
+  return corners;
+}
+
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m) {
   std::vector<glm::vec3> points = hull_m;
   if (reach_of(hull_m) <= 2.0F * spacing_m) return points;  // its corners are near enough to each other

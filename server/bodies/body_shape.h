@@ -12,6 +12,9 @@ namespace scree {
 /// neighbours do not overlap at birth. For piece against piece alone.
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m);
 
+/// The shrunken hull's corners.
+std::vector<glm::vec3> corners_of(const btConvexHullShape& shape);
+
 /// The hull's corners, and points on its faces so that none lie much farther apart than the spacing.
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m);
 

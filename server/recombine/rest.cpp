@@ -24,22 +24,37 @@ struct Resting {
   uint32_t layer = 0;  ///< 1: on terrain; n + 1: on a piece of layer n; 0: on nothing so far
 };
 
-Resting* find(std::vector<Resting>& resting, PieceId id) {
-  const auto found = std::ranges::lower_bound(resting, id, {}, &Resting::id);
-  return found != resting.end() && found->id == id ? &*found : nullptr;
+/// A support between two pieces at rest, as indices.
+struct Pair {
+  size_t upper;
+  size_t lower;
+};
+
+std::vector<Pair> pairs_at_rest(const std::vector<Resting>& resting, std::span<const RestSupport> supports) {
+  std::vector<Pair> pairs;
+  const auto find = [&](PieceId id) {
+    const auto found = std::ranges::lower_bound(resting, id, {}, &Resting::id);
+    return found != resting.end() && found->id == id ? static_cast<size_t>(found - resting.begin())
+                                                     : resting.size();
+  };
+  for (const RestSupport& support : supports) {
+    const Pair pair{find(support.upper), find(support.lower)};
+    if (pair.upper < resting.size() && pair.lower < resting.size() && resting[pair.upper].layer == 0)
+      pairs.push_back(pair);
+  }
+  return pairs;
 }
 
-/// Raises the layers from the ground up, until nothing changes.
+/// Raises the layers from the ground up, until nothing changes. `resting` is ordered by id.
 void stack(std::vector<Resting>& resting, std::span<const RestSupport> supports) {
+  const std::vector<Pair> pairs = pairs_at_rest(resting, supports);
   bool raised = true;
   for (uint32_t layer = 1; raised; ++layer) {
     raised = false;
-    for (const RestSupport& support : supports) {
-      Resting* upper = find(resting, support.upper);
-      if (upper == nullptr || upper->layer != 0) continue;
-      const Resting* lower = find(resting, support.lower);
-      if (lower == nullptr || lower->layer != layer) continue;
-      upper->layer = layer + 1;
+    for (const Pair& pair : pairs) {
+      Resting& upper = resting[pair.upper];
+      if (upper.layer != 0 || resting[pair.lower].layer != layer) continue;
+      upper.layer = layer + 1;
       raised = true;
     }
   }
