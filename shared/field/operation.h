@@ -38,7 +38,7 @@ struct FillOperation {
 struct StampOperation {
   PieceId piece = 0;
   QuantisedPose pose;
-  int32_t shift = 0;  ///< of the iso-level, 1/64 voxel
+  int32_t shift = 0;  ///< of the iso-level, 1/2048 voxel
 
   bool operator==(const StampOperation&) const = default;
 };

@@ -29,9 +29,26 @@ struct PosedAxes {
   glm::vec3 local(glm::vec3 world) const { return to_local * (world - world_centre) + local_centre; }
 };
 
-/// Bounds of the posed window, whole voxels.
+/// The part of a volume's window that a stamp can make solid: within the largest shift of the surface, and
+/// the voxels that are interpolated with those.
+VoxelBox reach_box(const Window& window) {
+  constexpr Code within_shift = 43;  // one voxel, stamp_shift_max
+  const VoxelBox& all = window.box;
+  VoxelBox reach{all.hi, all.lo};
+  size_t i = 0;
+  for (int x = all.lo.x; x < all.hi.x; ++x)
+    for (int y = all.lo.y; y < all.hi.y; ++y)
+      for (int z = all.lo.z; z < all.hi.z; ++z, ++i) {
+        if (window.codes[i] > within_shift) continue;
+        reach.lo = {std::min(reach.lo.x, x), std::min(reach.lo.y, y), std::min(reach.lo.z, z)};
+        reach.hi = {std::max(reach.hi.x, x + 1), std::max(reach.hi.y, y + 1), std::max(reach.hi.z, z + 1)};
+      }
+  return reach.empty() ? all : reach.grown(1);
+}
+
+/// Bounds of the posed volume, whole voxels.
 VoxelBox posed_box(const Volume& volume, const PosedAxes& axes) {
-  const VoxelBox& box = volume.window.box;
+  const VoxelBox box = reach_box(volume.window);
   const glm::mat3 to_world = glm::transpose(axes.to_local);
   glm::vec3 lo(0.0F), hi(0.0F);
   for (int corner = 0; corner < 8; ++corner) {
@@ -125,35 +142,34 @@ void unite(Patch& patch, const PosedDistances& piece, int shift) {
     }
 }
 
-/// Calls f(index) for every voxel of the box but its outermost layer.
+/// Calls f(index of the row's first inner voxel, how many) for every row along z of the box but its outermost
+/// layer.
 template <typename F>
-void for_each_inner(const VoxelBox& box, F&& f) {
+void for_each_inner_row(const VoxelBox& box, F&& f) {
   const VoxelCoord size = box.size();
   for (int x = 1; x + 1 < size.x; ++x)
-    for (int y = 1; y + 1 < size.y; ++y) {
-      size_t i = (static_cast<size_t>(x) * static_cast<size_t>(size.y) + static_cast<size_t>(y)) *
-                     static_cast<size_t>(size.z) +
-                 1;
-      for (int z = 1; z + 1 < size.z; ++z, ++i) f(i);
-    }
+    for (int y = 1; y + 1 < size.y; ++y)
+      f((static_cast<size_t>(x) * static_cast<size_t>(size.y) + static_cast<size_t>(y)) *
+                static_cast<size_t>(size.z) +
+            1,
+        static_cast<ptrdiff_t>(size.z) - 2);
 }
 
+/// Distance in the array to the next voxel along x, y, z.
 struct Steps {
-  size_t axis[3];
+  ptrdiff_t axis[3];
   explicit Steps(const VoxelBox& box)
-      : axis{static_cast<size_t>(box.size().y) * static_cast<size_t>(box.size().z),
-             static_cast<size_t>(box.size().z), 1} {}
+      : axis{static_cast<ptrdiff_t>(box.size().y) * box.size().z, static_cast<ptrdiff_t>(box.size().z), 1} {}
 };
 
 /// Whether the outside voxel lies in a gap narrower than a voxel along some axis, next to what the piece
 /// changed.
-bool in_thin_gap(const Patch& patch, const Steps& steps, size_t i) {
-  const auto& codes = patch.codes.codes;
-  const int here = codes[i];
-  for (const size_t step : steps.axis) {
-    const int low = codes[i - step], high = codes[i + step];
+bool in_thin_gap(const Code* codes, const uint8_t* touched, const Steps& steps) {
+  const int here = *codes;
+  for (const ptrdiff_t step : steps.axis) {
+    const int low = codes[-step], high = codes[step];
     if (low >= 0 || high >= 0) continue;
-    if (patch.touched[i] == 0 && patch.touched[i - step] == 0 && patch.touched[i + step] == 0) continue;
+    if ((touched[0] | touched[-step] | touched[step]) == 0) continue;
     // Width of the gap: here / (here − low) + here / (here − high) < 1, without the divisions.
     if (here * (here - high) + here * (here - low) < (here - low) * (here - high)) return true;
   }
@@ -162,33 +178,81 @@ bool in_thin_gap(const Patch& patch, const Steps& steps, size_t i) {
 
 /// Gaps of less than a voxel between the piece and what it lies against become rock: just inside.
 void close_gaps(Patch& patch, std::vector<size_t>& gaps) {
+  constexpr Code too_far = 43;  // a voxel from either side by its own account
   const Steps steps(patch.codes.box);
+  const Code* codes = patch.codes.codes.data();
   gaps.clear();
-  for_each_inner(patch.codes.box, [&](size_t i) {
-    if (patch.codes.codes[i] >= 0 && in_thin_gap(patch, steps, i)) gaps.push_back(i);
+  for_each_inner_row(patch.codes.box, [&](size_t first, ptrdiff_t count) {
+    for (size_t i = first; i < first + static_cast<size_t>(count); ++i)
+      if (codes[i] >= 0 && codes[i] < too_far && in_thin_gap(codes + i, patch.touched.data() + i, steps))
+        gaps.push_back(i);
   });
   for (const size_t i : gaps) patch.codes.codes[i] = -1;
 }
 
 /// Σ occupancy as it will be once redistanced: voxels that touch no zero crossing will be full, or empty.
+/// Without a branch, so that the rows vectorise.
 MassUnits settled_mass(const Window& window) {
   const Steps steps(window.box);
-  const auto& codes = window.codes;
   MassUnits sum = 0;
-  for_each_inner(window.box, [&](size_t i) {
-    const bool inside = codes[i] < 0;
-    bool crossing = false;
-    for (const size_t step : steps.axis)
-      crossing = crossing || (codes[i - step] < 0) != inside || (codes[i + step] < 0) != inside;
-    sum += crossing ? occupancy(codes[i]) : (inside ? units_per_voxel : 0);
+  for_each_inner_row(window.box, [&](size_t first, ptrdiff_t count) {
+    const Code* c = window.codes.data() + first;
+    int row = 0;
+    for (ptrdiff_t z = 0; z < count; ++z) {
+      const int own = c[z];
+      int signs = 0;  // negative when some neighbour is on the other side
+      for (const ptrdiff_t step : steps.axis) signs |= (own ^ c[z - step]) | (own ^ c[z + step]);
+      const int crossing = signs >> 31;  // all ones, or none
+      const int settled = (own >> 31) & units_per_voxel;
+      row += (crossing & occupancy(own)) | (~crossing & settled);
+    }
+    sum += row;
   });
   return sum;
 }
 
 MassUnits plain_mass(const Window& window) {
   MassUnits sum = 0;
-  for_each_inner(window.box, [&](size_t i) { sum += occupancy(window.codes[i]); });
+  for_each_inner_row(window.box, [&](size_t first, ptrdiff_t count) {
+    int row = 0;
+    for (ptrdiff_t z = 0; z < count; ++z) row += occupancy(window.codes[first + static_cast<size_t>(z)]);
+    sum += row;
+  });
   return sum;
+}
+
+/// Finds the largest shift whose gain is known to stay within the budget: false position (Illinois), for the
+/// gain is nearly linear in the shift, then bisection where gaps that close make it jump.
+template <typename Gain>
+StampPlan search_shift(MassUnits budget, Gain&& gain_of) {
+  constexpr int evaluations_max = 14;
+  int low = -stamp_shift_max, high = stamp_shift_max;
+  StampPlan best{high, gain_of(high)};
+  if (best.gain <= budget) return best;
+  best = {low, gain_of(low)};
+  if (best.gain >= budget) return best;
+  double under = static_cast<double>(best.gain - budget), over = static_cast<double>(gain_of(high) - budget);
+  int side = 0;
+  for (int i = 0; i < evaluations_max && high - low > 1; ++i) {
+    const double part = under / (under - over);
+    const int guess = low + static_cast<int>(part * (high - low));
+    const int middle = std::clamp(i % 4 == 3 ? (low + high) / 2 : guess, low + 1, high - 1);
+    const MassUnits gain = gain_of(middle);
+    if (gain <= budget) {
+      best = {middle, gain};
+      low = middle;
+      under = static_cast<double>(gain - budget);
+      if (gain == budget) break;
+      if (side == -1) over *= 0.5;
+      side = -1;
+    } else {
+      high = middle;
+      over = static_cast<double>(gain - budget);
+      if (side == 1) under *= 0.5;
+      side = 1;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -223,20 +287,9 @@ StampPlan plan_stamp(const Window& window, const Volume& volume, const Quantised
   };
   // What redistancing alone changes, over the whole window, comes on top whatever the shift.
   const MassUnits seams = settled_mass(window) - plain_mass(window);
-  int low = -stamp_shift_max;
-  int high = stamp_shift_max + 1;
-  MassUnits gain = gain_of(low);
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    const MassUnits trial = gain_of(middle);
-    if (trial + seams <= budget) {
-      low = middle;
-      gain = trial;
-    } else {
-      high = middle;
-    }
-  }
-  return {low, gain + seams};
+  StampPlan plan = search_shift(budget - seams, gain_of);
+  plan.gain += seams;
+  return plan;
 }
 
 }  // namespace scree

@@ -9,9 +9,10 @@
 
 namespace scree {
 
-/// Iso-level shifts are multiples of 1/64 voxel; positive grows the piece.
-inline constexpr float stamp_shift_steps_per_voxel = 64.0F;
-inline constexpr int stamp_shift_max = 64;
+/// Iso-level shifts are multiples of 1/2048 voxel, at most one voxel; positive grows the piece. Much finer
+/// than a code: voxels round at different shifts, so the mass can be met to a few units.
+inline constexpr float stamp_shift_steps_per_voxel = 2048.0F;
+inline constexpr int stamp_shift_max = 2048;
 
 /// The voxels that stamping may read; all that it may change lie at least one voxel inside.
 VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
@@ -24,7 +25,7 @@ struct StampPlan {
   MassUnits gain = 0;  ///< what the window gains with that shift
 };
 
-/// The largest shift found (by bisection) whose gain stays within `budget`, and the exact gain of stamp()
+/// The largest shift found whose gain stays within `budget`, and the exact gain of stamp()
 /// with it. Only where old seams in the window are worth more than the budget is the gain above it, with the
 /// least shift.
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
