@@ -18,6 +18,29 @@ uint32_t fold(uint64_t hash) {
 
 }  // namespace
 
+MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
+  frames += other.frames;
+  carves += other.carves;
+  fills += other.fills;
+  stamps += other.stamps;
+  discards += other.discards;
+  operation_bytes += other.operation_bytes;
+  patched_bricks += other.patched_bricks;
+  transforms += other.transforms;
+  transform_bytes += other.transform_bytes;
+  chunks += other.chunks;
+  dropped_chunks += other.dropped_chunks;
+  pieces_made += other.pieces_made;
+  pieces_sent += other.pieces_sent;
+  pieces_merged += other.pieces_merged;
+  checks += other.checks;
+  mismatches += other.mismatches;
+  repairs_asked += other.repairs_asked;
+  repairs_arrived += other.repairs_arrived;
+  resets += other.resets;
+  return *this;
+}
+
 Mirror::Mirror(const WelcomeMessage& welcome)
     : field_(welcome.terrain), tick_(welcome.tick), ticks_per_transform_(welcome.ticks_per_transform) {}
 

@@ -60,6 +60,8 @@ struct MirrorCounters {
   uint64_t repairs_asked = 0;    ///< chunks
   uint64_t repairs_arrived = 0;  ///< chunks
   uint64_t resets = 0;
+
+  MirrorCounters& operator+=(const MirrorCounters& other);
 };
 
 class Mirror {

@@ -1,0 +1,227 @@
+#include "client/bot/bot.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "client/bot/limits.h"
+#include "client/bot/tally.h"
+
+namespace scree {
+
+namespace {
+
+constexpr auto step_wait = std::chrono::milliseconds(10);
+
+double ms_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+Bot::Bot(BotConfig config, Log log)
+    : config_(std::move(config)),
+      log_(std::move(log)),
+      carver_(config_.carver, config_.seed),
+      eye_m_(config_.carver.centre_m) {
+  report_.server = config_.host + ":" + std::to_string(config_.port);
+}
+
+Bot::~Bot() = default;
+
+void Bot::log(const std::string& line) const {
+  if (log_) log_(line);
+}
+
+Result<void> Bot::join() {
+  started_ = Clock::now();
+  Result<void> joined = connect();
+  if (!joined) report_.failure = joined.error().message;
+  return joined;
+}
+
+Result<void> Bot::connect() {
+  const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
+  auto connected = Connection::connect(config_.host, config_.port, hello,
+                                       std::chrono::milliseconds(limits::bot_connect_ms));
+  if (!connected) return tl::unexpected(connected.error());
+  connection_ = std::move(*connected);
+  report_.welcome = connection_->welcome();
+  mirror_ = std::make_unique<Mirror>(report_.welcome);
+  if (report_.connections++ == 0) {
+    // Only now the ground is known.
+    const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
+    set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
+  }
+  log("connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick));
+  return {};
+}
+
+/// What belongs to the connection goes into the report, and the connection goes.
+void Bot::leave() {
+  if (!mirror_) return;
+  report_.seen += mirror_->counters();
+  report_.bytes_sent += connection_->counters().sent_bytes;
+  report_.carves_lost += static_cast<uint32_t>(requests_.size());
+  requests_.clear();
+  unseen_.clear();
+  mirror_.reset();
+  connection_.reset();
+}
+
+Result<void> Bot::reconnect(const std::string& why) {
+  leave();
+  std::string last = why;
+  for (uint32_t tries = 1; report_.connections + tries - 1 <= config_.reconnects_max; ++tries) {
+    log("connection lost (" + last + "): trying again");
+    std::this_thread::sleep_for(std::chrono::milliseconds(limits::bot_retry_ms * tries));
+    const Result<void> connected = connect();
+    if (connected) return {};
+    last = connected.error().message;
+  }
+  report_.failure = "gave up after " + std::to_string(report_.connections) + " connections: " + last;
+  return fail(report_.failure);
+}
+
+Result<void> Bot::step(std::chrono::milliseconds wait) {
+  if (!connection_) return fail("the bot has not joined, or has given up");
+  for (const Received& received : connection_->wait(wait))
+    if (Result<void> applied = receive(received); !applied) return reconnect(applied.error().message);
+  if (!connection_->connected() && connection_->counters().waiting_messages == 0)
+    return reconnect(connection_->close_reason());
+  const Clock::time_point now = Clock::now();
+  ask(now);
+  acknowledge(now);
+  return {};
+}
+
+Result<void> Bot::receive(const Received& received) {
+  tally(received, report_);
+  const Result<MirrorChanges> applied = mirror_->apply(received.message);
+  if (!applied) return tl::unexpected(applied.error());
+  while (const auto repair = mirror_->take_repair_request()) {
+    log("a check failed at tick " + std::to_string(repair->tick) + ": asking for " +
+        std::to_string(repair->chunks.size()) + " chunks");
+    connection_->send(*repair);
+  }
+  if (const auto* frame = std::get_if<FrameMessage>(&received.message))
+    receive_frame(*frame, received.arrived);
+  if (const auto* reply = std::get_if<ReplyMessage>(&received.message))
+    receive_reply(*reply, received.arrived);
+  if (const auto* status = std::get_if<StatusMessage>(&received.message)) receive_status(*status);
+  return {};
+}
+
+void Bot::receive_frame(const FrameMessage& frame, Clock::time_point arrived) {
+  if (first_frame_ == 0 || frame.tick < first_frame_) {
+    first_frame_ = frame.tick;
+    first_frame_at_ = arrived;
+  }
+  last_frame_at_ = arrived;
+  for (const Operation& operation : frame.operations) {
+    const auto* carve = std::get_if<CarveOperation>(&operation);
+    if (carve == nullptr) continue;
+    const auto own = unseen_.find(carve->random_seed);
+    if (own == unseen_.end()) continue;
+    report_.edit_latencies_ms.push_back(ms_between(own->second, arrived));
+    unseen_.erase(own);
+  }
+}
+
+void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
+  const auto request = requests_.find(reply.request);
+  if (request == requests_.end()) return;
+  report_.reply_latencies_ms.push_back(ms_between(request->second.sent, arrived));
+  if (reply.refusal.empty()) {
+    ++report_.carves_accepted;
+  } else {
+    ++report_.carves_refused;
+    ++report_.refusals[reply.refusal];
+    unseen_.erase(request->second.random_seed);
+    log("carve " + std::to_string(reply.request) + " was refused: " + reply.refusal);
+  }
+  requests_.erase(request);
+  if (report_.carves_asked == config_.carves && requests_.empty()) log("all carves are answered");
+}
+
+void Bot::receive_status(const StatusMessage& status) {
+  if (status.tick == mirror_->tick()) {
+    HashComparison& hash = report_.hash;
+    hash = {hash.compared + 1, mirror_->field().hash() == status.field_hash, status.tick,
+            mirror_->field().hash(), status.field_hash};
+  }
+  const bool at_rest = status.pieces == 0 && mirror_->pieces().empty();
+  const bool was_settled = report_.settled;
+  report_.settled = at_rest && rest_hash_ == status.field_hash;
+  rest_hash_ = at_rest ? std::optional(status.field_hash) : std::nullopt;
+  if (report_.settled && !was_settled) log("settled at tick " + std::to_string(status.tick));
+  if (!scripted_work_done()) return;
+  ++final_statuses_;
+  compared_ = report_.hash.equal || final_statuses_ >= limits::bot_final_statuses_max;
+}
+
+void Bot::ask(Clock::time_point now) {
+  if (first_frame_ == 0) return;
+  while (report_.carves_asked < config_.carves && requests_.size() < limits::bot_requests_waiting_max) {
+    const double due_ms = config_.rate_hz > 0.0 ? 1000.0 * report_.carves_asked / config_.rate_hz : 0.0;
+    if (ms_between(first_frame_at_, now) < due_ms) return;
+    const CarveMessage carve = carver_.next(mirror_->field(), ++report_.carves_asked);
+    const Clock::time_point sent = Clock::now();
+    requests_[carve.request] = {sent, carve.random_seed};
+    unseen_[carve.random_seed] = sent;
+    connection_->send(carve);
+  }
+}
+
+void Bot::acknowledge(Clock::time_point now) {
+  if (ms_between(acknowledged_, now) < limits::bot_ack_interval_ms) return;
+  acknowledged_ = now;
+  connection_->send(AckMessage{mirror_->tick()});
+}
+
+bool Bot::scripted_work_done() const {
+  return first_frame_ != 0 && report_.carves_asked == config_.carves && requests_.empty() &&
+         (!config_.linger || report_.settled);
+}
+
+bool Bot::finished() const {
+  const bool handshake_only = config_.carves == 0 && !config_.linger && !config_.check_hash;
+  return scripted_work_done() && (handshake_only || compared_);
+}
+
+void Bot::set_interest(glm::vec3 eye_m, float radius_m) {
+  eye_m_ = eye_m;
+  config_.interest_radius_m = radius_m;
+  if (connection_) connection_->send(InterestMessage{eye_m, radius_m});
+}
+
+BotReport Bot::run() {
+  Result<void> going = join();
+  while (going && !finished()) {
+    going = step(step_wait);
+    if (going && ms_between(started_, Clock::now()) > config_.timeout_s * 1000.0) {
+      report_.failure = "not finished within " + std::to_string(static_cast<int>(config_.timeout_s)) +
+                        " s (--timeout): " + std::to_string(requests_.size()) + " carves unanswered, " +
+                        std::to_string(report_.status.pieces) + " pieces alive";
+      break;
+    }
+  }
+  if (report_.failure.empty() && config_.check_hash && !report_.hash.equal)
+    report_.failure =
+        "the hash of this client's edits is not the server's (does the interest cover them all?)";
+  return report();
+}
+
+BotReport Bot::report() const {
+  BotReport report = report_;
+  report.duration_s = ms_between(started_, Clock::now()) / 1000.0;
+  if (!mirror_) return report;
+  report.seen += mirror_->counters();
+  report.bytes_sent += connection_->counters().sent_bytes;
+  report.pieces_alive = mirror_->pieces().size();
+  report.chunks_held = mirror_->held_chunks().size();
+  const double seconds = ms_between(first_frame_at_, last_frame_at_) / 1000.0;
+  if (seconds > 0.0) report.ticks_per_s = static_cast<double>(mirror_->tick() - first_frame_) / seconds;
+  return report;
+}
+
+}  // namespace scree

@@ -1,0 +1,99 @@
+// A client without a window: carves by script, follows what comes of it, and reports.
+//
+// Everything happens in step(), on the caller's thread; only the socket has a thread of its own. A connection
+// that is lost is made anew, a bounded number of times, with a fresh mirror. Not thread-safe.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "client/bot/carver.h"
+#include "client/bot/report.h"
+#include "client/connection/connection.h"
+#include "client/mirror/mirror.h"
+
+namespace scree {
+
+struct BotConfig {
+  std::string host = "127.0.0.1";
+  uint16_t port = 0;
+  uint32_t carves = 20;  ///< 0: a handshake and one frame will do
+  uint64_t seed = 1;
+  double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
+  CarverConfig carver;
+  float interest_radius_m = 96.0F;  ///< around the carver's centre
+  bool linger = false;              ///< stay until no piece is left and the field is at rest
+  bool check_hash = false;          ///< fail unless the hash of all edits equals the server's in the end
+  double timeout_s = 300.0;
+  uint32_t reconnects_max = 5;
+};
+
+class Bot {
+ public:
+  using Log = std::function<void(const std::string&)>;
+
+  explicit Bot(BotConfig config, Log log = {});
+  ~Bot();
+
+  /// The first connection.
+  Result<void> join();
+  /// Waits up to `wait` for messages, applies them, asks for what is due. An error: the bot has given up.
+  Result<void> step(std::chrono::milliseconds wait);
+  /// Everything asked and answered; with linger, settled; the hashes compared.
+  bool finished() const;
+  /// join() and step() until finished or out of time; what went wrong is in the report.
+  BotReport run();
+
+  BotReport report() const;
+
+  /// Moves the bot's interest.
+  void set_interest(glm::vec3 eye_m, float radius_m);
+  /// Nothing between a lost connection and the next.
+  Mirror* mirror() { return mirror_.get(); }
+  /// For tests: to cut it, or to pause its reading.
+  Connection* connection() { return connection_.get(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Request {
+    Clock::time_point sent;
+    uint32_t random_seed = 0;
+  };
+
+  Result<void> connect();
+  Result<void> reconnect(const std::string& why);
+  void leave();
+  Result<void> receive(const Received& received);
+  void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);
+  void receive_frame(const FrameMessage& frame, Clock::time_point arrived);
+  void receive_status(const StatusMessage& status);
+  void ask(Clock::time_point now);
+  void acknowledge(Clock::time_point now);
+  bool scripted_work_done() const;
+  void log(const std::string& line) const;
+
+  BotConfig config_;
+  Log log_;
+  Carver carver_;
+  glm::vec3 eye_m_;
+  std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Mirror> mirror_;
+  std::unordered_map<uint32_t, Request> requests_;          ///< by request number: not answered yet
+  std::unordered_map<uint32_t, Clock::time_point> unseen_;  ///< by random seed: not seen applied yet
+  Clock::time_point started_;
+  Clock::time_point acknowledged_;
+  Clock::time_point first_frame_at_;
+  Clock::time_point last_frame_at_;
+  Tick first_frame_ = 0;
+  std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
+  uint32_t final_statuses_ = 0;        ///< since all scripted work was done
+  bool compared_ = false;              ///< the last word on the hashes has been spoken
+  BotReport report_;                   ///< of connections past, and what does not depend on them
+};
+
+}  // namespace scree

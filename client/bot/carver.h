@@ -1,0 +1,42 @@
+// Where a bot carves next: points on the terrain as the bot's own copy has it now.
+// The same seed and the same terrain give the same carves.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "proto/messages.h"
+#include "shared/base/random.h"
+#include "shared/field/field.h"
+
+namespace scree {
+
+struct CarverConfig {
+  glm::vec3 centre_m{0.0F};  ///< y is found from the ground
+  float area_m = 20.0F;      ///< half a side of the square around the centre
+  float radius_m = 2.0F;
+  uint32_t seeds = 64;
+  /// Nothing: radial and uniform in turn.
+  std::optional<SeedPattern> pattern = SeedPattern::radial;
+  float blast_speed_m_s = 6.0F;
+};
+
+class Carver {
+ public:
+  Carver(const CarverConfig& config, uint64_t seed) : config_(config), random_(seed) {}
+
+  CarveMessage next(Field& field, uint32_t request);
+
+ private:
+  struct Hit {
+    glm::vec3 point_m{0.0F};
+    glm::vec3 direction{0.0F};  ///< of the look that found it
+  };
+  Hit look(Field& field);
+
+  CarverConfig config_;
+  Random random_;
+};
+
+}  // namespace scree

@@ -1,0 +1,27 @@
+// Bounds of a bot. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Requests that wait for their replies. Above, the bot asks no more until some are answered.
+inline constexpr size_t bot_requests_waiting_max = 64;
+
+/// Milliseconds between two acknowledgements of frames.
+inline constexpr int bot_ack_interval_ms = 250;
+
+/// Milliseconds to wait before the n-th try to connect again, times n.
+inline constexpr int bot_retry_ms = 250;
+
+/// Milliseconds that one try to connect may take.
+inline constexpr int bot_connect_ms = 5000;
+
+/// Statuses (one a second) without an equal hash, after everything is done, until the bot gives up on it.
+inline constexpr uint32_t bot_final_statuses_max = 10;
+
+/// Length of the ray along which a bot looks for something to carve, metres.
+inline constexpr float bot_sight_m = 96.0F;
+
+}  // namespace scree::limits

@@ -1,0 +1,128 @@
+// scree-bot: carves by script and reports as JSON. Exit status: 0 fine, 1 failed, 2 wrong usage.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "client/bot/bot.h"
+#include "shared/base/limits.h"
+
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_usage = 2;
+
+struct Options {
+  scree::BotConfig bot;
+  std::string pattern = "radial";
+  std::vector<float> centre_m = {0.0F, 0.0F};
+  std::string report;
+  bool quiet = false;
+};
+
+void add_connection(CLI::App& app, Options& options) {
+  scree::BotConfig& bot = options.bot;
+  app.add_option("--host", bot.host, "server to connect to")->envname("SCREE_HOST")->capture_default_str();
+  app.add_option("--port", bot.port, "its port")->envname("SCREE_PORT")->capture_default_str();
+  app.add_option("--interest", bot.interest_radius_m, "metres around the centre that the bot follows")
+      ->envname("SCREE_INTEREST")
+      ->check(CLI::Range(0.0F, scree::limits::interest_radius_max_m))
+      ->capture_default_str();
+  app.add_option("--reconnects", bot.reconnects_max, "connections to make anew before giving up")
+      ->envname("SCREE_RECONNECTS")
+      ->capture_default_str();
+}
+
+void add_carving(CLI::App& app, Options& options) {
+  scree::BotConfig& bot = options.bot;
+  app.add_option("--carves", bot.carves, "carves to ask for; 0 checks that the server answers")
+      ->envname("SCREE_CARVES")
+      ->check(CLI::Range(0U, 1000000U))
+      ->capture_default_str();
+  app.add_option("--seed", bot.seed, "of the random choices")->envname("SCREE_SEED")->capture_default_str();
+  app.add_option("--rate", bot.rate_hz, "carves a second; 0: as fast as the replies come")
+      ->envname("SCREE_RATE")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  // Over the server's limit is allowed: the server's answer is worth seeing.
+  app.add_option("--radius", bot.carver.radius_m, "of a carve, metres")
+      ->envname("SCREE_RADIUS")
+      ->capture_default_str();
+  app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into")
+      ->envname("SCREE_SEEDS")
+      ->capture_default_str();
+  app.add_option("--pattern", options.pattern, "of the seeds: radial, uniform, or both in turn")
+      ->envname("SCREE_PATTERN")
+      ->check(CLI::IsMember({"radial", "uniform", "both"}))
+      ->capture_default_str();
+  app.add_option("--centre", options.centre_m, "x and z around which to carve, metres")->expected(2);
+  app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres")
+      ->envname("SCREE_AREA")
+      ->check(CLI::Range(0.0F, scree::limits::world_half_width_m))
+      ->capture_default_str();
+}
+
+void add_ending(CLI::App& app, Options& options) {
+  scree::BotConfig& bot = options.bot;
+  app.add_flag("--linger", bot.linger, "stay until every piece has merged and the terrain is at rest")
+      ->envname("SCREE_LINGER");
+  app.add_flag("--check-hash", bot.check_hash, "fail unless the edits' hash equals the server's in the end")
+      ->envname("SCREE_CHECK_HASH");
+  app.add_option("--timeout", bot.timeout_s, "seconds after which all this has failed")
+      ->envname("SCREE_TIMEOUT")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  app.add_option("--report", options.report, "file for the report, JSON; - is the standard output")
+      ->envname("SCREE_REPORT");
+  app.add_flag("--quiet", options.quiet, "say nothing but errors");
+}
+
+/// The rest of the configuration follows from what was parsed.
+void complete(Options& options) {
+  scree::CarverConfig& carver = options.bot.carver;
+  if (options.pattern == "uniform") carver.pattern = scree::SeedPattern::uniform;
+  if (options.pattern == "both") carver.pattern.reset();
+  carver.centre_m = {options.centre_m[0], 0.0F, options.centre_m[1]};
+}
+
+bool write_report(const std::string& path, const std::string& json) {
+  if (path.empty()) return true;
+  if (path == "-") return std::fwrite(json.data(), 1, json.size(), stdout) == json.size();
+  std::ofstream file(path);
+  file << json << std::flush;
+  return file.good();
+}
+
+int run(const Options& options) {
+  scree::Bot bot(options.bot, [](const std::string& line) { spdlog::info(line); });
+  const scree::BotReport report = bot.run();
+  const bool written = write_report(options.report, scree::to_json(report));
+  if (!written) spdlog::error("cannot write the report to {}", options.report);
+  if (!report.failure.empty()) spdlog::error(report.failure);
+  spdlog::info("{} carves asked, {} accepted, {} refused, {} lost; {} pieces made, {} merged, {} alive",
+               report.carves_asked, report.carves_accepted, report.carves_refused, report.carves_lost,
+               report.seen.pieces_made, report.seen.pieces_merged, report.pieces_alive);
+  return report.failure.empty() && written ? 0 : exit_failed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  options.bot.port = 7300;
+  CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
+  add_connection(app, options);
+  add_carving(app, options);
+  add_ending(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  complete(options);
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("bot"));
+  spdlog::set_pattern("%H:%M:%S.%e %n %v");
+  if (options.quiet) spdlog::set_level(spdlog::level::err);
+  return run(options);
+}

@@ -1,0 +1,120 @@
+#include "client/bot/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace scree {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(uint64_t value) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text(16, '0');
+  for (size_t i = 16; i-- > 0; value >>= 4U) text[i] = digits[value & 15U];
+  return text;
+}
+
+Json latency(const std::vector<double>& values) {
+  return {{"count", values.size()},
+          {"median", quantile(values, 0.5)},
+          {"p99", quantile(values, 0.99)},
+          {"worst", quantile(values, 1.0)}};
+}
+
+Json carves(const BotReport& report) {
+  Json refusals = Json::object();
+  for (const auto& [reason, count] : report.refusals) refusals[reason] = count;
+  return {{"asked", report.carves_asked},     {"accepted", report.carves_accepted},
+          {"refused", report.carves_refused}, {"lost", report.carves_lost},
+          {"seen", report.seen.carves},       {"refusals", std::move(refusals)}};
+}
+
+Json ledger(const StatusMessage& status) {
+  const int64_t error =
+      status.ledger_terrain + status.ledger_pieces + status.ledger_dust - status.ledger_poured;
+  const double moved = static_cast<double>(std::max<int64_t>(status.ledger_moved, 1));
+  return {{"terrain", status.ledger_terrain},
+          {"pieces", status.ledger_pieces},
+          {"dust", status.ledger_dust},
+          {"poured", status.ledger_poured},
+          {"moved", status.ledger_moved},
+          {"error", error},
+          {"error_share", static_cast<double>(error) / moved}};
+}
+
+Json bytes(const BotReport& report) {
+  return {{"received", report.bytes.total()}, {"sent", report.bytes_sent},
+          {"frames", report.bytes.frames},    {"transforms", report.bytes.transforms},
+          {"chunks", report.bytes.chunks},    {"pieces", report.bytes.pieces},
+          {"other", report.bytes.other},      {"operations", report.seen.operation_bytes}};
+}
+
+Json cost(const OperationCost& cost) {
+  return {{"count", cost.count}, {"mean", cost.mean()}, {"worst", cost.bytes_worst}};
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const double last = static_cast<double>(values.size() - 1);
+  const auto at = static_cast<size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last));
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
+  return values[at];
+}
+
+std::string to_json(const BotReport& report) {
+  const MirrorCounters& seen = report.seen;
+  const StatusMessage& status = report.status;
+  Json json;
+  json["ok"] = report.failure.empty();
+  json["failure"] = report.failure;
+  json["server"] = report.server;
+  json["protocol"] = report.welcome.protocol;
+  json["replay"] = report.welcome.replay;
+  json["terrain"] = {{"kind", name_of(report.welcome.terrain.kind)},
+                     {"seed", report.welcome.terrain.seed},
+                     {"voxel_size_m", report.welcome.terrain.voxel_size_m}};
+  json["duration_s"] = report.duration_s;
+  json["connections"] = report.connections;
+  json["settled"] = report.settled;
+  json["carves"] = carves(report);
+  json["pieces"] = {{"made", seen.pieces_made},
+                    {"merged", seen.pieces_merged},
+                    {"discarded", seen.discards},
+                    {"received_whole", seen.pieces_sent},
+                    {"alive", report.pieces_alive}};
+  json["server_pieces"] = {
+      {"made", status.pieces_made}, {"merged", status.pieces_merged}, {"alive", status.pieces}};
+  json["ledger"] = ledger(status);
+  json["bytes"] = bytes(report);
+  json["bytes_per_carve"] = cost(report.carve_cost);
+  json["bytes_per_merge"] = cost(report.merge_cost);
+  json["frames"] = seen.frames;
+  json["chunks"] = {{"held", report.chunks_held},
+                    {"received_whole", seen.chunks},
+                    {"dropped", seen.dropped_chunks},
+                    {"patched_bricks", seen.patched_bricks}};
+  json["checks"] = seen.checks;
+  json["mismatches"] = seen.mismatches;
+  json["repairs"] = {{"asked", seen.repairs_asked}, {"arrived", seen.repairs_arrived}};
+  json["resets"] = seen.resets;
+  json["hash"] = {{"equal", report.hash.equal},
+                  {"compared", report.hash.compared},
+                  {"tick", report.hash.tick},
+                  {"client", hex(report.hash.client)},
+                  {"server", hex(report.hash.server)}};
+  json["edit_latency_ms"] = latency(report.edit_latencies_ms);
+  json["reply_latency_ms"] = latency(report.reply_latencies_ms);
+  json["tick"] = {{"last", status.tick},
+                  {"per_s", report.ticks_per_s},
+                  {"median_ms", quantile(report.tick_medians_ms, 0.5)},
+                  {"worst_ms", report.tick_worst_ms}};
+  // Reasons come off the wire: what is no UTF-8 is replaced, not thrown about.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace scree

@@ -1,0 +1,85 @@
+// What a bot saw and measured; to JSON for programs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "client/mirror/mirror.h"
+#include "proto/messages.h"
+
+namespace scree {
+
+/// Bytes received, length prefixes included, by kind of message. Transforms are part of the frames on the
+/// wire, and counted apart here.
+struct BytesByKind {
+  uint64_t frames = 0;  ///< without transforms
+  uint64_t transforms = 0;
+  uint64_t chunks = 0;
+  uint64_t pieces = 0;
+  uint64_t other = 0;
+
+  uint64_t total() const { return frames + transforms + chunks + pieces + other; }
+};
+
+/// What operations cost on the wire: their own bytes and an equal share of what else their frame holds,
+/// transforms aside. Frames with patches are left out: they stand for operations that were not sent.
+struct OperationCost {
+  uint64_t count = 0;
+  double bytes = 0.0;
+  double bytes_worst = 0.0;
+
+  double mean() const { return count == 0 ? 0.0 : bytes / static_cast<double>(count); }
+  void add(double cost) {
+    ++count;
+    bytes += cost;
+    if (cost > bytes_worst) bytes_worst = cost;
+  }
+};
+
+/// The copy's hash against the server's, each time that a status allows it.
+struct HashComparison {
+  uint64_t compared = 0;
+  bool equal = false;  ///< at the last comparison
+  Tick tick = 0;
+  uint64_t client = 0;
+  uint64_t server = 0;
+};
+
+struct BotReport {
+  std::string server;
+  WelcomeMessage welcome;
+  std::string failure;  ///< empty: all went well
+  bool settled = false;
+  double duration_s = 0.0;
+  uint32_t connections = 0;
+
+  uint32_t carves_asked = 0;
+  uint32_t carves_accepted = 0;
+  uint32_t carves_refused = 0;
+  uint32_t carves_lost = 0;  ///< the connection was lost before the reply
+  std::map<std::string, uint32_t> refusals;
+
+  MirrorCounters seen;  ///< over all connections
+  uint64_t pieces_alive = 0;
+  uint64_t chunks_held = 0;
+  BytesByKind bytes;
+  uint64_t bytes_sent = 0;
+  OperationCost carve_cost;
+  OperationCost merge_cost;
+  HashComparison hash;
+  StatusMessage status;  ///< the last one
+  std::vector<double> tick_medians_ms;
+  double tick_worst_ms = 0.0;
+  double ticks_per_s = 0.0;
+  std::vector<double> edit_latencies_ms;   ///< request sent to frame with its operation received
+  std::vector<double> reply_latencies_ms;  ///< request sent to reply received
+};
+
+/// The value below which `share` (0 … 1) of the values lie; 0 when there are none.
+double quantile(std::vector<double> values, double share);
+
+std::string to_json(const BotReport& report);
+
+}  // namespace scree
