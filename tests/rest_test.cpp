@@ -86,7 +86,7 @@ TEST(Rest, a_creeping_piece_merges_in_the_end) {
     const std::vector<RestPiece> pieces = {piece(1, {0.005F * static_cast<float>(tick), 1.0F, 0.0F})};
     if (!rest.update(pieces, ground, {}, 8).empty()) merged_at = tick;  // 0.3 m/s
   }
-  EXPECT_GT(merged_at, 240);
+  EXPECT_GT(merged_at, static_cast<int>(RestConfig{}.patience_ticks));
 }
 
 TEST(Rest, an_id_that_vanishes_is_forgotten) {

@@ -17,9 +17,12 @@ inline constexpr float spin_max_rad_s = 20.0F;
 /// a resting piece's contacts from flickering.
 inline constexpr float contact_slack_m = 0.02F;
 
-/// Depth of penetration that the solver is told of, metres; deeper is pushed out over several ticks. Pushing
-/// out all at once throws pieces at their neighbours.
-inline constexpr float depth_max_m = 0.2F;
+/// Depth of penetration that the solver is told of, metres: it undoes a fifth of it in each tick. Shallow
+/// overlaps come from neighbours that merged; undone slowly (0.2 m/s) they disturb no piece at rest, which
+/// took a heap twice as long to merge. What is deeper than that is buried, and pushed out at 2.4 m/s.
+inline constexpr float overlap_shallow_m = 0.125F;
+inline constexpr float overlap_told_m = 0.02F;
+inline constexpr float overlap_told_buried_m = 0.2F;
 
 /// Farthest between two points of a piece's surface that are tested against the terrain, voxels: spikes
 /// thinner than this may poke into a face.

@@ -48,7 +48,9 @@ size_t choose(std::vector<TerrainContact>& found) {
 btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& body,
                               const TerrainSurface& surface) {
   const btTransform& at = body.getWorldTransform();
-  const float distance = std::max(contact.distance_m, -limits::depth_max_m);
+  const bool buried = contact.distance_m < -limits::overlap_shallow_m;
+  const float told = buried ? limits::overlap_told_buried_m : limits::overlap_told_m;
+  const float distance = std::max(contact.distance_m, -told);
   const btVector3 on_body = at.getOrigin() + to_bullet(contact.offset_m);
   const btVector3 normal = to_bullet(contact.normal);
   const btVector3 on_ground = on_body - normal * distance;

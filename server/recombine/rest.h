@@ -19,9 +19,9 @@
 namespace scree {
 
 struct RestConfig {
-  uint32_t rest_ticks = 24;        ///< 0.4 s at 60 Hz: longer than the apex of any toss within the leash
-  float leash_m = 0.04F;           ///< a sixth of a default voxel: what a merge rounds away anyway
-  uint32_t patience_ticks = 240;   ///< age at which the leash begins to grow
+  uint32_t rest_ticks = 20;        ///< ⅓ s at 60 Hz: a piece at the apex of a toss falls 0.14 m beside it
+  float leash_m = 0.06F;           ///< a quarter of a default voxel: what a merge rounds away anyway
+  uint32_t patience_ticks = 120;   ///< age at which the leash begins to grow
   float leash_growth_m_s = 0.05F;  ///< and how fast
   float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving
   uint32_t contact_ticks = 12;     ///< a contact counts as long after it was last seen: contacts flicker
