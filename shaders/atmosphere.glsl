@@ -2,10 +2,10 @@
 
 uniform vec3 u_sun;  // unit, towards the sun
 
-const vec3 sun_colour = vec3(1.0, 0.86, 0.66) * 3.1;
-const vec3 zenith_colour = vec3(0.115, 0.265, 0.60);
-const vec3 horizon_colour = vec3(0.62, 0.71, 0.80);
-const vec3 ground_colour = vec3(0.30, 0.235, 0.18);
+const vec3 sun_colour = vec3(1.0, 0.83, 0.60) * 2.7;
+const vec3 zenith_colour = vec3(0.060, 0.165, 0.44);
+const vec3 horizon_colour = vec3(0.44, 0.55, 0.66);
+const vec3 ground_colour = vec3(0.20, 0.145, 0.10);
 
 vec3 sky(vec3 direction) {
   float up = clamp(direction.y, -0.05, 1.0);
@@ -18,12 +18,12 @@ vec3 sky(vec3 direction) {
 // Light from the whole sky on a surface: bluish from above, warm from the rock below.
 vec3 ambient(vec3 normal) {
   float up = normal.y * 0.5 + 0.5;
-  return mix(ground_colour * 0.55, mix(horizon_colour, zenith_colour, 0.45) * 0.95, up);
+  return mix(ground_colour * 0.55, mix(horizon_colour, zenith_colour, 0.5) * 0.80, up);
 }
 
 // ACES curve as fitted by Narkowicz (2016), then gamma.
 vec3 tone(vec3 colour) {
-  vec3 x = colour * 0.72;
+  vec3 x = colour * 0.66;
   vec3 mapped = clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
   return pow(mapped, vec3(1.0 / 2.2));
 }

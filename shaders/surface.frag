@@ -23,12 +23,12 @@ vec3 rotate(vec3 v) {
 // Beds of sandstone, bent a little; scrub and sand where it is flat.
 vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   float height = p.y + 2.6 * (coarse.x - 0.5);
-  float bed = noise(vec3(3.7, height * 0.75, 1.3)).x;
-  float seam = noise(vec3(0.5, height * 3.1, 7.7)).x;
-  vec3 rock = mix(vec3(0.36, 0.175, 0.095), vec3(0.56, 0.36, 0.22), smoothstep(0.25, 0.75, bed));
-  rock = mix(rock, vec3(0.66, 0.50, 0.35), 0.55 * smoothstep(0.62, 0.85, seam));
+  float bed = noise_1d(height * 0.75, 3);
+  float seam = noise_1d(height * 3.1, 7);
+  vec3 rock = mix(vec3(0.29, 0.125, 0.065), vec3(0.47, 0.265, 0.145), smoothstep(0.25, 0.80, bed));
+  rock = mix(rock, vec3(0.60, 0.43, 0.29), 0.50 * smoothstep(0.70, 0.92, seam));
   rock *= 0.80 + 0.40 * fine;
-  vec3 sand = vec3(0.55, 0.40, 0.25) * (0.86 + 0.28 * fine);
+  vec3 sand = vec3(0.50, 0.35, 0.215) * (0.86 + 0.28 * fine);
   vec3 scrub = vec3(0.20, 0.215, 0.085) * (0.70 + 0.60 * fine);
   float flatness = smoothstep(0.72, 0.90, n.y + 0.12 * (fine - 0.5));
   float green = smoothstep(0.42, 0.66, coarse.x + 0.22 * (fine - 0.5) + 0.006 * p.y);
@@ -60,8 +60,8 @@ void main() {
   float heap = smoothstep(0.10, 0.45, v_before);
   vec3 albedo = weathered(v_rock, rock_normal, coarse, fine);
   float vein = smoothstep(0.46, 0.5, middle.x) * (1.0 - smoothstep(0.5, 0.54, middle.x));
-  vec3 fresh = mix(vec3(0.74, 0.47, 0.27), vec3(0.84, 0.64, 0.43), fine) * (1.0 - 0.18 * vein);
-  vec3 rubble = mix(vec3(0.52, 0.36, 0.23), vec3(0.68, 0.50, 0.33), fine);
+  vec3 fresh = mix(vec3(0.72, 0.42, 0.21), vec3(0.86, 0.62, 0.38), fine) * (1.0 - 0.18 * vein);
+  vec3 rubble = mix(vec3(0.54, 0.345, 0.20), vec3(0.72, 0.50, 0.31), fine);
   albedo = mix(albedo, fresh, cut);
   albedo = mix(albedo, rubble, heap);
   albedo *= 1.0 + u_loose * 0.22 * (u_tint - 0.4);
@@ -75,11 +75,12 @@ void main() {
   open = open * open;
   float sun = max(dot(normal, u_sun), 0.0);
   if (sun > 0.0) sun *= lit(v_world, normalize(v_normal));
-  vec3 bounce = ground_colour * 0.35 * max(-normal.y * 0.5 + 0.5, 0.0);
-  vec3 light = sun_colour * sun + (ambient(normal) + bounce) * open;
+  // What the rock around reflects: most in a crevice, and of the rock's own colour.
+  vec3 bounce = sun_colour * albedo * (0.05 + 0.14 * (1.0 - open));
+  vec3 light = sun_colour * sun + ambient(normal) * open + bounce;
   vec3 colour = albedo * light;
 
-  float fog = 1.0 - exp(-pow(away / (u_fog_m * 0.62), 2.6));
+  float fog = 1.0 - exp(-pow(away / (u_fog_m * 0.80), 4.5));
   vec3 view = (v_world - u_eye) / max(away, 1e-3);
   colour = mix(colour, sky(normalize(vec3(view.x, max(view.y, 0.0), view.z))), fog);
   o_colour = vec4(tone(colour), 1.0);

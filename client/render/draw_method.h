@@ -52,6 +52,7 @@ struct DrawStats {
   size_t draws = 0;      ///< GL draw calls of the last colour pass
   size_t triangles = 0;  ///< of the last colour pass
   size_t gpu_bytes = 0;
+  size_t pieces = 0;   ///< shown now
   size_t waiting = 0;  ///< units of work not yet shown
 };
 

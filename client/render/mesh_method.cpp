@@ -1,11 +1,13 @@
 #include "client/render/mesh_method.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "client/render/gl.h"
 #include "client/render/gpu_mesh.h"
@@ -77,7 +79,7 @@ class MeshMethod final : public DrawMethod {
  private:
   void show(MeshUpdate&& update);
   void show_piece(const PieceMesh& piece);
-  void draw_terrain(const SurfaceProgram& program, const Frustum& frustum);
+  void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
   void draw_pieces(const SurfaceProgram& program, const Frustum& frustum);
   void count(const GpuMesh& mesh);
 
@@ -87,6 +89,7 @@ class MeshMethod final : public DrawMethod {
   float voxel_m_ = 0.0F;
   std::unordered_map<BlockCoord, GpuMesh, CoordHash> blocks_;
   std::unordered_map<PieceId, PieceView> pieces_;
+  std::vector<std::pair<float, const GpuMesh*>> visible_;  ///< squared distance; kept for its memory
   size_t gpu_bytes_ = 0;
   DrawStats pass_;
 };
@@ -157,7 +160,7 @@ void MeshMethod::draw(const DrawPass& pass) {
   }
   pass_ = {};
   const Frustum frustum(pass.view_projection);
-  draw_terrain(program, frustum);
+  draw_terrain(program, frustum, pass.eye_m);
   draw_pieces(program, frustum);
   glBindVertexArray(0);
 }
@@ -168,19 +171,26 @@ void MeshMethod::count(const GpuMesh& mesh) {
   pass_.triangles += mesh.triangles();
 }
 
-void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum) {
+void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m) {
   glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
   glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
   constexpr float half = 0.5F * static_cast<float>(block_size + 1);
   const float radius_m = half * 1.7321F * voxel_m_;
+  // Near ones first: what they hide is not shaded.
+  visible_.clear();
   for (const auto& [block, mesh] : blocks_) {
-    const glm::vec3 origin = as_vector(mesh.origin());
-    if (!frustum.touches((origin + half) * voxel_m_, radius_m)) continue;
-    const glm::vec3 origin_m = origin * voxel_m_;
+    const glm::vec3 centre_m = (as_vector(mesh.origin()) + half) * voxel_m_;
+    if (!frustum.touches(centre_m, radius_m)) continue;
+    const glm::vec3 away = centre_m - eye_m;
+    visible_.emplace_back(glm::dot(away, away), &mesh);
+  }
+  std::ranges::sort(visible_);
+  for (const auto& [distance, mesh] : visible_) {
+    const glm::vec3 origin_m = as_vector(mesh->origin()) * voxel_m_;
     glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
-    count(mesh);
+    count(*mesh);
   }
 }
 
@@ -203,6 +213,7 @@ void MeshMethod::draw_pieces(const SurfaceProgram& program, const Frustum& frust
 DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
   stats.gpu_bytes = gpu_bytes_;
+  stats.pieces = pieces_.size();
   stats.waiting = scheduler_.waiting();
   return stats;
 }

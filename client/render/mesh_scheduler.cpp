@@ -37,6 +37,14 @@ float squared_distance(ChunkCoord chunk, glm::vec3 eye_m, float chunk_m) {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
+/// Calls f(ChunkCoord) for the chunk and the 26 around it, into which its blocks' windows reach.
+template <typename F>
+void for_each_around(ChunkCoord chunk, F&& f) {
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) f(chunk + ChunkCoord{x, y, z});
+}
+
 }  // namespace
 
 /// What a worker needs to mesh one block.
@@ -109,10 +117,8 @@ void MeshScheduler::take_results(Field& field, MeshUpdate& update) {
     std::swap(done.blocks, inbox_->blocks);
     std::swap(done.pieces, inbox_->pieces);
   }
-  for (Inbox::Generated& generated : done.generated) {
-    generating_.erase(generated.coord);
-    field.adopt_generated(generated.coord, std::move(generated.chunk));
-  }
+  for (Inbox::Generated& generated : done.generated)
+    take_generated(field, generated.coord, std::move(generated.chunk));
   for (Inbox::Blocks& blocks : done.blocks) {
     if (blocks.loaded) {
       --loading_;
@@ -148,6 +154,9 @@ void MeshScheduler::follow(const TerrainSource& source, glm::vec3 eye_m, MeshUpd
     const bool far = squared_distance(entry.first, eye_m, chunk_m) > keep_m * keep_m;
     if (far) update.dropped_chunks.push_back(entry.first);
     return far;
+  });
+  std::erase_if(uniform_, [&](const auto& entry) {
+    return squared_distance(entry.first, eye_m, chunk_m) > (keep_m + 2 * chunk_m) * (keep_m + 2 * chunk_m);
   });
   std::erase_if(shown_, [&](const auto& entry) { return !chunks_.contains(chunk_of(entry.first)); });
 
@@ -187,23 +196,52 @@ void MeshScheduler::begin_batch(const Scene& scene) {
   collected_ = {};
 }
 
+void MeshScheduler::take_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated) {
+  generating_.erase(chunk);
+  const Brick* first = generated.bricks.front();
+  const bool uniform = (first == &air_brick() || first == &solid_brick()) &&
+                       std::ranges::all_of(generated.bricks, [first](const Brick* b) { return b == first; });
+  if (uniform) {
+    uniform_[chunk] = first;
+  } else {
+    field.adopt_generated(chunk, std::move(generated));
+  }
+}
+
 bool MeshScheduler::generated_around(Field& field, ChunkCoord chunk) {
   bool all = true;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const ChunkCoord coord = chunk + ChunkCoord{x, y, z};
-        if (field.has_generated(coord)) continue;
-        all = false;
-        if (generating_.size() >= limits::chunks_generating_max || !generating_.insert(coord).second)
-          continue;
-        pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = field.source(), coord] {
-          GeneratedChunk generated = generate_chunk(source, coord);
-          const std::lock_guard lock(inbox->mutex);
-          inbox->generated.push_back({coord, std::move(generated)});
-        });
-      }
+  for_each_around(chunk, [&](ChunkCoord coord) {
+    if (uniform_.contains(coord) || field.has_generated(coord)) return;
+    all = false;
+    if (generating_.size() >= limits::chunks_generating_max || !generating_.insert(coord).second) return;
+    pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = field.source(), coord] {
+      GeneratedChunk generated = generate_chunk(source, coord);
+      const std::lock_guard lock(inbox->mutex);
+      inbox->generated.push_back({coord, std::move(generated)});
+    });
+  });
   return all;
+}
+
+bool MeshScheduler::is_plainly_empty(const Field& field, ChunkCoord chunk) const {
+  const auto own = uniform_.find(chunk);
+  if (own == uniform_.end()) return false;
+  bool empty = true;
+  for_each_around(chunk, [&](ChunkCoord coord) {
+    const auto found = uniform_.find(coord);
+    empty = empty && found != uniform_.end() && found->second == own->second && field.chunk_hash(coord) == 0;
+  });
+  return empty;
+}
+
+void MeshScheduler::adopt_uniform_around(Field& field, ChunkCoord chunk) {
+  for_each_around(chunk, [&](ChunkCoord coord) {
+    const auto found = uniform_.find(coord);
+    if (found == uniform_.end() || field.has_generated(coord)) return;
+    GeneratedChunk generated;
+    generated.bricks.fill(found->second);
+    field.adopt_generated(coord, std::move(generated));
+  });
 }
 
 void MeshScheduler::begin_loads(Field& field) {
@@ -217,6 +255,11 @@ void MeshScheduler::begin_loads(Field& field) {
 }
 
 void MeshScheduler::load(Field& field, ChunkCoord chunk) {
+  if (is_plainly_empty(field, chunk)) {
+    chunks_[chunk] = ChunkState::loaded;
+    return;
+  }
+  adopt_uniform_around(field, chunk);
   std::vector<BlockJob> jobs;
   for (int i = 0; i < 8; ++i) {
     const BlockCoord block{chunk.x * 2 + (i >> 2), chunk.y * 2 + ((i >> 1) & 1), chunk.z * 2 + (i & 1)};

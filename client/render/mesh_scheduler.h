@@ -69,6 +69,9 @@ class MeshScheduler {
   void begin_loads(Field& field);
   bool generated_around(Field& field, ChunkCoord chunk);
   void load(Field& field, ChunkCoord chunk);
+  bool is_plainly_empty(const Field& field, ChunkCoord chunk) const;
+  void adopt_uniform_around(Field& field, ChunkCoord chunk);
+  void take_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated);
   BlockJob gather_block(Field& field, BlockCoord block);
   void submit_blocks(WorkPool::Urgency urgency, std::vector<BlockJob> jobs, std::optional<ChunkCoord> loaded);
   void submit_piece(Field& field, PieceId id, const ScenePiece& piece);
@@ -81,6 +84,9 @@ class MeshScheduler {
   std::vector<ChunkCoord> pending_;  ///< to be loaded, nearest last
   std::unordered_map<ChunkCoord, ChunkState, CoordHash> chunks_;
   std::unordered_set<ChunkCoord, CoordHash> generating_;
+  /// Chunks generated as nothing but this brick. Most of them lie far from any surface: the field, which
+  /// keeps a limited number, is handed only those that it is asked for.
+  std::unordered_map<ChunkCoord, const Brick*, CoordHash> uniform_;
   size_t loading_ = 0;
   std::unordered_map<BlockCoord, uint64_t, CoordHash> shown_;  ///< number of the gathering that is shown
   uint64_t gatherings_ = 0;

@@ -113,7 +113,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Parts>(std::move(*sky), view_radius_m)));
 }
 
-void Renderer::draw(DrawMethod& method, const Camera& camera, unsigned framebuffer, int width, int height) {
+void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height) {
   if (width <= 0 || height <= 0) return;
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -125,7 +125,7 @@ void Renderer::draw(DrawMethod& method, const Camera& camera, unsigned framebuff
   pass.kind = DrawPass::Kind::shadow;
   pass.eye_m = camera.eye_m;
   pass.view_projection = parts_->shadows.begin(camera, sun, parts_->view_radius_m);
-  method.draw(pass);
+  if (method != nullptr) method->draw(pass);
   parts_->shadows.end();
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -137,7 +137,7 @@ void Renderer::draw(DrawMethod& method, const Camera& camera, unsigned framebuff
   pass.view_projection =
       camera.projection(aspect, parts_->view_radius_m * limits::view_radius_keep * 2.0F) * camera.view();
   pass.lighting = {sun, parts_->view_radius_m, parts_->shadows.matrix(), parts_->shadows.texture()};
-  method.draw(pass);
+  if (method != nullptr) method->draw(pass);
   parts_->draw_sky(pass);
   parts_->errors.poll();
 }
@@ -155,7 +155,7 @@ Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int
   if (!many.complete() || !one.complete())
     return fail("the driver refuses a framebuffer of " + std::to_string(width) + "x" +
                 std::to_string(height) + " pixels: use a smaller --size");
-  draw(method, camera, many.framebuffer.name(), width, height);
+  draw(&method, camera, many.framebuffer.name(), width, height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, many.framebuffer.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, one.framebuffer.name());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

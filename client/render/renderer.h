@@ -22,8 +22,9 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create(float view_radius_m);
   ~Renderer();
 
-  /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing.
-  void draw(DrawMethod& method, const Camera& camera, unsigned framebuffer, int width, int height);
+  /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
+  /// method there is only sky.
+  void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height);
 
   /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height);

@@ -1,0 +1,21 @@
+// Moves a camera by what the person does. No window.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "client/render/camera.h"
+
+namespace scree {
+
+/// Of one frame.
+struct FlyInput {
+  glm::vec3 move{0.0F};  ///< right, up, forward: each -1, 0 or 1
+  bool fast = false;
+  glm::vec2 look{0.0F};  ///< mouse, pixels to the right and down
+};
+
+/// Stays within the world and short of straight up and down.
+void fly(Camera& camera, const FlyInput& input, float elapsed_s);
+
+}  // namespace scree

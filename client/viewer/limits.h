@@ -1,0 +1,45 @@
+// Bounds of the viewer. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstddef>
+
+#include "client/render/limits.h"
+
+namespace scree::limits {
+
+/// How far behind the server pieces are drawn, seconds: two intervals of transforms, and late frames still
+/// come in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
+inline constexpr double playback_delay_s = 0.1;
+
+/// Part of a later frame's delay that the playback clock takes over: follows drift within seconds, ignores
+/// jitter.
+inline constexpr double playback_drift = 0.01;
+
+/// A frame that is this much off the clock starts it anew, seconds.
+inline constexpr double playback_jump_s = 1.0;
+
+/// Messages held back; above, all are applied at once.
+inline constexpr size_t playback_messages_max = 4096;
+
+/// Seconds between attempts to reach a server that is gone.
+inline constexpr double reconnect_interval_s = 1.0;
+
+/// Seconds between two acknowledgements, and between two reports of where the camera is.
+inline constexpr double report_interval_s = 0.25;
+
+/// The camera must have moved so far to be reported again, metres.
+inline constexpr float report_distance_m = 1.0F;
+
+/// How far a click reaches, metres.
+inline constexpr float carve_reach_m = 200.0F;
+
+/// A join counts as done when no chunk came for so long, seconds.
+inline constexpr double join_quiet_s = 0.5;
+
+/// Wait between `pieces>=N` and its screenshot, seconds, in which the pieces fly apart.
+inline constexpr double flight_s = 0.35;
+
+/// How long no piece may be alive before the terrain counts as settled, seconds.
+inline constexpr double settled_s = 2.0;
+
+}  // namespace scree::limits

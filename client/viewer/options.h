@@ -1,0 +1,34 @@
+// What the viewer was asked for, on the command line and in the environment.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "client/render/camera.h"
+#include "client/viewer/screenshots.h"
+
+namespace scree {
+
+struct ViewerOptions {
+  std::string host = "127.0.0.1";
+  uint16_t port = 0;
+  int width = 1280;
+  int height = 720;
+  Camera camera;
+  float view_radius_m = 0.0F;
+  bool offscreen = false;
+  bool gl_debug = false;
+  double timeout_s = 0.0;
+  std::vector<ScreenshotOrder> screenshots;
+};
+
+/// The program should end now, with this status; what there was to say is printed.
+struct ExitNow {
+  int status = 0;
+};
+
+std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* argv);
+
+}  // namespace scree

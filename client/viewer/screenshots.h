@@ -1,0 +1,54 @@
+// Which images are still to be taken, and when their moment has come. No GL.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/base/result.h"
+
+namespace scree {
+
+struct ScreenshotOrder {
+  enum class When { joined, pieces, settled };
+  std::string file;
+  When when = When::joined;
+  size_t pieces = 0;  ///< at least so many, for When::pieces
+
+  /// "blast.png@pieces>=40": for people.
+  std::string description() const;
+};
+
+/// FILE, FILE@joined, FILE@pieces>=N or FILE@settled.
+Result<ScreenshotOrder> parse_screenshot(std::string_view text);
+
+/// What the viewer knows at some moment (seconds of any clock).
+struct Moment {
+  double now_s = 0.0;
+  bool joined = false;   ///< the terrain around the camera has arrived and is shown
+  size_t pieces = 0;     ///< shown now
+  bool carved = false;   ///< pieces were made at some time
+  bool alive = false;    ///< pieces exist, shown or not
+  bool current = false;  ///< what is shown is what is known
+};
+
+class ScreenshotQueue {
+ public:
+  explicit ScreenshotQueue(std::vector<ScreenshotOrder> orders);
+
+  bool empty() const { return orders_.empty(); }
+  const std::vector<ScreenshotOrder>& waiting() const { return orders_; }
+  /// The orders due now; they leave the queue.
+  std::vector<ScreenshotOrder> take_due(const Moment& moment);
+
+ private:
+  bool due(const ScreenshotOrder& order, const Moment& moment) const;
+
+  std::vector<ScreenshotOrder> orders_;
+  std::vector<std::optional<double>> reached_s_;  ///< per order: when its number of pieces was first shown
+  std::optional<double> calm_since_s_;            ///< no piece alive since then
+};
+
+}  // namespace scree

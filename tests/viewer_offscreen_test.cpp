@@ -1,0 +1,146 @@
+// Draws without a window, on whatever EGL finds: Mesa's software driver on a machine without a GPU.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "client/render/mesh_method.h"
+#include "client/render/renderer.h"
+#include "client/viewer/egl_context.h"
+#include "shared/field/operation.h"
+
+namespace scree {
+namespace {
+
+constexpr float view_radius_m = 12.0F;
+constexpr int width = 160;
+constexpr int height = 120;
+
+/// Flat ground seen from a little above it.
+class ViewerOffscreen : public testing::Test {
+ protected:
+  void SetUp() override {
+    Result<std::unique_ptr<EglContext>> context = EglContext::create(true);
+    ASSERT_TRUE(context) << context.error().message;
+    context_ = std::move(*context);
+    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    renderer_ = std::move(*renderer);
+    Result<std::unique_ptr<DrawMethod>> method = make_mesh_method(pool_, view_radius_m);
+    ASSERT_TRUE(method) << method.error().message;
+    method_ = std::move(*method);
+    camera_.eye_m = {0.0F, 3.0F, 6.0F};
+    camera_.pitch = -0.45F;
+  }
+  void TearDown() override {
+    if (!renderer_) return;
+    EXPECT_EQ(renderer_->gl_errors(), 0U) << renderer_->first_gl_error();
+  }
+
+  void finish() {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    do {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the meshes were not complete in time";
+      method_->update(Scene{field_, pieces_}, camera_);
+      std::this_thread::yield();
+    } while (!method_->complete());
+  }
+
+  Image draw() {
+    Result<Image> image = renderer_->draw_image(*method_, camera_, width, height);
+    EXPECT_TRUE(image) << image.error().message;
+    return image ? *image : Image{};
+  }
+
+  void carve(glm::vec3 at_m) {
+    PieceTable table;
+    const CarveOperation carve{sphere(at_m, 1.5F), SeedPattern::uniform, 12, 5, at_m, 1};
+    const Applied applied = apply(Operation(carve), field_, table);
+    MirrorChanges changes;
+    changes.bricks = applied.changed;
+    for (const CreatedPiece& piece : applied.created) {
+      changes.pieces_added.push_back(piece.id);
+      const glm::vec3 home = table.at(piece.id)->centre_voxels * field_.source().voxel_size_m;
+      pieces_[piece.id] = {table.at(piece.id), Pose{home + glm::vec3(0.0F, 1.5F, 0.0F), {}}};
+    }
+    method_->changed(changes);
+  }
+
+  std::unique_ptr<EglContext> context_;
+  WorkPool pool_{2};
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<DrawMethod> method_;
+  MapField field_{TerrainSource{TerrainKind::flat, 1, 0.25F}};
+  ScenePieces pieces_;
+  Camera camera_;
+};
+
+/// Of pixels, by their largest difference in one colour.
+size_t differing_pixels(const Image& a, const Image& b, int tolerance) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.rgb.size(); i += 3) {
+    int largest = 0;
+    for (size_t c = i; c < i + 3; ++c) largest = std::max(largest, std::abs(a.rgb[c] - b.rgb[c]));
+    if (largest > tolerance) ++count;
+  }
+  return count;
+}
+
+/// The mean of a row's red and blue: ground is warm, sky is blue.
+int warmth(const Image& image, int row) {
+  int sum = 0;
+  for (int x = 0; x < image.width; ++x) {
+    const auto at = static_cast<size_t>(row * image.width + x) * 3;
+    sum += image.rgb[at] - image.rgb[at + 2];
+  }
+  return sum / image.width;
+}
+
+TEST_F(ViewerOffscreen, ground_lies_below_the_sky) {
+  finish();
+  const Image image = draw();
+  ASSERT_EQ(image.rgb.size(), static_cast<size_t>(width * height * 3));
+  EXPECT_GT(warmth(image, height - 1), 10);
+  EXPECT_LT(warmth(image, 0), 0);
+  EXPECT_GT(method_->stats().triangles, 100U);
+}
+
+TEST_F(ViewerOffscreen, carve_and_pieces_appear) {
+  finish();
+  const Image before = draw();
+  carve({0.0F, 0.0F, 0.0F});
+  finish();
+  EXPECT_EQ(method_->stats().pieces, pieces_.size());
+  EXPECT_GT(differing_pixels(before, draw(), 12), 300U);
+}
+
+TEST_F(ViewerOffscreen, nothing_changes_until_all_of_a_change_can_be_shown) {
+  finish();
+  const Image before = draw();
+  carve({0.0F, 0.0F, 0.0F});
+  // Whatever is shown between is the old picture or the new one.
+  method_->update(Scene{field_, pieces_}, camera_);
+  const size_t shown = method_->stats().pieces;
+  if (shown == 0) {
+    EXPECT_EQ(differing_pixels(before, draw(), 0), 0U);
+  }
+  finish();
+  EXPECT_EQ(method_->stats().pieces, pieces_.size());
+}
+
+TEST_F(ViewerOffscreen, camera_inside_rock_and_tiny_images_are_harmless) {
+  camera_.eye_m = {0.0F, -5.0F, 0.0F};
+  finish();
+  EXPECT_TRUE(renderer_->draw_image(*method_, camera_, 1, 1));
+  renderer_->draw(method_.get(), camera_, 0, 0, 0);
+}
+
+TEST_F(ViewerOffscreen, image_too_large_is_refused_by_name) {
+  const Result<Image> image = renderer_->draw_image(*method_, camera_, 1 << 20, 16);
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("--size"), std::string::npos) << image.error().message;
+}
+
+}  // namespace
+}  // namespace scree
