@@ -1,0 +1,24 @@
+// Bounds of the programs. Each says its unit, its reason, and what happens there.
+#pragma once
+
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Ticks that a late simulation makes up for at once; what is beyond is lost, and counted as overruns.
+inline constexpr int catch_up_ticks_max = 5;
+
+/// Ticks a second that a server may be asked for.
+inline constexpr uint32_t tick_rate_max_hz = 240;
+
+/// Pieces alive at once that a server may be asked for. Beyond, no machine of today keeps the tick.
+inline constexpr uint32_t pieces_max_max = 20000;
+
+/// Sessions that a server may be asked for.
+inline constexpr uint32_t sessions_max_max = 4096;
+
+/// Speed of a replay, times real time.
+inline constexpr double replay_speed_min = 0.01;
+inline constexpr double replay_speed_max = 100.0;
+
+}  // namespace scree::limits

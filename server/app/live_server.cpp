@@ -1,0 +1,233 @@
+#include "server/app/live_server.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+#include "server/app/limits.h"
+#include "server/store/recorder.h"
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often a server that waits for its first clients looks for them.
+constexpr std::chrono::milliseconds wait_period{5};
+
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
+}  // namespace
+
+struct LiveServer::State {
+  explicit State(const LiveConfig& c) : config(c) {}
+
+  Result<void> open();
+  void run();
+  bool step();
+  bool wait_for_clients();
+  bool time_is_over() const {
+    return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
+  }
+  void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out);
+  Clock::time_point pace(Clock::time_point due);
+  bool sleep_until(Clock::time_point when);
+  void end(const std::string& error);
+
+  LiveConfig config;
+  CommandQueue commands;
+  std::unique_ptr<TickFeed> feed;  ///< the simulation thread's own
+  std::unique_ptr<NetServer> net;
+  std::unique_ptr<Recorder> recorder;
+  std::thread thread;
+  Clock::time_point started = Clock::now();
+  Clock::duration period{};
+  bool record_failed = false;  ///< the simulation thread's own
+
+  mutable std::mutex mutex;  ///< guards what follows
+  std::condition_variable changed;
+  bool stopping = false;
+  bool running = true;
+  ServerReport report;
+  std::shared_ptr<const TickDelta> last_delta;
+};
+
+Result<void> LiveServer::State::open() {
+  if (!config.replay.path.empty()) {
+    if (!config.record_path.empty())
+      return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
+    auto replay = replay_feed(config.replay);
+    if (!replay) return tl::unexpected(replay.error());
+    feed = std::move(replay->feed);
+    config.world = replay->world;
+    config.net.replay = true;
+  }
+  config.net.terrain = config.world.terrain;
+  config.net.tick_rate_hz = config.world.tick_rate_hz;
+  const double speed = config.replay.path.empty() ? 1.0 : config.replay.speed;
+  period = seconds(1.0 / (static_cast<double>(config.world.tick_rate_hz) * speed));
+  // The port comes first: a server that cannot listen leaves no empty recording behind.
+  auto listening = NetServer::listen(config.net, commands);
+  if (!listening) return tl::unexpected(listening.error());
+  net = std::move(*listening);
+  if (!config.record_path.empty()) {
+    auto recording = Recorder::create(config.record_path, {"scree-server " SCREE_VERSION, config.world});
+    if (!recording) return tl::unexpected(recording.error());
+    recorder = std::move(*recording);
+    report.record_path = config.record_path;
+  }
+  if (!feed) feed = live_feed(config.world);
+  return {};
+}
+
+void LiveServer::State::end(const std::string& error) {
+  const std::scoped_lock lock(mutex);
+  running = false;
+  if (error.empty()) return;
+  spdlog::error("{}", error);
+  if (!report.error) report.error = error;
+}
+
+/// A recording that cannot be written ends; the server goes on.
+void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out) {
+  recorder->push(std::move(delta), std::move(carried_out));
+  if (record_failed) return;
+  const auto error = recorder->error();
+  if (!error) return;
+  record_failed = true;
+  spdlog::error("the recording ends after {} ticks: {}", recorder->ticks_written(), *error);
+}
+
+/// One tick. False when it was the last.
+bool LiveServer::State::step() {
+  std::vector<Command> waiting = commands.drain();
+  const auto next = feed->next(waiting);
+  if (!next) {
+    end(next.error().message);
+    return false;
+  }
+  const std::shared_ptr<const TickDelta>& delta = *next;
+  if (!delta) {
+    spdlog::info("the recording ends here");
+    end("");
+    return false;
+  }
+  net->publish(delta);
+  if (recorder) record(delta, std::move(waiting));
+  const std::scoped_lock lock(mutex);
+  report.add(*delta);
+  last_delta = delta;
+  if (config.ticks_max != 0 && report.ticks >= config.ticks_max) running = false;
+  if (time_is_over()) running = false;
+  return running;
+}
+
+/// False when the server is to stop.
+bool LiveServer::State::sleep_until(Clock::time_point when) {
+  std::unique_lock lock(mutex);
+  changed.wait_until(lock, when, [this] { return stopping; });
+  return !stopping;
+}
+
+bool LiveServer::State::wait_for_clients() {
+  while (net->stats().sessions_joined < config.wait_clients)
+    if (!sleep_until(Clock::now() + wait_period) || time_is_over()) return false;
+  return true;
+}
+
+/// When the next tick is due. A simulation that is late catches up a little; what is more is lost, and
+/// counted.
+Clock::time_point LiveServer::State::pace(Clock::time_point due) {
+  due += period;
+  const Clock::time_point now = Clock::now();
+  if (now <= due) return due;
+  const std::scoped_lock lock(mutex);
+  ++report.late_ticks;
+  const auto behind = static_cast<uint64_t>((now - due) / period);
+  if (behind <= limits::catch_up_ticks_max) return due;
+  report.overruns += behind;
+  spdlog::warn("tick {} came {} ticks late: they are lost", report.last_tick, behind);
+  return due + period * static_cast<int64_t>(behind);
+}
+
+void LiveServer::State::run() {
+  if (!wait_for_clients()) return end("");
+  Clock::time_point due = Clock::now();
+  while (sleep_until(due) && step()) due = pace(due);
+  end("");
+}
+
+LiveServer::LiveServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+LiveServer::~LiveServer() {
+  static_cast<void>(stop());
+}
+
+Result<std::unique_ptr<LiveServer>> LiveServer::start(const LiveConfig& config) {
+  auto state = std::make_unique<State>(config);
+  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
+  if (config.pacing == Pacing::real_time) state->thread = std::thread([s = state.get()] { s->run(); });
+  return std::unique_ptr<LiveServer>(new LiveServer(std::move(state)));
+}
+
+uint16_t LiveServer::port() const {
+  return state_->net->port();
+}
+
+bool LiveServer::step_once() {
+  if (!running()) return false;
+  const bool more = state_->step();
+  state_->net->flush();
+  return more;
+}
+
+bool LiveServer::running() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->running;
+}
+
+Result<void> LiveServer::stop() {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  if (state_->thread.joinable()) state_->thread.join();
+  state_->end("");
+  state_->net->stop();
+  if (state_->recorder)
+    if (const auto finished = state_->recorder->finish(); !finished) state_->end(finished.error().message);
+  const ServerReport all = report();
+  if (all.error) return fail(*all.error);
+  return {};
+}
+
+ServerReport LiveServer::report() const {
+  const NetStats net = state_->net->stats();
+  const std::scoped_lock lock(state_->mutex);
+  ServerReport report = state_->report;
+  report.net = net;
+  report.seconds = std::chrono::duration<double>(Clock::now() - state_->started).count();
+  if (state_->recorder) {
+    report.ticks_recorded = state_->recorder->ticks_written();
+    report.record_waits = state_->recorder->waits();
+    if (!report.error) report.error = state_->recorder->error();
+  }
+  return report;
+}
+
+World* LiveServer::world() {
+  return state_->feed->world();
+}
+
+std::shared_ptr<const TickDelta> LiveServer::last_delta() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->last_delta;
+}
+
+}  // namespace scree

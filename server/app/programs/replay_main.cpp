@@ -1,0 +1,162 @@
+// scree-replay: says what a recording holds, and proves it by simulating it again.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "server/replay/verify.h"
+#include "server/store/recording_reader.h"
+
+namespace scree {
+namespace {
+
+constexpr int differs_or_failed = 1;
+constexpr int usage_error = 2;
+constexpr int bar_width = 40;
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string path;
+  bool json = false;
+};
+
+std::string hex(uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+int complain(const Error& error) {
+  std::fprintf(stderr, "scree-replay: error: %s\n", error.message.c_str());
+  return differs_or_failed;
+}
+
+void print(const Json& json, bool as_json) {
+  if (as_json) {
+    std::printf("%s\n", json.dump(2).c_str());
+    return;
+  }
+  for (const auto& [name, value] : json.items()) {
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    std::printf("%-18s %s\n", name.c_str(), text.c_str());
+  }
+}
+
+/// What the frames and commands of a recording add up to.
+struct Sums {
+  uint64_t commands = 0, carves = 0, fills = 0, merges = 0, lost = 0;
+  RecordedFrame last;
+};
+
+Result<Sums> sum_up(RecordingReader& recording) {
+  Sums sums;
+  for (Tick tick = 1; tick <= recording.last_tick(); ++tick) {
+    auto frame = recording.frame(tick);
+    if (!frame) return tl::unexpected(frame.error());
+    const auto commands = recording.commands(tick);
+    if (!commands) return tl::unexpected(commands.error());
+    sums.commands += commands->size();
+    for (const Operation& operation : frame->operations) {
+      sums.carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
+      sums.fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
+      sums.merges += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
+      sums.lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
+    }
+    sums.last = std::move(*frame);
+  }
+  return sums;
+}
+
+int info(const Options& options) {
+  const auto recording = RecordingReader::open(options.path);
+  if (!recording) return complain(recording.error());
+  const auto sums = sum_up(**recording);
+  if (!sums) return complain(sums.error());
+  const RecordingHeader& header = (*recording)->header();
+  const WorldConfig& world = header.world;
+  const Tick ticks = (*recording)->last_tick();
+  const Ledger ledger = from_recorded(sums->last.ledger);
+  print({{"file", options.path},
+         {"format", recording_format},
+         {"recorded_by", header.program},
+         {"terrain", std::string(name_of(world.terrain.kind))},
+         {"seed", world.terrain.seed},
+         {"voxel_size_m", world.terrain.voxel_size_m},
+         {"tick_rate_hz", world.tick_rate_hz},
+         {"pieces_max", world.pieces_max},
+         {"ticks", ticks},
+         {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
+         {"keyframes", (*recording)->keyframes()},
+         {"commands", sums->commands},
+         {"carves", sums->carves},
+         {"fills", sums->fills},
+         {"merges", sums->merges},
+         {"lost", sums->lost},
+         {"ledger_error", ledger.error()},
+         {"field_hash", hex(sums->last.field_hash)},
+         {"state_hash", hex(sums->last.state_hash)},
+         {"bytes", (*recording)->bytes()}},
+        options.json);
+  return 0;
+}
+
+void draw_bar(Tick done, Tick all) {
+  const auto filled = static_cast<int>(done * bar_width / all);
+  std::fprintf(stderr, "\r[%.*s%*s] %llu/%llu ticks", filled, "########################################",
+               bar_width - filled, "", static_cast<unsigned long long>(done),
+               static_cast<unsigned long long>(all));
+  if (done == all) std::fputc('\n', stderr);
+}
+
+int verify_file(const Options& options) {
+  const auto recording = RecordingReader::open(options.path);
+  if (!recording) return complain(recording.error());
+  const bool has_bar = isatty(STDERR_FILENO) != 0;
+  const auto report = verify(**recording, has_bar ? draw_bar : std::function<void(Tick, Tick)>());
+  if (!report) return complain(report.error());
+  if (has_bar && !report->agrees()) std::fputc('\n', stderr);
+  Json json{{"file", options.path},
+            {"agrees", report->agrees()},
+            {"ticks", report->ticks},
+            {"ticks_recorded", (*recording)->last_tick()},
+            {"commands", report->commands},
+            {"field_hash", hex(report->field_hash)},
+            {"state_hash", hex(report->state_hash)},
+            {"seconds", report->seconds}};
+  if (!report->agrees()) {
+    json["first_difference"] = report->first_difference;
+    json["difference"] = report->difference;
+  }
+  print(json, options.json);
+  return report->agrees() ? 0 : differs_or_failed;
+}
+
+CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("FILE", options.path, "a recording")->required();
+  command->add_flag("--json", options.json, "prints JSON");
+  return command;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Looks at recordings of scree-server.", "scree-replay");
+  app.set_version_flag("--version", SCREE_VERSION);
+  app.require_subcommand(1);
+  Options options;
+  const CLI::App* info_command = add_command(app, options, "info", "says what a recording holds");
+  add_command(app, options, "verify", "simulates it again from the commands, and compares every tick's hash");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : usage_error;
+  }
+  return info_command->parsed() ? info(options) : verify_file(options);
+}
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  return scree::run(argc, argv);
+}

@@ -1,0 +1,83 @@
+// scree-server: parses its options, runs a LiveServer until a signal or its end, and reports.
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "server/app/server_options.h"
+
+namespace scree {
+namespace {
+
+constexpr int failed = 1;
+/// How often the end of the session is looked for, ns.
+constexpr long poll_period_ns = 20'000'000;
+
+/// Blocked before any thread starts, so that only wait_for_end() sees them.
+sigset_t block_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+void wait_for_end(const LiveServer& server, const sigset_t& signals) {
+  const timespec period{0, poll_period_ns};
+  while (server.running()) {
+    const int signal = sigtimedwait(&signals, nullptr, &period);
+    if (signal < 0) continue;
+    spdlog::info("stopping ({})", signal == SIGINT ? "SIGINT" : "SIGTERM");
+    return;
+  }
+}
+
+void announce(const LiveServer& server, const std::string& bind) {
+  const nlohmann::ordered_json line{{"listening", server.port()}, {"bind", bind}};
+  std::printf("%s\n", line.dump().c_str());
+  std::fflush(stdout);
+}
+
+bool write_report(const LiveServer& server, const std::string& path) {
+  if (path.empty()) return true;
+  std::ofstream file(path);
+  file << to_json(server.report());
+  file.close();
+  if (file) return true;
+  spdlog::error("the report cannot be written to {} (--report)", path);
+  return false;
+}
+
+int run(const ServerOptions& options) {
+  const sigset_t signals = block_stop_signals();
+  spdlog::set_default_logger(spdlog::stderr_color_mt("scree-server"));
+  spdlog::set_level(spdlog::level::from_str(options.log_level));
+  auto server = LiveServer::start(options.live);
+  if (!server) {
+    spdlog::error("{}", server.error().message);
+    return failed;
+  }
+  announce(**server, options.live.net.bind);
+  wait_for_end(**server, signals);
+  const auto stopped = (*server)->stop();
+  const bool reported = write_report(**server, options.report_path);
+  const ServerReport report = (*server)->report();
+  spdlog::info("{} ticks, {} carves, {} pieces made, {} merged, {} alive, ledger error {}", report.ticks,
+               report.carves, report.pieces_made, report.pieces_merged, report.pieces_alive,
+               report.ledger.error());
+  return stopped && reported ? 0 : failed;
+}
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  const auto options = scree::parse_server_options(argc, argv);
+  if (const int* code = std::get_if<int>(&options)) return *code;
+  return scree::run(std::get<scree::ServerOptions>(options));
+}

@@ -1,0 +1,112 @@
+#include "server/app/server_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+
+#include "proto/messages.h"
+#include "server/app/limits.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int usage_error = 2;
+
+struct Raw {
+  ServerOptions options;
+  std::string terrain = std::string(name_of(TerrainSource{}.kind));
+};
+
+void add_network(CLI::App& app, Raw& raw) {
+  NetConfig& net = raw.options.live.net;
+  net.port = default_port;
+  app.add_option("-p,--port", net.port, "TCP port; 0: one that is free")->capture_default_str();
+  app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
+      ->capture_default_str();
+  app.add_option("--sessions-max", net.sessions_max, "clients at once; more are refused")
+      ->check(CLI::Range(1U, limits::sessions_max_max))
+      ->capture_default_str();
+  app.add_option("--requests-per-second", net.requests_per_second, "carves and fills of one client")
+      ->check(CLI::Range(0.1, 1.0e6))
+      ->capture_default_str();
+}
+
+void add_world(CLI::App& app, Raw& raw) {
+  WorldConfig& world = raw.options.live.world;
+  app.add_option("--terrain", raw.terrain, "flat, noise or canyon")
+      ->check(CLI::IsMember({"flat", "noise", "canyon"}))
+      ->capture_default_str();
+  app.add_option("--seed", world.terrain.seed, "of the terrain")->capture_default_str();
+  app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres")
+      ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m))
+      ->capture_default_str();
+  app.add_option("--tick-rate", world.tick_rate_hz, "ticks a second")
+      ->check(CLI::Range(1U, limits::tick_rate_max_hz))
+      ->capture_default_str();
+  app.add_option("--pieces-max", world.pieces_max, "pieces alive at once; carves beyond are refused")
+      ->check(CLI::Range(1U, limits::pieces_max_max))
+      ->capture_default_str();
+}
+
+void add_recordings(CLI::App& app, Raw& raw) {
+  LiveConfig& live = raw.options.live;
+  CLI::Option* record = app.add_option("--record", live.record_path, "records the session to this new file");
+  CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
+  replay->excludes(record);
+  app.add_option("--from", live.replay.from, "tick of the recording to start after")->needs(replay);
+  app.add_option("--speed", live.replay.speed, "of the replay, times real time")
+      ->check(CLI::Range(limits::replay_speed_min, limits::replay_speed_max))
+      ->needs(replay);
+  app.add_flag("--loop", live.replay.loop, "starts the replay over at its end")->needs(replay);
+}
+
+void add_run(CLI::App& app, Raw& raw) {
+  LiveConfig& live = raw.options.live;
+  app.add_option("--ticks", live.ticks_max, "ends after so many ticks; 0: does not")->capture_default_str();
+  app.add_option("--duration", live.seconds_max, "ends after so many seconds; 0: does not")
+      ->check(CLI::Range(0.0, 1.0e9))
+      ->capture_default_str();
+  app.add_option("--wait-clients", live.wait_clients, "the first tick waits until so many have joined")
+      ->capture_default_str();
+  app.add_option("--report", raw.options.report_path, "writes what happened to this file at the end (JSON)");
+  app.add_option("--log", raw.options.log_level, "trace, debug, info, warn, error or off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->capture_default_str();
+}
+
+/// --sessions-max is SCREE_SESSIONS_MAX.
+void name_environment(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    const std::string flag = option->get_lnames().empty() ? "help" : option->get_lnames().front();
+    if (flag == "help" || flag == "version") continue;
+    std::string name = "SCREE_";
+    for (const char c : flag)
+      name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    option->envname(name);
+  }
+}
+
+}  // namespace
+
+std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
+  CLI::App app("A dedicated server for terrain that breaks, falls, and is terrain again.", "scree-server");
+  Raw raw;
+  app.set_version_flag("--version", SCREE_VERSION);
+  app.set_config("--config", "", "a TOML file with these options, by the same names");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_network(app, raw);
+  add_world(app, raw);
+  add_recordings(app, raw);
+  add_run(app, raw);
+  name_environment(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : usage_error;
+  }
+  raw.options.live.world.terrain.kind = *terrain_kind_named(raw.terrain);
+  return raw.options;
+}
+
+}  // namespace scree

@@ -1,0 +1,22 @@
+// The command line of scree-server: flags, a TOML file with the same names (--config), and the environment
+// (SCREE_PORT for --port, and so on). The command line wins over the environment, that over the file.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "server/app/live_server.h"
+
+namespace scree {
+
+struct ServerOptions {
+  LiveConfig live;
+  std::string report_path;  ///< empty: none
+  std::string log_level = "info";
+};
+
+/// The options; or, when there is nothing to run, the exit code: 0 after --help, 2 after a mistake, which has
+/// been printed.
+std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv);
+
+}  // namespace scree

@@ -1,0 +1,113 @@
+#include "server/app/server_report.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace scree {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+double mean(uint64_t sum, uint64_t count) {
+  return count == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(count);
+}
+
+Json json_of(const Durations& durations) {
+  return {{"count", durations.count()},
+          {"median", durations.quantile_ms(0.5)},
+          {"p99", durations.quantile_ms(0.99)},
+          {"worst", durations.worst_ms()}};
+}
+
+Json json_of(const Ledger& ledger) {
+  return {{"terrain", ledger.terrain}, {"pieces", ledger.pieces}, {"dust", ledger.dust},
+          {"poured", ledger.poured},   {"moved", ledger.moved},   {"error", ledger.error()}};
+}
+
+Json json_of(const NetStats& net) {
+  const PublisherStats& sent = net.published;
+  return {{"now", net.sessions},
+          {"joined", net.sessions_joined},
+          {"refused", net.sessions_refused},
+          {"cut", net.sessions_cut},
+          {"resets", sent.resets},
+          {"repairs", sent.repairs},
+          {"requests", net.requests},
+          {"requests_refused", net.requests_refused},
+          {"publish_waits", net.publish_waits}};
+}
+
+}  // namespace
+
+void ServerReport::add(const TickDelta& delta) {
+  ++ticks;
+  last_tick = delta.tick;
+  bool carved = false, recombined = false;
+  for (const AppliedOperation& applied : delta.operations) {
+    const Operation& operation = applied.operation;
+    carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
+    fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
+    pieces_merged += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
+    pieces_lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
+    carved = carved || operation.index() <= 1;
+    recombined = recombined || operation.index() > 1;
+  }
+  pieces_made += delta.spawned.size();
+  pieces_alive = delta.pieces.size();
+  ledger = delta.ledger;
+  field_hash = delta.field_hash;
+  state_hash = delta.state_hash;
+  const StageTimes& times = delta.times;
+  if (carved) {
+    stages["carve"].add(times.carve_ms);
+    stages["spawn"].add(times.spawn_ms);
+  }
+  if (recombined) stages["recombine"].add(times.recombine_ms);
+  stages["bodies"].add(times.bodies_ms);
+  stages["rest"].add(times.rest_ms);
+  stages["publish"].add(times.publish_ms);
+  stages["tick"].add(times.total_ms);
+}
+
+std::string to_json(const ServerReport& report) {
+  const PublisherStats& sent = report.net.published;
+  Json json{{"ticks", report.ticks},
+            {"last_tick", report.last_tick},
+            {"seconds", report.seconds},
+            {"carves", report.carves},
+            {"fills", report.fills},
+            {"pieces_made", report.pieces_made},
+            {"pieces_merged", report.pieces_merged},
+            {"pieces_lost", report.pieces_lost},
+            {"pieces_alive", report.pieces_alive},
+            {"ledger", json_of(report.ledger)},
+            {"field_hash", hex(report.field_hash)},
+            {"state_hash", hex(report.state_hash)},
+            {"late_ticks", report.late_ticks},
+            {"overruns", report.overruns},
+            {"bytes_sent", sent.sent_bytes},
+            {"frame_bytes", sent.frame_bytes},
+            {"transform_bytes", sent.transform_bytes},
+            {"chunk_bytes", sent.chunk_bytes},
+            {"piece_bytes", sent.piece_bytes},
+            {"bytes_per_carve", mean(sent.carve_operation_bytes, sent.carves)},
+            {"bytes_per_merge", mean(sent.stamp_operation_bytes, sent.stamps)},
+            {"sessions", json_of(report.net)}};
+  Json stages = Json::object();
+  for (const auto& [name, durations] : report.stages) stages[name] = json_of(durations);
+  json["stages_ms"] = stages;
+  if (!report.record_path.empty())
+    json["recording"] = {
+        {"path", report.record_path}, {"ticks", report.ticks_recorded}, {"waits", report.record_waits}};
+  if (report.error) json["error"] = *report.error;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace scree

@@ -1,0 +1,42 @@
+// What a server did, for people and programs. Filled tick by tick.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "server/app/durations.h"
+#include "server/net/net_server.h"
+#include "server/world/tick_delta.h"
+
+namespace scree {
+
+struct ServerReport {
+  uint64_t ticks = 0;  ///< stepped, or played
+  Tick last_tick = 0;
+  double seconds = 0.0;  ///< since the start
+  uint64_t carves = 0;
+  uint64_t fills = 0;
+  uint64_t pieces_made = 0;
+  uint64_t pieces_merged = 0;
+  uint64_t pieces_lost = 0;  ///< that left the world and became dust
+  uint64_t pieces_alive = 0;
+  Ledger ledger;
+  uint64_t field_hash = 0;
+  uint64_t state_hash = 0;
+  uint64_t late_ticks = 0;  ///< began after their time, and were made up for
+  uint64_t overruns = 0;    ///< ticks of real time that were lost
+  std::map<std::string, Durations>
+      stages;  ///< carve, spawn, recombine: of ticks that had any; others: of all
+  NetStats net;
+  std::string record_path;
+  uint64_t ticks_recorded = 0;
+  uint64_t record_waits = 0;
+  std::optional<std::string> error;  ///< why it ended before its time
+
+  void add(const TickDelta& delta);
+};
+
+std::string to_json(const ServerReport& report);
+
+}  // namespace scree

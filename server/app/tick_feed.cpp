@@ -1,0 +1,51 @@
+#include "server/app/tick_feed.h"
+
+#include "server/replay/replay_source.h"
+
+namespace scree {
+
+namespace {
+
+class LiveFeed final : public TickFeed {
+ public:
+  explicit LiveFeed(const WorldConfig& config) : world_(config) {}
+  Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) override {
+    return world_.step(commands);
+  }
+  World* world() override { return &world_; }
+
+ private:
+  World world_;
+};
+
+class RecordedFeed final : public TickFeed {
+ public:
+  RecordedFeed(std::unique_ptr<ReplaySource> source, const ReplayOptions& options)
+      : source_(std::move(source)), options_(options) {}
+
+  Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override {
+    auto delta = source_->next();
+    if (!delta || *delta || !options_.loop) return delta;
+    if (auto sought = source_->seek(options_.from); !sought) return tl::unexpected(sought.error());
+    return source_->next();
+  }
+
+ private:
+  std::unique_ptr<ReplaySource> source_;
+  ReplayOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<TickFeed> live_feed(const WorldConfig& config) {
+  return std::make_unique<LiveFeed>(config);
+}
+
+Result<ReplayFeed> replay_feed(const ReplayOptions& options) {
+  auto source = ReplaySource::open(options.path, options.from);
+  if (!source) return tl::unexpected(source.error());
+  const WorldConfig world = (*source)->header().world;
+  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), options), world};
+}
+
+}  // namespace scree

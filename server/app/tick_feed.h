@@ -1,0 +1,40 @@
+// Where a server's ticks come from: the simulation, or a recording. All else is the same.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "server/world/command.h"
+#include "server/world/tick_delta.h"
+#include "server/world/world.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+class TickFeed {
+ public:
+  virtual ~TickFeed() = default;
+
+  /// The next tick; null when there is none any more.
+  virtual Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) = 0;
+  /// The simulation behind it; null for a recording.
+  virtual World* world() { return nullptr; }
+};
+
+std::unique_ptr<TickFeed> live_feed(const WorldConfig& config);
+
+struct ReplayOptions {
+  std::string path;  ///< empty: no replay
+  Tick from = 0;
+  double speed = 1.0;  ///< times real time
+  bool loop = false;   ///< starts over at the end
+};
+
+struct ReplayFeed {
+  std::unique_ptr<TickFeed> feed;
+  WorldConfig world;  ///< of the recording
+};
+Result<ReplayFeed> replay_feed(const ReplayOptions& options);
+
+}  // namespace scree
