@@ -13,6 +13,18 @@ namespace {
 
 constexpr std::string_view sqlite_magic("SQLite format 3\0", 16);
 
+/// SQLite takes what is missing of the last page for zeros. What a crash left beside the file completes it.
+Result<void> check_whole_pages(const std::string& path, const std::string& start) {
+  const auto byte = [&](size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(start[at])); };
+  const unsigned stored = (byte(16) << 8U) | byte(17);  // SQLite file format, 1.3.2
+  const unsigned page_bytes = stored == 1 ? 65536 : stored;
+  std::error_code error;
+  const uint64_t bytes = std::filesystem::file_size(path, error);
+  if (page_bytes != 0 && bytes % page_bytes == 0) return {};
+  if (std::filesystem::exists(path + "-wal", error)) return {};
+  return fail(path + ": damaged or cut short: " + std::to_string(bytes) + " bytes are no whole pages");
+}
+
 /// Says what a file is not, before SQLite is asked to open it.
 Result<void> check_magic(const std::string& path) {
   std::error_code error;
@@ -20,12 +32,12 @@ Result<void> check_magic(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) return fail(path + " cannot be read: check its permissions");
-  std::string magic(sqlite_magic.size(), '\0');
-  file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-  if (static_cast<size_t>(file.gcount()) < magic.size())
+  std::string start(sqlite_magic.size() + 2, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (static_cast<size_t>(file.gcount()) < start.size())
     return fail(path + " is no recording: it has only " + std::to_string(file.gcount()) + " bytes");
-  if (magic != sqlite_magic) return fail(path + " is no recording: it is not an SQLite file");
-  return {};
+  if (!start.starts_with(sqlite_magic)) return fail(path + " is no recording: it is not an SQLite file");
+  return check_whole_pages(path, start);
 }
 
 }  // namespace
