@@ -1,0 +1,174 @@
+#!/usr/bin/env bash
+# The demo: a server on the canyon, a viewer, and a bot that carves. `./scree demo` builds the programs first.
+# With a display a window opens, to play in until it is closed. Without one the viewer draws offscreen and
+# leaves before.png, blast.png and settled.png. Either way a summary of the session follows.
+set -euo pipefail
+
+root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+readonly root bin="$root/build/release/bin"
+# Seconds. A software renderer on two busy cores is slow; nothing here should come near these.
+readonly start_s_max=60 session_s_max=600
+
+out="$root/out/demo" carves=20 seed=7 rate=1.5 offscreen=auto size=1280x720
+server_pid='' viewer_pid='' bot_pid=''
+
+usage() {
+  cat <<'TEXT'
+usage: ./scree demo [--out DIR] [--carves N] [--seed N] [--rate N] [--size WxH] [--offscreen]
+
+  --out DIR      where pictures, reports and logs go (out/demo)
+  --carves N     carves of the bot (20)
+  --seed N       of the bot's random choices (7)
+  --rate N       carves a second (1.5)
+  --size WxH     of the window or the pictures (1280x720)
+  --offscreen    draw pictures, though there is a display
+TEXT
+}
+
+say() { printf 'demo: %s\n' "$*"; }
+# die MESSAGE [LOG]
+die() {
+  printf 'demo: error: %s\n' "$1" >&2
+  if [[ -s ${2:-} ]]; then
+    printf 'the end of %s:\n' "$2" >&2
+    tail -n 15 "$2" >&2
+  fi
+  exit 1
+}
+
+parse() {
+  while (($#)); do
+    case $1 in
+      --out | --carves | --seed | --rate | --size)
+        (($# > 1)) || die "$1 needs a value"
+        printf -v "${1#--}" '%s' "$2"
+        shift
+        ;;
+      --offscreen) offscreen=yes ;;
+      --help | -h)
+        usage
+        exit 0
+        ;;
+      *) die "there is no option '$1'; ./scree demo --help lists them" ;;
+    esac
+    shift
+  done
+}
+
+# Ends what is still running, and only that.
+cleanup() {
+  local pid
+  for pid in $viewer_pid $bot_pid $server_pid; do
+    kill -TERM "$pid" 2>/dev/null || true
+  done
+  wait
+}
+
+# wait_until SECONDS PID WHAT LOG COMMAND…: polls the command; the process PID must stay alive meanwhile.
+wait_until() {
+  local deadline=$((SECONDS + $1)) pid=$2 what=$3 log=$4
+  shift 4
+  until "$@"; do
+    kill -0 "$pid" 2>/dev/null || { "$@" && return; } || die "$what: the program ended early" "$log"
+    ((SECONDS < deadline)) || die "$what: nothing after the deadline" "$log"
+    sleep 0.1
+  done
+}
+
+# wait_for_exit SECONDS PID WHAT LOG: waits for a program of ours to end well.
+wait_for_exit() {
+  local deadline=$((SECONDS + $1))
+  while kill -0 "$2" 2>/dev/null; do
+    ((SECONDS < deadline)) || die "$3 did not finish in $1 s" "$4"
+    sleep 0.1
+  done
+  wait "$2" || die "$3 failed" "$4"
+}
+
+start_server() {
+  "$bin/scree-server" --host 127.0.0.1 --port 0 --terrain canyon --report "$out/server.json" \
+    >"$out/server.out" 2>"$out/server.log" &
+  server_pid=$!
+  wait_until "$start_s_max" "$server_pid" "the server should listen" "$out/server.log" \
+    grep -qs '"listening"' "$out/server.out"
+  port=$(jq -r 'select(.listening) | .listening' "$out/server.out")
+  say "the server listens on port $port"
+}
+
+# start_bot SECONDS: carves, stays until all has settled, then compares its hash with the server's.
+start_bot() {
+  "$bin/scree-bot" --host 127.0.0.1 --port "$port" --carves "$carves" --seed "$seed" --rate "$rate" \
+    --linger --check-hash --timeout "$1" --report "$out/bot.json" >"$out/bot.log" 2>&1 &
+  bot_pid=$!
+  say "a bot carves $carves times"
+}
+
+play_in_window() {
+  say "close the window to end the demo"
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --size "$size" >"$out/viewer.log" 2>&1 &
+  viewer_pid=$!
+  start_bot 86400 # the player may go on for as long as they like
+  wait "$viewer_pid" || die "the viewer failed (--offscreen needs no display)" "$out/viewer.log"
+  viewer_pid=''
+  wait_for_exit "$session_s_max" "$bot_pid" "the bot" "$out/bot.log"
+}
+
+draw_pictures() {
+  say "no display: drawing before.png, blast.png and settled.png offscreen"
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --offscreen --size "$size" --timeout "$session_s_max" \
+    --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@pieces>=20" \
+    --screenshot "$out/settled.png@settled" >"$out/viewer.log" 2>&1 &
+  viewer_pid=$!
+  wait_until "$session_s_max" "$viewer_pid" "the first picture" "$out/viewer.log" test -s "$out/before.png"
+  start_bot "$session_s_max"
+  wait_for_exit "$session_s_max" "$bot_pid" "the bot" "$out/bot.log"
+  wait_for_exit "$session_s_max" "$viewer_pid" "the viewer" "$out/viewer.log"
+  viewer_pid=''
+  local picture
+  for picture in before blast settled; do
+    [[ -s $out/$picture.png ]] || die "there is no $picture.png" "$out/viewer.log"
+  done
+}
+
+stop_server() {
+  kill -TERM "$server_pid"
+  wait_for_exit "$start_s_max" "$server_pid" "the server" "$out/server.log"
+  server_pid=''
+}
+
+# The session in numbers: the server's, but for what crossed the wire and the hashes, which a client must say.
+summary() {
+  printf '\n'
+  # shellcheck disable=SC2016  # the $… are jq's
+  jq -rn --slurpfile server "$out/server.json" --slurpfile bot "$out/bot.json" '
+    def rounded($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
+    $server[0] as $s | $bot[0] as $b | $s.stages_ms.tick as $tick | [
+      ["carves", "\($s.carves)"],
+      ["pieces made", "\($s.pieces_made)"],
+      ["pieces merged", "\($s.pieces_merged)"],
+      ["pieces still alive", "\($s.pieces_alive)"],
+      ["ledger error", "\($s.ledger.error) of \($s.ledger.moved) units moved"],
+      ["bytes per carve", "\($b.bytes_per_carve.mean | rounded(0)) (transforms aside)"],
+      ["median tick", "\($tick.median | rounded(2)) ms"],
+      ["worst tick", "\($tick.worst | rounded(2)) ms"],
+      ["hashes equal", "\(if $b.hash.equal then "yes" else "NO" end), \($b.checks) checks, \($b.mismatches) mismatches"]
+    ] | .[] | @tsv' | while IFS=$'\t' read -r name value; do printf '  %-20s %s\n' "$name" "$value"; done
+  printf '\n'
+  if [[ -e $out/settled.png ]]; then say "pictures: $out/before.png blast.png settled.png"; fi
+  say "reports: $out/server.json bot.json"
+}
+
+main() {
+  parse "$@"
+  mkdir -p "$out"
+  out=$(cd "$out" && pwd)
+  rm -f "$out"/{server,bot}.{json,out,log} "$out"/viewer.log "$out"/{before,blast,settled}.png
+  trap cleanup EXIT
+  start_server
+  if [[ $offscreen == auto && -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then play_in_window; else draw_pictures; fi
+  bot_pid=''
+  stop_server
+  summary
+}
+
+main "$@"
