@@ -38,14 +38,32 @@ std::vector<PieceId> unpack_ids(const std::string& packed, FieldChecker& check) 
   return ids;
 }
 
+std::vector<uint8_t> pack_changes(const FrameMessage& frame) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  writer.varint((frame.tick << 1U) | (frame.has_check ? 1U : 0U));
+  if (frame.has_check) writer.u32(frame.check);
+  for (const Operation& operation : frame.operations) append_operation(bytes, operation);
+  return bytes;
+}
+
+void unpack_changes(const std::string& packed, FrameMessage& frame, FieldChecker& check) {
+  ByteReader reader(as_span(packed), "changes of a frame");
+  const uint64_t head = reader.varint("tick");
+  frame.tick = head >> 1U;
+  frame.has_check = (head & 1U) != 0;
+  if (frame.has_check) frame.check = reader.u32("check");
+  const std::span<const uint8_t> operations = reader.rest();
+  if (reader.failed()) return check.refuse(reader.error().message);
+  frame.operations = check.take(decode_operations(operations));
+}
+
 void write(wire::Frame& to, const FrameMessage& from) {
-  to.set_tick(from.tick);
-  to.set_operations(to_string(encode_operations(from.operations)));
+  to.set_changes(to_string(pack_changes(from)));
   to.set_patches(to_string(encode_bricks(from.patches)));
   to.set_dropped_chunks(pack_chunks(from.dropped_chunks));
   to.set_removed_pieces(pack_ids(from.removed_pieces));
   to.set_transforms(to_string(from.transforms));
-  if (from.has_check) to.set_check(from.check);
 }
 
 void write(wire::Status& to, const StatusMessage& from) {
@@ -133,15 +151,12 @@ WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
 
 FrameMessage read(const wire::Frame& from, FieldChecker& check) {
   FrameMessage frame;
-  frame.tick = from.tick();
-  frame.operations = check.take(decode_operations(as_span(from.operations())));
+  unpack_changes(from.changes(), frame, check);
   frame.patches = check.take(decode_bricks(as_span(from.patches())));
   frame.dropped_chunks = check.chunks(from.dropped_chunks(), limits::entries_per_frame_max, "dropped chunks");
   frame.removed_pieces = unpack_ids(from.removed_pieces(), check);
   frame.transforms.assign(from.transforms().begin(), from.transforms().end());
   check.take(unpack_transforms(frame.transforms));
-  frame.has_check = from.has_check();
-  frame.check = from.check();
   return frame;
 }
 

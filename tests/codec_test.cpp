@@ -7,6 +7,7 @@
 
 #include "proto/operation_codec.h"
 #include "shared/base/limits.h"
+#include "shared/field/stamp.h"
 #include "tests/wire_samples.h"
 
 namespace scree {
@@ -94,7 +95,7 @@ TEST(Codec, a_volume_round_trips) {
 TEST(Codec, stamps_round_trip_at_the_ends_of_their_range) {
   for (const int32_t x : {0, 1, -1, 65535, -65536, limits::pose_coordinate_max, -limits::pose_coordinate_max})
     for (const int32_t y : {0, -limits::pose_coordinate_max, 1023})
-      for (const int32_t shift : {-64, 0, 64}) {
+      for (const int32_t shift : {-stamp_shift_max, 0, stamp_shift_max}) {
         const Operation sent = StampOperation{0xFFFFFFFFU, {x, y, -x, 0xFFFFFFFFU}, shift};
         const Result<Operation> got = decode_operation(encode_operation(sent));
         ASSERT_TRUE(got) << got.error().message;
@@ -119,8 +120,9 @@ TEST(Codec, a_carve_alone_in_its_frame_takes_at_most_200_bytes) {
 
 TEST(Codec, a_stamp_alone_in_its_frame_takes_at_most_32_bytes) {
   FrameMessage frame;
-  frame.tick = (1U << 21U) - 1;  // nearly ten hours at 60 Hz
-  frame.operations = {StampOperation{(1U << 18U) - 1, {65535, -65536, -65000, 0xFFFFFFFFU}, 63}};
+  frame.tick = (1U << 27U) - 1;  // 25 days at 60 Hz
+  frame.operations = {
+      StampOperation{(1U << 18U) - 1, {65535, -65536, -65000, 0xFFFFFFFFU}, -stamp_shift_max}};
   frame.has_check = true;
   frame.check = 0xFFFFFFFFU;
   EXPECT_LE(encode(ServerMessage{frame}).size(), 32U);
@@ -166,7 +168,7 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   piece.pose.y = std::numeric_limits<int32_t>::min();
   EXPECT_TRUE(names(server_refusal(piece), "position"));
   FrameMessage frame;
-  frame.operations = {StampOperation{1, {}, 65}};
+  frame.operations = {StampOperation{1, {}, stamp_shift_max + 1}};
   EXPECT_TRUE(names(server_refusal(frame), "shift"));
   frame.operations = {
       CarveOperation{sphere({0, 0, 0}, 1.0F), SeedPattern::uniform, limits::seeds_max + 1, 0, {}, 0}};

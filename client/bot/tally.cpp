@@ -8,6 +8,14 @@ namespace scree {
 
 namespace {
 
+/// What a bytes field takes within its message: tag, length, content.
+size_t field_bytes(size_t content) {
+  if (content == 0) return 0;
+  size_t bytes = content + 2;
+  for (size_t rest = content >> 7U; rest != 0; rest >>= 7U) ++bytes;
+  return bytes;
+}
+
 void tally_operations(const FrameMessage& frame, size_t frame_bytes, BotReport& report) {
   if (frame.operations.empty() || !frame.patches.empty()) return;
   size_t operations = 0;
@@ -26,7 +34,7 @@ void tally_operations(const FrameMessage& frame, size_t frame_bytes, BotReport& 
 void tally(const Received& received, BotReport& report) {
   BytesByKind& bytes = report.bytes;
   if (const auto* frame = std::get_if<FrameMessage>(&received.message)) {
-    const size_t transforms = std::min(frame->transforms.size(), received.bytes);
+    const size_t transforms = std::min(field_bytes(frame->transforms.size()), received.bytes);
     bytes.transforms += transforms;
     bytes.frames += received.bytes - transforms;
     tally_operations(*frame, received.bytes - transforms, report);
