@@ -29,7 +29,7 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   rock = mix(rock, vec3(0.60, 0.43, 0.29), 0.50 * smoothstep(0.70, 0.92, seam));
   rock *= 0.80 + 0.40 * fine;
   vec3 sand = vec3(0.50, 0.35, 0.215) * (0.86 + 0.28 * fine);
-  vec3 scrub = vec3(0.20, 0.215, 0.085) * (0.70 + 0.60 * fine);
+  vec3 scrub = vec3(0.165, 0.172, 0.075) * (0.70 + 0.60 * fine);
   float flatness = smoothstep(0.72, 0.90, n.y + 0.12 * (fine - 0.5));
   float green = smoothstep(0.42, 0.66, coarse.x + 0.22 * (fine - 0.5) + 0.006 * p.y);
   return mix(rock, mix(sand, scrub, green), flatness);

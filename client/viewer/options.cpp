@@ -15,7 +15,7 @@ constexpr float radians_per_degree = 0.01745329F;
 constexpr float pitch_max_degrees = 89.0F;
 
 /// Over the canyon floor, looking at the cliff and the arch.
-constexpr const char* default_camera = "36,11,24,64,-8";
+constexpr const char* default_camera = "30,9,19,63,-7";
 
 Result<void> parse_size(const std::string& text, ViewerOptions& options) {
   std::istringstream in(text);
