@@ -1,5 +1,5 @@
 // The command line of scree-server: flags, a TOML file with the same names (--config), and the environment
-// (SCREE_PORT for --port, and so on). The command line wins over the environment, that over the file.
+// (SCREE_PORT for --port, and so on). The command line wins over the file, that over the environment.
 #pragma once
 
 #include <string>

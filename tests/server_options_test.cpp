@@ -1,0 +1,86 @@
+// The command line of scree-server, its file and its environment.
+#include "server/app/server_options.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "proto/messages.h"
+
+namespace scree {
+namespace {
+
+std::variant<ServerOptions, int> parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "scree-server");
+  return parse_server_options(static_cast<int>(arguments.size()), arguments.data());
+}
+
+int exit_code(std::vector<const char*> arguments) {
+  const auto parsed = parse(std::move(arguments));
+  const int* code = std::get_if<int>(&parsed);
+  return code == nullptr ? -1 : *code;
+}
+
+TEST(ServerOptions, defaults_listen_on_this_machine_only) {
+  const auto parsed = parse({});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  const LiveConfig& live = std::get<ServerOptions>(parsed).live;
+  EXPECT_EQ(live.net.bind, "127.0.0.1");
+  EXPECT_EQ(live.net.port, default_port);
+  EXPECT_EQ(live.world, WorldConfig{});
+}
+
+TEST(ServerOptions, flags_are_taken) {
+  const auto parsed = parse({"--port", "0", "--host", "0.0.0.0", "--terrain", "noise", "--seed", "9",
+                             "--voxel-size", "0.5", "--tick-rate", "30", "--record", "a.scree"});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  const LiveConfig& live = std::get<ServerOptions>(parsed).live;
+  EXPECT_EQ(live.net.port, 0);
+  EXPECT_EQ(live.net.bind, "0.0.0.0");
+  EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
+  EXPECT_EQ(live.world.tick_rate_hz, 30U);
+  EXPECT_EQ(live.record_path, "a.scree");
+}
+
+TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
+  EXPECT_EQ(exit_code({"--help"}), 0);
+  EXPECT_EQ(exit_code({"--no-such-option"}), 2);
+  EXPECT_EQ(exit_code({"--port", "123456"}), 2);
+  EXPECT_EQ(exit_code({"--terrain", "swamp"}), 2);
+  EXPECT_EQ(exit_code({"--tick-rate", "0"}), 2);
+  EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
+  EXPECT_EQ(exit_code({"--loop"}), 2);
+  EXPECT_EQ(exit_code({"--config", "/no/such/file.toml"}), 2);
+}
+
+TEST(ServerOptions, flag_wins_over_file_over_environment) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scree_options_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(path) << "sessions-max = 7\ntick-rate = 20\n";
+  ::setenv("SCREE_PORT", "5002", 1);
+  ::setenv("SCREE_SESSIONS_MAX", "3", 1);
+  const std::string file = path.string();
+  const auto parsed = parse({"--config", file.c_str(), "--tick-rate", "40"});
+  ::unsetenv("SCREE_PORT");
+  ::unsetenv("SCREE_SESSIONS_MAX");
+  std::filesystem::remove(path);
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  const LiveConfig& live = std::get<ServerOptions>(parsed).live;
+  EXPECT_EQ(live.net.sessions_max, 7U);
+  EXPECT_EQ(live.net.port, 5002);
+  EXPECT_EQ(live.world.tick_rate_hz, 40U);
+}
+
+TEST(ServerOptions, unknown_name_in_the_file_is_a_mistake) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scree_options_bad_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(path) << "prot = 5001\n";
+  const std::string file = path.string();
+  EXPECT_EQ(exit_code({"--config", file.c_str()}), 2);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace scree
