@@ -39,8 +39,9 @@ class World {
   /// For tests and benches, between steps.
   Field& field();
 
+  struct State;  ///< world_state.h, for the stages in this folder alone
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,99 @@
+#include "server/world/request_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "server/fracture/hull.h"
+#include "server/world/limits.h"
+#include "shared/base/limits.h"
+#include "shared/base/random.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+/// A blow sends a piece away from the impact, the less the farther off, and sets it spinning.
+BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
+  const glm::vec3 away = centre_m - request.impact_m;
+  const float distance_m = std::sqrt(glm::dot(away, away));
+  // A lift along up: a blow against flat ground would otherwise press half of the pieces into it.
+  const glm::vec3 direction = away / std::max(distance_m, 0.01F) + glm::vec3(0.0F, 0.7F, 0.0F);
+  const float reach_m = std::max(reach_of(request.shape), 0.01F);
+  const float speed = request.blast_speed_m_s * reach_m / (reach_m + distance_m);
+  Random random(request.random_seed * 0x9E3779B97F4A7C15ULL + id);
+  const auto spin = [&] { return (random.unit() - 0.5F) * speed; };
+  BodyState state;
+  state.id = id;
+  state.pose.position_m = centre_m;
+  state.velocity_m_s = direction * speed;
+  state.spin_rad_s = {spin(), spin(), spin()};
+  return state;
+}
+
+void spawn(World::State& state, const Applied& applied, const CarveRequest& request, TickDelta& delta) {
+  const float dx = state.config.terrain.voxel_size_m;
+  for (const PieceHull& hull : make_hulls(applied, state.pieces, dx)) {
+    const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
+    const float mass_kg = hull.size_m3 * limits::rock_density_kg_m3;
+    state.bodies.add({hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg},
+                     blast(hull.id, volume->centre_voxels * dx, request));
+    delta.spawned.push_back({hull.id, volume});
+    state.next_piece = hull.id + 1;
+  }
+}
+
+Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
+  const CarveOperation operation{request.shape,       request.pattern,  request.seeds,
+                                 request.random_seed, request.impact_m, state.next_piece};
+  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+    return tl::unexpected(valid.error());
+  if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||
+      request.blast_speed_m_s > limits::blast_speed_max_m_s)
+    return fail("the blast speed is not within 0 … " + std::to_string(limits::blast_speed_max_m_s) +
+                " m/s (limits.blast_speed_max_m_s)");
+  if (state.pieces.size() + request.seeds > state.config.pieces_max)
+    return fail(std::to_string(state.pieces.size()) + " pieces are alive and the carve may add " +
+                std::to_string(request.seeds) + "; this server's limit is " +
+                std::to_string(state.config.pieces_max) + " (pieces_max): wait until some have settled");
+  Stopwatch watch;
+  const Applied applied = state.apply_and_record(operation, delta);
+  state.ledger.moved -= applied.terrain_gain;
+  state.ledger.dust += applied.dust;
+  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  delta.times.carve_ms += watch.lap_ms();
+  spawn(state, applied, request, delta);
+  delta.times.spawn_ms += watch.lap_ms();
+  return static_cast<uint32_t>(applied.created.size());
+}
+
+Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta& delta) {
+  const FillOperation operation{request.shape};
+  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+    return tl::unexpected(valid.error());
+  Stopwatch watch;
+  const Applied applied = state.apply_and_record(operation, delta);
+  state.ledger.poured += applied.terrain_gain;
+  delta.times.carve_ms += watch.lap_ms();
+  return 0U;
+}
+
+}  // namespace
+
+void execute(World::State& state, const Command& command, TickDelta& delta) {
+  const auto* carve_request = std::get_if<CarveRequest>(&command.body);
+  const Result<uint32_t> made = carve_request != nullptr
+                                    ? carve(state, *carve_request, delta)
+                                    : fill(state, std::get<FillRequest>(command.body), delta);
+  Reply reply{command.session, command.request, {}, 0};
+  if (made) {
+    reply.pieces = *made;
+  } else {
+    reply.refusal = made.error().message;
+  }
+  delta.replies.push_back(std::move(reply));
+}
+
+}  // namespace scree

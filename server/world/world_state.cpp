@@ -1,0 +1,46 @@
+#include "server/world/world_state.h"
+
+#include <algorithm>
+
+#include "server/world/applied_operation.h"
+
+namespace scree {
+
+namespace {
+
+BodiesConfig bodies_config(const WorldConfig& config) {
+  BodiesConfig out;
+  out.tick_rate_hz = config.tick_rate_hz;
+  return out;
+}
+
+VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
+  VoxelBox box{first_voxel(bricks.front()), first_voxel(bricks.front())};
+  for (const BrickCoord brick : bricks) {
+    const VoxelCoord v = first_voxel(brick);
+    box.lo = {std::min(box.lo.x, v.x), std::min(box.lo.y, v.y), std::min(box.lo.z, v.z)};
+    box.hi = {std::max(box.hi.x, v.x + brick_size), std::max(box.hi.y, v.y + brick_size),
+              std::max(box.hi.z, v.z + brick_size)};
+  }
+  return box;
+}
+
+}  // namespace
+
+World::State::State(const WorldConfig& world_config)
+    : config(world_config),
+      field(config.terrain),
+      bodies(field, bodies_config(config)),
+      rest(RestConfig{}, config.tick_rate_hz) {}
+
+Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta) {
+  const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
+  Applied applied = apply(operation, field, pieces);
+  delta.operations.push_back(describe(operation, reads, applied));
+  changed.insert(applied.changed.begin(), applied.changed.end());
+  if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
+  ledger.terrain += applied.terrain_gain;
+  return applied;
+}
+
+}  // namespace scree

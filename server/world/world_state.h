@@ -1,0 +1,35 @@
+// Everything that a world is made of, as the stages of a tick see it. Private to this folder: world.h is what
+// others use.
+//
+// A stage is a function of this state and of the tick's delta; World::step calls them in order. Whatever
+// changes the field goes through apply_and_record, which keeps the delta, the bodies and the ledger's terrain
+// in step with it.
+#pragma once
+
+#include <set>
+
+#include "server/bodies/bodies.h"
+#include "server/field/vdb_field.h"
+#include "server/recombine/rest.h"
+#include "server/world/world.h"
+
+namespace scree {
+
+struct World::State {
+  explicit State(const WorldConfig& world_config);
+
+  /// Applies a valid operation; whoever calls it enters in the ledger where the mass came from or went to.
+  Applied apply_and_record(const Operation& operation, TickDelta& delta);
+
+  WorldConfig config;
+  VdbField field;
+  PieceTable pieces;
+  Bodies bodies;  ///< one for each of `pieces`
+  RestDetector rest;
+  Ledger ledger;
+  Tick tick = 0;
+  PieceId next_piece = 1;
+  std::set<BrickCoord> changed;  ///< in this tick
+};
+
+}  // namespace scree
