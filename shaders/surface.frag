@@ -60,8 +60,8 @@ void main() {
   float heap = smoothstep(0.10, 0.45, v_before);
   vec3 albedo = weathered(v_rock, rock_normal, coarse, fine);
   float vein = smoothstep(0.46, 0.5, middle.x) * (1.0 - smoothstep(0.5, 0.54, middle.x));
-  vec3 fresh = mix(vec3(0.72, 0.42, 0.21), vec3(0.86, 0.62, 0.38), fine) * (1.0 - 0.18 * vein);
-  vec3 rubble = mix(vec3(0.54, 0.345, 0.20), vec3(0.72, 0.50, 0.31), fine);
+  vec3 fresh = mix(vec3(0.62, 0.33, 0.155), vec3(0.80, 0.53, 0.30), fine) * (1.0 - 0.18 * vein);
+  vec3 rubble = mix(vec3(0.44, 0.26, 0.145), vec3(0.62, 0.41, 0.245), fine);
   albedo = mix(albedo, fresh, cut);
   albedo = mix(albedo, rubble, heap);
   albedo *= 1.0 + u_loose * 0.22 * (u_tint - 0.4);

@@ -7,6 +7,7 @@
 #include "client/viewer/options.h"
 #include "client/viewer/playback.h"
 #include "client/viewer/screenshots.h"
+#include "client/viewer/sight.h"
 
 namespace scree {
 namespace {
@@ -137,6 +138,21 @@ TEST(Options, nonsense_is_refused) {
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--view-radius", "100000"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--offscreen"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--help"})).status, 0);
+}
+
+TEST(Sight, rock_hides_pieces_and_so_does_the_edge_of_the_picture) {
+  MapField field(TerrainSource{TerrainKind::flat, 1, 0.25F});
+  Camera camera;
+  camera.eye_m = {0.0F, 2.0F, 0.0F};
+  const auto seen_at = [&](glm::vec3 place_m) {
+    const ScenePieces pieces{{1, {nullptr, Pose{place_m, {}}}}};
+    return pieces_in_sight(Scene{field, pieces}, camera, 1.5F, 50.0F) == 1;
+  };
+  EXPECT_TRUE(seen_at({0.0F, 1.5F, -10.0F}));
+  EXPECT_TRUE(seen_at({0.0F, 0.1F, -10.0F})) << "lies on the ground";
+  EXPECT_FALSE(seen_at({0.0F, -1.5F, -10.0F})) << "under the ground";
+  EXPECT_FALSE(seen_at({0.0F, 1.5F, 10.0F})) << "behind the camera";
+  EXPECT_FALSE(seen_at({0.0F, 1.5F, -80.0F})) << "too far";
 }
 
 TEST(FlyCamera, moves_where_it_looks_and_stays_in_the_world) {

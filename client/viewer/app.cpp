@@ -12,6 +12,7 @@
 #include "client/viewer/hud.h"
 #include "client/viewer/limits.h"
 #include "client/viewer/png.h"
+#include "client/viewer/sight.h"
 #include "client/viewer/view.h"
 
 namespace scree {
@@ -49,14 +50,17 @@ HudFacts facts_of(Session& session, View& view, float radius_m, double now_s) {
   return facts;
 }
 
-Moment moment_of(Session& session, View& view, double now_s) {
+Moment moment_of(Session& session, View& view, const ViewerOptions& options, const Camera& camera,
+                 double now_s) {
   Moment moment;
   moment.now_s = now_s;
   moment.current = view.complete();
   moment.joined = moment.current && session.joined(now_s);
   moment.carved = session.carved();
-  if (DrawMethod* method = view.method()) moment.pieces = method->stats().pieces;
-  if (const Mirror* mirror = session.mirror()) {
+  if (Mirror* mirror = session.mirror()) {
+    const Scene scene{mirror->field(), session.pieces(now_s)};
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    moment.pieces = pieces_in_sight(scene, camera, aspect, options.view_radius_m);
     const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;
     moment.alive = !mirror->pieces().empty() || elsewhere;
   }
@@ -77,7 +81,7 @@ Result<void> take(const ScreenshotOrder& order, View& view, const ViewerOptions&
 Result<void> take_due(ScreenshotQueue& queue, Session& session, View& view, const ViewerOptions& options,
                       const Camera& camera, double now_s) {
   if (queue.empty()) return {};
-  for (const ScreenshotOrder& order : queue.take_due(moment_of(session, view, now_s)))
+  for (const ScreenshotOrder& order : queue.take_due(moment_of(session, view, options, camera, now_s)))
     if (Result<void> taken = take(order, view, options, camera); !taken) return taken;
   return {};
 }

@@ -37,7 +37,7 @@ inline constexpr float carve_reach_m = 200.0F;
 inline constexpr double join_quiet_s = 0.5;
 
 /// Wait between `pieces>=N` and its screenshot, seconds, in which the pieces fly apart.
-inline constexpr double flight_s = 0.35;
+inline constexpr double flight_s = 0.5;
 
 /// How long no piece may be alive before the terrain counts as settled, seconds.
 inline constexpr double settled_s = 2.0;

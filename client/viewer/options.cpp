@@ -71,9 +71,10 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->check(CLI::Range(limits::view_radius_min_m, limits::view_radius_max_m));
   app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
-  app.add_option("--screenshot", texts.screenshots,
-                 "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), pieces>=N (that many pieces fly), "
-                 "settled (something was carved, and all pieces are terrain again)")
+  app.add_option(
+         "--screenshot", texts.screenshots,
+         "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), pieces>=N (that many pieces are in sight), "
+         "settled (something was carved, and all pieces are terrain again)")
       ->envname("SCREE_SCREENSHOT");
   app.add_option("--timeout", options.timeout_s, "Offscreen: seconds after which to give up")
       ->envname("SCREE_TIMEOUT")

@@ -28,7 +28,7 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text);
 struct Moment {
   double now_s = 0.0;
   bool joined = false;   ///< the terrain around the camera has arrived and is shown
-  size_t pieces = 0;     ///< shown now
+  size_t pieces = 0;     ///< in sight
   bool carved = false;   ///< pieces were made at some time
   bool alive = false;    ///< pieces exist, shown or not
   bool current = false;  ///< what is shown is what is known
