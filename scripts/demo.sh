@@ -8,8 +8,12 @@ root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 readonly root bin="$root/build/release/bin"
 # Seconds. A software renderer on two busy cores is slow; nothing here should come near these.
 readonly start_s_max=60 session_s_max=600
+# Where the bot carves, metres: between the cliff and the arch, all of it before the camera.
+readonly stage_m=(9 4) area_m=10 camera=30,9,19,63,-7
+# Pieces in flight that make the second picture: about two carves' worth, which three carves a second reach.
+readonly blast_pieces=100
 
-out="$root/out/demo" carves=20 seed=7 rate=1.5 offscreen=auto size=1280x720
+out="$root/out/demo" carves=20 seed=7 rate=3 offscreen=auto size=1280x720
 server_pid='' viewer_pid='' bot_pid=''
 
 usage() {
@@ -19,7 +23,7 @@ usage: ./scree demo [--out DIR] [--carves N] [--seed N] [--rate N] [--size WxH] 
   --out DIR      where pictures, reports and logs go (out/demo)
   --carves N     carves of the bot (20)
   --seed N       of the bot's random choices (7)
-  --rate N       carves a second (1.5)
+  --rate N       carves a second (3)
   --size WxH     of the window or the pictures (1280x720)
   --offscreen    draw pictures, though there is a display
 TEXT
@@ -97,15 +101,17 @@ start_server() {
 
 # start_bot SECONDS: carves, stays until all has settled, then compares its hash with the server's.
 start_bot() {
-  "$bin/scree-bot" --host 127.0.0.1 --port "$port" --carves "$carves" --seed "$seed" --rate "$rate" \
-    --linger --check-hash --timeout "$1" --report "$out/bot.json" >"$out/bot.log" 2>&1 &
+  "$bin/scree-bot" --host 127.0.0.1 --port "$port" --centre "${stage_m[@]}" --area "$area_m" \
+    --carves "$carves" --seed "$seed" --rate "$rate" --linger --check-hash --timeout "$1" \
+    --report "$out/bot.json" >"$out/bot.log" 2>&1 &
   bot_pid=$!
   say "a bot carves $carves times"
 }
 
 play_in_window() {
   say "close the window to end the demo"
-  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --size "$size" >"$out/viewer.log" 2>&1 &
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --camera "$camera" --size "$size" \
+    >"$out/viewer.log" 2>&1 &
   viewer_pid=$!
   start_bot 86400 # the player may go on for as long as they like
   wait "$viewer_pid" || die "the viewer failed (--offscreen needs no display)" "$out/viewer.log"
@@ -115,8 +121,9 @@ play_in_window() {
 
 draw_pictures() {
   say "no display: drawing before.png, blast.png and settled.png offscreen"
-  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --offscreen --size "$size" --timeout "$session_s_max" \
-    --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@pieces>=20" \
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --camera "$camera" --offscreen --size "$size" \
+    --timeout "$session_s_max" \
+    --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@pieces>=$blast_pieces" \
     --screenshot "$out/settled.png@settled" >"$out/viewer.log" 2>&1 &
   viewer_pid=$!
   wait_until "$session_s_max" "$viewer_pid" "the first picture" "$out/viewer.log" test -s "$out/before.png"

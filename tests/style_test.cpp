@@ -117,6 +117,27 @@ TEST(Style, kernels_use_exact_arithmetic) {
   expect_clean(over_tree(check_kernel_arithmetic, true));
 }
 
+std::string text_of(const std::string& path) {
+  std::ifstream in(std::filesystem::path(SCREE_SOURCE_DIR) / path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+TEST(Style, the_readme_names_every_package) {
+  const std::string readme = text_of("README.md");
+  std::istringstream packages(text_of("packages.txt"));
+  size_t found = 0;
+  for (std::string line; std::getline(packages, line);) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (name.empty() || name == "#") continue;
+    ++found;
+    EXPECT_NE(readme.find("| `" + name + "` |"), std::string::npos) << name;
+    EXPECT_NE(line.find("# "), std::string::npos) << name << " has no reason";
+  }
+  EXPECT_GE(found, 10U);
+}
+
 // ---- the rules
 
 SourceFile function_of(size_t lines, const std::string& head) {

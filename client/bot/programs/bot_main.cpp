@@ -110,7 +110,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  options.bot.port = 7300;
+  options.bot.port = scree::default_port;
   CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
   add_connection(app, options);
   add_carving(app, options);
