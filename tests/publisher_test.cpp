@@ -303,8 +303,8 @@ TEST_F(PublisherTest, a_tick_that_changes_more_than_a_frame_may_hold_is_streamed
           {coord, std::make_shared<const Brick>(solid_brick()), brick_hash(coord, solid_brick())});
     }
   std::ranges::sort(delta.bricks, {}, &BrickState::coord);
-  const auto [from, to] = std::ranges::unique(delta.bricks, {}, &BrickState::coord);
-  delta.bricks.erase(from, to);
+  const auto same = [](const BrickState& a, const BrickState& b) { return a.coord == b.coord; };
+  delta.bricks.erase(std::unique(delta.bricks.begin(), delta.bricks.end(), same), delta.bricks.end());
   for (BrickState& brick : delta.bricks) {
     brick.brick = std::make_shared<const Brick>(source.field().brick(brick.coord));
     brick.hash = brick_hash(brick.coord, *brick.brick);

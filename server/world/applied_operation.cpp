@@ -11,8 +11,8 @@ AppliedOperation describe(const Operation& operation, const VoxelBox& reads, con
   described.writes.reserve(applied.changed.size());
   for (const BrickCoord brick : applied.changed) described.writes.push_back(chunk_of(brick));
   std::ranges::sort(described.writes);
-  const auto duplicates = std::ranges::unique(described.writes);
-  described.writes.erase(duplicates.begin(), duplicates.end());
+  described.writes.erase(std::unique(described.writes.begin(), described.writes.end()),
+                         described.writes.end());
   described.created.reserve(applied.created.size());
   for (const CreatedPiece& piece : applied.created) described.created.push_back(piece.id);
   return described;
