@@ -65,6 +65,8 @@ class DrawMethod {
   virtual void changed(const MirrorChanges& changes) = 0;
   /// Shows the work that is done, starts what is needed.
   virtual void update(const Scene& scene, const Camera& camera) = 0;
+  /// Whether all within the view radius is shown, if not in its newest state.
+  virtual bool loaded() const = 0;
   /// Whether all within the view radius is shown as the field and pieces are now.
   virtual bool complete() const = 0;
   virtual void draw(const DrawPass& pass) = 0;

@@ -16,13 +16,14 @@ inline constexpr float view_radius_max_m = interest_radius_max_m;
 /// border builds nothing.
 inline constexpr float view_radius_keep = 1.15F;
 
-/// Chunks being generated, and chunks being meshed for the first time, at any moment. More would only delay
-/// the edits that queue behind them; the rest waits, nearest first.
-inline constexpr size_t chunks_generating_max = 16;
-inline constexpr size_t chunks_loading_max = 16;
+/// Chunks being generated, and chunks being meshed for the first time, at any moment: work for the threads
+/// through a slow frame. Edits overtake them. The rest waits, nearest first, and is chosen anew when the
+/// camera has moved.
+inline constexpr size_t chunks_generating_max = 96;
+inline constexpr size_t chunks_loading_max = 48;
 
-/// Waiting chunks looked at in one frame: bounds the main thread's part (about 0.1 ms).
-inline constexpr size_t chunks_examined_max = 64;
+/// Waiting chunks looked at in one frame: bounds the main thread's part (about 0.3 ms).
+inline constexpr size_t chunks_examined_max = 192;
 
 /// Threads that generate and mesh. Two keep a viewer fluent beside a server on a small machine; more than
 /// four find nothing to do.

@@ -71,6 +71,7 @@ class MeshMethod final : public DrawMethod {
 
   std::string_view name() const override { return "mesh"; }
   void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
+  bool loaded() const override { return scheduler_.loaded(); }
   bool complete() const override { return scheduler_.complete(); }
   void update(const Scene& scene, const Camera& camera) override;
   void draw(const DrawPass& pass) override;

@@ -52,6 +52,7 @@ class MeshScheduler {
   void changed(const MirrorChanges& changes);
   /// Work that is done comes back; work that is needed begins.
   MeshUpdate update(const Scene& scene, glm::vec3 eye_m);
+  bool loaded() const { return started_ && pending_.empty() && loading_ == 0; }
   bool complete() const { return started_ && waiting() == 0; }
   /// Chunks and changes not yet shown.
   size_t waiting() const;

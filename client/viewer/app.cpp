@@ -55,7 +55,7 @@ Moment moment_of(Session& session, View& view, const ViewerOptions& options, con
   Moment moment;
   moment.now_s = now_s;
   moment.current = view.complete();
-  moment.joined = moment.current && session.joined(now_s);
+  moment.joined = view.loaded() && session.joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
     const Scene scene{mirror->field(), session.pieces(now_s)};

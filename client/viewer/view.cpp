@@ -27,7 +27,7 @@ Result<void> View::follow(const SessionStep& step, Session& session, const Camer
   if (current == nullptr) return {};
   current->changed(step.changes);
   current->update(Scene{session.mirror()->field(), session.pieces(now_s)}, camera);
-  if (next_ && next_->complete()) shown_ = std::move(next_);
+  if (next_ && next_->loaded()) shown_ = std::move(next_);
   return {};
 }
 

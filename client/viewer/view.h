@@ -16,13 +16,14 @@ class View {
   ~View();
 
   /// Takes in a step of the session. After a reconnection the old world stays in sight until the new one is
-  /// complete.
+  /// loaded.
   Result<void> follow(const SessionStep& step, Session& session, const Camera& camera, double now_s);
 
   /// Null before the first world.
   DrawMethod* method() { return shown_.get(); }
-  /// What is shown is the session's world, all of it within the view radius.
-  bool complete() const { return shown_ && !next_ && shown_->complete(); }
+  /// What is shown is the session's world, all of it within the view radius; and in its newest state.
+  bool loaded() const { return shown_ && !next_ && shown_->loaded(); }
+  bool complete() const { return loaded() && shown_->complete(); }
   Renderer& renderer() { return *renderer_; }
 
  private:
@@ -32,7 +33,7 @@ class View {
   std::unique_ptr<Renderer> renderer_;
   WorkPool pool_;
   std::unique_ptr<DrawMethod> shown_;
-  std::unique_ptr<DrawMethod> next_;  ///< of a new world, not yet complete
+  std::unique_ptr<DrawMethod> next_;  ///< of a new world, not yet loaded
 };
 
 }  // namespace scree
