@@ -101,7 +101,7 @@ TEST_F(NetServerTest, garbage_is_refused) {
   RawClient client(server->port());
   const std::vector<uint8_t> garbage{12, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 2, 3, 4, 5, 6, 7, 8};
   ASSERT_TRUE(client.send_bytes(garbage));
-  expect_refused(client, "");
+  expect_refused(client, "not a protobuf of this protocol");
 }
 
 TEST_F(NetServerTest, oversized_message_is_refused_naming_the_limit) {
@@ -160,6 +160,7 @@ TEST_F(NetServerTest, port_in_use_is_said_in_words) {
   ASSERT_FALSE(second.has_value());
   EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;
   EXPECT_NE(second.error().message.find(std::to_string(config.port)), std::string::npos);
+  expect_witness_unmoved();
 }
 
 TEST_F(NetServerTest, bind_address_that_is_none_is_said_in_words) {

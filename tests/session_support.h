@@ -1,0 +1,85 @@
+// A whole server in this process, stepped by hand, and clients on loopback as users run them: a connection
+// and a mirror each. In step: after step() every client has applied the tick. Every wait has a deadline.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/connection/connection.h"
+#include "client/mirror/mirror.h"
+#include "server/app/live_server.h"
+
+namespace scree {
+
+/// The request as a client sends it.
+CarveMessage carve_message(const CarveRequest& carve, uint32_t request);
+
+/// From the eye to the nearest point of a chunk, metres: what interest goes by.
+float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m);
+
+class SessionClient {
+ public:
+  /// Joins; when that fails, `failure` says why.
+  SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m);
+
+  /// Applies messages up to the frame of `tick`; false, and a failure, when it does not come.
+  bool follow_to(Tick tick);
+  /// Applies what has arrived, and waits for the connection to close; false when it does not.
+  bool ends();
+  void send(const ClientMessage& message) { connection_->send(message); }
+  void look_from(glm::vec3 eye_m);
+  /// As a lost link does; what was on its way is lost.
+  void cut() { connection_->cut(); }
+
+  Mirror& mirror() { return *mirror_; }
+  const Mirror& mirror() const { return *mirror_; }
+  const Connection& connection() const { return *connection_; }
+  glm::vec3 eye_m() const { return eye_m_; }
+  float radius_m() const { return radius_m_; }
+
+  std::string failure;                       ///< empty: all is well
+  std::map<uint32_t, ReplyMessage> replies;  ///< by request
+
+ private:
+  bool apply(const ServerMessage& message);
+  bool fail_with(const std::string& why);
+
+  glm::vec3 eye_m_;
+  float radius_m_;
+  std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Mirror> mirror_;
+};
+
+class LoopbackSession {
+ public:
+  /// Port and pacing are filled in. `failure` when the server does not start.
+  explicit LoopbackSession(LiveConfig config);
+
+  SessionClient& join(glm::vec3 eye_m, float radius_m);
+  /// Cuts a client off, and waits until the server has noticed.
+  void cut(const SessionClient& client);
+
+  /// One tick, that every client applies; false, and a failure, when that does not come to be.
+  bool step();
+  bool steps(int count);
+  /// Until no piece is alive and nothing has changed for a second, or the ticks are over.
+  bool settle(int ticks_max);
+  /// Steps until the client has the reply; null, and a failure, when it does not come.
+  const ReplyMessage* ask(SessionClient& client, const CarveMessage& carve);
+
+  LiveServer& server() { return *server_; }
+  Field& field() { return server_->world()->field(); }
+  Tick tick() const { return tick_; }
+  const std::vector<std::unique_ptr<SessionClient>>& clients() const { return clients_; }
+
+  std::string failure;
+
+ private:
+  std::unique_ptr<LiveServer> server_;
+  std::vector<std::unique_ptr<SessionClient>> clients_;
+  Tick tick_ = 0;
+};
+
+}  // namespace scree
