@@ -26,8 +26,8 @@ inline constexpr float world_half_height_m = 512.0F;
 /// Voxels along a side of an edit's window; bounds what bytes off a wire can make us allocate.
 inline constexpr int window_side_max = 128;
 
-/// Voxel sizes that a world may have, metres. Below, the largest edit would not fit window_side_max; above, a piece would
-/// be coarser than anything it lies on. Refused at start-up.
+/// Voxel sizes that a world may have, metres. Below, the largest edit would not fit window_side_max; above, a
+/// piece would be coarser than anything it lies on. Refused at start-up.
 inline constexpr float voxel_size_min_m = 0.15F;
 inline constexpr float voxel_size_max_m = 2.0F;
 
@@ -43,5 +43,9 @@ inline constexpr size_t generated_chunks_max = 8192;
 
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
 inline constexpr int64_t piece_mass_min = 2 * 254;
+
+/// Bricks along a side of an island: with its shell, and room to redistance in, it fits window_side_max. What
+/// is longer, or cut off with it, counts as ground.
+inline constexpr int island_side_max_bricks = 14;
 
 }  // namespace scree::limits

@@ -76,6 +76,7 @@ struct VoxelBox {
   VoxelCoord lo;
   VoxelCoord hi;
 
+  bool operator==(const VoxelBox&) const = default;
   VoxelCoord size() const { return hi - lo; }
   bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
   VoxelBox grown(int by) const {

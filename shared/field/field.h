@@ -29,6 +29,8 @@ class Field {
   /// As generated, whether edited since or not; same lifetime.
   const Brick& generated_brick(BrickCoord coord);
   bool is_edited(BrickCoord coord) const { return find_edited(coord) != nullptr; }
+  /// Whether any brick of the chunk is edited.
+  bool has_edits(ChunkCoord chunk) const { return edited_.contains(chunk); }
   /// Marks the brick as edited, even when the codes are those generated.
   void set_brick(BrickCoord coord, const Brick& brick);
   /// Forgets the edits of a chunk: it reads as generated again.

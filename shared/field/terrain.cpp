@@ -146,7 +146,7 @@ Heights heights(TerrainKind kind) {
     case TerrainKind::canyon:
       break;
   }
-  return {-amplitude_sum_m, cliff_height_m + amplitude_sum_m};
+  return {-amplitude_sum_m * canyon_roughness, cliff_height_m + amplitude_sum_m};
 }
 
 /// Densities at the even voxels of `box`, whose bounds are even.
@@ -258,6 +258,10 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
       for (int z = 0; z < size.z; ++z, ++i) levels[i] = lattice.level(x, y, z);
   distances_from_levels(levels, window);
   return split_into_bricks(window, chunk);
+}
+
+float floor_m(const TerrainSource& source) {
+  return heights(source.kind).bottom_m;
 }
 
 float ground_height_m(const TerrainSource& source, float x_m, float z_m) {

@@ -36,6 +36,9 @@ struct GeneratedChunk {
 /// most one voxel (1-Lipschitz along the axes, up to the rounding of codes).
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk);
 
+/// Below this height generated terrain is nothing but rock. Metres.
+float floor_m(const TerrainSource& source);
+
 /// Height of the undisturbed ground under the sky at (x, z), found by marching down from above. Metres.
 float ground_height_m(const TerrainSource& source, float x_m, float z_m);
 

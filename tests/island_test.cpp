@@ -1,0 +1,220 @@
+// Islands: the search against labelling by brute force, and what lifting one leaves behind.
+#include "shared/field/island.h"
+
+#include <algorithm>
+#include <array>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "shared/base/limits.h"
+#include "shared/base/random.h"
+#include "shared/field/edit.h"
+#include "shared/field/island_search.h"
+
+namespace scree {
+namespace {
+
+constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
+/// What the random fields are made of: within four chunks, two of them below ground.
+constexpr VoxelBox edited{{8, -16, 8}, {48, 16, 24}};
+/// Reaches into unedited chunks on all sides.
+constexpr VoxelBox labelled{{-2, -34, -2}, {66, 20, 34}};
+
+/// Noise in odd rounds, balls of rock and air in even ones: specks and caves, shells and bridges.
+Window random_window(Field& field, Random& random, bool noise) {
+  Window window = gather(field, edited);
+  if (noise) {
+    const float share = 0.1F + 0.4F * random.unit();
+    for (Code& code : window.codes) code = random.unit() < share ? Code{-50} : Code{50};
+    return window;
+  }
+  for (int i = 0; i < 40; ++i) {
+    const VoxelCoord size = edited.size();
+    const glm::vec3 at(random.unit() * static_cast<float>(size.x), random.unit() * static_cast<float>(size.y),
+                       random.unit() * static_cast<float>(size.z));
+    const glm::vec3 origin(edited.lo.x, edited.lo.y, edited.lo.z);
+    const Window ball = codes_of(sphere(origin + at, 1.0F + 5.0F * random.unit()), edited);
+    if (random.unit() < 0.5F) {
+      carve(window, ball);
+    } else {
+      fill(window, ball);
+    }
+  }
+  return window;
+}
+
+std::array<VoxelCoord, 6> neighbours(VoxelCoord v) {
+  return {{{v.x - 1, v.y, v.z},
+           {v.x + 1, v.y, v.z},
+           {v.x, v.y - 1, v.z},
+           {v.x, v.y + 1, v.z},
+           {v.x, v.y, v.z - 1},
+           {v.x, v.y, v.z + 1}}};
+}
+
+bool holds(const VoxelBox& box, VoxelCoord v) {
+  return v.x >= box.lo.x && v.y >= box.lo.y && v.z >= box.lo.z && v.x < box.hi.x && v.y < box.hi.y &&
+         v.z < box.hi.z;
+}
+
+/// The component of a solid voxel, marked as seen; whether it touches one of the bricks, and the ground.
+struct Component {
+  std::vector<VoxelCoord> voxels;
+  bool touched = false;
+  bool grounded = false;
+};
+
+Component label(const Field& field, const Window& window, const std::set<BrickCoord>& changed,
+                VoxelCoord from, std::vector<uint8_t>& seen) {
+  Component found;
+  found.voxels.push_back(from);
+  seen[window.index(from.x, from.y, from.z)] = 1;
+  for (size_t i = 0; i < found.voxels.size(); ++i) {
+    const VoxelCoord v = found.voxels[i];
+    found.touched = found.touched || changed.contains(brick_of(v));
+    found.grounded = found.grounded || (chunk_of(v).y < 0 && !field.has_edits(chunk_of(v)));
+    for (const VoxelCoord n : neighbours(v)) {
+      found.touched = found.touched || changed.contains(brick_of(n));
+      if (!holds(window.box, n)) continue;
+      const size_t at = window.index(n.x, n.y, n.z);
+      if (window.codes[at] >= 0 || seen[at] != 0) continue;
+      seen[at] = 1;
+      found.voxels.push_back(n);
+    }
+  }
+  return found;
+}
+
+std::vector<Island> islands_by_brute_force(Field& field, const std::vector<BrickCoord>& changed) {
+  const std::set<BrickCoord> bricks(changed.begin(), changed.end());
+  const Window window = gather(field, labelled);
+  std::vector<uint8_t> seen(window.codes.size(), 0);
+  std::vector<Island> islands;
+  for (int x = labelled.lo.x; x < labelled.hi.x; ++x)
+    for (int y = labelled.lo.y; y < labelled.hi.y; ++y)
+      for (int z = labelled.lo.z; z < labelled.hi.z; ++z) {
+        const size_t at = window.index(x, y, z);
+        if (window.codes[at] >= 0 || seen[at] != 0) continue;
+        const Component component = label(field, window, bricks, {x, y, z}, seen);
+        if (component.grounded || !component.touched) continue;
+        Island island{{labelled.hi, labelled.lo}, {}, static_cast<int64_t>(component.voxels.size())};
+        for (const VoxelCoord v : component.voxels) {
+          VoxelBox& b = island.box;
+          b.lo = {std::min(b.lo.x, v.x), std::min(b.lo.y, v.y), std::min(b.lo.z, v.z)};
+          b.hi = {std::max(b.hi.x, v.x + 1), std::max(b.hi.y, v.y + 1), std::max(b.hi.z, v.z + 1)};
+        }
+        island.seed = *std::ranges::min_element(component.voxels, {},
+                                                [](VoxelCoord v) { return std::pair(brick_of(v), v); });
+        islands.push_back(island);
+      }
+  std::ranges::sort(islands, {}, &Island::seed);
+  return islands;
+}
+
+/// `changed` as a whole, so many bricks at a time.
+std::vector<Island> search(Field& field, const std::vector<BrickCoord>& changed, size_t bricks_at_once) {
+  IslandSearch search(field, changed);
+  for (size_t bricks = bricks_at_once; !search.advance(bricks); bricks = bricks_at_once) {
+  }
+  return search.islands();
+}
+
+void print(std::ostream& out, const std::vector<Island>& islands) {
+  for (const Island& island : islands)
+    out << "  " << island.voxels << " voxels from " << island.seed.x << ' ' << island.seed.y << ' '
+        << island.seed.z << '\n';
+}
+
+TEST(island, the_search_finds_what_brute_force_finds_in_1000_random_fields) {
+  size_t found = 0;
+  MapField field(flat);
+  for (uint64_t round = 0; round < 1000; ++round) {
+    Random random(round);
+    for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
+    scatter(field, random_window(field, random, round % 2 == 1));
+    std::vector<BrickCoord> bricks;
+    for_each_brick(edited, [&](BrickCoord brick) {
+      if (random.unit() < 0.2F) bricks.push_back(brick);
+    });
+    const std::vector<Island> want = islands_by_brute_force(field, bricks);
+    const std::vector<Island> got = search(field, bricks, 1 + round % 50);
+    found += got.size();
+    if (got == want) continue;
+    print(std::cerr << "found:\n", got);
+    print(std::cerr << "wanted:\n", want);
+    FAIL() << "round " << round;
+  }
+  EXPECT_GT(found, 10000U);
+}
+
+/// A slab of rock over flat ground on a post, in voxels.
+Window slab_on_a_post(Field& field, bool post) {
+  Window window = gather(field, {{-20, -8, -20}, {20, 40, 20}});
+  fill(window, codes_of(box({0.0F, 20.0F, 0.0F}, {12.0F, 4.0F, 12.0F}), window.box));
+  if (post) fill(window, codes_of(box({0.0F, 8.0F, 0.0F}, {2.5F, 10.0F, 2.5F}), window.box));
+  return window;
+}
+
+TEST(island, what_stands_on_a_post_is_ground_and_without_it_an_island) {
+  for (const bool post : {true, false}) {
+    MapField field(flat);
+    const std::vector<BrickCoord> changed = scatter(field, slab_on_a_post(field, post));
+    EXPECT_EQ(search(field, changed, 1000).size(), post ? 0U : 1U);
+  }
+}
+
+TEST(island, what_is_longer_than_the_limit_counts_as_ground) {
+  for (const bool longer : {false, true}) {
+    MapField field(flat);
+    std::vector<BrickCoord> bar;
+    for (int x = 0; x < limits::island_side_max_bricks + (longer ? 1 : 0); ++x) {
+      bar.push_back({x, 5, 0});
+      field.set_brick(bar.back(), solid_brick());
+    }
+    EXPECT_EQ(search(field, std::vector<BrickCoord>{bar.front()}, 1000).size(), longer ? 0U : 1U);
+  }
+}
+
+MassUnits mass_of(const Window& window) {
+  MassUnits sum = 0;
+  for (const Code code : window.codes) sum += occupancy(code);
+  return sum;
+}
+
+TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_had_never_been) {
+  MapField field(flat);
+  Window with = slab_on_a_post(field, false);
+  // Near the ground: their bands overlap.
+  fill(with, codes_of(sphere({14.0F, 4.0F, 14.0F}, 2.3F), with.box));
+  Window without = gather(field, with.box);
+  fill(without, codes_of(box({0.0F, 20.0F, 0.0F}, {12.0F, 4.0F, 12.0F}), with.box));
+  const std::vector<BrickCoord> changed = scatter(field, with);
+  const std::vector<Island> islands = search(field, changed, 1000);
+  ASSERT_EQ(islands.size(), 2U);
+  const Island& ball = *std::ranges::min_element(islands, {}, &Island::voxels);
+  Window window = gather(field, lift_box(ball.box));
+  const MassUnits before = mass_of(window);
+  const Volume volume = lift(window, ball.box, ball.seed);
+  EXPECT_EQ(volume.mass, before - mass_of(window));
+  EXPECT_EQ(volume.mass, mass_of(volume.window));
+  scatter(field, window);
+  const Window after = gather(field, with.box);
+  int worst = 0;
+  for (size_t i = 0; i < after.codes.size(); ++i)
+    worst = std::max(worst, std::abs(after.codes[i] - without.codes[i]));
+  EXPECT_LE(worst, 2) << "codes";
+  EXPECT_NEAR(volume.centre_voxels.x, 14.0F, 0.05F);
+  EXPECT_NEAR(volume.centre_voxels.y, 4.0F, 0.05F);
+}
+
+TEST(island, lifting_from_a_seed_in_air_changes_nothing) {
+  MapField field(flat);
+  const VoxelBox box{{0, 20, 0}, {4, 24, 4}};
+  Window window = gather(field, lift_box(box));
+  const Window before = window;
+  EXPECT_EQ(lift(window, box, {1, 21, 1}).mass, 0);
+  EXPECT_EQ(window.codes, before.codes);
+}
+
+}  // namespace
+}  // namespace scree
