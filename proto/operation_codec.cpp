@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* subject = "operation";
 
-enum Kind : uint8_t { kind_carve = 0, kind_fill = 1, kind_stamp = 2, kind_discard = 3 };
+enum Kind : uint8_t { kind_carve = 0, kind_fill = 1, kind_stamp = 2, kind_discard = 3, kind_shatter = 4 };
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
 
@@ -56,18 +56,32 @@ struct Writing {
     writer.zigzag(stamp.shift);
   }
   void operator()(const DiscardOperation& discard) const { write_head(writer, kind_discard, discard.piece); }
+  void operator()(const ShatterOperation& shatter) const {
+    write_head(writer, kind_shatter, shatter.first_piece);
+    writer.varint(shatter.piece);
+    writer.u8(static_cast<uint8_t>(shatter.pattern));
+    writer.varint(shatter.seeds);
+    writer.u32(shatter.random_seed);
+    writer.vec3(shatter.impact_voxels);
+  }
 };
+
+/// The part that whatever makes pieces has in common.
+template <typename Breaking>
+void read_seeds(ByteReader& reader, PieceId first_piece, Breaking& out) {
+  out.pattern =
+      static_cast<SeedPattern>(reader.u8("pattern of seeds", static_cast<uint8_t>(SeedPattern::radial)));
+  out.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
+  if (out.seeds == 0) reader.refuse("a break without seeds");
+  if (first_piece > 0xFFFFFFFFU - out.seeds) reader.refuse("piece ids run over 2^32");
+  out.random_seed = reader.u32("random seed");
+  out.first_piece = first_piece;
+}
 
 CarveOperation read_carve(ByteReader& reader, PieceId id) {
   CarveOperation carve;
-  carve.first_piece = id;
   carve.shape = read_shape(reader);
-  carve.pattern =
-      static_cast<SeedPattern>(reader.u8("pattern of seeds", static_cast<uint8_t>(SeedPattern::radial)));
-  carve.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
-  if (carve.seeds == 0) reader.refuse("a carve without seeds");
-  if (id > 0xFFFFFFFFU - carve.seeds) reader.refuse("piece ids run over 2^32");
-  carve.random_seed = reader.u32("random seed");
+  read_seeds(reader, id, carve);
   carve.impact_m = reader.vec3("impact");
   return carve;
 }
@@ -79,6 +93,14 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
   stamp.pose.rotation = reader.u32("rotation of a stamp");
   stamp.shift = static_cast<int32_t>(reader.zigzag("shift of a stamp", stamp_shift_max));
   return stamp;
+}
+
+ShatterOperation read_shatter(ByteReader& reader, PieceId id) {
+  ShatterOperation shatter;
+  shatter.piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
+  read_seeds(reader, id, shatter);
+  shatter.impact_voxels = reader.vec3("impact");
+  return shatter;
 }
 
 Operation read_operation(ByteReader& reader) {
@@ -94,6 +116,8 @@ Operation read_operation(ByteReader& reader) {
       return read_stamp(reader, id);
     case kind_discard:
       return DiscardOperation{id};
+    case kind_shatter:
+      return read_shatter(reader, id);
     default:
       reader.refuse("kind " + std::to_string(head & 7U) + " is unknown");
       return DiscardOperation{};

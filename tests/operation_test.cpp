@@ -122,17 +122,44 @@ TEST(operation, two_fields_that_apply_the_same_operations_stay_equal) {
   PieceTable pieces_one, pieces_other;
   const std::vector<Operation> operations = {
       FillOperation{box({3.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})},
-      FillOperation{capsule({0.0F, 6.0F, 0.0F}, {8.0F, 7.0F, 2.0F}, 0.7F)}, ball(32),
+      FillOperation{capsule({0.0F, 6.0F, 0.0F}, {8.0F, 7.0F, 2.0F}, 0.7F)},
+      ball(32),
       StampOperation{3, quantise({{1.0F, 0.0F, 1.0F}, glm::quat(0.5F, 0.5F, 0.5F, 0.5F)}), 5},
-      DiscardOperation{4}};
+      DiscardOperation{4},
+      ShatterOperation{5, SeedPattern::uniform, 4, 7, {1.0F, 2.0F, 3.0F}, 900}};
   for (const Operation& op : operations) {
     const Applied a = apply(op, one, pieces_one);
     const Applied b = apply(op, other, pieces_other);
     EXPECT_EQ(a.changed, b.changed);
     EXPECT_EQ(a.terrain_gain, b.terrain_gain);
+    EXPECT_EQ(a.created.size(), b.created.size());
     EXPECT_EQ(one.hash(), other.hash());
   }
   EXPECT_NE(one.hash(), 0U);
+}
+
+TEST(operation, a_piece_that_shatters_shares_out_its_mass_exactly) {
+  MapField field({TerrainKind::flat, 1, dx});
+  PieceTable pieces;
+  apply(ball(2), field, pieces);
+  const uint64_t field_hash = field.hash();
+  const PieceId parent = pieces.begin()->first;
+  const std::shared_ptr<const Volume> volume = pieces.at(parent);
+  const Applied applied =
+      apply(ShatterOperation{parent, SeedPattern::radial, 6, 9, volume->centre_voxels, 100}, field, pieces);
+  EXPECT_EQ(applied.created.size(), 6U);
+  EXPECT_EQ(applied.terrain_gain, 0);
+  EXPECT_TRUE(applied.changed.empty());
+  EXPECT_EQ(field.hash(), field_hash);
+  EXPECT_FALSE(pieces.contains(parent));
+  MassUnits mass = applied.dust;
+  glm::vec3 moment(0.0F);
+  for (const CreatedPiece& child : applied.created) {
+    mass += pieces.at(child.id)->mass;
+    moment += pieces.at(child.id)->centre_voxels * static_cast<float>(pieces.at(child.id)->mass);
+  }
+  EXPECT_EQ(mass, volume->mass);
+  EXPECT_LT(glm::distance(moment / static_cast<float>(mass), volume->centre_voxels), 0.2F);
 }
 
 TEST(operation, what_no_world_can_take_is_refused_by_name) {
@@ -167,6 +194,7 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(op, "seeds_max");
   refused(StampOperation{77, {}, 0}, "no piece 77");
   refused(DiscardOperation{78}, "no piece 78");
+  refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");
 }
 
 TEST(pose, quantising_keeps_position_and_rotation_within_a_step) {

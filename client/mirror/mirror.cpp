@@ -24,6 +24,7 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   fills += other.fills;
   stamps += other.stamps;
   discards += other.discards;
+  shatters += other.shatters;
   operation_bytes += other.operation_bytes;
   patched_bricks += other.patched_bricks;
   transforms += other.transforms;
@@ -106,24 +107,32 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
 Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
                                      MirrorChanges& changes) {
   if (Result<void> valid = validate(operation, table_); !valid) return valid;
-  if (const auto* carve = std::get_if<CarveOperation>(&operation)) {
-    const auto taken = table_.lower_bound(carve->first_piece);
-    if (taken != table_.end() && taken->first < carve->first_piece + carve->seeds)
-      return fail("piece " + std::to_string(taken->first) + " is made a second time");
-  }
+  const PieceIds made = ids_made_by(operation);
+  const auto taken = table_.lower_bound(made.first);
+  if (taken != table_.end() && taken->first - made.first < made.count)
+    return fail("piece " + std::to_string(taken->first) + " is made a second time");
+  const Birthplace birthplace = birthplace_of(operation);
   const Applied applied = scree::apply(operation, field_, table_);
   for (const BrickCoord brick : applied.changed) changed.insert(chunk_of(brick));
   changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());
   for (const CreatedPiece& piece : applied.created) {
     const std::shared_ptr<const Volume>& volume = table_.at(piece.id);
-    const Pose pose{volume->centre_voxels * field_.source().voxel_size_m, {1.0F, 0.0F, 0.0F, 0.0F}};
+    const glm::vec3 off_m = (volume->centre_voxels - birthplace.centre_voxels) * field_.source().voxel_size_m;
+    const Pose pose{birthplace.pose.position_m + birthplace.pose.rotation * off_m, birthplace.pose.rotation};
     add_piece(piece.id, volume, pose, tick, changes);
   }
   counters_.pieces_made += applied.created.size();
   count(operation);
-  if (const auto* stamp = std::get_if<StampOperation>(&operation)) remove_piece(stamp->piece, changes);
-  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) remove_piece(discard->piece, changes);
+  if (const auto ended = piece_ended_by(operation)) remove_piece(*ended, changes);
   return {};
+}
+
+/// What a piece breaks into starts where the piece was last seen; all others where they were cut.
+Mirror::Birthplace Mirror::birthplace_of(const Operation& operation) const {
+  const auto* shatter = std::get_if<ShatterOperation>(&operation);
+  if (shatter == nullptr) return {};
+  const PieceMotion& parent = motions_.at(shatter->piece);
+  return {parent.to, parent.volume->centre_voxels};
 }
 
 void Mirror::count(const Operation& operation) {
@@ -135,6 +144,8 @@ void Mirror::count(const Operation& operation) {
   } else if (std::holds_alternative<StampOperation>(operation)) {
     ++counters_.stamps;
     ++counters_.pieces_merged;
+  } else if (std::holds_alternative<ShatterOperation>(operation)) {
+    ++counters_.shatters;
   } else {
     ++counters_.discards;
   }

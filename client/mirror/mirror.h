@@ -46,6 +46,7 @@ struct MirrorCounters {
   uint64_t fills = 0;
   uint64_t stamps = 0;
   uint64_t discards = 0;
+  uint64_t shatters = 0;
   uint64_t operation_bytes = 0;
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses
@@ -95,6 +96,13 @@ class Mirror {
     uint64_t hash = 0;
   };
 
+  /// The frame that new pieces' volumes are in: where a point of it lies, in voxels and in the world.
+  struct Birthplace {
+    Pose pose;
+    glm::vec3 centre_voxels{0.0F};
+  };
+
+  Birthplace birthplace_of(const Operation& operation) const;
   Result<void> apply_frame(const FrameMessage& frame, MirrorChanges& changes);
   Result<void> apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
                                MirrorChanges& changes);

@@ -9,13 +9,6 @@ namespace scree {
 
 namespace {
 
-/// The piece that an operation takes out of the world, if any.
-std::optional<PieceId> piece_ended_by(const Operation& operation) {
-  if (const auto* stamp = std::get_if<StampOperation>(&operation)) return stamp->piece;
-  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) return discard->piece;
-  return std::nullopt;
-}
-
 /// Keeps the `count` smallest, in order.
 template <typename T>
 void keep_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {

@@ -7,6 +7,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
+#include "shared/field/shatter.h"
 #include "shared/field/stamp.h"
 
 namespace scree {
@@ -38,6 +39,16 @@ Result<void> validate_place(const Shape& shape) {
   return {};
 }
 
+/// The cut's pieces go into the table, from that id on.
+void enter(Cut cut, PieceId id, PieceTable& pieces, Applied& applied) {
+  for (CutPiece& piece : cut.pieces) {
+    pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
+    applied.created.push_back({id, std::move(piece.seeds)});
+    ++id;
+  }
+  applied.dust = cut.dust;
+}
+
 Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pieces) {
   const float dx = field.source().voxel_size_m;
   const Shape shape = in_voxels(carve_op.shape, dx);
@@ -49,16 +60,9 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume, carve_op.pattern, carve_op.seeds, carve_op.random_seed, carve_op.impact_m / dx);
-  Cut cut = cut_cells(volume, before, after, applied.seeds_voxels);
-  PieceId id = carve_op.first_piece;
-  for (CutPiece& piece : cut.pieces) {
-    pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
-    applied.created.push_back({id, std::move(piece.seeds)});
-    ++id;
-  }
+  enter(cut_cells(volume, before, after, applied.seeds_voxels), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
   applied.terrain_gain = mass_of(after) - mass_of(before);
-  applied.dust = cut.dust;
   return applied;
 }
 
@@ -93,9 +97,32 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces) 
   return applied;
 }
 
+Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
+  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+  Applied applied;
+  applied.seeds_voxels =
+      scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
+  enter(shatter(*volume, applied.seeds_voxels), op.first_piece, pieces, applied);
+  return applied;
+}
+
 Result<void> known(PieceId id, const PieceTable& pieces) {
   if (pieces.contains(id)) return {};
   return fail("there is no piece " + std::to_string(id));
+}
+
+Result<void> validate_seeds(SeedPattern pattern, uint32_t seeds, PieceId first_piece) {
+  if (pattern > SeedPattern::radial) return fail("the seed pattern is none that is known (uniform, radial)");
+  if (seeds == 0) return fail("a carve needs at least one seed");
+  if (seeds > limits::seeds_max)
+    return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
+                " (limits.seeds_max)");
+  if (first_piece > UINT32_MAX - seeds) return fail("the piece ids are used up");
+  return {};
+}
+
+bool is_finite(glm::vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 struct Validator {
@@ -103,17 +130,9 @@ struct Validator {
 
   Result<void> operator()(const CarveOperation& op) const {
     if (Result<void> valid = validate_place(op.shape); !valid) return valid;
-    if (op.pattern > SeedPattern::radial)
-      return fail("the seed pattern is none that is known (uniform, radial)");
-    if (op.seeds == 0) return fail("a carve needs at least one seed");
-    if (op.seeds > limits::seeds_max)
-      return fail(std::to_string(op.seeds) + " seeds are over the limit of " +
-                  std::to_string(limits::seeds_max) + " (limits.seeds_max)");
-    if (!std::isfinite(op.impact_m.x) || !std::isfinite(op.impact_m.y) || !std::isfinite(op.impact_m.z))
-      return fail("the impact's position is not a finite number");
+    if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
-    if (op.first_piece > UINT32_MAX - op.seeds) return fail("the piece ids are used up");
-    return {};
+    return validate_seeds(op.pattern, op.seeds, op.first_piece);
   }
   Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
   Result<void> operator()(const StampOperation& op) const {
@@ -125,9 +144,28 @@ struct Validator {
     return {};
   }
   Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
+  Result<void> operator()(const ShatterOperation& op) const {
+    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
+    return validate_seeds(op.pattern, op.seeds, op.first_piece);
+  }
 };
 
 }  // namespace
+
+std::optional<PieceId> piece_ended_by(const Operation& operation) {
+  if (const auto* stamp = std::get_if<StampOperation>(&operation)) return stamp->piece;
+  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) return discard->piece;
+  if (const auto* shatter = std::get_if<ShatterOperation>(&operation)) return shatter->piece;
+  return std::nullopt;
+}
+
+PieceIds ids_made_by(const Operation& operation) {
+  if (const auto* carve = std::get_if<CarveOperation>(&operation)) return {carve->first_piece, carve->seeds};
+  if (const auto* shatter = std::get_if<ShatterOperation>(&operation))
+    return {shatter->first_piece, shatter->seeds};
+  return {};
+}
 
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
   if (const auto* op = std::get_if<CarveOperation>(&operation))
@@ -145,6 +183,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces) {
   if (const auto* op = std::get_if<CarveOperation>(&operation)) return apply_carve(*op, field, pieces);
   if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
   if (const auto* op = std::get_if<StampOperation>(&operation)) return apply_stamp(*op, field, pieces);
+  if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
   Applied applied;
   applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
   return applied;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -50,7 +51,31 @@ struct DiscardOperation {
   bool operator==(const DiscardOperation&) const = default;
 };
 
-using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation>;
+/// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
+/// impact is in the voxel frame of its volume.
+struct ShatterOperation {
+  PieceId piece = 0;
+  SeedPattern pattern = SeedPattern::radial;
+  uint32_t seeds = 1;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_voxels{0.0F};
+  PieceId first_piece = 0;
+
+  bool operator==(const ShatterOperation&) const = default;
+};
+
+using Operation =
+    std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation, ShatterOperation>;
+
+/// The piece that the operation takes out of the table, if any.
+std::optional<PieceId> piece_ended_by(const Operation& operation);
+
+/// The ids that the operation may give to pieces: first, first + 1, … up to `count` of them.
+struct PieceIds {
+  PieceId first = 0;
+  uint32_t count = 0;
+};
+PieceIds ids_made_by(const Operation& operation);
 
 /// A piece that an operation made: its id, and where its seeds lie (voxels) for those who need the cells
 /// again.
@@ -64,14 +89,14 @@ struct Applied {
   std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
   std::vector<glm::vec3> seeds_voxels;
   MassUnits terrain_gain = 0;  ///< negative for a carve
-  MassUnits dust = 0;          ///< mass that went into no piece (carve), or a discarded piece's
+  MassUnits dust = 0;          ///< mass that went into no piece (carve, shatter), or a discarded piece's
 };
 
 /// The voxels that apply() reads. A field that holds these bricks (and, for a stamp, the piece) can apply it.
-/// Empty for a discard. `pieces` must hold the piece of a stamp.
+/// Empty for a discard and a shatter. `pieces` must hold the piece of a stamp.
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
-/// Applies a valid operation. A stamp or discard takes its piece out of the table; it must be there.
+/// Applies a valid operation. A stamp, discard or shatter takes its piece out of the table; it must be there.
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces);
 
 /// Whether `apply` can be called at all: shape valid, counts within limits, piece known. For what comes off a

@@ -215,6 +215,23 @@ void print_stamp() {
   digest.print("plan_and_stamp");
 }
 
+void print_shatter() {
+  MapField field({TerrainKind::canyon, 3, 0.25F});
+  PieceTable pieces;
+  const glm::vec3 ground(9.0F, ground_height_m(field.source(), 9.0F, 4.0F), 4.0F);
+  apply(CarveOperation{sphere(ground, 2.0F), SeedPattern::uniform, 3, 5, ground, 1}, field, pieces);
+  Digest digest;
+  const PieceTable parents = pieces;
+  for (const auto& [id, parent] : parents) {
+    const glm::vec3 impact = parent->centre_voxels - glm::vec3(0.0F, 3.0F, 0.0F);
+    const Applied applied =
+        apply(ShatterOperation{id, SeedPattern::radial, 8, id, impact, id * 100}, field, pieces);
+    digest.add(static_cast<uint64_t>(applied.dust));
+    for (const CreatedPiece& child : applied.created) digest.add(*pieces.at(child.id));
+  }
+  digest.print("shatter");
+}
+
 /// Carves, fills, and stamps or discards what was carved, through apply() alone, as a session does.
 void print_session(TerrainKind kind) {
   const TerrainSource source{kind, 3, 0.25F};
@@ -257,6 +274,7 @@ int main() {
   scree::print_poses();
   scree::print_fracture();
   scree::print_stamp();
+  scree::print_shatter();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);
   return 0;
