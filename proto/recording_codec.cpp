@@ -79,6 +79,8 @@ std::vector<uint8_t> encode(const RecordedHeader& header) {
   to.set_tick_rate_hz(header.tick_rate_hz);
   to.set_pieces_max(header.pieces_max);
   to.set_merges_per_tick_max(header.merges_per_tick_max);
+  to.set_impacts(header.impacts);
+  to.set_dents(header.dents);
   return bytes_of(to);
 }
 
@@ -101,6 +103,8 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
   header.pieces_max = from->pieces_max();
   header.merges_per_tick_max = from->merges_per_tick_max();
+  header.impacts = from->impacts();
+  header.dents = from->dents();
   return checked(std::move(header), check);
 }
 

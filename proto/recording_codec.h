@@ -25,6 +25,8 @@ struct RecordedHeader {
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 0;
   uint32_t merges_per_tick_max = 0;
+  bool impacts = false;
+  bool dents = false;
 };
 
 /// As server/world/tick_delta.h, Ledger.

@@ -49,15 +49,13 @@ Json json_of(const NetStats& net) {
 void ServerReport::add(const TickDelta& delta) {
   ++ticks;
   last_tick = delta.tick;
-  bool carved = false, recombined = false;
+  const uint64_t edits_before = carves + fills, merged_before = pieces_merged;
   for (const AppliedOperation& applied : delta.operations) {
     const Operation& operation = applied.operation;
     carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
     fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
     pieces_merged += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
     pieces_lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
-    carved = carved || operation.index() <= 1;
-    recombined = recombined || operation.index() > 1;
   }
   pieces_made += delta.spawned.size();
   pieces_alive = delta.pieces.size();
@@ -65,11 +63,11 @@ void ServerReport::add(const TickDelta& delta) {
   field_hash = delta.field_hash;
   state_hash = delta.state_hash;
   const StageTimes& times = delta.times;
-  if (carved) {
+  if (carves + fills != edits_before) {
     stages["carve"].add(times.carve_ms);
     stages["spawn"].add(times.spawn_ms);
   }
-  if (recombined) stages["recombine"].add(times.recombine_ms);
+  if (pieces_merged != merged_before) stages["recombine"].add(times.recombine_ms);
   stages["bodies"].add(times.bodies_ms);
   stages["rest"].add(times.rest_ms);
   stages["publish"].add(times.publish_ms);
