@@ -33,8 +33,9 @@ TEST(ServerOptions, defaults_listen_on_this_machine_only) {
 }
 
 TEST(ServerOptions, flags_are_taken) {
-  const auto parsed = parse({"--port", "0", "--host", "0.0.0.0", "--terrain", "noise", "--seed", "9",
-                             "--voxel-size", "0.5", "--tick-rate", "30", "--record", "a.scree"});
+  const auto parsed =
+      parse({"--port", "0", "--host", "0.0.0.0", "--terrain", "noise", "--seed", "9", "--voxel-size", "0.5",
+             "--tick-rate", "30", "--record", "a.scree", "--impacts", "false", "--dents", "false"});
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
   EXPECT_EQ(live.net.port, 0);
@@ -42,6 +43,8 @@ TEST(ServerOptions, flags_are_taken) {
   EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
   EXPECT_EQ(live.world.tick_rate_hz, 30U);
   EXPECT_EQ(live.record_path, "a.scree");
+  EXPECT_FALSE(live.world.impacts);
+  EXPECT_FALSE(live.world.dents);
 }
 
 TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {

@@ -49,6 +49,14 @@ void add_world(CLI::App& app, Raw& raw) {
       ->capture_default_str();
 }
 
+void add_breaking(CLI::App& app, Raw& raw) {
+  WorldConfig& world = raw.options.live.world;
+  app.add_option("--impacts", world.impacts, "whether pieces that strike hard break again")
+      ->capture_default_str();
+  app.add_option("--dents", world.dents, "whether pieces that strike hard dent soft ground")
+      ->capture_default_str();
+}
+
 void add_recordings(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
   CLI::Option* record = app.add_option("--record", live.record_path, "records the session to this new file");
@@ -97,6 +105,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   app.allow_config_extras(CLI::config_extras_mode::error);
   add_network(app, raw);
   add_world(app, raw);
+  add_breaking(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
   name_environment(app);

@@ -13,6 +13,7 @@
 
 #include "server/bodies/body_shape.h"
 #include "server/bodies/hull_algorithm.h"
+#include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/terrain_manifold.h"
 #include "shared/base/check.h"
@@ -118,6 +119,7 @@ struct Bodies::State {
   }
 
   void find_ground(Body& body);
+  void limit_speeds(Body& body) const;
   void settle(Body& body) const;
   void wake_near(const btVector3& lo, const btVector3& hi);
 
@@ -143,7 +145,20 @@ void Bodies::State::find_ground(Body& body) {
   const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
   found.clear();
   body.probe->find(from_bullet(rigid.getWorldTransform()), limits::contact_slack_m + speed * tick_s, found);
-  refill(*body.ground, rigid, found, {config.friction, config.restitution, tick_s});
+  // A body's own is a root already.
+  const float friction = rigid.getFriction() * std::sqrt(config.friction);
+  refill(*body.ground, rigid, found, {friction, config.restitution, tick_s});
+}
+
+/// What a body may not exceed, or it would cross the narrow band in one tick.
+void Bodies::State::limit_speeds(Body& body) const {
+  btRigidBody& rigid = *body.rigid;
+  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / tick_s;
+  const float speed = rigid.getLinearVelocity().length();
+  if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
+  const float turning = rigid.getAngularVelocity().length();
+  if (turning > body.spin_max_rad_s)
+    rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
 }
 
 /// Damping and speed limits, after the step. Bullet's own damping would call libm.
@@ -158,13 +173,9 @@ void Bodies::State::settle(Body& body) const {
   const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
   velocity *= 1.0F - tick_s * (creeping ? limits::ground_damping : limits::air_damping);
   spin *= 1.0F - tick_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
-  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / tick_s;
-  const float speed = velocity.length();
-  if (speed > speed_max) velocity *= speed_max / speed;
-  const float turning = spin.length();
-  if (turning > body.spin_max_rad_s) spin *= body.spin_max_rad_s / turning;
   rigid.setLinearVelocity(velocity);
   rigid.setAngularVelocity(spin);
+  limit_speeds(body);
 }
 
 void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
@@ -193,7 +204,7 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(),
                                                 stable_inertia(shape.inertia_kg_m2));
   info.m_startWorldTransform = to_bullet(state.pose);
-  info.m_friction = std::sqrt(s.config.friction);  // Bullet multiplies those of both bodies
+  info.m_friction = std::sqrt(shape.friction);  // Bullet multiplies those of both bodies
   info.m_restitution = std::sqrt(s.config.restitution);
   info.m_linearSleepingThreshold = limits::sleep_speed_m_s;
   info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
@@ -209,7 +220,7 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
       surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m));
   s.dynamics.addRigidBody(body.rigid.get());
   body.ground = s.dispatcher.getNewManifold(body.rigid.get(), &s.terrain);
-  s.settle(body);
+  s.limit_speeds(body);
 }
 
 void Bodies::remove(PieceId id) {
@@ -294,6 +305,16 @@ BodyContacts Bodies::contacts() const {
   contacts.carried.erase(std::unique(contacts.carried.begin(), contacts.carried.end()),
                          contacts.carried.end());
   return contacts;
+}
+
+std::vector<BodyImpact> Bodies::impacts(float speed_min_m_s) const {
+  return list_impacts(state_->dispatcher, state_->terrain, speed_min_m_s);
+}
+
+float Bodies::mass_kg(PieceId id) const {
+  const auto found = state_->bodies.find(id);
+  CHECK(found != state_->bodies.end());
+  return found->second.rigid->getMass();
 }
 
 float Bodies::reach_m(PieceId id) const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "shared/base/ids.h"
@@ -24,6 +25,7 @@ struct BodyShape {
   std::vector<glm::vec3> hull_m;
   float mass_kg = 0.0F;
   glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes
+  float friction = 0.7F;          ///< coefficient; of two that touch, the geometric mean counts
 };
 
 struct BodyState {
@@ -47,13 +49,22 @@ struct BodyContacts {
   std::vector<Carried> carried;     ///< ordered, without duplicates
 };
 
+/// The strongest contact that a body bore in the last step.
+struct BodyImpact {
+  PieceId id = 0;
+  std::optional<PieceId> other;  ///< what struck it; nothing: terrain
+  glm::vec3 point_m{0.0F};       ///< where, in the world
+  glm::vec3 normal{0.0F};        ///< unit, towards the body
+  float impulse_n_s = 0.0F;      ///< along the normal, over all points of the contact
+};
+
 /// How bodies find the terrain. Later methods (mesh, rays) go beside it.
 enum class TerrainColliderKind : uint8_t { field = 0 };
 
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
-  float friction = 0.7F;      ///< coefficient, between any two of pieces and terrain
+  float friction = 0.7F;      ///< of the terrain, as BodyShape::friction
   float restitution = 0.05F;  ///< rubble hardly bounces
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
 };
@@ -85,6 +96,9 @@ class Bodies {
   /// Of a body that is present.
   BodyState state(PieceId id) const;
   BodyContacts contacts() const;
+  /// Of the bodies whose strongest contact in the last step changed their speed by at least that, by id.
+  std::vector<BodyImpact> impacts(float speed_min_m_s) const;
+  float mass_kg(PieceId id) const;
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres.
   float reach_m(PieceId id) const;
   /// Bodies that are awake.

@@ -3,9 +3,17 @@
 namespace scree {
 
 RecordedHeader to_recorded(const RecordingHeader& header) {
-  const WorldConfig& world = header.world;
-  return {recording_format,   header.program,   world.terrain,
-          world.tick_rate_hz, world.pieces_max, world.merges_per_tick_max};
+  // Bound one by one, so that a setting that is new and not recorded yet does not compile.
+  const auto& [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, impacts, dents] = header.world;
+  RecordedHeader out;
+  out.program = header.program;
+  out.terrain = terrain;
+  out.tick_rate_hz = tick_rate_hz;
+  out.pieces_max = pieces_max;
+  out.merges_per_tick_max = merges_per_tick_max;
+  out.impacts = impacts;
+  out.dents = dents;
+  return out;
 }
 
 RecordingHeader from_recorded(const RecordedHeader& header) {
@@ -15,6 +23,8 @@ RecordingHeader from_recorded(const RecordedHeader& header) {
   out.world.tick_rate_hz = header.tick_rate_hz;
   out.world.pieces_max = header.pieces_max;
   out.world.merges_per_tick_max = header.merges_per_tick_max;
+  out.world.impacts = header.impacts;
+  out.world.dents = header.dents;
   return out;
 }
 

@@ -1,9 +1,45 @@
 // Bounds and constants of the simulation. Each says its unit and its reason.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace scree::limits {
 
 /// Density of every piece, kg/m³: broken rock. Only ratios of masses matter to the bodies.
 inline constexpr float rock_density_kg_m3 = 2000.0F;
+
+/// Change of a piece's speed in one contact below which it is no impact, m/s: a piece at rest on the ground
+/// bears 0.16, one that drops by its own height 3.
+inline constexpr float impact_speed_min_m_s = 3.0F;
+
+/// Breaks and dents in one tick: about 0.3 ms each. Above: the weaker ones do not happen.
+inline constexpr uint32_t breaks_per_tick_max = 8;
+inline constexpr uint32_t dents_per_tick_max = 4;
+
+/// Times that a piece's ancestors may have broken before it holds whatever strikes it.
+inline constexpr uint8_t break_generations_max = 3;
+
+/// Smallest piece that breaks, and what a child weighs at least on average, units of 1/254 voxel: 24 and 6
+/// voxels. Smaller ones would be all edge, and make bodies out of gravel. Such pieces stay whole.
+inline constexpr int64_t break_mass_min = 24 * 254;
+inline constexpr int64_t break_child_mass_min = 6 * 254;
+
+/// Seeds of one break, however hard.
+inline constexpr float break_seeds_max = 12.0F;
+
+/// Speed at which children part from the blow, as a share of the speed that it took: a fiftieth of its
+/// energy.
+inline constexpr float break_push = 0.15F;
+
+/// Smallest dent, voxels: below, the ground gives way too little to be seen. Does not happen.
+inline constexpr float dent_voxels_min = 12.0F;
+
+/// Largest dent's radius, metres. Above: this.
+inline constexpr float dent_radius_max_m = 1.5F;
+
+/// Seeds of what a dent throws out, and how fast, as a share of the impact's speed.
+inline constexpr uint32_t dent_seeds = 4;
+inline constexpr float dent_throw = 0.3F;
 
 }  // namespace scree::limits

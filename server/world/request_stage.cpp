@@ -5,8 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "server/fracture/hull.h"
-#include "server/world/limits.h"
+#include "server/world/spawn.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
@@ -26,23 +25,18 @@ BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
   Random random(request.random_seed * 0x9E3779B97F4A7C15ULL + id);
   const auto spin = [&] { return (random.unit() - 0.5F) * speed; };
   BodyState state;
-  state.id = id;
   state.pose.position_m = centre_m;
   state.velocity_m_s = direction * speed;
   state.spin_rad_s = {spin(), spin(), spin()};
   return state;
 }
 
-void spawn(World::State& state, const Applied& applied, const CarveRequest& request, TickDelta& delta) {
+void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
-  for (const PieceHull& hull : make_hulls(applied, state.pieces, dx)) {
-    const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
-    const float mass_kg = hull.size_m3 * limits::rock_density_kg_m3;
-    state.bodies.add({hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg},
-                     blast(hull.id, volume->centre_voxels * dx, request));
-    delta.spawned.push_back({hull.id, volume});
-    state.next_piece = hull.id + 1;
-  }
+  const auto born = [&](PieceId id, const Volume& volume) {
+    return Newborn{blast(id, volume.centre_voxels * dx, request), {birth_material(state, volume), 0}};
+  };
+  spawn(state, applied, born, delta);
 }
 
 Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
@@ -64,7 +58,7 @@ Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDel
   state.ledger.dust += applied.dust;
   state.ledger.pieces -= applied.terrain_gain + applied.dust;
   delta.times.carve_ms += watch.lap_ms();
-  spawn(state, applied, request, delta);
+  throw_out(state, applied, request, delta);
   delta.times.spawn_ms += watch.lap_ms();
   return static_cast<uint32_t>(applied.created.size());
 }

@@ -30,6 +30,7 @@ struct StageTimes {
   double carve_ms = 0.0;      ///< carve, extract, fracture: apply() of carves and fills
   double spawn_ms = 0.0;      ///< hulls and bodies of new pieces
   double bodies_ms = 0.0;     ///< terrain contacts and the Bullet step
+  double impacts_ms = 0.0;    ///< breaks and dents
   double rest_ms = 0.0;       ///< rest detection
   double recombine_ms = 0.0;  ///< planning and applying stamps
   double publish_ms = 0.0;    ///< hashes, copies of changed bricks, transforms

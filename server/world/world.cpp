@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "server/world/impact_stage.h"
 #include "server/world/merge_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/state_hash.h"
@@ -58,6 +59,8 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   s.bodies.step();
   discard_lost(s, *delta);
   delta->times.bodies_ms = watch.lap_ms();
+  apply_impacts(s, *delta);
+  delta->times.impacts_ms = watch.lap_ms();
   const std::vector<PieceId> at_rest = settled(s);
   delta->times.rest_ms = watch.lap_ms();
   for (const PieceId id : at_rest) merge(s, id, *delta);

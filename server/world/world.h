@@ -18,6 +18,8 @@ struct WorldConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
   uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
+  bool impacts = true;               ///< hard contacts break pieces again
+  bool dents = true;                 ///< hard contacts dent soft ground
 
   bool operator==(const WorldConfig&) const = default;
 };

@@ -40,7 +40,13 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   changed.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
+  if (const auto ended = piece_ended_by(operation)) traits.erase(*ended);
   return applied;
+}
+
+PieceTraits World::State::traits_of(PieceId id) const {
+  const auto found = traits.find(id);
+  return found == traits.end() ? PieceTraits{} : found->second;
 }
 
 }  // namespace scree

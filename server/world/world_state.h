@@ -6,25 +6,35 @@
 // in step with it.
 #pragma once
 
+#include <map>
 #include <set>
 
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
 #include "server/world/world.h"
+#include "shared/field/material.h"
 
 namespace scree {
+
+/// What a piece keeps for life.
+struct PieceTraits {
+  Material material = Material::rock;
+  uint8_t generation = 0;  ///< how often its ancestors broke
+};
 
 struct World::State {
   explicit State(const WorldConfig& world_config);
 
   /// Applies a valid operation; whoever calls it enters in the ledger where the mass came from or went to.
   Applied apply_and_record(const Operation& operation, TickDelta& delta);
+  PieceTraits traits_of(PieceId id) const;
 
   WorldConfig config;
   VdbField field;
   PieceTable pieces;
   Bodies bodies;  ///< one for each of `pieces`
+  std::map<PieceId, PieceTraits> traits;  ///< of pieces that have others than the default ones
   RestDetector rest;
   Ledger ledger;
   Tick tick = 0;

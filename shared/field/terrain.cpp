@@ -115,9 +115,8 @@ float arch(glm::vec3 p) {
   return std::sqrt(ring * ring + x * x) - arch_thickness_m;
 }
 
-/// Negative inside rock; the zero set is the surface. In metres, but not a distance. `bump` is the noise at
-/// p.
-float density(TerrainKind kind, glm::vec3 p, float bump) {
+/// Without what stands on the ground.
+float ground(TerrainKind kind, glm::vec3 p, float bump) {
   switch (kind) {
     case TerrainKind::flat:
       return p.y;
@@ -127,8 +126,14 @@ float density(TerrainKind kind, glm::vec3 p, float bump) {
       break;
   }
   const float step = blend(std::clamp(0.5F - p.x / 5.0F, 0.0F, 1.0F));
-  const float ground = p.y - cliff_height_m * step + canyon_roughness * bump;
-  return std::min(ground, arch(p) + 0.12F * bump);
+  return p.y - cliff_height_m * step + canyon_roughness * bump;
+}
+
+/// Negative inside rock; the zero set is the surface. In metres, but not a distance. `bump` is the noise at
+/// p.
+float density(TerrainKind kind, glm::vec3 p, float bump) {
+  const float below = ground(kind, p, bump);
+  return kind == TerrainKind::canyon ? std::min(below, arch(p) + 0.12F * bump) : below;
 }
 
 /// Above `top` there is only air, below `bottom` only rock.
@@ -262,6 +267,10 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
 
 float floor_m(const TerrainSource& source) {
   return heights(source.kind).bottom_m;
+}
+
+float ground_density(const TerrainSource& source, glm::vec3 p_m) {
+  return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.seed).at(p_m.z));
 }
 
 float ground_height_m(const TerrainSource& source, float x_m, float z_m) {

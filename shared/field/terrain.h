@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -38,6 +39,10 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk);
 
 /// Below this height generated terrain is nothing but rock. Metres.
 float floor_m(const TerrainSource& source);
+
+/// Negative inside the undisturbed ground, without what stands on it (the canyon's arch). In metres, but not
+/// a distance.
+float ground_density(const TerrainSource& source, glm::vec3 p_m);
 
 /// Height of the undisturbed ground under the sky at (x, z), found by marching down from above. Metres.
 float ground_height_m(const TerrainSource& source, float x_m, float z_m);

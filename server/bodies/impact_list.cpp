@@ -1,0 +1,83 @@
+#include "server/bodies/impact_list.h"
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <algorithm>
+
+namespace scree {
+
+namespace {
+
+glm::vec3 from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+struct Blow {
+  float impulse_n_s = 0.0F;
+  btVector3 point{0.0F, 0.0F, 0.0F};
+  btVector3 normal{0.0F, 0.0F, 0.0F};  ///< towards body 0
+};
+
+Blow blow_of(const btPersistentManifold& manifold) {
+  Blow blow;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    const float impulse = point.m_appliedImpulse;
+    if (!(impulse > 0.0F)) continue;
+    blow.impulse_n_s += impulse;
+    blow.point += point.m_positionWorldOnB * impulse;
+    blow.normal += point.m_normalWorldOnB * impulse;
+  }
+  if (blow.impulse_n_s > 0.0F) blow.point /= blow.impulse_n_s;
+  const float length = blow.normal.length();
+  blow.normal = length > 0.0F ? blow.normal / length : btVector3(0.0F, 1.0F, 0.0F);
+  return blow;
+}
+
+/// Null for the terrain.
+const btRigidBody* body_of(const btCollisionObject* object) {
+  return btRigidBody::upcast(object);
+}
+
+PieceId id_of(const btCollisionObject* object) {
+  return static_cast<PieceId>(object->getUserIndex());
+}
+
+bool is_active(const btRigidBody* body) {
+  return body != nullptr && body->isActive();
+}
+
+}  // namespace
+
+std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
+                                     float speed_min_m_s) {
+  std::vector<BodyImpact> impacts;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold =
+        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
+    const btRigidBody* first = body_of(manifold.getBody0());
+    const btRigidBody* second = manifold.getBody1() == &terrain ? nullptr : body_of(manifold.getBody1());
+    // The solver leaves what sleeps alone: those impulses are of an earlier step.
+    if (!is_active(first) && !is_active(second)) continue;
+    const Blow blow = blow_of(manifold);
+    const auto note = [&](const btRigidBody* body, const btRigidBody* other, float sign) {
+      if (body == nullptr || blow.impulse_n_s * body->getInvMass() < speed_min_m_s) return;
+      BodyImpact impact{id_of(body), std::nullopt, from_bullet(blow.point), from_bullet(blow.normal * sign),
+                        blow.impulse_n_s};
+      if (other != nullptr) impact.other = id_of(other);
+      impacts.push_back(impact);
+    };
+    note(first, second, 1.0F);
+    note(second, first, -1.0F);
+  }
+  // Of several contacts of one body the strongest comes first, and alone stays. Stable: the dispatcher's
+  // order is the same on any build.
+  std::ranges::stable_sort(impacts, [](const BodyImpact& a, const BodyImpact& b) {
+    return a.id != b.id ? a.id < b.id : a.impulse_n_s > b.impulse_n_s;
+  });
+  const auto same_body = [](const BodyImpact& a, const BodyImpact& b) { return a.id == b.id; };
+  impacts.erase(std::unique(impacts.begin(), impacts.end(), same_body), impacts.end());
+  return impacts;
+}
+
+}  // namespace scree

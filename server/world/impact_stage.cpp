@@ -1,0 +1,200 @@
+#include "server/world/impact_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "server/world/limits.h"
+#include "server/world/spawn.h"
+#include "shared/base/limits.h"
+#include "shared/base/random.h"
+
+namespace scree {
+
+namespace {
+
+/// An impact, and how many times over it breaks the piece; below 1 the piece holds.
+struct Blow {
+  BodyImpact impact;
+  float speed_m_s = 0.0F;  ///< by which it changed the piece's
+  float excess = 0.0F;
+};
+
+/// Change of speed that breaks the piece.
+float strength_m_s(const World::State& state, PieceId id) {
+  const float dx = state.config.terrain.voxel_size_m;
+  const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel * dx * dx * dx;
+  const float fourth_root = std::sqrt(std::sqrt(std::max(size_m3, 0.001F)));
+  return traits_of(state.traits_of(id).material).strength_m_s / fourth_root;
+}
+
+std::vector<Blow> blows_of(const World::State& state) {
+  std::vector<Blow> blows;
+  for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
+    const float speed = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
+    blows.push_back({impact, speed, speed / strength_m_s(state, impact.id)});
+  }
+  std::ranges::stable_sort(blows, std::ranges::greater{}, &Blow::excess);
+  return blows;
+}
+
+/// Seeds that a break of the piece may have; fewer than 2: it stays whole.
+uint32_t seeds_for(const World::State& state, const Blow& blow) {
+  const PieceTraits traits = state.traits_of(blow.impact.id);
+  const MassUnits mass = state.pieces.at(blow.impact.id)->mass;
+  if (traits.generation >= limits::break_generations_max || mass < limits::break_mass_min) return 0;
+  const float wanted = (1.0F + 2.0F * blow.excess) * traits_of(traits.material).seed_density;
+  const auto seeds = static_cast<uint32_t>(std::clamp(wanted, 2.0F, limits::break_seeds_max));
+  const auto heavy_enough = static_cast<uint32_t>(mass / limits::break_child_mass_min);
+  const size_t others = state.pieces.size() - 1;
+  const auto room =
+      static_cast<uint32_t>(state.config.pieces_max - std::min<size_t>(others, state.config.pieces_max));
+  return std::min({seeds, heavy_enough, room});
+}
+
+uint32_t random_seed(const World::State& state, PieceId id) {
+  return static_cast<uint32_t>(state.tick) * 0x9E3779B1U + id;
+}
+
+/// What the children of a break start out with: the motion of the piece at their places, and a push away from
+/// the blow. The sum of the momenta is the piece's, exactly up to rounding: what the pushes, and the
+/// difference between the piece's centre and its children's, add to it is taken off all of them alike.
+class Breakup {
+ public:
+  Breakup(const World::State& state, const Blow& blow)
+      : parent_(state.bodies.state(blow.impact.id)),
+        blow_(blow),
+        centre_voxels_(state.pieces.at(blow.impact.id)->centre_voxels),
+        dx_(state.config.terrain.voxel_size_m) {}
+
+  void balance(const Applied& applied, const PieceTable& pieces) {
+    glm::dvec3 momentum(0.0);
+    double mass = 0.0;
+    for (const CreatedPiece& child : applied.created) {
+      const Volume& volume = *pieces.at(child.id);
+      momentum += glm::dvec3(relative_velocity(volume)) * static_cast<double>(volume.mass);
+      mass += static_cast<double>(volume.mass);
+    }
+    if (mass > 0.0) surplus_ = glm::vec3(momentum / mass);
+  }
+
+  BodyState child(const Volume& volume) const {
+    BodyState state = parent_;
+    state.pose.position_m += offset_m(volume);
+    state.velocity_m_s += relative_velocity(volume) - surplus_;
+    return state;
+  }
+
+  /// In the voxel frame of the piece.
+  glm::vec3 impact_voxels() const {
+    const glm::vec3 off_m =
+        glm::conjugate(parent_.pose.rotation) * (blow_.impact.point_m - parent_.pose.position_m);
+    return centre_voxels_ + off_m / dx_;
+  }
+
+ private:
+  glm::vec3 offset_m(const Volume& volume) const {
+    return parent_.pose.rotation * ((volume.centre_voxels - centre_voxels_) * dx_);
+  }
+  glm::vec3 relative_velocity(const Volume& volume) const {
+    const glm::vec3 off_m = offset_m(volume);
+    const glm::vec3 away = parent_.pose.position_m + off_m - blow_.impact.point_m;
+    const float distance = std::sqrt(glm::dot(away, away));
+    return glm::cross(parent_.spin_rad_s, off_m) +
+           away * (limits::break_push * blow_.speed_m_s / std::max(distance, 0.01F));
+  }
+
+  BodyState parent_;
+  const Blow& blow_;
+  glm::vec3 centre_voxels_;
+  float dx_;
+  glm::vec3 surplus_{0.0F};
+};
+
+bool break_piece(World::State& state, const Blow& blow, TickDelta& delta) {
+  const PieceId id = blow.impact.id;
+  const uint32_t seeds = seeds_for(state, blow);
+  if (seeds < 2) return false;
+  Breakup breakup(state, blow);
+  const PieceTraits parent = state.traits_of(id);
+  state.bodies.remove(id);
+  const Applied applied =
+      state.apply_and_record(ShatterOperation{id, SeedPattern::radial, seeds, random_seed(state, id),
+                                              breakup.impact_voxels(), state.next_piece},
+                             delta);
+  state.ledger.pieces -= applied.dust;
+  state.ledger.dust += applied.dust;
+  breakup.balance(applied, state.pieces);
+  const PieceTraits traits{parent.material, static_cast<uint8_t>(parent.generation + 1)};
+  const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
+  spawn(state, applied, born, delta);
+  return true;
+}
+
+/// By Newton; std::cbrt may differ between systems. For positive numbers of ordinary size.
+float cube_root(float x) {
+  float root = std::max(x, 1.0F);
+  for (int i = 0; i < 24; ++i) root = (2.0F * root + x / (root * root)) / 3.0F;
+  return root;
+}
+
+/// Radius of the ball that takes this much out of flat ground when its centre is a quarter of it above: the
+/// cap is three quarters of the radius deep, π h² (3 r − h) / 3.
+float dent_radius_m(float volume_m3) {
+  return std::min(cube_root(volume_m3 / 1.325F), limits::dent_radius_max_m);
+}
+
+bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
+  const BodyImpact& impact = blow.impact;
+  const TerrainSource& source = state.config.terrain;
+  const float dx = source.voxel_size_m;
+  const Material material = material_at(source, impact.point_m - impact.normal * dx);
+  const float energy_j = 0.5F * impact.impulse_n_s * blow.speed_m_s;
+  const float volume_m3 = energy_j / traits_of(material).dent_resistance_j_m3;
+  const uint32_t seeds = limits::dent_seeds;
+  if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return false;
+  if (state.pieces.size() + seeds > state.config.pieces_max) return false;
+  const float radius_m = dent_radius_m(volume_m3);
+  const CarveOperation operation{sphere(impact.point_m + impact.normal * (0.25F * radius_m), radius_m),
+                                 SeedPattern::uniform,
+                                 seeds,
+                                 random_seed(state, impact.id),
+                                 impact.point_m,
+                                 state.next_piece};
+  if (!validate(Operation(operation), state.pieces)) return false;  // at the world's edge
+  const Applied applied = state.apply_and_record(operation, delta);
+  state.ledger.moved -= applied.terrain_gain;
+  state.ledger.dust += applied.dust;
+  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  const auto thrown = [&](PieceId, const Volume& volume) {
+    Newborn piece;
+    piece.body.pose.position_m = volume.centre_voxels * dx;
+    const glm::vec3 away = piece.body.pose.position_m - impact.point_m;
+    const glm::vec3 sideways = away - impact.normal * glm::dot(away, impact.normal);
+    const float distance = std::max(std::sqrt(glm::dot(sideways, sideways)), 0.01F);
+    const float speed = limits::dent_throw * blow.speed_m_s;
+    piece.body.velocity_m_s = (sideways / distance + impact.normal) * speed;
+    piece.traits = {material, limits::break_generations_max};
+    return piece;
+  };
+  spawn(state, applied, thrown, delta);
+  return true;
+}
+
+}  // namespace
+
+void apply_impacts(World::State& state, TickDelta& delta) {
+  if (!state.config.impacts && !state.config.dents) return;
+  uint32_t breaks = 0, dents = 0;
+  for (const Blow& blow : blows_of(state)) {
+    const bool on_terrain = !blow.impact.other.has_value();
+    if (state.config.dents && on_terrain && dents < limits::dents_per_tick_max &&
+        dent_ground(state, blow, delta))
+      ++dents;
+    if (state.config.impacts && blow.excess > 1.0F && breaks < limits::breaks_per_tick_max &&
+        break_piece(state, blow, delta))
+      ++breaks;
+  }
+}
+
+}  // namespace scree

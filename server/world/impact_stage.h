@@ -1,0 +1,15 @@
+// Impacts: a contact harder than a piece is strong breaks the piece again, where it was struck; a contact
+// hard enough dents soft ground, and throws out what was pressed from it.
+//
+// The strongest impacts come first, up to limits::breaks_per_tick_max and dents_per_tick_max; pieces that may
+// not break (too small, broken too often already, or no room under WorldConfig::pieces_max) stay whole.
+#pragma once
+
+#include "server/world/world_state.h"
+
+namespace scree {
+
+/// Call once a tick, right after the bodies' step.
+void apply_impacts(World::State& state, TickDelta& delta);
+
+}  // namespace scree

@@ -1,0 +1,24 @@
+// New pieces become bodies.
+#pragma once
+
+#include <functional>
+
+#include "server/world/world_state.h"
+
+namespace scree {
+
+/// How a new piece starts out; `body.id` is filled in by spawn().
+struct Newborn {
+  BodyState body;
+  PieceTraits traits;
+};
+
+/// Each piece that the operation made gets a hull, a body and its traits, is entered in the delta, and uses
+/// up its id. Call right after apply_and_record().
+void spawn(World::State& state, const Applied& applied,
+           const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta);
+
+/// The material of the undisturbed terrain where the piece was cut.
+Material birth_material(const World::State& state, const Volume& volume);
+
+}  // namespace scree
