@@ -10,7 +10,14 @@ namespace {
 
 constexpr const char* subject = "operation";
 
-enum Kind : uint8_t { kind_carve = 0, kind_fill = 1, kind_stamp = 2, kind_discard = 3, kind_shatter = 4 };
+enum Kind : uint8_t {
+  kind_carve = 0,
+  kind_fill = 1,
+  kind_stamp = 2,
+  kind_discard = 3,
+  kind_shatter = 4,
+  kind_island = 5
+};
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
 
@@ -64,6 +71,13 @@ struct Writing {
     writer.u32(shatter.random_seed);
     writer.vec3(shatter.impact_voxels);
   }
+  void operator()(const IslandOperation& island) const {
+    write_head(writer, kind_island, island.piece);
+    const VoxelCoord size = island.box.size(), seed = island.seed - island.box.lo;
+    for (const int32_t low : {island.box.lo.x, island.box.lo.y, island.box.lo.z}) writer.zigzag(low);
+    for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
+    for (const int32_t at : {seed.x, seed.y, seed.z}) writer.varint(static_cast<uint64_t>(at));
+  }
 };
 
 /// The part that whatever makes pieces has in common.
@@ -103,6 +117,22 @@ ShatterOperation read_shatter(ByteReader& reader, PieceId id) {
   return shatter;
 }
 
+IslandOperation read_island(ByteReader& reader, PieceId id) {
+  const auto voxels = [&](const char* what) {
+    constexpr uint64_t side_max = limits::island_side_max_bricks * brick_size;
+    const auto axis = [&] { return static_cast<int32_t>(reader.varint(what, side_max)); };
+    const int32_t x = axis();
+    const int32_t y = axis();
+    return VoxelCoord{x, y, axis()};
+  };
+  IslandOperation island;
+  island.piece = id;
+  island.box.lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "place of an island");
+  island.box.hi = island.box.lo + voxels("side of an island");
+  island.seed = island.box.lo + voxels("seed of an island");
+  return island;
+}
+
 Operation read_operation(ByteReader& reader) {
   const uint64_t head = reader.varint("id and kind", head_max);
   const auto id = static_cast<PieceId>(head >> kind_bits);
@@ -118,6 +148,8 @@ Operation read_operation(ByteReader& reader) {
       return DiscardOperation{id};
     case kind_shatter:
       return read_shatter(reader, id);
+    case kind_island:
+      return read_island(reader, id);
     default:
       reader.refuse("kind " + std::to_string(head & 7U) + " is unknown");
       return DiscardOperation{};

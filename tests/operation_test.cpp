@@ -162,6 +162,22 @@ TEST(operation, a_piece_that_shatters_shares_out_its_mass_exactly) {
   EXPECT_LT(glm::distance(moment / static_cast<float>(mass), volume->centre_voxels), 0.2F);
 }
 
+TEST(operation, an_island_becomes_a_piece_of_the_mass_that_the_terrain_loses_and_a_speck_dust) {
+  MapField field({TerrainKind::flat, 1, dx});
+  PieceTable pieces;
+  const Applied poured = apply(FillOperation{sphere({0.0F, 5.0F, 0.0F}, 1.0F)}, field, pieces);
+  const VoxelBox whole{{-4, 16, -4}, {5, 25, 5}};
+  const Applied applied = apply(IslandOperation{whole, {0, 20, 0}, 5}, field, pieces);
+  ASSERT_EQ(applied.created.size(), 1U);
+  EXPECT_EQ(applied.terrain_gain, -poured.terrain_gain);
+  EXPECT_EQ(pieces.at(5)->mass, poured.terrain_gain);
+  const Applied speck = apply(FillOperation{sphere({0.0F, 5.0F, 0.0F}, 0.15F)}, field, pieces);
+  const Applied swept = apply(IslandOperation{whole, {0, 20, 0}, 6}, field, pieces);
+  EXPECT_TRUE(swept.created.empty());
+  EXPECT_EQ(swept.dust, speck.terrain_gain);
+  EXPECT_GT(swept.dust, 0);
+}
+
 TEST(operation, what_no_world_can_take_is_refused_by_name) {
   const PieceTable none;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -195,6 +211,12 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(StampOperation{77, {}, 0}, "no piece 77");
   refused(DiscardOperation{78}, "no piece 78");
   refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");
+  const VoxelBox island{{0, 0, 0}, {8, 8, 8}};
+  EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none).has_value());
+  refused(IslandOperation{island, {8, 0, 0}, 1}, "seed is outside its box");
+  refused(IslandOperation{{{0, 0, 0}, {0, 8, 8}}, {0, 0, 0}, 1}, "seed is outside its box");
+  refused(IslandOperation{{{0, 0, 0}, {8, 113, 8}}, {0, 0, 0}, 1}, "island_side_max_bricks");
+  refused(IslandOperation{{{1 << 24, 0, 0}, {(1 << 24) + 8, 8, 8}}, {1 << 24, 0, 0}, 1}, "outside the world");
 }
 
 TEST(pose, quantising_keeps_position_and_rotation_within_a_step) {

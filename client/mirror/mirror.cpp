@@ -25,6 +25,7 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   stamps += other.stamps;
   discards += other.discards;
   shatters += other.shatters;
+  islands += other.islands;
   operation_bytes += other.operation_bytes;
   patched_bricks += other.patched_bricks;
   transforms += other.transforms;
@@ -146,6 +147,8 @@ void Mirror::count(const Operation& operation) {
     ++counters_.pieces_merged;
   } else if (std::holds_alternative<ShatterOperation>(operation)) {
     ++counters_.shatters;
+  } else if (std::holds_alternative<IslandOperation>(operation)) {
+    ++counters_.islands;
   } else {
     ++counters_.discards;
   }

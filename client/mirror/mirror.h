@@ -47,6 +47,7 @@ struct MirrorCounters {
   uint64_t stamps = 0;
   uint64_t discards = 0;
   uint64_t shatters = 0;
+  uint64_t islands = 0;
   uint64_t operation_bytes = 0;
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses

@@ -9,6 +9,14 @@ namespace scree::limits {
 /// Density of every piece, kg/m³: broken rock. Only ratios of masses matter to the bodies.
 inline constexpr float rock_density_kg_m3 = 2000.0F;
 
+/// Bricks at which the search for islands looks in one tick: about 1 ms. Above: it goes on in the next tick.
+inline constexpr size_t island_bricks_per_tick = 1024;
+
+/// Times that a search's budget doubles, once for each time that what it has seen changed under it: the
+/// largest island (limits::island_side_max_bricks) is then searched in one tick, and nothing can interrupt it
+/// any more.
+inline constexpr unsigned island_doublings_max = 4;
+
 /// Change of a piece's speed in one contact below which it is no impact, m/s: a piece at rest on the ground
 /// bears 0.16, one that drops by its own height 3.
 inline constexpr float impact_speed_min_m_s = 3.0F;

@@ -33,6 +33,7 @@ struct StageTimes {
   double impacts_ms = 0.0;    ///< breaks and dents
   double rest_ms = 0.0;       ///< rest detection
   double recombine_ms = 0.0;  ///< planning and applying stamps
+  double islands_ms = 0.0;    ///< search for what hangs loose, and its fall
   double publish_ms = 0.0;    ///< hashes, copies of changed bricks, transforms
   double total_ms = 0.0;
 };

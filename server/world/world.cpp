@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "server/world/impact_stage.h"
+#include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/state_hash.h"
@@ -65,6 +66,8 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.rest_ms = watch.lap_ms();
   for (const PieceId id : at_rest) merge(s, id, *delta);
   delta->times.recombine_ms = watch.lap_ms();
+  drop_islands(s, *delta);
+  delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);
   CHECK(s.ledger.error() == 0);
   delta->times.publish_ms = watch.lap_ms();

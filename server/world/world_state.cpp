@@ -25,6 +25,13 @@ VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
   return box;
 }
 
+/// Whether something may hang loose after it. What an island's going lays bare was no part of it; a stamp's
+/// redistancing takes a little here and there, but opens no gap.
+bool cuts(const Operation& operation, const Applied& applied) {
+  return applied.terrain_gain < 0 && !std::holds_alternative<IslandOperation>(operation) &&
+         !std::holds_alternative<StampOperation>(operation);
+}
+
 }  // namespace
 
 World::State::State(const WorldConfig& world_config)
@@ -38,6 +45,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   Applied applied = apply(operation, field, pieces);
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
+  if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   if (const auto ended = piece_ended_by(operation)) traits.erase(*ended);

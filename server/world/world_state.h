@@ -12,6 +12,7 @@
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
+#include "server/world/island_stage.h"
 #include "server/world/world.h"
 #include "shared/field/material.h"
 
@@ -40,6 +41,8 @@ struct World::State {
   Tick tick = 0;
   PieceId next_piece = 1;
   std::set<BrickCoord> changed;  ///< in this tick
+  std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up
+  IslandQueue islands;
 };
 
 }  // namespace scree

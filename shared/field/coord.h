@@ -78,6 +78,9 @@ struct VoxelBox {
 
   bool operator==(const VoxelBox&) const = default;
   VoxelCoord size() const { return hi - lo; }
+  bool holds(VoxelCoord v) const {
+    return v.x >= lo.x && v.y >= lo.y && v.z >= lo.z && v.x < hi.x && v.y < hi.y && v.z < hi.z;
+  }
   bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
   VoxelBox grown(int by) const {
     return {{lo.x - by, lo.y - by, lo.z - by}, {hi.x + by, hi.y + by, hi.z + by}};

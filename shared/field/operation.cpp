@@ -7,6 +7,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
+#include "shared/field/island.h"
 #include "shared/field/shatter.h"
 #include "shared/field/stamp.h"
 
@@ -106,6 +107,21 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   return applied;
 }
 
+Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
+  Window window = gather(field, lift_box(op.box));
+  Volume volume = lift(window, op.box, op.seed);
+  Applied applied;
+  applied.terrain_gain = -volume.mass;
+  applied.changed = scatter(field, window);
+  if (volume.mass < limits::piece_mass_min) {
+    applied.dust = volume.mass;
+    return applied;
+  }
+  pieces[op.piece] = std::make_shared<const Volume>(std::move(volume));
+  applied.created.push_back({op.piece, {}});
+  return applied;
+}
+
 Result<void> known(PieceId id, const PieceTable& pieces) {
   if (pieces.contains(id)) return {};
   return fail("there is no piece " + std::to_string(id));
@@ -149,6 +165,19 @@ struct Validator {
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
     return validate_seeds(op.pattern, op.seeds, op.first_piece);
   }
+  Result<void> operator()(const IslandOperation& op) const {
+    constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
+    const VoxelBox world{{-far, -far, -far}, {far, far, far}};
+    if (!world.holds(op.box.lo) || !world.holds(op.box.hi))
+      return fail("the island is outside the world (limits.world_half_width_m)");
+    const VoxelCoord size = op.box.size();
+    if (std::max({size.x, size.y, size.z}) > limits::island_side_max_bricks * brick_size)
+      return fail("the island is longer than " + std::to_string(limits::island_side_max_bricks) +
+                  " bricks (limits.island_side_max_bricks)");
+    if (!op.box.holds(op.seed)) return fail("the island's seed is outside its box");
+    if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
+    return {};
+  }
 };
 
 }  // namespace
@@ -164,6 +193,7 @@ PieceIds ids_made_by(const Operation& operation) {
   if (const auto* carve = std::get_if<CarveOperation>(&operation)) return {carve->first_piece, carve->seeds};
   if (const auto* shatter = std::get_if<ShatterOperation>(&operation))
     return {shatter->first_piece, shatter->seeds};
+  if (const auto* island = std::get_if<IslandOperation>(&operation)) return {island->piece, 1};
   return {};
 }
 
@@ -172,6 +202,7 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
     return band_box(in_voxels(op->shape, voxel_size_m));
   if (const auto* op = std::get_if<FillOperation>(&operation))
     return band_box(in_voxels(op->shape, voxel_size_m));
+  if (const auto* op = std::get_if<IslandOperation>(&operation)) return lift_box(op->box);
   const auto* op = std::get_if<StampOperation>(&operation);
   if (op == nullptr) return {};
   const auto found = pieces.find(op->piece);
@@ -184,6 +215,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces) {
   if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
   if (const auto* op = std::get_if<StampOperation>(&operation)) return apply_stamp(*op, field, pieces);
   if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
+  if (const auto* op = std::get_if<IslandOperation>(&operation)) return apply_island(*op, field, pieces);
   Applied applied;
   applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
   return applied;

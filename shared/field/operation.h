@@ -64,8 +64,19 @@ struct ShatterOperation {
   bool operator==(const ShatterOperation&) const = default;
 };
 
-using Operation =
-    std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation, ShatterOperation>;
+/// Terrain that hangs loose leaves the field: the solid voxels that connect to `seed` within `box` become a
+/// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and seed in
+/// voxels, which are exact.
+struct IslandOperation {
+  VoxelBox box;
+  VoxelCoord seed;
+  PieceId piece = 0;
+
+  bool operator==(const IslandOperation&) const = default;
+};
+
+using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
+                               ShatterOperation, IslandOperation>;
 
 /// The piece that the operation takes out of the table, if any.
 std::optional<PieceId> piece_ended_by(const Operation& operation);
@@ -89,7 +100,7 @@ struct Applied {
   std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
   std::vector<glm::vec3> seeds_voxels;
   MassUnits terrain_gain = 0;  ///< negative for a carve
-  MassUnits dust = 0;          ///< mass that went into no piece (carve, shatter), or a discarded piece's
+  MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
 };
 
 /// The voxels that apply() reads. A field that holds these bricks (and, for a stamp, the piece) can apply it.

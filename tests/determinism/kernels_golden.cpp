@@ -8,6 +8,7 @@
 
 #include "shared/base/random.h"
 #include "shared/field/edit.h"
+#include "shared/field/island_search.h"
 #include "shared/field/operation.h"
 #include "shared/field/redistance.h"
 #include "shared/field/stamp.h"
@@ -232,6 +233,31 @@ void print_shatter() {
   digest.print("shatter");
 }
 
+/// Posts, their feet carved away: found, and lifted.
+void print_islands() {
+  MapField field({TerrainKind::noise, 5, 0.25F});
+  PieceTable pieces;
+  Digest digest;
+  for (PieceId id = 1; id <= 4; ++id) {
+    const float x_m = 5.0F * static_cast<float>(id);
+    const glm::vec3 foot(x_m, ground_height_m(field.source(), x_m, 2.0F), 2.0F);
+    const glm::vec3 top = foot + glm::vec3(0.4F, 4.0F, 0.3F);
+    apply(FillOperation{capsule(foot, top, 0.5F + 0.1F * static_cast<float>(id))}, field, pieces);
+    const Applied cut =
+        apply(CarveOperation{sphere(foot, 1.4F), SeedPattern::uniform, 1, id, foot, id * 10}, field, pieces);
+    IslandSearch search(field, cut.changed);
+    for (size_t bricks = 5; !search.advance(bricks); bricks = 5) {
+    }
+    for (const Island& island : search.islands()) {
+      const Applied lifted = apply(IslandOperation{island.box, island.seed, id * 10 + 5}, field, pieces);
+      digest.add(static_cast<uint64_t>(lifted.terrain_gain));
+      for (const CreatedPiece& piece : lifted.created) digest.add(*pieces.at(piece.id));
+    }
+    digest.add(field.hash());
+  }
+  digest.print("islands");
+}
+
 /// Carves, fills, and stamps or discards what was carved, through apply() alone, as a session does.
 void print_session(TerrainKind kind) {
   const TerrainSource source{kind, 3, 0.25F};
@@ -275,6 +301,7 @@ int main() {
   scree::print_fracture();
   scree::print_stamp();
   scree::print_shatter();
+  scree::print_islands();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);
   return 0;

@@ -1,0 +1,128 @@
+// Terrain that is cut off falls: towers and arches in a whole world.
+#include <algorithm>
+#include <gtest/gtest.h>
+
+#include "bench/scenes.h"
+#include "server/world/published_state.h"
+#include "server/world/world.h"
+
+namespace scree {
+namespace {
+
+constexpr int settle_ticks_max = 1800;
+
+std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
+  return world.step(commands);
+}
+
+WorldConfig flat_world() {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  return config;
+}
+
+std::vector<Command> pour(const std::vector<Shape>& shapes) {
+  std::vector<Command> commands;
+  for (const Shape& shape : shapes) commands.push_back({1, 1, FillRequest{shape}});
+  return commands;
+}
+
+/// One piece from the cut itself; it stays where it is.
+Command cut(const Shape& shape) {
+  CarveRequest request;
+  request.shape = shape;
+  request.seeds = 1;
+  request.impact_m = centre_of(shape);
+  request.blast_speed_m_s = 0.0F;
+  return {1, 2, request};
+}
+
+size_t islands_of(const TickDelta& delta) {
+  return static_cast<size_t>(std::ranges::count_if(delta.operations, [](const AppliedOperation& applied) {
+    return std::holds_alternative<IslandOperation>(applied.operation);
+  }));
+}
+
+MassUnits mass_of(const TickDelta& delta, size_t spawned) {
+  return delta.spawned.at(spawned).volume->mass;
+}
+
+TEST(falling, a_tower_cut_at_its_foot_falls_in_the_tick_of_the_cut) {
+  World world(flat_world());
+  const auto poured = step(world, pour({box({0.0F, 4.0F, 0.0F}, {1.5F, 6.0F, 1.5F})}));
+  const auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {2.0F, 0.5F, 2.0F}))});
+  EXPECT_TRUE(delta->replies[0].refusal.empty()) << delta->replies[0].refusal;
+  ASSERT_EQ(islands_of(*delta), 1U);
+  ASSERT_EQ(delta->spawned.size(), 2U);
+  // 3 × 3 m, from 1.25 to 10 m, in voxels.
+  EXPECT_NEAR(static_cast<double>(mass_of(*delta, 1)) / units_per_voxel, 12.0 * 12.0 * 35.0, 60.0);
+  EXPECT_EQ(delta->ledger.error(), 0);
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+  EXPECT_EQ(delta->ledger.poured, poured->ledger.poured);
+}
+
+TEST(falling, what_fell_comes_to_rest_and_is_terrain_again) {
+  World world(flat_world());
+  step(world, pour({box({0.0F, 2.0F, 0.0F}, {1.0F, 3.0F, 1.0F})}));
+  PublishedState published;
+  auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {1.5F, 0.5F, 1.5F}))});
+  ASSERT_EQ(islands_of(*delta), 1U);
+  const MassUnits fell = mass_of(*delta, 1);
+  for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) {
+    ASSERT_EQ(delta->ledger.error(), 0);
+    delta = step(world);
+  }
+  EXPECT_TRUE(delta->pieces.empty());
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+  EXPECT_LT(std::abs(static_cast<double>(delta->ledger.dust)), 0.02 * static_cast<double>(fell));
+}
+
+TEST(falling, an_arch_cut_at_one_end_hangs_and_at_both_ends_falls) {
+  World world(flat_world());
+  step(world, pour({box({-5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}), box({5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
+                    box({0.0F, 6.5F, 0.0F}, {6.0F, 1.0F, 1.0F})}));
+  const auto one = step(world, {cut(sphere({-5.0F, 2.0F, 0.0F}, 2.0F))});
+  EXPECT_EQ(islands_of(*one), 0U);
+  const auto both = step(world, {cut(sphere({5.0F, 2.0F, 0.0F}, 2.0F))});
+  ASSERT_EQ(islands_of(*both), 1U);
+  EXPECT_GT(mass_of(*both, both->spawned.size() - 1), MassUnits{units_per_voxel} * 48 * 8 * 8);
+  EXPECT_EQ(both->ledger.error(), 0);
+  EXPECT_EQ(world.measure_terrain(), both->ledger.terrain);
+}
+
+TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
+  WorldConfig config = flat_world();
+  config.pieces_max = 1;
+  World world(config);
+  // A beam on a post: what is cut out of it drops, and leaves the gap open.
+  step(world,
+       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
+  auto delta = step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+  EXPECT_EQ(delta->pieces.size(), 1U);
+  EXPECT_EQ(islands_of(*delta), 0U);
+  size_t islands = 0;
+  for (int tick = 0; tick < settle_ticks_max && islands == 0; ++tick) {
+    delta = step(world);
+    EXPECT_LE(delta->pieces.size(), 1U);
+    islands += islands_of(*delta);
+  }
+  EXPECT_EQ(islands, 1U);
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+}
+
+TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
+  World one(flat_world()), other(flat_world());
+  for (int tick = 0; tick < 200; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 0)
+      commands =
+          pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({6.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+    if (tick == 1) commands = {cut(sphere({0.0F, 1.5F, 0.0F}, 2.0F)), cut(sphere({6.0F, 1.5F, 0.0F}, 2.0F))};
+    const auto a = step(one, commands), b = step(other, commands);
+    ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
+    EXPECT_EQ(islands_of(*a), tick == 1 ? 2U : 0U) << "tick " << tick;
+  }
+}
+
+}  // namespace
+}  // namespace scree
