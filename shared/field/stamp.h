@@ -1,18 +1,20 @@
 // Recombination by stamp: a piece's posed volume becomes terrain again.
 //
-// terrain := terrain ∪ (volume, its iso-level shifted), gaps of less than a voxel closed, interior seams
-// filled, the neighbourhood redistanced. Plain min/max loses 5 % of the volume over 50 cycles; each of these
-// steps earns its place (docs/architecture.md, Recombine).
+// terrain := terrain ∪ volume; gaps between the two closed, interior seams filled, the neighbourhood
+// redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile too light in its
+// clefts: so the mass is met there first, by rounding edges or filling clefts, and only what that cannot hold
+// by moving the whole surface. Pieces merged where they were thus restore the surface that they had (bench
+// seams; docs/architecture.md, Recombine).
 #pragma once
 
 #include "shared/field/piece.h"
 
 namespace scree {
 
-/// Iso-level shifts are multiples of 1/2048 voxel, at most one voxel; positive grows the piece. Much finer
-/// than a code: voxels round at different shifts, so the mass can be met to a few units.
-inline constexpr float stamp_shift_steps_per_voxel = 2048.0F;
-inline constexpr int stamp_shift_max = 2048;
+/// How far to round edges (negative) or to fill clefts (positive): all the way at ± half of the maximum;
+/// beyond it the whole surface moves, by up to half a voxel at the maximum. Each voxel rounds at a shift of
+/// its own, so that the mass can be met to a few units. 14 bits: two bytes on the wire.
+inline constexpr int stamp_shift_max = 8191;
 
 /// The voxels that stamping may read; all that it may change lie at least one voxel inside.
 VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);

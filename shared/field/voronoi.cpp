@@ -10,6 +10,7 @@
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/field/cell_cut.h"
 
 namespace scree {
 
@@ -92,30 +93,19 @@ std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec
   return labels;
 }
 
-/// Mass, and first moment of it, that the terrain lost in one cell.
-struct CellMass {
-  MassUnits mass = 0;
-  MassUnits x = 0;
-  MassUnits y = 0;
-  MassUnits z = 0;
-};
+/// What the terrain lost, voxel by voxel.
+std::vector<uint8_t> lost_units(const Window& before, const Window& after) {
+  std::vector<uint8_t> lost(before.codes.size());
+  for (size_t i = 0; i < lost.size(); ++i)
+    lost[i] = static_cast<uint8_t>(occupancy(before.codes[i]) - occupancy(after.codes[i]));
+  return lost;
+}
 
-std::vector<CellMass> share_out(const Window& before, const Window& after, const std::vector<Label>& labels,
-                                size_t cells) {
-  std::vector<CellMass> masses(cells);
-  const VoxelBox& box = before.box;
-  size_t i = 0;
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
-        const MassUnits lost = occupancy(before.codes[i]) - occupancy(after.codes[i]);
-        if (lost == 0) continue;
-        CellMass& cell = masses[labels[i]];
-        cell.mass += lost;
-        cell.x += lost * (x - box.lo.x);
-        cell.y += lost * (y - box.lo.y);
-        cell.z += lost * (z - box.lo.z);
-      }
+/// What was lost nearest to each seed: near enough to tell which cells are too light.
+std::vector<MassUnits> rough_masses(const std::vector<uint8_t>& lost, const std::vector<Label>& labels,
+                                    size_t cells) {
+  std::vector<MassUnits> masses(cells);
+  for (size_t i = 0; i < lost.size(); ++i) masses[labels[i]] += lost[i];
   return masses;
 }
 
@@ -178,10 +168,9 @@ std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const 
 /// Which cells make up which piece: cells too light to stand alone join the heaviest piece that they touch.
 class Grouping {
  public:
-  Grouping(const std::vector<CellMass>& cells, const std::vector<std::pair<Label, Label>>& touching)
-      : parent_(cells.size()), mass_(cells.size()) {
+  Grouping(const std::vector<MassUnits>& cells, const std::vector<std::pair<Label, Label>>& touching)
+      : parent_(cells.size()), mass_(cells) {
     std::iota(parent_.begin(), parent_.end(), Label{0});
-    for (size_t i = 0; i < cells.size(); ++i) mass_[i] = cells[i].mass;
     for (bool joined = true; joined;) joined = join_round(touching);
     join_stragglers();
   }
@@ -241,63 +230,6 @@ class Grouping {
   std::vector<MassUnits> mass_;
 };
 
-/// The plane half-way between two seeds, as distance(v) = offset + dot(normal, v); positive beyond it.
-struct Bisector {
-  glm::vec3 normal;
-  float offset;
-
-  Bisector(glm::vec3 own, glm::vec3 other) {
-    const glm::vec3 along = other - own;
-    normal = along / std::sqrt(glm::dot(along, along));
-    offset = -glm::dot(normal, (own + other) * 0.5F);
-  }
-};
-
-/// Voxels along z that are cut at a time: two vectors of four floats.
-constexpr int cut_width = 8;
-using CutRow = std::array<float, cut_width>;
-
-/// d := max over the neighbours of (min over the own seeds of the distance beyond the bisector), and d
-/// itself. `planes` holds own · neighbours bisectors, those of one neighbour together.
-void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& d) {
-  for (size_t p = 0; p < planes.size(); p += own) {
-    CutRow beyond;
-    beyond.fill(std::numeric_limits<float>::max());
-    for (size_t k = 0; k < own; ++k) {
-      const Bisector& plane = planes[p + k];
-      const float base =
-          plane.offset + (plane.normal.x * first.x + plane.normal.y * first.y + plane.normal.z * first.z);
-      for (int z = 0; z < cut_width; ++z) {
-        const float at = base + plane.normal.z * static_cast<float>(z);
-        beyond[z] = std::min(beyond[z], at);
-      }
-    }
-    for (int z = 0; z < cut_width; ++z) d[z] = std::max(d[z], beyond[z]);
-  }
-}
-
-/// The part of the volume nearer to the group's seeds than to any neighbour's.
-Window cut_group(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
-                 const std::vector<glm::vec3>& neighbours) {
-  std::vector<Bisector> planes;
-  for (const glm::vec3& other : neighbours)
-    for (const glm::vec3& seed : own) planes.emplace_back(seed, other);
-  Window cut(box);
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y) {
-      const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
-      Code* to = cut.codes.data() + cut.index(x, y, box.lo.z);
-      for (int z = box.lo.z; z < box.hi.z; z += cut_width, from += cut_width, to += cut_width) {
-        const int count = std::min(cut_width, box.hi.z - z);
-        CutRow d{};
-        for (int k = 0; k < count; ++k) d[static_cast<size_t>(k)] = decode(from[k]);
-        cut_row(planes, own.size(), as_vec3(x, y, z), d);
-        for (int k = 0; k < count; ++k) to[k] = encode(d[static_cast<size_t>(k)]);
-      }
-    }
-  return cut;
-}
-
 /// Per piece: the bounds of its voxels in or near the volume, grown so that its surface lies within.
 std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>& labels,
                                   const Grouping& groups, size_t cells) {
@@ -326,11 +258,22 @@ std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>
   return boxes;
 }
 
-glm::vec3 centre_of_mass(const CellMass& sum, VoxelCoord origin) {
+glm::vec3 centre_of_mass(const PartMass& sum, VoxelCoord origin) {
   const auto mass = static_cast<double>(sum.mass);
   return {static_cast<float>(static_cast<double>(sum.x) / mass + origin.x),
           static_cast<float>(static_cast<double>(sum.y) / mass + origin.y),
           static_cast<float>(static_cast<double>(sum.z) / mass + origin.z)};
+}
+
+/// The masses of the parts; where one came out lighter than a piece may be, every voxel is all its nearest
+/// part's.
+std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>& lost,
+                                const std::vector<Label>& nearest, std::vector<CellPart>& parts) {
+  std::vector<PartMass> masses = share_out(box, lost, nearest, parts);
+  const auto light = [](const PartMass& part) { return part.mass < limits::piece_mass_min; };
+  if (std::ranges::none_of(masses, light)) return masses;
+  for (CellPart& part : parts) std::ranges::fill(part.within, uint8_t{0});
+  return share_out(box, lost, nearest, parts);
 }
 
 }  // namespace
@@ -339,47 +282,49 @@ Cut cut_cells(const Window& volume, const Window& before, const Window& after,
               const std::vector<glm::vec3>& seeds_voxels) {
   CHECK(volume.codes.size() == before.codes.size() && volume.codes.size() == after.codes.size());
   Cut cut;
-  if (seeds_voxels.empty()) {
-    for (size_t i = 0; i < before.codes.size(); ++i)
-      cut.dust += occupancy(before.codes[i]) - occupancy(after.codes[i]);
+  const std::vector<uint8_t> lost = lost_units(before, after);
+  const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
+  if (seeds_voxels.empty() || total < limits::piece_mass_min) {
+    cut.dust = total;
     return cut;
   }
   const size_t cells = seeds_voxels.size();
-  const std::vector<Label> labels = label_voxels(volume, seeds_voxels);
-  const std::vector<CellMass> masses = share_out(before, after, labels, cells);
+  std::vector<Label> labels = label_voxels(volume, seeds_voxels);
   const auto touching = touching_cells(volume, labels, cells);
-  const Grouping groups(masses, touching);
+  const Grouping groups(rough_masses(lost, labels, cells), touching);
   const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
 
-  std::vector<std::vector<uint32_t>> members(cells);
-  std::vector<CellMass> sums(cells);
+  std::vector<std::vector<glm::vec3>> own(cells), neighbours(cells);
+  std::vector<Label> piece_of(cells);  // a root's piece, then every cell's
   for (size_t i = 0; i < cells; ++i) {
     const Label root = groups.root(static_cast<Label>(i));
-    members[root].push_back(static_cast<uint32_t>(i));
-    CellMass& sum = sums[root];
-    sum = {sum.mass + masses[i].mass, sum.x + masses[i].x, sum.y + masses[i].y, sum.z + masses[i].z};
+    if (root == i) {
+      piece_of[i] = static_cast<Label>(cut.pieces.size());
+      cut.pieces.emplace_back();
+    }
+    piece_of[i] = piece_of[root];
+    cut.pieces[piece_of[i]].seeds.push_back(static_cast<uint32_t>(i));
+    own[root].push_back(seeds_voxels[i]);
   }
-  std::vector<std::vector<glm::vec3>> neighbours(cells);
   for (const auto& [a, b] : touching) {
     const Label ra = groups.root(a), rb = groups.root(b);
     if (ra == rb) continue;
     neighbours[ra].push_back(seeds_voxels[b]);
     neighbours[rb].push_back(seeds_voxels[a]);
   }
-  for (size_t root = 0; root < cells; ++root) {
-    if (members[root].empty()) continue;
-    if (sums[root].mass < limits::piece_mass_min) {
-      cut.dust += sums[root].mass;
-      continue;
-    }
-    std::vector<glm::vec3> own;
-    for (const uint32_t i : members[root]) own.push_back(seeds_voxels[i]);
-    CutPiece piece;
-    piece.volume.window = cut_group(volume, boxes[root], own, neighbours[root]);
-    piece.volume.mass = sums[root].mass;
-    piece.volume.centre_voxels = centre_of_mass(sums[root], before.box.lo);
-    piece.seeds = members[root];
-    cut.pieces.push_back(std::move(piece));
+  std::vector<CellPart> parts;
+  parts.reserve(cut.pieces.size());
+  for (const CutPiece& piece : cut.pieces) {
+    const uint32_t root = piece.seeds.front();
+    parts.push_back(cut_part(volume, boxes[root], own[root], neighbours[root]));
+  }
+  for (Label& label : labels) label = piece_of[label];
+  const std::vector<PartMass> masses = masses_of(before.box, lost, labels, parts);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Volume& piece = cut.pieces[i].volume;
+    piece.window = std::move(parts[i].window);
+    piece.mass = masses[i].mass;
+    piece.centre_voxels = centre_of_mass(masses[i], before.box.lo);
   }
   return cut;
 }

@@ -1,0 +1,142 @@
+#include "shared/field/cell_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace scree {
+
+namespace {
+
+glm::vec3 as_vec3(int x, int y, int z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+/// The plane half-way between two seeds, as distance(v) = offset + dot(normal, v); positive beyond it.
+struct Bisector {
+  glm::vec3 normal;
+  float offset;
+
+  Bisector(glm::vec3 own, glm::vec3 other) {
+    const glm::vec3 along = other - own;
+    normal = along / std::sqrt(glm::dot(along, along));
+    offset = -glm::dot(normal, (own + other) * 0.5F);
+  }
+};
+
+/// Voxels along z that are cut at a time: two vectors of four floats.
+constexpr int cut_width = 8;
+using CutRow = std::array<float, cut_width>;
+
+/// Far inside every plane, voxels.
+constexpr float deep_inside = -2.0F * band_voxels;
+
+/// d := max over the neighbours of (min over the own seeds of the distance beyond the bisector), and d
+/// itself. `planes` holds own · neighbours bisectors, those of one neighbour together.
+void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& d) {
+  for (size_t p = 0; p < planes.size(); p += own) {
+    CutRow beyond;
+    beyond.fill(std::numeric_limits<float>::max());
+    for (size_t k = 0; k < own; ++k) {
+      const Bisector& plane = planes[p + k];
+      const float base =
+          plane.offset + (plane.normal.x * first.x + plane.normal.y * first.y + plane.normal.z * first.z);
+      for (int z = 0; z < cut_width; ++z) {
+        const float at = base + plane.normal.z * static_cast<float>(z);
+        beyond[z] = std::min(beyond[z], at);
+      }
+    }
+    for (int z = 0; z < cut_width; ++z) d[z] = std::max(d[z], beyond[z]);
+  }
+}
+
+/// One part's claims as they stand in the window shared out: f(voxel there, voxel in the part, count).
+template <typename F>
+void for_each_row(const VoxelBox& whole, const VoxelBox& part, F&& f) {
+  const VoxelCoord size = whole.size(), own = part.size();
+  size_t from = 0;
+  for (int x = part.lo.x; x < part.hi.x; ++x)
+    for (int y = part.lo.y; y < part.hi.y; ++y, from += static_cast<size_t>(own.z))
+      f(x - whole.lo.x, y - whole.lo.y,
+        (static_cast<size_t>(x - whole.lo.x) * static_cast<size_t>(size.y) +
+         static_cast<size_t>(y - whole.lo.y)) *
+                static_cast<size_t>(size.z) +
+            static_cast<size_t>(part.lo.z - whole.lo.z),
+        from);
+}
+
+void add(PartMass& part, MassUnits mass, int x, int y, int z) {
+  part.mass += mass;
+  part.x += mass * x;
+  part.y += mass * y;
+  part.z += mass * z;
+}
+
+}  // namespace
+
+CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
+                  const std::vector<glm::vec3>& neighbours) {
+  std::vector<Bisector> planes;
+  planes.reserve(own.size() * neighbours.size());
+  for (const glm::vec3& other : neighbours)
+    for (const glm::vec3& seed : own) planes.emplace_back(seed, other);
+  CellPart part{Window(box), std::vector<uint8_t>(Window::count(box))};
+  Code* to = part.window.codes.data();
+  uint8_t* within = part.within.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y) {
+      const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
+      for (int z = box.lo.z; z < box.hi.z; z += cut_width) {
+        const int count = std::min(cut_width, box.hi.z - z);
+        CutRow d;
+        d.fill(deep_inside);
+        cut_row(planes, own.size(), as_vec3(x, y, z), d);
+        std::array<int, cut_width> code;
+        for (int k = 0; k < cut_width; ++k) code[static_cast<size_t>(k)] = encode(d[static_cast<size_t>(k)]);
+        for (int k = 0; k < count; ++k) {
+          *within++ = static_cast<uint8_t>(occupancy(code[static_cast<size_t>(k)]));
+          *to++ = std::max(*from++, static_cast<Code>(code[static_cast<size_t>(k)]));
+        }
+      }
+    }
+  return part;
+}
+
+std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
+                                const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts) {
+  std::vector<uint16_t> claims(lost.size());
+  for (const CellPart& part : parts) {
+    const auto count = static_cast<size_t>(part.window.box.size().z);
+    for_each_row(box, part.window.box, [&](int, int, size_t to, size_t from) {
+      for (size_t k = 0; k < count; ++k)
+        claims[to + k] = static_cast<uint16_t>(claims[to + k] + part.within[from + k]);
+    });
+  }
+  std::vector<uint8_t> left = lost;
+  std::vector<PartMass> masses(parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const CellPart& part = parts[i];
+    const int count = part.window.box.size().z, z = part.window.box.lo.z - box.lo.z;
+    for_each_row(box, part.window.box, [&](int x, int y, size_t to, size_t from) {
+      for (int k = 0; k < count; ++k) {
+        const size_t at = to + static_cast<size_t>(k);
+        const uint32_t own = part.within[from + static_cast<size_t>(k)];
+        if (own == 0 || lost[at] == 0) continue;
+        const uint32_t share = own == claims[at] ? lost[at] : lost[at] * own / claims[at];
+        left[at] = static_cast<uint8_t>(left[at] - share);
+        add(masses[i], share, x, y, z + k);
+      }
+    });
+  }
+  const VoxelCoord size = box.size();
+  size_t at = 0;
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y)
+      for (int z = 0; z < size.z; ++z, ++at)
+        if (left[at] != 0 && nearest[at] < masses.size()) add(masses[nearest[at]], left[at], x, y, z);
+  return masses;
+}
+
+}  // namespace scree

@@ -1,0 +1,37 @@
+// Cutting a volume along the planes half-way between seeds, and sharing its mass out among the parts.
+// Deterministic; voxels.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shared/field/mass.h"
+#include "shared/field/window.h"
+
+namespace scree {
+
+/// A part of a volume, and what share of each voxel of its window lies within its planes: 0 … 254.
+struct CellPart {
+  Window window;
+  std::vector<uint8_t> within;
+};
+
+/// The part of the volume within `box` nearer to one of the own seeds than to any neighbour's.
+CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
+                  const std::vector<glm::vec3>& neighbours);
+
+/// Mass, and first moments of it about the low corner of the window shared out.
+struct PartMass {
+  MassUnits mass = 0;
+  MassUnits x = 0;
+  MassUnits y = 0;
+  MassUnits z = 0;
+};
+
+/// Shares `lost` (units a voxel) out among the parts, voxel by voxel as they lie within their planes; what no
+/// part claims goes to `nearest`, a part's index a voxel. The sum is exactly that of `lost`.
+std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
+                                const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts);
+
+}  // namespace scree
