@@ -34,7 +34,7 @@ struct World::State {
   WorldConfig config;
   VdbField field;
   PieceTable pieces;
-  Bodies bodies;  ///< one for each of `pieces`
+  Bodies bodies;                          ///< one for each of `pieces`
   std::map<PieceId, PieceTraits> traits;  ///< of pieces that have others than the default ones
   RestDetector rest;
   Ledger ledger;
