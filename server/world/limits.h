@@ -6,9 +6,6 @@
 
 namespace scree::limits {
 
-/// Density of every piece, kg/m³: broken rock. Only ratios of masses matter to the bodies.
-inline constexpr float rock_density_kg_m3 = 2000.0F;
-
 /// Bricks at which the search for islands looks in one tick: about 1 ms. Above: it goes on in the next tick.
 inline constexpr size_t island_bricks_per_tick = 1024;
 
