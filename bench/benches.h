@@ -6,6 +6,7 @@
 namespace scree {
 
 BenchReport run_carve_bench(const BenchOptions& options);
+BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
 

@@ -50,7 +50,8 @@ struct Library {
 
 const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
-      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/"}},
+      // bench/peers_*: its own tools are what ours are measured beside.
+      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers_"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
