@@ -2,6 +2,7 @@
 // hostile server that gets an error, not a crash.
 #include "client/mirror/mirror.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "proto/transforms.h"
@@ -77,6 +78,25 @@ TEST(Mirror, operations_give_the_same_hash_pieces_and_poses_as_on_the_server) {
   EXPECT_FALSE(pair.mirror.take_repair_request());
   for (const ChunkCoord chunk : pair.source.field().edited_chunks())
     EXPECT_TRUE(pair.mirror.held_chunks().contains(chunk));
+}
+
+TEST(Mirror, children_of_a_piece_that_shatters_start_where_it_was_seen) {
+  Pair pair;
+  ASSERT_TRUE(pair.mirror.apply(pair.frame({pair.carve(1)})));
+  const PieceId parent = pair.source.pieces().begin()->first;
+  pair.source.move(parent, {3.0F, 7.0F, 0.0F});
+  ASSERT_TRUE(pair.mirror.apply(pair.frame({}, true)));
+  const glm::vec3 centre = pair.source.pieces().at(parent)->centre_voxels;
+  const auto broken =
+      pair.mirror.apply(pair.frame({ShatterOperation{parent, SeedPattern::uniform, 4, 1, centre, 50}}));
+  ASSERT_TRUE(broken) << broken.error().message;
+  EXPECT_EQ(broken->pieces_removed, std::vector<PieceId>{parent});
+  EXPECT_EQ(broken->pieces_added.size(), 4U);
+  EXPECT_EQ(pair.mirror.counters().shatters, 1U);
+  for (const auto& [id, motion] : pair.mirror.pieces()) {
+    const glm::vec3 cut_m = motion.volume->centre_voxels * flat.voxel_size_m;
+    EXPECT_NEAR(glm::distance(motion.to.position_m, cut_m + glm::vec3(3.0F, 7.0F, 0.0F)), 0.0F, 0.01F);
+  }
 }
 
 TEST(Mirror, a_mismatch_asks_for_the_chunks_and_a_chunk_message_repairs_them) {

@@ -174,6 +174,22 @@ TEST_F(PublisherTest, operation_whose_piece_is_unknown_arrives_as_bricks) {
   expect_whole_field_equal(session);
 }
 
+TEST_F(PublisherTest, a_known_piece_shatters_by_operation_and_an_unknown_ones_children_arrive_whole) {
+  join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
+  tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 2)});
+  join(2, {0.0F, 2.0F, 0.0F}, 64.0F);
+  tick();
+  ASSERT_TRUE(publisher.view(session)->knows(1));
+  ASSERT_FALSE(publisher.view(2)->knows(1));
+  tick({ShatterOperation{1, SeedPattern::radial, 5, 3, source.pieces().at(1)->centre_voxels, 100}});
+  EXPECT_EQ(followers.at(session).operations, 2U);
+  EXPECT_EQ(followers.at(2).operations, 0U);
+  for (int i = 0; i < 6; ++i) tick();
+  EXPECT_EQ(followers.at(session).piece_messages, 0U);
+  expect_whole_field_equal(session);
+  expect_whole_field_equal(2);
+}
+
 TEST_F(PublisherTest, far_edits_cost_a_client_nothing) {
   join(session, {0.0F, 2.0F, 0.0F}, 16.0F);
   tick();
