@@ -52,8 +52,11 @@ std::unique_ptr<Connection> welcomed(RawServer& server) {
 std::vector<Received> wait_for(Connection& connection, size_t count) {
   std::vector<Received> all;
   const auto end = std::chrono::steady_clock::now() + deadline;
-  while (all.size() < count && connection.connected() && std::chrono::steady_clock::now() < end)
+  // Read once more after the end: what arrived before it can still be polled.
+  for (bool open = true; open && all.size() < count && std::chrono::steady_clock::now() < end;) {
+    open = connection.connected();
     for (Received& received : connection.wait(100ms)) all.push_back(std::move(received));
+  }
   return all;
 }
 
