@@ -1,8 +1,12 @@
 // Terrain that is cut off falls: towers and arches in a whole world.
 #include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-#include "bench/scenes.h"
+#include "client/mirror/mirror.h"
+#include "server/replay/verify.h"
+#include "server/store/recorder.h"
 #include "server/world/published_state.h"
 #include "server/world/world.h"
 
@@ -122,6 +126,53 @@ TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
     ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
     EXPECT_EQ(islands_of(*a), tick == 1 ? 2U : 0U) << "tick " << tick;
   }
+}
+
+TEST(falling, a_client_that_applies_the_same_operations_has_the_same_field_and_pieces) {
+  World world(flat_world());
+  WelcomeMessage welcome;
+  welcome.terrain = world.config().terrain;
+  Mirror mirror(welcome);
+  size_t islands = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 0) commands = pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+    if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
+    const auto delta = step(world, commands);
+    FrameMessage frame;
+    frame.tick = delta->tick;
+    for (const AppliedOperation& applied : delta->operations) frame.operations.push_back(applied.operation);
+    const Result<MirrorChanges> applied = mirror.apply(frame);
+    ASSERT_TRUE(applied) << applied.error().message;
+    ASSERT_EQ(mirror.field().hash(), delta->field_hash) << "tick " << tick;
+    ASSERT_EQ(mirror.pieces().size(), delta->pieces.size()) << "tick " << tick;
+    islands += islands_of(*delta);
+  }
+  EXPECT_EQ(islands, 1U);
+  EXPECT_EQ(mirror.counters().islands, 1U);
+}
+
+TEST(falling, a_recorded_fall_verifies) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scree_falling_" + std::to_string(::getpid()) + ".scree");
+  World world(flat_world());
+  {
+    auto recorder = Recorder::create(path.string(), {"test", world.config()});
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    for (int tick = 0; tick < 120; ++tick) {
+      std::vector<Command> commands;
+      if (tick == 0) commands = pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+      if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
+      (*recorder)->push(step(world, commands), commands);
+    }
+    ASSERT_TRUE((*recorder)->finish().has_value());
+  }
+  auto reader = RecordingReader::open(path.string());
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  const auto report = verify(**reader, {});
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->difference;
+  std::filesystem::remove(path);
 }
 
 }  // namespace
