@@ -54,6 +54,8 @@ void ServerReport::add(const TickDelta& delta) {
     const Operation& operation = applied.operation;
     carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
     fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
+    shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
+    islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
     pieces_merged += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
     pieces_lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
   }
@@ -69,7 +71,9 @@ void ServerReport::add(const TickDelta& delta) {
   }
   if (pieces_merged != merged_before) stages["recombine"].add(times.recombine_ms);
   stages["bodies"].add(times.bodies_ms);
+  stages["impacts"].add(times.impacts_ms);
   stages["rest"].add(times.rest_ms);
+  stages["islands"].add(times.islands_ms);
   stages["publish"].add(times.publish_ms);
   stages["tick"].add(times.total_ms);
 }
@@ -81,6 +85,8 @@ std::string to_json(const ServerReport& report) {
             {"seconds", report.seconds},
             {"carves", report.carves},
             {"fills", report.fills},
+            {"shatters", report.shatters},
+            {"islands", report.islands},
             {"pieces_made", report.pieces_made},
             {"pieces_merged", report.pieces_merged},
             {"pieces_lost", report.pieces_lost},

@@ -17,6 +17,8 @@ struct ServerReport {
   double seconds = 0.0;  ///< since the start
   uint64_t carves = 0;
   uint64_t fills = 0;
+  uint64_t shatters = 0;  ///< pieces that broke again
+  uint64_t islands = 0;   ///< pieces of terrain that fell
   uint64_t pieces_made = 0;
   uint64_t pieces_merged = 0;
   uint64_t pieces_lost = 0;  ///< that left the world and became dust

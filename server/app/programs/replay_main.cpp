@@ -45,7 +45,7 @@ void print(const Json& json, bool as_json) {
 
 /// What the frames and commands of a recording add up to.
 struct Sums {
-  uint64_t commands = 0, carves = 0, fills = 0, merges = 0, lost = 0;
+  uint64_t commands = 0, carves = 0, fills = 0, merges = 0, lost = 0, shatters = 0, islands = 0;
   RecordedFrame last;
 };
 
@@ -60,6 +60,8 @@ Result<Sums> sum_up(RecordingReader& recording) {
     for (const Operation& operation : frame->operations) {
       sums.carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
       sums.fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
+      sums.shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
+      sums.islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
       sums.merges += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
       sums.lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
     }
@@ -91,6 +93,8 @@ int info(const Options& options) {
          {"commands", sums->commands},
          {"carves", sums->carves},
          {"fills", sums->fills},
+         {"shatters", sums->shatters},
+         {"islands", sums->islands},
          {"merges", sums->merges},
          {"lost", sums->lost},
          {"ledger_error", ledger.error()},
