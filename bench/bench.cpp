@@ -15,6 +15,9 @@ const std::vector<Bench>& all_benches() {
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
        run_ledger_bench},
+      {"recombine", "stamps against OpenVDB's meshToVolume and csgUnion, and the paper's spheres",
+       run_recombine_bench},
+      {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
   };
   return benches;

@@ -20,7 +20,8 @@ void merge(World::State& state, PieceId id, TickDelta& delta) {
   const std::shared_ptr<const Volume> volume = state.pieces.at(id);
   StampOperation operation{id, quantise(state.bodies.state(id).pose), 0};
   const Window window = gather(state.field, stamp_box(*volume, operation.pose, dx));
-  operation.shift = plan_stamp(window, *volume, operation.pose, dx, volume->mass + state.ledger.dust).shift;
+  operation.shift =
+      plan_stamp(window, *volume, operation.pose, dx, stamp_budget(volume->mass, state.ledger.dust)).shift;
   state.bodies.remove(id);
   const Applied applied = state.apply_and_record(operation, delta);
   state.ledger.pieces -= volume->mass;

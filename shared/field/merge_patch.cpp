@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shared/base/vector_clones.h"
 #include "shared/field/stamp.h"
 
 namespace scree {
@@ -33,44 +34,93 @@ void copy_rows(const Code* from, const VoxelBox& from_box, Code* to, const Voxel
                   static_cast<size_t>(part.hi.z - part.lo.z));
 }
 
-/// Σ occupancy as it will be once redistanced, of the voxels in [first, last) that are inner: one that
-/// touches no zero crossing will be full, or empty. No branch: it runs in vectors.
-MassUnits settled_mass(const std::vector<Code>& codes, const std::vector<uint8_t>& inner, size_t first,
-                       size_t last, ptrdiff_t step_x, ptrdiff_t step_y) {
-  const Code* __restrict c = codes.data();
-  const uint8_t* __restrict counts = inner.data();
+/// Σ occupancy as it will be once redistanced, of `count` voxels from these pointers on that are inner: one
+/// that touches no zero crossing will be full, or empty. No branch: it runs in vectors.
+SCREE_VECTOR_CLONES
+int settled_sum(const Code* __restrict c, const uint8_t* __restrict inner, ptrdiff_t count, ptrdiff_t step_x,
+                ptrdiff_t step_y) {
   int sum = 0;
-  for (auto i = static_cast<ptrdiff_t>(first); i < static_cast<ptrdiff_t>(last); ++i) {
-    const auto own = static_cast<int8_t>(c[i]);
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = c[i];
     const auto signs =
         static_cast<int8_t>((own ^ c[i - 1]) | (own ^ c[i + 1]) | (own ^ c[i - step_y]) |
                             (own ^ c[i + step_y]) | (own ^ c[i - step_x]) | (own ^ c[i + step_x]));
-    // Voxels away from any crossing: as if the code saturated.
     const auto settled = static_cast<int8_t>(own < 0 ? -127 : 127);
-    const int8_t code = signs < 0 ? own : settled;
-    const auto twice = static_cast<int16_t>(std::min<int>(std::max<int>(code, -22), 22));
-    const auto ramp = static_cast<int16_t>(127 - 6 * twice);
-    const int16_t full = ramp < 0 ? int16_t{0} : (ramp > 254 ? int16_t{254} : ramp);
-    sum += full & counts[i];
+    int8_t code = signs < 0 ? own : settled;
+    code = code < -22 ? int8_t{-22} : code;
+    code = code > 22 ? int8_t{22} : code;
+    auto full = static_cast<int16_t>(127 - 6 * code);
+    full = full < 0 ? int16_t{0} : full;
+    full = full > units_per_voxel ? int16_t{units_per_voxel} : full;
+    sum += static_cast<int16_t>(full & inner[i]);
   }
   return sum;
 }
 
-/// All ones for every voxel but the outermost layer's.
-std::vector<uint8_t> inner_mask(const VoxelBox& box) {
+MassUnits settled_mass(const std::vector<Code>& codes, const std::vector<uint8_t>& inner, size_t first,
+                       size_t last, ptrdiff_t step_x, ptrdiff_t step_y) {
+  return settled_sum(codes.data() + first, inner.data() + first, static_cast<ptrdiff_t>(last - first), step_x,
+                     step_y);
+}
+
+/// All ones where a voxel just outside, near the piece, lies between rock along two axes or all three: what
+/// is left of seams.
+SCREE_VECTOR_CLONES
+void find_pits(const Code* __restrict c, const uint8_t* __restrict core, ptrdiff_t count, ptrdiff_t step_x,
+               ptrdiff_t step_y, uint8_t* __restrict pits) {
+  constexpr Code shallow = 15;  // a third of a voxel
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const auto along_z = static_cast<int8_t>(c[i - 1] & c[i + 1]);
+    const auto along_y = static_cast<int8_t>(c[i - step_y] & c[i + step_y]);
+    const auto along_x = static_cast<int8_t>(c[i - step_x] & c[i + step_x]);
+    const auto two = static_cast<int8_t>((along_x & along_y) | (along_y & along_z) | (along_x & along_z));
+    pits[i] = static_cast<uint8_t>((two < 0 ? 0xFF : 0) & (c[i] >= 0 ? 0xFF : 0) &
+                                   (c[i] < shallow ? 0xFF : 0) & core[i]);
+  }
+}
+
+struct Amounts {
+  int curved;
+  int uniform;
+};
+
+/// Clefts filled and the piece grown.
+SCREE_VECTOR_CLONES
+void grow(size_t count, Amounts by, const Code* __restrict united, const Code* __restrict piece,
+          const int16_t* __restrict concave, const uint16_t* __restrict rounding, Code* __restrict out) {
+  for (size_t i = 0; i < count; ++i) {
+    const int filled = united[i] - ((by.curved * concave[i] + rounding[i]) >> fraction_bits);
+    const int grown = piece[i] == code_air ? 127 : piece[i] - ((by.uniform + rounding[i]) >> fraction_bits);
+    out[i] = static_cast<Code>(std::max(-127, std::min(filled, grown)));
+  }
+}
+
+/// Edges rounded and the piece shrunk, where it changed the terrain.
+SCREE_VECTOR_CLONES
+void shrink(size_t count, Amounts by, const Code* __restrict united, const Code* __restrict terrain,
+            const int16_t* __restrict convex, const uint8_t* __restrict touched,
+            const uint16_t* __restrict rounding, Code* __restrict out) {
+  for (size_t i = 0; i < count; ++i) {
+    const int raise = by.curved * convex[i] + by.uniform * touched[i] + rounding[i];
+    out[i] = static_cast<Code>(std::min<int>(terrain[i], united[i] + (raise >> fraction_bits)));
+  }
+}
+
+/// All ones for every voxel but those of the outermost layers.
+std::vector<uint8_t> inner_mask(const VoxelBox& box, int layers) {
   std::vector<uint8_t> mask(Window::count(box), 0);
   const VoxelCoord size = box.size();
-  for (int x = 1; x + 1 < size.x; ++x)
-    for (int y = 1; y + 1 < size.y; ++y)
-      std::memset(mask.data() + (static_cast<ptrdiff_t>(x) * size.y + y) * size.z + 1, 0xFF,
-                  static_cast<size_t>(size.z) - 2);
+  for (int x = layers; x + layers < size.x; ++x)
+    for (int y = layers; y + layers < size.y; ++y)
+      std::memset(mask.data() + (static_cast<ptrdiff_t>(x) * size.y + y) * size.z + layers, 0xFF,
+                  static_cast<size_t>(size.z - 2 * layers));
   return mask;
 }
 
 }  // namespace
 
 MassUnits settling_gain(const Window& window) {
-  const std::vector<uint8_t> inner = inner_mask(window.box);
+  const std::vector<uint8_t> inner = inner_mask(window.box, 1);
   const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
   const auto first = static_cast<size_t>(step_x + step_y + 1);
   const size_t last = window.codes.size() - first;
@@ -79,7 +129,7 @@ MassUnits settling_gain(const Window& window) {
   return settled_mass(window.codes, inner, first, last, step_x, step_y) - plain;
 }
 
-MergePatch::MergePatch(const Window& window, const Window& piece) : box_(piece.box.grown(2)) {
+MergePatch::MergePatch(const Window& window, const Window& piece) : box_(piece.box.grown(3)) {
   const VoxelCoord size = box_.size();
   step_y_ = size.z;
   step_x_ = step_y_ * size.y;
@@ -90,7 +140,8 @@ MergePatch::MergePatch(const Window& window, const Window& piece) : box_(piece.b
   copy_rows(window.codes.data(), window.box, terrain_.data(), box_, box_);
   piece_.assign(count, code_air);
   copy_rows(piece.codes.data(), piece.box, piece_.data(), box_, piece.box);
-  inner_ = inner_mask(box_);
+  inner_ = inner_mask(box_, 1);
+  core_ = inner_mask(box_, 2);
   before_ = settled_mass(terrain_, inner_, first_, last_, step_x_, step_y_);
   unite();
   close_gaps();
@@ -106,6 +157,7 @@ void MergePatch::unite() {
     united_[i] = std::min(piece_[i], terrain_[i]);
   }
   codes_ = united_;
+  pits_.assign(count, 0);
 }
 
 /// Outside voxels next to what the piece changed that lie in a gap of less than a voxel become rock, just
@@ -116,7 +168,7 @@ void MergePatch::close_gaps() {
   std::vector<size_t> gaps;
   for (size_t i = first_; i < last_; ++i) {
     const int here = united_[i];
-    if (here < 0 || here >= too_far || inner_[i] == 0) continue;
+    if (here < 0 || here >= too_far || core_[i] == 0) continue;
     const Code* c = united_.data() + i;
     const uint8_t* t = touched_.data() + i;
     for (const ptrdiff_t step : steps) {
@@ -162,26 +214,20 @@ void MergePatch::find_curvature() {
 void MergePatch::shape(int shift) {
   const int size = shift < 0 ? -shift : shift;
   const int curved = std::min(size, shift_half);
-  const int uniform = (size - curved) * uniform_step;
+  const Amounts by{curved, (size - curved) * uniform_step};
   const size_t count = terrain_.size();
-  if (shift >= 0) {
-    for (size_t i = 0; i < count; ++i) {
-      const int filled = united_[i] - ((curved * concave_[i] + rounding_[i]) >> fraction_bits);
-      const int grown = piece_[i] == code_air ? 127 : piece_[i] - ((uniform + rounding_[i]) >> fraction_bits);
-      codes_[i] = static_cast<Code>(std::max(-127, std::min(filled, grown)));
-    }
-    return;
-  }
-  for (size_t i = 0; i < count; ++i) {
-    const int raised =
-        united_[i] +
-        ((curved * convex_[i] + (touched_[i] != 0 ? uniform : 0) + rounding_[i]) >> fraction_bits);
-    codes_[i] = static_cast<Code>(std::min<int>(terrain_[i], raised));
-  }
+  if (shift >= 0)
+    grow(count, by, united_.data(), piece_.data(), concave_.data(), rounding_.data(), codes_.data());
+  else
+    shrink(count, by, united_.data(), terrain_.data(), convex_.data(), touched_.data(), rounding_.data(),
+           codes_.data());
 }
 
 MassUnits MergePatch::gain(int shift) {
   shape(shift);
+  find_pits(codes_.data() + first_, core_.data() + first_, static_cast<ptrdiff_t>(last_ - first_), step_x_,
+            step_y_, pits_.data() + first_);
+  for (size_t i = first_; i < last_; ++i) codes_[i] = pits_[i] != 0 ? Code{-1} : codes_[i];
   return settled_mass(codes_, inner_, first_, last_, step_x_, step_y_) - before_;
 }
 

@@ -12,7 +12,7 @@ namespace scree {
 
 class MergePatch {
  public:
-  /// `window` holds the terrain; `piece` the posed piece's codes, at least two voxels inside the window.
+  /// `window` holds the terrain; `piece` the posed piece's codes, at least three voxels inside the window.
   /// Unites the two and closes the gaps between them.
   MergePatch(const Window& window, const Window& piece);
 
@@ -36,10 +36,12 @@ class MergePatch {
   std::vector<Code> terrain_;
   std::vector<Code> piece_;
   std::vector<Code> united_;
-  std::vector<Code> codes_;         ///< as the last shift left them
-  std::vector<uint8_t> touched_;    ///< the piece changed this voxel
-  std::vector<uint8_t> inner_;      ///< all ones where the voxel counts, else 0
-  std::vector<int16_t> convex_;     ///< how far rounding raises the piece here
+  std::vector<Code> codes_;       ///< as the last shift left them
+  std::vector<uint8_t> touched_;  ///< the piece changed this voxel
+  std::vector<uint8_t> pits_;     ///< all ones where a lone voxel outside is to be filled
+  std::vector<uint8_t> inner_;    ///< all ones where the voxel counts, else 0
+  std::vector<uint8_t> core_;    ///< all ones where gaps may be closed: changes count in all their neighbours
+  std::vector<int16_t> convex_;  ///< how far rounding raises the piece here
   std::vector<int16_t> concave_;    ///< how far filling lowers the union here
   std::vector<uint16_t> rounding_;  ///< where between two codes this voxel rounds
   MassUnits before_ = 0;

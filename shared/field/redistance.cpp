@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "shared/base/check.h"
+#include "shared/base/vector_clones.h"
 
 namespace scree {
 
@@ -15,6 +16,32 @@ constexpr float far_voxels = band_voxels + 1.0F;
 
 /// Jacobi passes: each carries distances one voxel further; along a diagonal the band's depth of 3 takes 6.
 constexpr int passes = 6;
+
+/// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis.
+inline float upwind(float p, float q, float r) {
+  const float a = std::min(p, std::min(q, r));
+  const float c = std::max(p, std::max(q, r));
+  const float b = std::max(std::min(p, q), std::min(std::max(p, q), r));
+  const float one = a + 1.0F;
+  const float two = 0.5F * (a + b + std::sqrt(std::max(0.0F, 2.0F - (a - b) * (a - b))));
+  const float sum = a + b + c;
+  const float three =
+      (sum + std::sqrt(std::max(0.0F, sum * sum - 3.0F * (a * a + b * b + c * c - 1.0F)))) * (1.0F / 3.0F);
+  const float planar = two > c ? three : two;
+  return one > b ? planar : one;
+}
+
+/// The update of a row of voxels, but never below their floors. No branch, so that it runs in vectors.
+SCREE_VECTOR_CLONES
+void relax_row(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float* __restrict u,
+               const float* __restrict floor, float* __restrict out) {
+  for (ptrdiff_t z = 0; z < count; ++z) {
+    const float a = std::min(u[z - 1], u[z + 1]);
+    const float b = std::min(u[z - step_y], u[z + step_y]);
+    const float c = std::min(u[z - step_x], u[z + step_x]);
+    out[z] = std::max(floor[z], std::min(u[z], upwind(a, b, c)));
+  }
+}
 
 /// A window's magnitudes and sides with a border all around, so that no pass looks outside; and for each row
 /// along z how many rows away the nearest source of distances is, so that passes skip what they cannot reach.
@@ -95,36 +122,13 @@ class Solver {
         }
   }
 
-  /// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis.
-  static float upwind(float p, float q, float r) {
-    const float a = std::min(p, std::min(q, r));
-    const float c = std::max(p, std::max(q, r));
-    const float b = std::max(std::min(p, q), std::min(std::max(p, q), r));
-    const float one = a + 1.0F;
-    const float two = 0.5F * (a + b + std::sqrt(std::max(0.0F, 2.0F - (a - b) * (a - b))));
-    const float sum = a + b + c;
-    const float three =
-        (sum + std::sqrt(std::max(0.0F, sum * sum - 3.0F * (a * a + b * b + c * c - 1.0F)))) * (1.0F / 3.0F);
-    const float planar = two > c ? three : two;
-    return one > b ? planar : one;
-  }
-
-  /// to := the update of every voxel within reach of a source, but never below its floor. The inner loop has
-  /// no branch, so that it vectorises.
+  /// to := the update of every voxel within reach of a source.
   void relax(const std::vector<float>& from, std::vector<float>& to, int reach) const {
     for (int x = 0; x < size_.x; ++x)
       for (int y = 0; y < size_.y; ++y) {
         if (row_distance_[row_index(x, y)] > reach) continue;
         const size_t first = row(x, y);
-        const float* __restrict u = from.data() + first;
-        const float* __restrict floor = floors_.data() + first;
-        float* __restrict out = to.data() + first;
-        for (ptrdiff_t z = 0; z < size_.z; ++z) {
-          const float a = std::min(u[z - 1], u[z + 1]);
-          const float b = std::min(u[z - step_y_], u[z + step_y_]);
-          const float c = std::min(u[z - step_x_], u[z + step_x_]);
-          out[z] = std::max(floor[z], std::min(u[z], upwind(a, b, c)));
-        }
+        relax_row(size_.z, step_x_, step_y_, from.data() + first, floors_.data() + first, to.data() + first);
       }
   }
 

@@ -25,15 +25,16 @@ MergePatch patch_of(const Window& window, const Volume& volume, const QuantisedP
 /// gain is nearly linear in the shift, then bisection where the surface makes it jump.
 template <typename Gain>
 StampPlan search_shift(MassUnits budget, Gain&& gain_of) {
-  constexpr int evaluations_max = 14;
+  constexpr int evaluations_max = 12;
+  constexpr MassUnits near_enough = 0;  // half a code's worth of one voxel
   int low = -stamp_shift_max, high = stamp_shift_max;
-  StampPlan best{high, gain_of(high)};
-  if (best.gain <= budget) return best;
-  best = {low, gain_of(low)};
+  StampPlan best{low, gain_of(low)};
   if (best.gain >= budget) return best;
-  double under = static_cast<double>(best.gain - budget), over = static_cast<double>(gain_of(high) - budget);
+  const StampPlan most{high, gain_of(high)};
+  if (most.gain <= budget) return most;
+  auto under = static_cast<double>(best.gain - budget), over = static_cast<double>(most.gain - budget);
   int side = 0;
-  for (int i = 0; i < evaluations_max && high - low > 1; ++i) {
+  for (int i = 0; i < evaluations_max && high - low > 1 && budget - best.gain > near_enough; ++i) {
     const double part = under / (under - over);
     const int guess = low + static_cast<int>(part * (high - low));
     const int middle = std::clamp(i % 4 == 3 ? (low + high) / 2 : guess, low + 1, high - 1);
@@ -42,7 +43,6 @@ StampPlan search_shift(MassUnits budget, Gain&& gain_of) {
       best = {middle, gain};
       low = middle;
       under = static_cast<double>(gain - budget);
-      if (gain == budget) break;
       if (side == -1) over *= 0.5;
       side = -1;
     } else {

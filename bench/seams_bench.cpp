@@ -1,0 +1,159 @@
+// Carving a ball and merging its pieces back where they were, over and over: what does that do to the field?
+// Beside it the same with plain min and max, as constructive solid geometry on sampled fields does it.
+#include <cmath>
+#include <fmt/format.h>
+
+#include "bench/benches.h"
+#include "shared/field/operation.h"
+#include "shared/field/posed_piece.h"
+#include "shared/field/stamp.h"
+
+namespace scree {
+
+namespace {
+
+constexpr float voxel_size_m = 0.25F;
+constexpr float radius_m = 2.0F;
+constexpr uint32_t seeds = 64;
+
+/// The voxels that are looked at: the ball's, and some around them.
+VoxelBox looked_at(glm::vec3 centre_m) {
+  return band_box(in_voxels(sphere(centre_m, radius_m), voxel_size_m)).grown(4);
+}
+
+/// A seam is an inside voxel that claims to lie within half a voxel of the surface, but has no neighbour
+/// outside. A cavity is an outside voxel where rock was two voxels deep at the start.
+struct Wear {
+  int seams = 0;
+  int cavities = 0;
+  double rms_voxels = 0.0;  ///< of the distances, where the surface was at the start
+};
+
+bool is_seam(const Window& now, int x, int y, int z) {
+  constexpr Code near = -21;
+  const Code here = now.at(x, y, z);
+  return here < 0 && here > near && now.at(x - 1, y, z) < 0 && now.at(x + 1, y, z) < 0 &&
+         now.at(x, y - 1, z) < 0 && now.at(x, y + 1, z) < 0 && now.at(x, y, z - 1) < 0 &&
+         now.at(x, y, z + 1) < 0;
+}
+
+Wear wear_of(const Window& start, const Window& now) {
+  constexpr Code deep = -85, at_surface = 21;
+  Wear wear;
+  double squares = 0.0;
+  int samples = 0;
+  const VoxelBox inner = start.box.grown(-1);
+  for (int x = inner.lo.x; x < inner.hi.x; ++x)
+    for (int y = inner.lo.y; y < inner.hi.y; ++y)
+      for (int z = inner.lo.z; z < inner.hi.z; ++z) {
+        const Code then = start.at(x, y, z);
+        wear.seams += is_seam(now, x, y, z) ? 1 : 0;
+        wear.cavities += then <= deep && now.at(x, y, z) >= 0 ? 1 : 0;
+        if (std::abs(then) > at_surface) continue;
+        const double off = decode(now.at(x, y, z)) - decode(then);
+        squares += off * off;
+        ++samples;
+      }
+  wear.rms_voxels = std::sqrt(squares / std::max(samples, 1));
+  return wear;
+}
+
+MassUnits mass_in(const Window& window) {
+  MassUnits sum = 0;
+  for (const Code code : window.codes) sum += occupancy(code);
+  return sum;
+}
+
+/// Puts a piece back as plain union of two sampled fields.
+void unite_plainly(Field& field, PieceTable& pieces, PieceId id, const QuantisedPose& pose) {
+  const std::shared_ptr<const Volume> volume = pieces.at(id);
+  const VoxelBox box = stamp_box(*volume, pose, voxel_size_m);
+  Window window = gather(field, box);
+  const Window piece = posed_codes(*volume, pose, voxel_size_m, box);
+  for (size_t i = 0; i < window.codes.size(); ++i)
+    window.codes[i] = std::min(window.codes[i], piece.codes[i]);
+  scatter(field, window);
+  pieces.erase(id);
+}
+
+struct Cycles {
+  Window start;
+  Window end;
+  MassUnits moved = 0;  ///< by all carves
+};
+
+template <typename Merge>
+Cycles run_cycles(TerrainKind kind, int cycles, Merge&& merge) {
+  MapField field({kind, 1, voxel_size_m});
+  PieceTable pieces;
+  const glm::vec3 centre(0.0F, ground_height_m(field.source(), 0.0F, 0.0F) - 0.6F, 0.0F);
+  Cycles result;
+  result.start = gather(field, looked_at(centre));
+  PieceId next = 1;
+  for (int i = 0; i < cycles; ++i) {
+    const Applied carved = apply(CarveOperation{sphere(centre, radius_m), SeedPattern::uniform, seeds,
+                                                static_cast<uint32_t>(i) + 1, centre, next},
+                                 field, pieces);
+    result.moved -= carved.terrain_gain;
+    for (const CreatedPiece& piece : carved.created) {
+      next = piece.id + 1;
+      merge(field, pieces, piece.id, quantise({pieces.at(piece.id)->centre_voxels * voxel_size_m}));
+    }
+  }
+  result.end = gather(field, looked_at(centre));
+  return result;
+}
+
+Cycles stamp_cycles(TerrainKind kind, int cycles) {
+  MassUnits dust = 0;
+  return run_cycles(kind, cycles, [&](Field& field, PieceTable& pieces, PieceId id, QuantisedPose pose) {
+    const std::shared_ptr<const Volume> volume = pieces.at(id);
+    const Window window = gather(field, stamp_box(*volume, pose, voxel_size_m));
+    const StampPlan plan = plan_stamp(window, *volume, pose, voxel_size_m, stamp_budget(volume->mass, dust));
+    dust += volume->mass - apply(StampOperation{id, pose, plan.shift}, field, pieces).terrain_gain;
+  });
+}
+
+double lost_percent(const Cycles& cycles) {
+  return 100.0 * static_cast<double>(mass_in(cycles.start) - mass_in(cycles.end)) /
+         static_cast<double>(cycles.moved);
+}
+
+void report_cycles(BenchReport& report, const std::string& name, const Cycles& cycles, bool wanted) {
+  const Wear before = wear_of(cycles.start, cycles.start), after = wear_of(cycles.start, cycles.end);
+  const double lost = lost_percent(cycles);
+  report.metric(name + "_volume_lost_percent", lost);
+  report.metric(name + "_lost_voxels",
+                static_cast<double>(mass_in(cycles.start) - mass_in(cycles.end)) / units_per_voxel);
+  report.metric(name + "_seam_voxels_before", before.seams);
+  report.metric(name + "_seam_voxels_after", after.seams);
+  report.metric(name + "_cavity_voxels", after.cavities);
+  report.metric(name + "_surface_rms_voxels", after.rms_voxels);
+  if (!wanted) return;
+  report.check(name + "_volume", std::abs(lost) <= 0.1,
+               fmt::format("{:.4f} % of the volume moved is gone, wanted at most 0.1 %", lost));
+  report.check(name + "_seams", after.seams <= before.seams,
+               fmt::format("{} near-zero voxels inside, wanted no more than the {} at the start", after.seams,
+                           before.seams));
+  report.check(name + "_surface", after.rms_voxels <= 0.12,
+               fmt::format("{:.3f} voxel RMS off the start, wanted at most 0.12", after.rms_voxels));
+}
+
+}  // namespace
+
+BenchReport run_seams_bench(const BenchOptions& options) {
+  const int cycles = options.quick ? 5 : 50;
+  BenchReport report;
+  report.metric("cycles", cycles);
+  double done = 0.0;
+  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise}) {
+    const std::string name(name_of(kind));
+    report_cycles(report, name, stamp_cycles(kind, cycles), true);
+    options.progress(done += 0.25);
+    report_cycles(report, name + "_plain_min_max", run_cycles(kind, cycles, unite_plainly), false);
+    options.progress(done += 0.25);
+  }
+  return report;
+}
+
+}  // namespace scree
