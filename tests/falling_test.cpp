@@ -94,6 +94,32 @@ TEST(falling, an_arch_cut_at_one_end_hangs_and_at_both_ends_falls) {
   EXPECT_EQ(world.measure_terrain(), both->ledger.terrain);
 }
 
+TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
+  World world(flat_world());
+  // Its legs end half a metre above the ground; a block stands between them, higher than they reach down.
+  const auto start = step(
+      world,
+      pour({box({-4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}), box({4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}),
+            box({0.0F, 7.0F, 0.0F}, {5.0F, 1.0F, 1.0F}), box({0.0F, 1.5F, 0.0F}, {1.5F, 2.0F, 1.5F})}));
+  auto delta = step(world, {cut(sphere({0.0F, 8.25F, 0.0F}, 0.75F))});
+  ASSERT_EQ(islands_of(*delta), 1U);
+  const PieceId arch = delta->spawned.back().id;
+  const auto height_m = [&] {
+    const auto at = std::ranges::find(delta->pieces, arch, &PieceState::id);
+    return at == delta->pieces.end() ? 0.0F : dequantise(at->pose).position_m.y;
+  };
+  const float from_m = height_m();
+  float lowest_m = from_m, highest_m = from_m;
+  for (int tick = 0; tick < 120 && height_m() > 0.0F; ++tick) {
+    lowest_m = std::min(lowest_m, height_m());
+    highest_m = std::max(highest_m, height_m());
+    delta = step(world);
+  }
+  EXPECT_LT(lowest_m, from_m - 0.35F);
+  EXPECT_GT(lowest_m, from_m - 0.75F);
+  EXPECT_LT(highest_m, from_m + 0.05F);
+}
+
 TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
   WorldConfig config = flat_world();
   config.pieces_max = 1;

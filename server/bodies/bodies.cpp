@@ -217,7 +217,8 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
   body.probe = s.terrain_collider->attach(
-      surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m));
+      shape.surface_m.empty() ? surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m)
+                              : shape.surface_m);
   s.dynamics.addRigidBody(body.rigid.get());
   body.ground = s.dispatcher.getNewManifold(body.rigid.get(), &s.terrain);
   s.limit_speeds(body);

@@ -26,6 +26,9 @@ struct BodyShape {
   float mass_kg = 0.0F;
   glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes
   float friction = 0.7F;          ///< coefficient; of two that touch, the geometric mean counts
+  /// What touches the terrain, where the hull would not do: points of a concave piece's own surface, in the
+  /// same frame. None: points of the hull.
+  std::vector<glm::vec3> surface_m{};
 };
 
 struct BodyState {

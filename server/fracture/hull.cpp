@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
+#include <tuple>
 
 #include "server/fracture/cells.h"
 #include "shared/base/check.h"
@@ -220,6 +222,23 @@ std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& piec
     hulls.push_back(finish(applied.created[i].id, volume, std::move(candidates), voxel_size_m));
   }
   return hulls;
+}
+
+std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max) {
+  std::vector<glm::vec3> surface;
+  add_surface(volume.window, surface);
+  std::vector<glm::vec3> samples;
+  for (float spacing_voxels = 2.0F;; spacing_voxels *= 1.25F) {
+    std::set<std::tuple<int, int, int>> taken;
+    samples.clear();
+    for (const glm::vec3& p : surface) {
+      const auto cube = [&](float x) { return floor_to_int(x / spacing_voxels); };
+      if (!taken.emplace(cube(p.x), cube(p.y), cube(p.z)).second) continue;
+      samples.push_back((p - volume.centre_voxels) * voxel_size_m);
+      if (samples.size() > count_max) break;
+    }
+    if (samples.size() <= count_max) return samples;
+  }
 }
 
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m) {

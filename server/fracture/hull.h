@@ -24,6 +24,10 @@ inline constexpr int hull_corners_max = 20;
 /// Of each of applied.created, in the same order. Every one must be in `pieces`.
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m);
 
+/// Points of the volume's own surface, at most `count_max`, spread over all of it: with these a concave piece
+/// touches the ground. Metres, relative to the centre of mass.
+std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max);
+
 /// Of one volume by its own surface alone, without cells: for a piece whose seeds are not at hand (restored).
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m);
 

@@ -29,6 +29,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
     Newborn born;
     born.body.pose.position_m = volume.centre_voxels * dx;
     born.traits.material = birth_material(state, volume);
+    born.may_be_concave = true;
     return born;
   };
   spawn(state, applied, at_rest, delta);

@@ -9,6 +9,10 @@ namespace scree::limits {
 /// Bricks at which the search for islands looks in one tick: about 1 ms. Above: it goes on in the next tick.
 inline constexpr size_t island_bricks_per_tick = 1024;
 
+/// Points of an island's surface that are tested against the ground, besides the corners of its hull. Above:
+/// they are spread more thinly.
+inline constexpr size_t concave_samples_max = 128;
+
 /// Times that a search's budget doubles, once for each time that what it has seen changed under it: the
 /// largest island (limits::island_side_max_bricks) is then searched in one tick, and nothing can interrupt it
 /// any more.

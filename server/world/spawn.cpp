@@ -1,6 +1,7 @@
 #include "server/world/spawn.h"
 
 #include "server/fracture/hull.h"
+#include "server/world/limits.h"
 
 namespace scree {
 
@@ -12,7 +13,13 @@ void spawn(World::State& state, const Applied& applied,
     newborn.body.id = hull.id;
     const MaterialTraits& material = traits_of(newborn.traits.material);
     const float mass_kg = hull.size_m3 * material.density_kg_m3;
-    state.bodies.add({hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction}, newborn.body);
+    BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}};
+    if (newborn.may_be_concave) {
+      const float dx = state.config.terrain.voxel_size_m;
+      shape.surface_m = surface_samples(*volume, dx, limits::concave_samples_max);
+      shape.surface_m.insert(shape.surface_m.end(), hull.corners_m.begin(), hull.corners_m.end());
+    }
+    state.bodies.add(shape, newborn.body);
     state.traits[hull.id] = newborn.traits;
     delta.spawned.push_back({hull.id, volume});
     state.next_piece = hull.id + 1;

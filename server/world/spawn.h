@@ -11,6 +11,7 @@ namespace scree {
 struct Newborn {
   BodyState body;
   PieceTraits traits;
+  bool may_be_concave = false;  ///< touches the ground with its own surface, not with its hull's
 };
 
 /// Each piece that the operation made gets a hull, a body and its traits, is entered in the delta, and uses

@@ -154,17 +154,18 @@ void strip(Window& window, const Marks& gone) {
   });
 }
 
-/// The marked voxels' own field.
+/// The own field of the marked voxels, which lie in the box.
 Window alone(const Window& window, const VoxelBox& box, const Marks& marks) {
-  Window own = part_of(window, box);
+  // What lies just outside the island's band has its own band inside.
+  Window own = part_of(window, box.grown(2 * band));
   Marks others(own.codes.size(), 0);
   size_t at = 0;
-  for_each_voxel(box, [&](int x, int y, int z) {
+  for_each_voxel(own.box, [&](int x, int y, int z) {
     others[at] = own.codes[at] < 0 && marks[window.index(x, y, z)] == 0 ? 1 : 0;
     ++at;
   });
   strip(own, others);
-  return own;
+  return part_of(own, box.grown(band));
 }
 
 MassUnits mass_of(const Window& window) {
@@ -201,7 +202,7 @@ Volume lift(Window& window, const VoxelBox& box, VoxelCoord seed) {
   Volume volume;
   if (window.at(seed.x, seed.y, seed.z) >= 0) return volume;
   const Marks marks = component(window, box, seed);
-  volume.window = alone(window, box.grown(band), marks);
+  volume.window = alone(window, box, marks);
   volume.centre_voxels = centre_of_mass(volume.window);
   volume.mass = mass_of(window);
   strip(window, marks);
