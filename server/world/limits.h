@@ -22,7 +22,8 @@ inline constexpr unsigned island_doublings_max = 4;
 /// bears 0.16, one that drops by its own height 3.
 inline constexpr float impact_speed_min_m_s = 3.0F;
 
-/// Breaks and dents in one tick: 0.7 ms each, hulls and bodies included. Above: the weaker ones do not happen.
+/// Breaks and dents in one tick: 0.7 ms each, hulls and bodies included. Above: the weaker ones do not
+/// happen.
 inline constexpr uint32_t breaks_per_tick_max = 4;
 inline constexpr uint32_t dents_per_tick_max = 2;
 
