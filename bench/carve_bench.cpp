@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "bench/benches.h"
+#include "bench/peers_stock.h"
 #include "bench/scenes.h"
 
 namespace scree {
@@ -25,6 +26,26 @@ void report_stage(BenchReport& report, const std::string& when, const char* name
   for (const StageTimes& t : times) samples.push_back(t.*time);
   report.metric(fmt::format("{}_{}_median_ms", when, name), quantile(samples, 0.5));
   report.metric(fmt::format("{}_{}_p99_ms", when, name), quantile(samples, 0.99));
+}
+
+/// OpenVDB's stock way with the same blows and seeds, each in 64 m of fresh terrain; median.
+double stock_median_ms(const WorldConfig& config, int rounds) {
+  const float dx = config.terrain.voxel_size_m;
+  ScatteredBlows blows(config.terrain, 20.0F, 2.0F, 64, 11);
+  std::vector<double> times_ms;
+  for (int i = 0; i < rounds; ++i) {
+    const CarveRequest blow = blows.next();
+    MapField field(config.terrain);
+    PieceTable pieces;
+    peers::StockTerrain stock(field, {{-128, -64, -128}, {128, 128, 128}});
+    const Applied applied =
+        apply(CarveOperation{blow.shape, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m, 1}, field,
+              pieces);
+    std::vector<glm::vec3> seeds_m;
+    for (const glm::vec3& seed : applied.seeds_voxels) seeds_m.push_back(seed * dx);
+    times_ms.push_back(stock.carve(blow.shape.a, blow.shape.radius_m, seeds_m).total_ms());
+  }
+  return quantile(times_ms, 0.5);
 }
 
 }  // namespace
@@ -62,6 +83,12 @@ BenchReport run_carve_bench(const BenchOptions& options) {
   report.check(
       "own_work_p99", own_p99_ms <= 4.0,
       fmt::format("{:.2f} ms for carve, extract, fracture and hulls, wanted at most 4 ms", own_p99_ms));
+  const double own_ms_median = quantile(own_ms, 0.5),
+               stock_ms = stock_median_ms(config, options.quick ? 2 : 7);
+  report.metric("openvdb_median_ms", stock_ms);
+  report.check("times_faster", stock_ms >= 40.0 * own_ms_median,
+               fmt::format("{:.2f} ms against {:.1f}: {:.0f} times, wanted 40", own_ms_median, stock_ms,
+                           stock_ms / own_ms_median));
   report.check("pieces", pieces == static_cast<size_t>(carves) * 64,
                fmt::format("{} pieces of {} carves, wanted 64 each", pieces, carves));
   return report;
