@@ -69,11 +69,16 @@ void add_surface(const Window& window, std::vector<glm::vec3>& points) {
       }
 }
 
+/// Four at a time, spelt out: the compiler alone does not find these loops' vectors.
+using Lanes = float __attribute__((vector_size(16)));
+using IntLanes = int __attribute__((vector_size(16)));
+
 /// Lines along which a hull is compared with its shape: to the faces, edges and corners of a cube, and
-/// half-way between those. Coordinates apart, so that loops over them run in vectors.
+/// half-way between those. Four to a vector, coordinates apart; what is left over of the last vector is zero.
 struct Lines {
   static constexpr size_t count = (6 + 12 + 8 + 24) / 2;
-  std::array<float, count> x, y, z;
+  static constexpr size_t vectors = (count + 3) / 4;
+  std::array<Lanes, vectors> x, y, z;
 };
 
 Lines make_lines() {
@@ -89,9 +94,9 @@ Lines make_lines() {
         const bool mirrored = x == 0 && (y < 0 || (y == 0 && z < 0));
         if ((!cube && !between) || mirrored) continue;
         const float length = std::sqrt(static_cast<float>(x * x + y * y + z * z));
-        found.x[count] = static_cast<float>(x) / length;
-        found.y[count] = static_cast<float>(y) / length;
-        found.z[count] = static_cast<float>(z) / length;
+        found.x[count / 4][count % 4] = static_cast<float>(x) / length;
+        found.y[count / 4][count % 4] = static_cast<float>(y) / length;
+        found.z[count / 4][count % 4] = static_cast<float>(z) / length;
         ++count;
       }
   CHECK(count == Lines::count);
@@ -104,31 +109,39 @@ const Lines& lines() {
 }
 
 /// How far some points reach along each line, both ways, and which of them do.
-struct Extent {
-  std::array<float, Lines::count> low, high;
-  std::array<int, Lines::count> lowest{}, highest{};
-
+class Extent {
+ public:
   Extent() {
-    low.fill(1e30F);
-    high.fill(-1e30F);
+    low_.fill(Lanes{} + 1e30F);
+    high_.fill(Lanes{} - 1e30F);
   }
+
+  float low(size_t line) const { return low_[line / 4][line % 4]; }
+  float high(size_t line) const { return high_[line / 4][line % 4]; }
+  int lowest(size_t line) const { return lowest_[line / 4][line % 4]; }
+  int highest(size_t line) const { return highest_[line / 4][line % 4]; }
 
   void add(glm::vec3 p, int number) {
     const Lines& along = lines();
-    for (size_t i = 0; i < Lines::count; ++i) {
-      const float r = p.x * along.x[i] + p.y * along.y[i] + p.z * along.z[i];
-      const bool above = r > high[i], below = r < low[i];
-      high[i] = above ? r : high[i];
-      highest[i] = above ? number : highest[i];
-      low[i] = below ? r : low[i];
-      lowest[i] = below ? number : lowest[i];
+    const IntLanes own = IntLanes{} + number;
+    for (size_t i = 0; i < Lines::vectors; ++i) {
+      const Lanes r = p.x * along.x[i] + p.y * along.y[i] + p.z * along.z[i];
+      const IntLanes above = r > high_[i], below = r < low_[i];
+      high_[i] = above ? r : high_[i];
+      highest_[i] = above ? own : highest_[i];
+      low_[i] = below ? r : low_[i];
+      lowest_[i] = below ? own : lowest_[i];
     }
   }
   bool is_solid() const {
     for (size_t i = 0; i < Lines::count; ++i)
-      if (high[i] - low[i] < thickness_min_voxels) return false;
+      if (high(i) - low(i) < thickness_min_voxels) return false;
     return true;
   }
+
+ private:
+  std::array<Lanes, Lines::vectors> low_, high_;
+  std::array<IntLanes, Lines::vectors> lowest_{}, highest_{};
 };
 
 /// A few of the candidates, whose hull is nearly that of all: always the one that the hull misses most.
@@ -142,9 +155,9 @@ std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) 
     float missed = -1.0F;
     int next = 0;
     for (size_t i = 0; i < Lines::count; ++i) {
-      const float above = wanted.high[i] - have.high[i], below = have.low[i] - wanted.low[i];
-      if (above > missed) missed = above, next = wanted.highest[i];
-      if (below > missed) missed = below, next = wanted.lowest[i];
+      const float above = wanted.high(i) - have.high(i), below = have.low(i) - wanted.low(i);
+      if (above > missed) missed = above, next = wanted.highest(i);
+      if (below > missed) missed = below, next = wanted.lowest(i);
     }
     if (corners.size() >= 4 && missed < hull_error_voxels) break;
     corners.push_back(candidates[static_cast<size_t>(next)]);

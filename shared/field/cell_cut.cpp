@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace scree {
 
@@ -26,29 +25,36 @@ struct Bisector {
   }
 };
 
-/// Voxels along z that are cut at a time: two vectors of four floats.
+/// Voxels along z that are cut at a time: two vectors of four, spelt out. Left to itself the compiler did
+/// this loop, the dearest of a carve, one voxel at a time.
 constexpr int cut_width = 8;
 using CutRow = std::array<float, cut_width>;
+using Lanes = float __attribute__((vector_size(16)));
 
 /// Far inside every plane, voxels.
 constexpr float deep_inside = -2.0F * band_voxels;
 
-/// d := max over the neighbours of (min over the own seeds of the distance beyond the bisector), and d
-/// itself. `planes` holds own · neighbours bisectors, those of one neighbour together.
-void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& d) {
+/// Distance beyond the farthest of the bisectors, the nearest over the own seeds of each neighbour. `planes`
+/// holds own · neighbours bisectors, those of one neighbour together.
+void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& row) {
+  const Lanes low = {0.0F, 1.0F, 2.0F, 3.0F}, high = {4.0F, 5.0F, 6.0F, 7.0F};
+  Lanes d_low = low * 0.0F + deep_inside, d_high = d_low;
   for (size_t p = 0; p < planes.size(); p += own) {
-    CutRow beyond;
-    beyond.fill(std::numeric_limits<float>::max());
+    Lanes near_low{}, near_high{};
     for (size_t k = 0; k < own; ++k) {
       const Bisector& plane = planes[p + k];
       const float base =
           plane.offset + (plane.normal.x * first.x + plane.normal.y * first.y + plane.normal.z * first.z);
-      for (int z = 0; z < cut_width; ++z) {
-        const float at = base + plane.normal.z * static_cast<float>(z);
-        beyond[z] = std::min(beyond[z], at);
-      }
+      const Lanes at_low = base + plane.normal.z * low, at_high = base + plane.normal.z * high;
+      near_low = k == 0 ? at_low : (at_low < near_low ? at_low : near_low);
+      near_high = k == 0 ? at_high : (at_high < near_high ? at_high : near_high);
     }
-    for (int z = 0; z < cut_width; ++z) d[z] = std::max(d[z], beyond[z]);
+    d_low = near_low > d_low ? near_low : d_low;
+    d_high = near_high > d_high ? near_high : d_high;
+  }
+  for (int z = 0; z < 4; ++z) {
+    row[static_cast<size_t>(z)] = d_low[z];
+    row[static_cast<size_t>(z + 4)] = d_high[z];
   }
 }
 
@@ -91,7 +97,6 @@ CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<g
       for (int z = box.lo.z; z < box.hi.z; z += cut_width) {
         const int count = std::min(cut_width, box.hi.z - z);
         CutRow d;
-        d.fill(deep_inside);
         cut_row(planes, own.size(), as_vec3(x, y, z), d);
         std::array<int, cut_width> code;
         for (int k = 0; k < cut_width; ++k) code[static_cast<size_t>(k)] = encode(d[static_cast<size_t>(k)]);
