@@ -12,7 +12,7 @@ CarveRequest blow_at(const TerrainSource& terrain, float x_m, float z_m, float r
   request.pattern = SeedPattern::radial;
   request.seeds = seeds;
   request.random_seed = random_seed;
-  request.impact_m = {x_m, ground_m - radius_m, z_m};
+  request.impact_m = {x_m, ground_m, z_m};
   return request;
 }
 

@@ -32,6 +32,10 @@ struct InterestMessage {
   float interest_radius_m = 0.0F;
 };
 
+/// Where clients put a carve's centre: so far behind the point that they strike, in radii. Most of it is rock
+/// then, it opens the surface, and the pieces are thrown out of it.
+inline constexpr float carve_depth_in_radii = 0.4F;
+
 struct CarveMessage {
   uint32_t request = 0;  ///< returned in the reply
   Shape shape;

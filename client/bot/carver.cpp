@@ -11,10 +11,6 @@ namespace {
 /// Height above the undisturbed ground from which a bot looks down, metres.
 constexpr float eye_height_m = 12.0F;
 
-/// A carve's centre lies so far beneath the surface, in radii: most of it is rock then, and it opens the
-/// surface.
-constexpr float depth_in_radii = 0.4F;
-
 }  // namespace
 
 Carver::Hit Carver::look(Field& field) {
@@ -40,7 +36,8 @@ CarveMessage Carver::next(Field& field, uint32_t request) {
   const Hit hit = look(field);
   CarveMessage carve;
   carve.request = request;
-  carve.shape = sphere(hit.point_m + hit.direction * (config_.radius_m * depth_in_radii), config_.radius_m);
+  carve.shape =
+      sphere(hit.point_m + hit.direction * (config_.radius_m * carve_depth_in_radii), config_.radius_m);
   const SeedPattern in_turn = request % 2 == 0 ? SeedPattern::uniform : SeedPattern::radial;
   carve.pattern = config_.pattern.value_or(in_turn);
   carve.seeds = config_.seeds;

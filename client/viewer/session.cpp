@@ -172,7 +172,7 @@ void Session::carve(glm::vec3 from_m, glm::vec3 direction, float radius_m) {
   CarveMessage carve;
   carve.request = ++requests_;
   carve.impact_m = from_m + direction * (*hit * voxel_m);
-  carve.shape = sphere(carve.impact_m, radius_m);
+  carve.shape = sphere(carve.impact_m + direction * (radius_m * carve_depth_in_radii), radius_m);
   carve.seeds = seeds_for(radius_m);
   carve.random_seed = carve.request * 0x9E3779B1U;
   connection_->send(carve);

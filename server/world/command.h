@@ -14,7 +14,7 @@ struct CarveRequest {
   SeedPattern pattern = SeedPattern::radial;
   uint32_t seeds = 32;
   uint32_t random_seed = 0;
-  glm::vec3 impact_m{0.0F};  ///< where the blow struck; pieces fly away from it
+  glm::vec3 impact_m{0.0F};  ///< where the blow struck; pieces fly out towards it
   float blast_speed_m_s = 6.0F;
 
   bool operator==(const CarveRequest&) const = default;

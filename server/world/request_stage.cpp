@@ -14,9 +14,12 @@ namespace scree {
 
 namespace {
 
-/// A blow sends a piece away from the impact, the less the farther off, and sets it spinning.
+/// A blow throws a piece out towards where it struck, the less the farther off, and sets it spinning: away
+/// from the point that lies as deep behind the shape's centre as the impact lies before it. Away from the
+/// impact itself, most pieces would only be pressed into the rock behind them.
 BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
-  const glm::vec3 away = centre_m - request.impact_m;
+  const glm::vec3 source_m = 2.0F * centre_of(request.shape) - request.impact_m;
+  const glm::vec3 away = centre_m - source_m;
   const float distance_m = std::sqrt(glm::dot(away, away));
   // A lift along up: a blow against flat ground would otherwise press half of the pieces into it.
   const glm::vec3 direction = away / std::max(distance_m, 0.01F) + glm::vec3(0.0F, 0.7F, 0.0F);
