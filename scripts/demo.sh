@@ -150,7 +150,7 @@ summary() {
   jq -rn --slurpfile server "$out/server.json" --slurpfile bot "$out/bot.json" '
     def rounded($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
     $server[0] as $s | $bot[0] as $b | $s.stages_ms.tick as $tick | [
-      ["carves", "\($s.carves)"],
+      ["carves", "\($b.carves.accepted)\(($s.carves - $b.carves.accepted) as $dents | if $dents > 0 then ", dents: \($dents)" else "" end)"],
       ["pieces made", "\($s.pieces_made)"],
       ["pieces merged", "\($s.pieces_merged)"],
       ["pieces still alive", "\($s.pieces_alive)"],
