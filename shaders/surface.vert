@@ -19,16 +19,11 @@ out vec3 v_rock_normal;
 out float v_openness;
 out float v_before;
 
-vec3 rotate(vec3 v) {
-  vec3 t = 2.0 * cross(u_rotation.xyz, v);
-  return v + u_rotation.w * t + cross(u_rotation.xyz, t);
-}
-
 void main() {
   v_rock = u_origin_m + a_position * u_step_m;
-  v_world = u_place_m + rotate(v_rock - u_centre_m);
+  v_world = u_place_m + rotated(u_rotation, v_rock - u_centre_m);
   v_rock_normal = a_normal;
-  v_normal = rotate(a_normal);
+  v_normal = rotated(u_rotation, a_normal);
   v_openness = a_openness;
   v_before = a_before;
   gl_Position = u_view_projection * vec4(v_world, 1.0);

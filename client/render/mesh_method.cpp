@@ -42,17 +42,19 @@ struct SurfaceProgram {
 };
 
 Result<SurfaceProgram> link_surface() {
-  const std::array vertex{shader_source("surface.vert")};
-  const std::array fragment{shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
-                            shader_source("surface.frag")};
+  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
+  const std::array fragment{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
+                            shader_source("noise.glsl"),    shader_source("rock.glsl"),
+                            shader_source("shadow.glsl"),   shader_source("surface.frag")};
   Result<gl::Program> program = gl::Program::link("surface", vertex, fragment);
   if (!program) return fail(program.error().message);
   return SurfaceProgram(std::move(*program));
 }
 
 Result<SurfaceProgram> link_shadow() {
-  Result<gl::Program> program = gl::Program::link("surface_shadow", std::array{shader_source("surface.vert")},
-                                                  std::array{shader_source("surface_shadow.frag")});
+  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
+  Result<gl::Program> program =
+      gl::Program::link("surface_shadow", vertex, std::array{shader_source("surface_shadow.frag")});
   if (!program) return fail(program.error().message);
   return SurfaceProgram(std::move(*program));
 }
