@@ -7,7 +7,7 @@
 #include <link.h>
 #include <thread>
 
-#include "client/render/mesh_method.h"
+#include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/viewer/egl_context.h"
 #include "shared/field/operation.h"
@@ -41,7 +41,7 @@ class ViewerOffscreen : public testing::Test {
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
     ASSERT_TRUE(renderer) << renderer.error().message;
     renderer_ = std::move(*renderer);
-    Result<std::unique_ptr<DrawMethod>> method = make_mesh_method(pool_, view_radius_m);
+    Result<std::unique_ptr<DrawMethod>> method = method_named("mesh")->make(pool_, view_radius_m);
     ASSERT_TRUE(method) << method.error().message;
     method_ = std::move(*method);
     camera_.eye_m = {0.0F, 3.0F, 6.0F};
@@ -141,6 +141,50 @@ TEST_F(ViewerOffscreen, nothing_changes_until_all_of_a_change_can_be_shown) {
   }
   finish();
   EXPECT_EQ(method_->stats().pieces, pieces_.size());
+}
+
+TEST_F(ViewerOffscreen, another_method_takes_over_when_it_has_all_that_was_shown) {
+  const MethodEntry first = *method_named("mesh");
+  MethodEntry second = first;
+  MethodSwitch methods(pool_, view_radius_m, first);
+  carve({0.0F, 0.0F, 0.0F});
+  const auto follow_until = [&](auto&& reached) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!reached()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+      ASSERT_TRUE(methods.follow({}, Scene{field_, pieces_}, camera_));
+    }
+  };
+  follow_until([&] { return methods.complete(); });
+  const DrawMethod* old = methods.shown();
+  EXPECT_EQ(methods.shown()->stats().pieces, pieces_.size());
+  ASSERT_TRUE(methods.choose(second));
+  EXPECT_FALSE(methods.loaded());
+  ASSERT_TRUE(methods.follow({}, Scene{field_, pieces_}, camera_));
+  EXPECT_EQ(methods.shown(), old) << "not before it has loaded";
+  follow_until([&] { return methods.shown() != old; });
+  EXPECT_EQ(methods.shown()->stats().pieces, pieces_.size());
+  EXPECT_TRUE(methods.loaded());
+
+  methods.begin_world();
+  EXPECT_NE(methods.shown(), nullptr) << "the world that is gone stays in sight";
+  EXPECT_FALSE(methods.loaded());
+  MapField other(TerrainSource{TerrainKind::noise, 2, 0.25F});
+  const ScenePieces none;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!methods.complete() && std::chrono::steady_clock::now() < deadline)
+    ASSERT_TRUE(methods.follow({}, Scene{other, none}, camera_));
+  EXPECT_EQ(methods.shown()->stats().pieces, 0U);
+}
+
+TEST_F(ViewerOffscreen, method_that_the_context_lacks_something_for_says_so) {
+  MethodEntry demanding = *method_named("mesh");
+  demanding.missing = [] { return std::optional<std::string>("what nobody has"); };
+  MethodSwitch methods(pool_, view_radius_m, *method_named("mesh"));
+  const Result<void> chosen = methods.choose(demanding);
+  ASSERT_FALSE(chosen);
+  EXPECT_NE(chosen.error().message.find("what nobody has"), std::string::npos);
+  EXPECT_EQ(&methods.chosen(), method_named("mesh"));
 }
 
 TEST_F(ViewerOffscreen, camera_inside_rock_and_tiny_images_are_harmless) {

@@ -97,6 +97,7 @@ MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   follow(scene.field.source(), eye_m, update);
   take_results(scene.field, update);
   if (!batch_) begin_batch(scene);
+  if (!batch_) caught_up_ = true;
   begin_loads(scene.field);
   return update;
 }

@@ -52,8 +52,9 @@ class MeshScheduler {
   void changed(const MirrorChanges& changes);
   /// Work that is done comes back; work that is needed begins.
   MeshUpdate update(const Scene& scene, glm::vec3 eye_m);
-  bool loaded() const { return started_ && pending_.empty() && loading_ == 0; }
-  bool complete() const { return started_ && waiting() == 0; }
+  /// All chunks within the view are shown, and all that was changed before the first update().
+  bool loaded() const { return caught_up_ && pending_.empty() && loading_ == 0; }
+  bool complete() const { return caught_up_ && waiting() == 0; }
   /// Chunks and changes not yet shown.
   size_t waiting() const;
 
@@ -92,6 +93,7 @@ class MeshScheduler {
   std::unordered_map<BlockCoord, uint64_t, CoordHash> shown_;  ///< number of the gathering that is shown
   uint64_t gatherings_ = 0;
   MirrorChanges collected_;       ///< since the batch in the works was begun
+  bool caught_up_ = false;        ///< the first batch is shown
   std::unique_ptr<Batch> batch_;  ///< in the works, or null
 };
 

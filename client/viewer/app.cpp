@@ -43,7 +43,7 @@ HudFacts facts_of(Session& session, View& view, float radius_m, double now_s) {
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }
-  if (DrawMethod* method = view.method()) {
+  if (DrawMethod* method = view.methods().shown()) {
     facts.method = method->name();
     facts.draw = method->stats();
   }
@@ -54,8 +54,8 @@ Moment moment_of(Session& session, View& view, const ViewerOptions& options, con
                  double now_s) {
   Moment moment;
   moment.now_s = now_s;
-  moment.current = view.complete();
-  moment.joined = view.loaded() && session.joined(now_s);
+  moment.current = view.methods().complete();
+  moment.joined = view.methods().loaded() && session.joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
     const Scene scene{mirror->field(), session.pieces(now_s)};
@@ -70,7 +70,7 @@ Moment moment_of(Session& session, View& view, const ViewerOptions& options, con
 Result<void> take(const ScreenshotOrder& order, View& view, const ViewerOptions& options,
                   const Camera& camera) {
   const Result<Image> image =
-      view.renderer().draw_image(*view.method(), camera, options.width, options.height);
+      view.renderer().draw_image(*view.methods().shown(), camera, options.width, options.height);
   if (!image) return fail(image.error().message);
   if (Result<void> written = write_png(order.file, *image); !written) return written;
   std::printf("wrote %s\n", order.description().c_str());
@@ -111,10 +111,14 @@ Result<void> run_frame(AppWindow& window, Session& session, View& view, Hud& hud
   fly(camera, input.fly, input.elapsed_s);
   radius_m = std::clamp(radius_m * std::pow(radius_step, input.wheel), radius_min_m, radius_max_m);
   if (input.toggle_help) hud.toggle_help();
+  if (input.next_method) {
+    MethodSwitch& methods = view.methods();
+    if (Result<void> chosen = methods.choose(next_available(methods.chosen())); !chosen) return chosen;
+  }
   if (input.click) session.carve(camera.eye_m, camera.forward(), radius_m);
   const SessionStep step = session.step(now_s, camera.eye_m);
   if (Result<void> followed = view.follow(step, session, camera, now_s); !followed) return followed;
-  view.renderer().draw(view.method(), camera, 0, window.width(), window.height());
+  view.renderer().draw(view.methods().shown(), camera, 0, window.width(), window.height());
   hud.draw(facts_of(session, view, radius_m, now_s), input.elapsed_s * 1000.0F);
   window.show_frame();
   return {};
@@ -126,7 +130,7 @@ int run_window(const ViewerOptions& options) {
   const Result<std::unique_ptr<AppWindow>> window =
       AppWindow::open(options.width, options.height, options.gl_debug);
   if (!window) return complain(window.error().message);
-  const Result<std::unique_ptr<View>> view = View::create(options.view_radius_m);
+  const Result<std::unique_ptr<View>> view = View::create(*options.method, options.view_radius_m);
   if (!view) return complain(view.error().message);
   Hud hud(**window);
   Session session(options.host, options.port, options.view_radius_m);
@@ -147,7 +151,7 @@ int run_window(const ViewerOptions& options) {
 int run_offscreen(const ViewerOptions& options) {
   const Result<std::unique_ptr<EglContext>> context = EglContext::create(options.gl_debug);
   if (!context) return complain(context.error().message);
-  const Result<std::unique_ptr<View>> view = View::create(options.view_radius_m);
+  const Result<std::unique_ptr<View>> view = View::create(*options.method, options.view_radius_m);
   if (!view) return complain(view.error().message);
   Session session(options.host, options.port, options.view_radius_m);
   ScreenshotQueue queue(options.screenshots);

@@ -39,6 +39,7 @@ struct AppWindowEvents {
     if (action != GLFW_PRESS) return;
     if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
     if (key == GLFW_KEY_H) of(window).toggle_help_ = true;
+    if (key == GLFW_KEY_M) of(window).next_method_ = true;
     if (key == GLFW_KEY_TAB) of(window).hold_mouse(!of(window).holds_mouse_);
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
@@ -115,6 +116,7 @@ AppInput AppWindow::poll() {
   }
   input.wheel = std::exchange(wheel_, 0.0F);
   input.click = std::exchange(click_, false);
+  input.next_method = std::exchange(next_method_, false);
   input.toggle_help = std::exchange(toggle_help_, false);
   return input;
 }

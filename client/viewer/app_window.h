@@ -17,6 +17,7 @@ struct AppInput {
   float elapsed_s = 0.0F;
   float wheel = 0.0F;  ///< notches, up is positive
   bool click = false;  ///< left button went down, with the mouse held by the window
+  bool next_method = false;
   bool toggle_help = false;
 };
 
@@ -50,6 +51,7 @@ class AppWindow {
   bool holds_mouse_ = false;
   float wheel_ = 0.0F;
   bool click_ = false;
+  bool next_method_ = false;
   bool toggle_help_ = false;
   friend struct AppWindowEvents;
 };

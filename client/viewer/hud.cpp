@@ -42,6 +42,7 @@ void draw_help() {
       "wheel       radius\n"
       "W A S D     fly (Shift: faster)\n"
       "Space C     up, down\n"
+      "M           draw by the next method\n"
       "Tab         free the mouse\n"
       "H           this help\n"
       "Esc         end");

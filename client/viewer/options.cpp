@@ -54,6 +54,7 @@ Result<void> parse_camera(const std::string& text, Camera& camera) {
 struct Texts {
   std::string size = "1280x720";
   std::string camera = default_camera;
+  std::string method{all_methods().front().name};
   std::vector<std::string> screenshots;
 };
 
@@ -66,6 +67,8 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--camera", texts.camera,
                  "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left")
       ->envname("SCREE_CAMERA");
+  app.add_option("--method", texts.method, "How it is drawn:\n" + describe_methods())
+      ->envname("SCREE_METHOD");
   app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres")
       ->envname("SCREE_VIEW_RADIUS")
       ->check(CLI::Range(limits::view_radius_min_m, limits::view_radius_max_m));
@@ -84,12 +87,15 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.footer(
       "Keys: W A S D move, Space and C up and down, Shift faster, mouse looks, left click carves, the wheel "
       "sets\n"
-      "the radius, Tab frees the mouse, H help, Esc ends.");
+      "the radius, M draws by the next method, Tab frees the mouse, H help, Esc ends.");
 }
 
 Result<void> understand(const Texts& texts, ViewerOptions& options) {
   if (Result<void> size = parse_size(texts.size, options); !size) return size;
   if (Result<void> camera = parse_camera(texts.camera, options.camera); !camera) return camera;
+  options.method = method_named(texts.method);
+  if (options.method == nullptr)
+    return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
     if (!order) return fail(order.error().message);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "client/render/camera.h"
+#include "client/render/methods.h"
 #include "client/viewer/screenshots.h"
 
 namespace scree {
@@ -17,6 +18,7 @@ struct ViewerOptions {
   int width = 1280;
   int height = 720;
   Camera camera;
+  const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
   bool offscreen = false;
   bool gl_debug = false;

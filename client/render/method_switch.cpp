@@ -1,0 +1,57 @@
+#include "client/render/method_switch.h"
+
+#include <utility>
+
+namespace scree {
+
+MethodSwitch::MethodSwitch(WorkPool& pool, float view_radius_m, const MethodEntry& first)
+    : pool_(pool), view_radius_m_(view_radius_m), chosen_(&first) {}
+
+Result<void> MethodSwitch::choose(const MethodEntry& entry) {
+  if (const std::optional<std::string> missing = entry.missing())
+    return fail("the method " + std::string(entry.name) + " needs " + *missing);
+  chosen_ = &entry;
+  return {};
+}
+
+void MethodSwitch::begin_world() {
+  next_ = {};
+  shown_is_past_ = shown_.method != nullptr;
+}
+
+Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
+  Result<std::unique_ptr<DrawMethod>> made = chosen_->make(pool_, view_radius_m_);
+  if (!made) return fail(made.error().message);
+  slot = {std::move(*made), chosen_};
+  // It comes late: all pieces are new to it.
+  MirrorChanges known;
+  for (const auto& [id, piece] : scene.pieces) known.pieces_added.push_back(id);
+  slot.method->changed(known);
+  return {};
+}
+
+Result<void> MethodSwitch::follow(const MirrorChanges& changes, const Scene& scene, const Camera& camera) {
+  const auto update = [&](Slot& slot) {
+    slot.method->changed(changes);
+    slot.method->update(scene, camera);
+  };
+  const bool shown_fits = shown_.method && !shown_is_past_ && shown_.entry == chosen_;
+  Slot& wanted = shown_.method ? next_ : shown_;
+  if (shown_fits) next_ = {};
+  if (!shown_fits && (!wanted.method || wanted.entry != chosen_)) {
+    if (Result<void> begun = begin(wanted, scene); !begun) return begun;
+    // The scene holds what changed; said twice, it would be meshed twice.
+    wanted.method->update(scene, camera);
+    if (&wanted == &shown_) return {};
+  } else if (next_.method) {
+    update(next_);
+  }
+  if (shown_.method && !shown_is_past_) update(shown_);
+  if (next_.method && next_.method->loaded()) {
+    shown_ = std::exchange(next_, {});
+    shown_is_past_ = false;
+  }
+  return {};
+}
+
+}  // namespace scree

@@ -1,0 +1,49 @@
+#include "client/render/methods.h"
+
+#include <algorithm>
+#include <array>
+
+#include "client/render/mesh_method.h"
+
+namespace scree {
+namespace {
+
+std::optional<std::string> nothing_missing() {
+  return std::nullopt;
+}
+
+constexpr std::array table{
+    MethodEntry{"mesh", "cached surface nets of blocks of terrain, rebuilt where they change",
+                nothing_missing, make_mesh_method},
+};
+
+}  // namespace
+
+std::span<const MethodEntry> all_methods() {
+  return table;
+}
+
+const MethodEntry* method_named(std::string_view name) {
+  const auto* found = std::ranges::find(table, name, &MethodEntry::name);
+  return found == table.end() ? nullptr : found;
+}
+
+const MethodEntry& next_available(const MethodEntry& entry) {
+  const auto at = static_cast<size_t>(&entry - table.data());
+  for (size_t i = 1; i < table.size(); ++i) {
+    const MethodEntry& other = table[(at + i) % table.size()];
+    if (!other.missing()) return other;
+  }
+  return entry;
+}
+
+std::string describe_methods() {
+  std::string text;
+  for (const MethodEntry& entry : table) {
+    text.append("  ").append(entry.name).append(entry.name.size() < 10 ? 10 - entry.name.size() : 1, ' ');
+    text.append(entry.summary).append("\n");
+  }
+  return text;
+}
+
+}  // namespace scree
