@@ -18,6 +18,8 @@ const std::vector<Bench>& all_benches() {
       {"recombine", "stamps against OpenVDB's meshToVolume and csgUnion, and the paper's spheres",
        run_recombine_bench},
       {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},
+      {"storm", "1,000 pieces alive at once, and one blast of 64, with recombination and without",
+       run_storm_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
   };
   return benches;

@@ -10,6 +10,7 @@ BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
+BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
 
 }  // namespace scree

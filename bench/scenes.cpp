@@ -31,4 +31,22 @@ CarveRequest ScatteredBlows::next() {
   return blow_at(terrain_, x_m, z_m, radius_m_, seeds_, random.next());
 }
 
+BlowGrid::BlowGrid(const TerrainSource& terrain, uint32_t blows_a_side, float spacing_m, float radius_m,
+                   uint32_t seeds)
+    : terrain_(terrain),
+      blows_a_side_(blows_a_side),
+      spacing_m_(spacing_m),
+      radius_m_(radius_m),
+      seeds_(seeds) {}
+
+std::optional<CarveRequest> BlowGrid::next() {
+  if (made_ == blows_a_side_ * blows_a_side_) return std::nullopt;
+  const auto place = [&](uint32_t step) {
+    return (static_cast<float>(step) - 0.5F * static_cast<float>(blows_a_side_ - 1)) * spacing_m_;
+  };
+  const uint32_t number = made_++;
+  return blow_at(terrain_, place(number % blows_a_side_), place(number / blows_a_side_), radius_m_, seeds_,
+                 number);
+}
+
 }  // namespace scree

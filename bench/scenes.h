@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "server/world/world.h"
 
@@ -24,6 +25,23 @@ class ScatteredBlows {
   float radius_m_;
   uint32_t seeds_;
   uint64_t state_;
+};
+
+/// Blows side by side in a square about the origin, each once, row by row.
+class BlowGrid {
+ public:
+  BlowGrid(const TerrainSource& terrain, uint32_t blows_a_side, float spacing_m, float radius_m,
+           uint32_t seeds);
+  /// Nothing after the last.
+  std::optional<CarveRequest> next();
+
+ private:
+  TerrainSource terrain_;
+  uint32_t blows_a_side_;
+  float spacing_m_;
+  float radius_m_;
+  uint32_t seeds_;
+  uint32_t made_ = 0;
 };
 
 }  // namespace scree
