@@ -8,7 +8,8 @@ namespace {
 /// Desktop GL and ES differ in the version line and in ES's precisions.
 std::string preamble() {
   if (epoxy_is_desktop_gl()) return "#version 330 core\n";
-  return "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n";
+  return "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n"
+         "precision highp sampler3D;\nprecision highp usampler3D;\nprecision highp usampler2D;\n";
 }
 
 Result<GLuint> compile(GLenum stage, std::string_view name, std::span<const std::string_view> parts) {

@@ -35,4 +35,18 @@ inline constexpr int shadow_map_side = 2048;
 /// Pixels along a side of an offscreen image; a larger --size is refused.
 inline constexpr int image_side_max = 8192;
 
+/// Texels along a side of the raymarcher's atlas, 128 MiB at the most; less where the driver's textures are
+/// smaller. What does not fit is shown by a coarser level.
+inline constexpr int atlas_side_max = 512;
+
+/// Bricks with a surface in a column of a level's window that the atlas has room for. The rough open terrain
+/// has 6 on the finest level and fewer on the others.
+inline constexpr size_t bricks_per_column = 6;
+
+/// Chunks that the raymarcher reads in one frame, on the main thread: bounds its part to some milliseconds.
+inline constexpr size_t chunks_read_max = 64;
+
+/// How far the far terrain is drawn, in view radii.
+inline constexpr float horizon_per_view_radius = 8.0F;
+
 }  // namespace scree::limits

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "client/render/mesh_method.h"
+#include "client/render/raymarch_method.h"
 
 namespace scree {
 namespace {
@@ -15,6 +16,8 @@ std::optional<std::string> nothing_missing() {
 constexpr std::array table{
     MethodEntry{"mesh", "cached surface nets of blocks of terrain, rebuilt where they change",
                 nothing_missing, make_mesh_method},
+    MethodEntry{"raymarch", "rays through an atlas of bricks, whatever was edited", nothing_missing,
+                make_raymarch_method},
 };
 
 }  // namespace

@@ -1,0 +1,100 @@
+// The raymarcher's copy of the field (client/render/brick_world.h): levels of bricks around the camera,
+// each in a window of its own; level k has a voxel every 2^k. Points are metres from the eye, distances voxels.
+
+const int levels_max = 8;
+const uint kind_unloaded = 0u;  // between: empty, and so many bricks to the nearest that is not
+const uint kind_stored = 254u;
+const uint kind_solid = 255u;
+const float band = 3.0;       // distances saturate there
+const float brick = 8.0;      // voxels a side
+const float brick_pitch = 11.0;  // with the apron, one voxel of which lies before the brick
+// Voxels before a window's border where the next level takes over: a ray that nears the border sees beyond it.
+const float border = 16.0;
+
+uniform usampler3D u_entries;
+uniform sampler3D u_atlas;
+uniform vec3 u_atlas_texel;
+uniform ivec3 u_window;  // bricks; along x and z a power of two, along y half of it
+uniform int u_levels;
+uniform vec3 u_eye_in[levels_max];  // voxels, from the window's lowest corner
+uniform ivec3 u_wrap[levels_max];   // where that corner's brick lies in the entries
+uniform float u_voxels_per_m[levels_max];
+
+uvec2 entry_at(ivec3 at, int level) {
+  ivec3 i = (at + u_wrap[level]) & (u_window - 1);
+  return texelFetch(u_entries, ivec3(i.z, i.y + level * u_window.y, i.x), 0).xy;
+}
+
+// Trilinear value in a stored brick, `local` voxels from its first. Rounded to 1/256 voxel, which is what hardware
+// filters by: so the texture coordinate is exact, and the value the same in any slot.
+float brick_value(uint entry, vec3 local) {
+  vec3 slot = vec3(float(entry & 255u), float((entry >> 8u) & 255u), float((entry >> 16u) & 255u));
+  vec3 at = floor(local.zyx * 256.0 + 0.5) * (1.0 / 256.0);
+  return textureLod(u_atlas, (slot * brick_pitch + at + 1.5) * u_atlas_texel, 0.0).r * band;
+}
+
+vec3 brick_gradient(uint entry, vec3 local) {
+  vec2 h = vec2(1.0, 0.0);
+  return vec3(brick_value(entry, local + h.xyy) - brick_value(entry, local - h.xyy),
+              brick_value(entry, local + h.yxy) - brick_value(entry, local - h.yxy),
+              brick_value(entry, local + h.yyx) - brick_value(entry, local - h.yyx));
+}
+
+vec3 in_level(vec3 from_eye, int level) { return u_eye_in[level] + from_eye * u_voxels_per_m[level]; }
+
+// Distance at a point, as far as the band; what is not there counts as air.
+float field_at(vec3 from_eye, int level) {
+  vec3 p = in_level(from_eye, level);
+  ivec3 at = ivec3(floor(p / brick));
+  if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, u_window))) return band;
+  uint entry = entry_at(at, level).x;
+  uint kind = entry >> 24u;
+  if (kind == kind_stored) return brick_value(entry, p - vec3(at) * brick);
+  return kind == kind_solid ? -band : band;
+}
+
+// The finest level, from `level` on, that shows this point; u_levels beyond all.
+int level_of(vec3 from_eye, int level) {
+  for (; level < u_levels; ++level) {
+    vec3 p = in_level(from_eye, level);
+    float margin = level + 1 < u_levels ? border : 0.0;
+    vec3 inside = min(p, vec3(u_window) * brick - p);
+    if (min(inside.x, min(inside.y, inside.z)) > margin) return level;
+  }
+  return level;
+}
+
+// One look at the field from a point on a ray.
+struct Look {
+  uint kind;
+  uvec2 entry;
+  vec3 local;      // in its brick, voxels
+  vec3 lo;         // of the empty box around, from the point, voxels
+  vec3 hi;
+  float distance;  // of a stored brick: to the surface, voxels
+};
+
+Look look(vec3 from_eye, int level) {
+  vec3 p = in_level(from_eye, level);
+  vec3 at = floor(p / brick);
+  Look found;
+  found.entry = entry_at(ivec3(at), level);
+  found.kind = found.entry.x >> 24u;
+  found.local = p - at * brick;
+  found.distance = band;
+  float bricks = 0.0;
+  if (found.kind == kind_stored) {
+    found.distance = brick_value(found.entry.x, found.local);
+  } else {
+    bricks = float(found.kind) - 1.0;
+  }
+  found.lo = max((at - bricks) * brick, vec3(0.0)) - p;
+  found.hi = min((at + bricks + 1.0) * brick, vec3(u_window) * brick) - p;
+  return found;
+}
+
+// How far along a direction the empty box around reaches, voxels.
+float way_out(Look found, vec3 inverse_direction) {
+  vec3 far = max(found.lo * inverse_direction, found.hi * inverse_direction);
+  return min(far.x, min(far.y, far.z)) + 0.004;
+}

@@ -1,0 +1,37 @@
+uniform usampler2D u_tiles;
+uniform int u_tile;
+uniform float u_pixel;  // metres a pixel covers at one metre
+uniform mat4 u_view_projection;
+in vec3 v_direction;
+out vec4 o_colour;
+
+void main() {
+  vec3 direction = normalize(v_direction);
+  float start = uintBitsToFloat(texelFetch(u_tiles, ivec2(gl_FragCoord.xy) / u_tile, 0).r);
+  Hit hit;
+  hit.found = false;
+  if (start >= 0.0) hit = march(vec3(0.0), direction, start, u_pixel);
+  if (!hit.found) {
+    o_colour = vec4(tone(sky(direction)), 1.0);
+    gl_FragDepth = 1.0;
+    return;
+  }
+  vec3 from_eye = direction * hit.along;
+  vec3 world = u_eye + from_eye;
+  vec4 clip = u_view_projection * vec4(world, 1.0);
+  gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
+
+  vec3 normal = -direction;
+  float before = 0.0;
+  if (hit.there.kind == kind_stored) {
+    vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
+    if (dot(slope, slope) > 0.0) normal = normalize(slope);
+    if (hit.there.entry.y != 0u) before = brick_value(hit.there.entry.y, hit.there.local) / band;
+  }
+  Rock rock = rock_at(world, normal, before, hit.along);
+  float open = openness_at(from_eye, normal, hit.level);
+  float sunlight = max(dot(rock.normal, u_sun), 0.0);
+  float voxel = 1.0 / u_voxels_per_m[hit.level];
+  if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel), u_sun, hit.level);
+  o_colour = vec4(tone(in_fog(lit_rock(rock.albedo, rock.normal, open, sunlight), world, hit.along)), 1.0);
+}

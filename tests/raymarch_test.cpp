@@ -1,0 +1,80 @@
+// The raymarcher's copy of the field stays the field's, whatever happens to it.
+#include "shared/base/random.h"
+#include "tests/offscreen_fixture.h"
+
+namespace scree {
+namespace {
+
+class Raymarch : public OffscreenTest {
+ protected:
+  Raymarch() : OffscreenTest("raymarch", {TerrainKind::noise, 4, 0.25F}) {
+    ground_m_ = ground_height_m(field_.source(), 0.0F, 0.0F);
+  }
+  void SetUp() override {
+    OffscreenTest::SetUp();
+    camera_.eye_m = {1.0F, ground_m_ + 4.0F, 7.0F};
+  }
+  void carve_anywhere(Random& random, int carves) {
+    for (int i = 0; i < carves; ++i) {
+      const auto place = [&] { return (random.unit() * 2.0F - 1.0F) * 7.0F; };
+      const float x = place(), z = place();
+      carve({x, ground_height_m(field_.source(), x, z) - 0.5F, z});
+    }
+    pieces_.clear();
+  }
+  /// Of a method that never saw any edit, only the field as it is now.
+  Image draw_afresh() {
+    const std::unique_ptr<DrawMethod> fresh = make_method();
+    finish(*fresh);
+    return draw(*fresh);
+  }
+  float ground_m_ = 0.0F;
+};
+
+TEST_F(Raymarch, an_edit_is_in_the_next_frame) {
+  finish();
+  const Image before = draw();
+  carve({0.0F, ground_m_, 0.0F});
+  pieces_.clear();
+  method_->update(Scene{field_, pieces_}, camera_);
+  EXPECT_TRUE(method_->complete());
+  const Image after = draw();
+  EXPECT_GT(differing_pixels(before, after, 12), 300U);
+  EXPECT_EQ(differing_pixels(after, draw_afresh(), 0), 0U);
+}
+
+TEST_F(Raymarch, pixels_are_those_of_a_fresh_atlas_after_many_edits) {
+  finish();
+  Random random(11);
+  for (int round = 0; round < 4; ++round) {
+    carve_anywhere(random, 15);
+    method_->update(Scene{field_, pieces_}, camera_);
+  }
+  ASSERT_TRUE(method_->complete());
+  EXPECT_EQ(differing_pixels(draw(), draw_afresh(), 0), 0U);
+}
+
+TEST_F(Raymarch, pixels_are_those_of_a_fresh_atlas_after_a_flight) {
+  finish();
+  Random random(12);
+  carve_anywhere(random, 5);
+  for (const float away_m : {9.0F, 31.0F, 120.0F, 0.0F}) {
+    camera_.eye_m.x = 1.0F + away_m;
+    method_->update(Scene{field_, pieces_}, camera_);
+  }
+  finish();
+  carve_anywhere(random, 5);
+  finish();
+  EXPECT_EQ(differing_pixels(draw(), draw_afresh(), 0), 0U);
+}
+
+TEST_F(Raymarch, camera_inside_rock_and_tiny_images_are_harmless) {
+  camera_.eye_m.y = ground_m_ - 6.0F;
+  finish();
+  draw();
+  EXPECT_TRUE(renderer_->draw_image(*method_, camera_, 1, 1));
+  renderer_->draw(method_.get(), camera_, 0, 0, 0);
+}
+
+}  // namespace
+}  // namespace scree
