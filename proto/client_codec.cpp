@@ -44,6 +44,12 @@ struct Writing {
     repair.mutable_hashes()->Add(from.hashes.begin(), from.hashes.end());
   }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
+  void operator()(const AdminMessage& from) const {
+    wire::Admin& admin = *to.mutable_admin();
+    admin.set_request(from.request);
+    admin.set_token(clean_text(from.token, limits::token_bytes_max));
+    write(*admin.mutable_settings(), from.settings);
+  }
 };
 
 HelloMessage read(const wire::Hello& from, FieldChecker& check) {
@@ -84,6 +90,14 @@ RepairRequest read(const wire::Repair& from, FieldChecker& check) {
   return repair;
 }
 
+AdminMessage read(const wire::Admin& from, FieldChecker& check) {
+  AdminMessage admin;
+  admin.request = from.request();
+  admin.token = check.text(from.token(), limits::token_bytes_max, "token");
+  admin.settings = check.settings(from.settings());
+  return admin;
+}
+
 }  // namespace
 
 std::vector<uint8_t> encode(const ClientMessage& message) {
@@ -115,6 +129,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.repair(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
+    case wire::ClientMessage::kAdmin:
+      return checked(read(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:
       break;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/base/ids.h"
+#include "shared/base/setting_value.h"
 #include "shared/field/operation.h"
 
 namespace scree {
@@ -63,8 +64,15 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-using ClientMessage =
-    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, RepairRequest, AckMessage>;
+/// Changes the server's settings, all of them or none; answered with a reply.
+struct AdminMessage {
+  uint32_t request = 0;
+  std::string token;  ///< what the server was started with
+  SettingValues settings;
+};
+
+using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, RepairRequest,
+                                   AckMessage, AdminMessage>;
 
 // ---- server to client
 
@@ -144,6 +152,7 @@ struct StatusMessage {
   uint64_t pieces_merged = 0;
   uint64_t field_hash = 0;  ///< of the whole field after `tick`
   uint32_t repairs = 0;     ///< chunks resent to this client because a check failed
+  SettingValues settings;   ///< every setting of the simulation
 };
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,

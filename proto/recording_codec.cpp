@@ -63,7 +63,8 @@ RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldCh
   const ClientMessage message = check.take(decode_client(as_span(bytes)));
   if (const auto* carve = std::get_if<CarveMessage>(&message)) return {session, *carve};
   if (const auto* fill = std::get_if<FillMessage>(&message)) return {session, *fill};
-  check.refuse("what should be a carve or a fill is another message");
+  if (const auto* admin = std::get_if<AdminMessage>(&message)) return {session, *admin};
+  check.refuse("what should be a carve, a fill or new settings is another message");
   return {};
 }
 
@@ -79,8 +80,7 @@ std::vector<uint8_t> encode(const RecordedHeader& header) {
   to.set_tick_rate_hz(header.tick_rate_hz);
   to.set_pieces_max(header.pieces_max);
   to.set_merges_per_tick_max(header.merges_per_tick_max);
-  to.set_impacts(header.impacts);
-  to.set_dents(header.dents);
+  write(*to.mutable_settings(), header.settings);
   return bytes_of(to);
 }
 
@@ -103,8 +103,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
   header.pieces_max = from->pieces_max();
   header.merges_per_tick_max = from->merges_per_tick_max();
-  header.impacts = from->impacts();
-  header.dents = from->dents();
+  header.settings = check.settings(from->settings());
   return checked(std::move(header), check);
 }
 
@@ -116,6 +115,7 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   write(*to.mutable_ledger(), frame.ledger);
   to.set_field_hash(frame.field_hash);
   to.set_state_hash(frame.state_hash);
+  write(*to.mutable_settings(), frame.settings);
   return bytes_of(to);
 }
 
@@ -130,6 +130,7 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.ledger = read(from->ledger());
   frame.field_hash = from->field_hash();
   frame.state_hash = from->state_hash();
+  frame.settings = check.settings(from->settings());
   return checked(std::move(frame), check);
 }
 
@@ -146,6 +147,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   write(*to.mutable_ledger(), keyframe.ledger);
   to.set_field_hash(keyframe.field_hash);
   to.set_state_hash(keyframe.state_hash);
+  write(*to.mutable_settings(), keyframe.settings);
   return bytes_of(to);
 }
 
@@ -167,6 +169,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.ledger = read(from->ledger());
   keyframe.field_hash = from->field_hash();
   keyframe.state_hash = from->state_hash();
+  keyframe.settings = check.settings(from->settings());
   return checked(std::move(keyframe), check);
 }
 

@@ -16,7 +16,7 @@
 namespace scree {
 
 /// Of the blobs and the tables together. A reader refuses any other.
-inline constexpr uint32_t recording_format = 1;
+inline constexpr uint32_t recording_format = 2;
 
 struct RecordedHeader {
   uint32_t format = recording_format;
@@ -25,8 +25,7 @@ struct RecordedHeader {
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 0;
   uint32_t merges_per_tick_max = 0;
-  bool impacts = false;
-  bool dents = false;
+  SettingValues settings;  ///< to start with
 };
 
 /// As server/world/tick_delta.h, Ledger.
@@ -45,6 +44,7 @@ struct RecordedFrame {
   RecordedLedger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
+  SettingValues settings;  ///< as TickDelta::settings
 };
 
 struct RecordedKeyframe {
@@ -54,11 +54,12 @@ struct RecordedKeyframe {
   RecordedLedger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
+  SettingValues settings;
 };
 
 struct RecordedCommand {
   uint64_t session = 0;
-  std::variant<CarveMessage, FillMessage> request;
+  std::variant<CarveMessage, FillMessage, AdminMessage> request;
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

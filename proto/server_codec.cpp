@@ -82,6 +82,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_pieces_merged(from.pieces_merged);
   to.set_field_hash(from.field_hash);
   to.set_repairs(from.repairs);
+  write(*to.mutable_settings(), from.settings);
 }
 
 struct Writing {
@@ -204,6 +205,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.pieces_merged = from.pieces_merged();
   status.field_hash = from.field_hash();
   status.repairs = from.repairs();
+  status.settings = check.settings(from.settings());
   return status;
 }
 

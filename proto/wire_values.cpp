@@ -86,6 +86,19 @@ std::vector<ChunkCoord> FieldChecker::chunks(const std::string& packed, size_t c
   return chunks;
 }
 
+SettingValues FieldChecker::settings(const WireSettings& values) {
+  SettingValues settings;
+  if (static_cast<size_t>(values.size()) > limits::settings_max) {
+    refuse(std::to_string(values.size()) + " settings are over the limit of " +
+           std::to_string(limits::settings_max));
+    return settings;
+  }
+  for (const wire::Setting& value : values)
+    settings.push_back({text(value.name(), limits::setting_name_bytes_max, "name of a setting"),
+                        text(value.value(), limits::setting_value_bytes_max, "value of a setting")});
+  return settings;
+}
+
 void write(wire::Vec3& to, glm::vec3 from) {
   to.set_x(from.x);
   to.set_y(from.y);
@@ -97,6 +110,14 @@ void write(wire::Shape& to, const Shape& from) {
   write(*to.mutable_a(), from.a);
   if (from.kind != ShapeKind::sphere) write(*to.mutable_b(), from.b);
   to.set_radius_m(from.radius_m);
+}
+
+void write(WireSettings& to, const SettingValues& from) {
+  for (const SettingValue& setting : from) {
+    wire::Setting& added = *to.Add();
+    added.set_name(clean_text(setting.name, limits::setting_name_bytes_max));
+    added.set_value(clean_text(setting.value, limits::setting_value_bytes_max));
+  }
 }
 
 std::string clean_text(std::string text, size_t bytes_max) {

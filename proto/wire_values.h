@@ -11,6 +11,8 @@
 
 namespace scree {
 
+using WireSettings = google::protobuf::RepeatedPtrField<wire::Setting>;
+
 /// Believes nothing that was parsed: each call checks one field; the first breach is remembered and named.
 class FieldChecker {
  public:
@@ -27,6 +29,7 @@ class FieldChecker {
   Shape shape(const wire::Shape& value);
   /// Coordinates of chunks, packed.
   std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);
+  SettingValues settings(const WireSettings& values);
   /// What another decoder gave; its refusal becomes this one's.
   template <typename T>
   T take(Result<T> result) {
@@ -46,6 +49,7 @@ class FieldChecker {
 
 void write(wire::Vec3& to, glm::vec3 from);
 void write(wire::Shape& to, const Shape& from);
+void write(WireSettings& to, const SettingValues& from);
 /// Cut to the limit at the end of a character, control characters replaced.
 std::string clean_text(std::string text, size_t bytes_max);
 std::string pack_chunks(const std::vector<ChunkCoord>& chunks);

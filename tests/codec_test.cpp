@@ -188,6 +188,11 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   repair.chunks.resize(3);
   repair.hashes.resize(2);
   EXPECT_TRUE(names(client_refusal(repair), "2 hashes for 3 chunks"));
+  const SettingValues many(limits::settings_max + 1);
+  EXPECT_TRUE(names(client_refusal(AdminMessage{1, "", many}), "33 settings are over the limit of 32"));
+  StatusMessage status;
+  status.settings = many;
+  EXPECT_TRUE(names(server_refusal(status), "33 settings"));
 }
 
 TEST(Codec, bricks_twice_astray_or_too_many_are_refused) {
@@ -268,6 +273,22 @@ TEST(Codec, text_with_control_characters_or_over_its_limit_is_refused_when_read)
   body = {0x0A, 69, 0x08, 1, 0x12, 65};
   body.insert(body.end(), 65, 'a');
   EXPECT_TRUE(names(decode_client(body).error().message, "client has 65 bytes, over the limit of 64"));
+}
+
+TEST(Codec, an_admins_text_over_its_limit_is_refused_by_name) {
+  // Admin is field 7 of the envelope; its field 2 is the token, its field 3 a Setting of a name and a value.
+  const auto with_lengths = [](std::vector<uint8_t> head, size_t bytes) {
+    head.insert(head.end(), bytes, 'a');
+    return head;
+  };
+  EXPECT_TRUE(decode_client(with_lengths({0x3A, 131, 1, 0x12, 128, 1}, 128)));
+  EXPECT_TRUE(names(decode_client(with_lengths({0x3A, 132, 1, 0x12, 129, 1}, 129)).error().message,
+                    "token has 129 bytes, over the limit of 128"));
+  EXPECT_TRUE(decode_client(with_lengths({0x3A, 36, 0x1A, 34, 0x0A, 32}, 32)));
+  EXPECT_TRUE(names(decode_client(with_lengths({0x3A, 37, 0x1A, 35, 0x0A, 33}, 33)).error().message,
+                    "name of a setting has 33 bytes"));
+  EXPECT_TRUE(names(decode_client(with_lengths({0x3A, 69, 0x1A, 67, 0x12, 65}, 65)).error().message,
+                    "value of a setting has 65 bytes"));
 }
 
 TEST(Codec, an_empty_message_and_one_of_an_unknown_kind_are_refused) {

@@ -62,7 +62,7 @@ MassUnits mass_of(const TickDelta& delta) {
 
 TEST(impact, a_hard_fall_breaks_a_piece_where_it_struck) {
   WorldConfig config = flat_world();
-  config.dents = false;
+  config.methods.dents = false;
   World world(config);
   const auto born = step(world, hang_block({0.0F, 20.0F, 0.0F}, 0.75F, 1));
   ASSERT_EQ(born->spawned.size(), 1U) << born->replies.back().refusal;
@@ -129,7 +129,7 @@ TEST(impact, a_soft_fall_breaks_nothing) {
 
 TEST(impact, switched_off_nothing_breaks_and_nothing_dents) {
   WorldConfig config = flat_world();
-  config.impacts = config.dents = false;
+  config.methods.impacts = config.methods.dents = false;
   World world(config);
   ASSERT_EQ(step(world, hang_block({0.0F, 20.0F, 0.0F}, 0.75F, 1))->spawned.size(), 1U);
   for (int i = 0; i < 300; ++i) {
@@ -163,7 +163,7 @@ TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
     return piece;
   };
   spawn(state, cut, born, delta);
-  state.config.dents = false;
+  state.methods.dents = false;
   bool broke = false;
   for (int i = 0; i < 30 && !broke; ++i) {
     state.bodies.step();

@@ -43,8 +43,8 @@ TEST(ServerOptions, flags_are_taken) {
   EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
   EXPECT_EQ(live.world.tick_rate_hz, 30U);
   EXPECT_EQ(live.record_path, "a.scree");
-  EXPECT_FALSE(live.world.impacts);
-  EXPECT_FALSE(live.world.dents);
+  EXPECT_FALSE(live.world.methods.impacts);
+  EXPECT_FALSE(live.world.methods.dents);
 }
 
 TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
@@ -55,25 +55,48 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--tick-rate", "0"}), 2);
   EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
   EXPECT_EQ(exit_code({"--loop"}), 2);
+  EXPECT_EQ(exit_code({"--impacts", "perhaps"}), 2);
+  EXPECT_EQ(exit_code({"--admin-token", "short"}), 2);
+  EXPECT_EQ(exit_code({"--admin-token-file", "/no/such/file"}), 2);
+  EXPECT_EQ(exit_code({"--admin-token", "long enough", "--admin-token-file", "a"}), 2);
   EXPECT_EQ(exit_code({"--config", "/no/such/file.toml"}), 2);
 }
 
 TEST(ServerOptions, flag_wins_over_file_over_environment) {
   const auto path =
       std::filesystem::temp_directory_path() / ("scree_options_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(path) << "sessions-max = 7\ntick-rate = 20\n";
+  std::ofstream(path) << "sessions-max = 7\ntick-rate = 20\nislands = false\n";
   ::setenv("SCREE_PORT", "5002", 1);
   ::setenv("SCREE_SESSIONS_MAX", "3", 1);
+  ::setenv("SCREE_DENTS", "false", 1);
   const std::string file = path.string();
   const auto parsed = parse({"--config", file.c_str(), "--tick-rate", "40"});
   ::unsetenv("SCREE_PORT");
   ::unsetenv("SCREE_SESSIONS_MAX");
+  ::unsetenv("SCREE_DENTS");
   std::filesystem::remove(path);
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
   EXPECT_EQ(live.net.sessions_max, 7U);
   EXPECT_EQ(live.net.port, 5002);
   EXPECT_EQ(live.world.tick_rate_hz, 40U);
+  EXPECT_FALSE(live.world.methods.islands);
+  EXPECT_FALSE(live.world.methods.dents);
+  EXPECT_TRUE(live.world.methods.impacts);
+}
+
+TEST(ServerOptions, admin_token_comes_from_a_file_or_the_command_line) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scree_options_token_" + std::to_string(::getpid()));
+  std::ofstream(path) << "token-in-a-file\n";
+  const std::string file = path.string();
+  const auto from_file = parse({"--admin-token-file", file.c_str()});
+  std::filesystem::remove(path);
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(from_file));
+  EXPECT_EQ(std::get<ServerOptions>(from_file).live.net.admin_token, "token-in-a-file");
+  const auto from_line = parse({"--admin-token", "token-on-the-line"});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(from_line));
+  EXPECT_EQ(std::get<ServerOptions>(from_line).live.net.admin_token, "token-on-the-line");
 }
 
 TEST(ServerOptions, unknown_name_in_the_file_is_a_mistake) {

@@ -34,6 +34,7 @@ const std::vector<Layer>& layers() {
       {"client/connection/", {"shared/", "proto/", "client/mirror/"}},
       {"client/render/", {"shared/", "proto/", "client/mirror/"}},
       {"client/bot/", {"shared/", "proto/", "client/mirror/", "client/connection/"}},
+      {"client/admin/", {"shared/", "proto/", "client/mirror/", "client/connection/"}},
       {"client/viewer/", {"shared/", "proto/", "client/"}},
       {"bench/", {"shared/", "proto/", "server/", "client/"}},
       {"tests/", {"shared/", "proto/", "server/", "client/", "bench/"}},

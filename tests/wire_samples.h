@@ -76,6 +76,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.tick_worst_ms = 8.25F;
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
+  status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {welcome,        RefusalMessage{"protocol 9 is not 1"},
           frame(),        FrameMessage{},
           chunk,          PieceMessage{31, volume(), {1, -2, 3, 4}},
@@ -95,7 +96,8 @@ inline std::vector<ClientMessage> client_messages() {
           carve,
           FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
           RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
-          AckMessage{1ULL << 40U}};
+          AckMessage{1ULL << 40U},
+          AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}}};
 }
 
 /// What is inside the length prefix.

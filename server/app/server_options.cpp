@@ -5,7 +5,9 @@
 
 #include "proto/messages.h"
 #include "server/app/limits.h"
+#include "server/world/settings.h"
 #include "shared/base/limits.h"
+#include "shared/base/token.h"
 
 namespace scree {
 
@@ -15,6 +17,7 @@ constexpr int usage_error = 2;
 
 struct Raw {
   ServerOptions options;
+  std::string token_path;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
 
@@ -49,12 +52,24 @@ void add_world(CLI::App& app, Raw& raw) {
       ->capture_default_str();
 }
 
-void add_breaking(CLI::App& app, Raw& raw) {
-  WorldConfig& world = raw.options.live.world;
-  app.add_option("--impacts", world.impacts, "whether pieces that strike hard break again")
-      ->capture_default_str();
-  app.add_option("--dents", world.dents, "whether pieces that strike hard dent soft ground")
-      ->capture_default_str();
+/// Every row of the table of settings is an option.
+void add_settings(CLI::App& app, Raw& raw) {
+  Methods& methods = raw.options.live.world.methods;
+  for (const Setting& row : settings()) {
+    const auto take = [&methods, name = std::string(row.name)](const std::string& value) {
+      if (Result<void> done = set(methods, {name, value}); !done)
+        throw CLI::ValidationError(done.error().message);
+    };
+    app.add_option_function<std::string>("--" + std::string(row.name), take, std::string(row.help))
+        ->default_str(row.print(Methods{}));
+  }
+}
+
+void add_admin(CLI::App& app, Raw& raw) {
+  CLI::Option* token = app.add_option("--admin-token", raw.options.live.net.admin_token,
+                                      "whoever knows it may change settings while it runs; "
+                                      "better in a file: command lines are seen by others");
+  app.add_option("--admin-token-file", raw.token_path, "its first line is the admin token")->excludes(token);
 }
 
 void add_recordings(CLI::App& app, Raw& raw) {
@@ -83,6 +98,19 @@ void add_run(CLI::App& app, Raw& raw) {
       ->capture_default_str();
 }
 
+/// The token is looked at where mistakes in options are.
+void take_token(Raw& raw) {
+  std::string& token = raw.options.live.net.admin_token;
+  if (!raw.token_path.empty()) {
+    Result<std::string> read = read_token(raw.token_path);
+    if (!read) throw CLI::ValidationError("--admin-token-file", read.error().message);
+    token = std::move(*read);
+  }
+  if (token.empty()) return;
+  if (Result<void> good = check_token(token); !good)
+    throw CLI::ValidationError("--admin-token", good.error().message);
+}
+
 /// --sessions-max is SCREE_SESSIONS_MAX.
 void name_environment(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
@@ -105,12 +133,14 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   app.allow_config_extras(CLI::config_extras_mode::error);
   add_network(app, raw);
   add_world(app, raw);
-  add_breaking(app, raw);
+  add_settings(app, raw);
+  add_admin(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
   name_environment(app);
   try {
     app.parse(argc, argv);
+    take_token(raw);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }

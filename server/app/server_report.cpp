@@ -31,6 +31,12 @@ Json json_of(const Ledger& ledger) {
           {"poured", ledger.poured},   {"moved", ledger.moved},   {"error", ledger.error()}};
 }
 
+Json json_of(const SettingValues& settings) {
+  Json json = Json::object();
+  for (const SettingValue& setting : settings) json[setting.name] = setting.value;
+  return json;
+}
+
 Json json_of(const NetStats& net) {
   const PublisherStats& sent = net.published;
   return {{"now", net.sessions},
@@ -62,6 +68,7 @@ void ServerReport::add(const TickDelta& delta) {
   pieces_made += delta.spawned.size();
   pieces_alive = delta.pieces.size();
   ledger = delta.ledger;
+  if (!delta.settings.empty()) settings = delta.settings;
   field_hash = delta.field_hash;
   state_hash = delta.state_hash;
   const StageTimes& times = delta.times;
@@ -92,6 +99,7 @@ std::string to_json(const ServerReport& report) {
             {"pieces_lost", report.pieces_lost},
             {"pieces_alive", report.pieces_alive},
             {"ledger", json_of(report.ledger)},
+            {"settings", json_of(report.settings)},
             {"field_hash", hex(report.field_hash)},
             {"state_hash", hex(report.state_hash)},
             {"late_ticks", report.late_ticks},

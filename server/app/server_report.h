@@ -24,6 +24,7 @@ struct ServerReport {
   uint64_t pieces_lost = 0;  ///< that left the world and became dust
   uint64_t pieces_alive = 0;
   Ledger ledger;
+  SettingValues settings;  ///< as they stand at the end
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   uint64_t late_ticks = 0;  ///< began after their time, and were made up for

@@ -7,6 +7,7 @@
 
 #include "proto/codec.h"
 #include "shared/base/limits.h"
+#include "shared/base/token.h"
 
 namespace scree {
 
@@ -156,6 +157,8 @@ Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
     request(session, command_of(session.id(), *carve));
   } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
     request(session, command_of(session.id(), *fill));
+  } else if (const auto* admin = std::get_if<AdminMessage>(&message)) {
+    return administer(session, *admin);
   } else if (const auto* interest = std::get_if<InterestMessage>(&message)) {
     const auto radius_m = granted_radius(interest->eye_m, interest->interest_radius_m);
     if (!radius_m) return tl::unexpected(radius_m.error());
@@ -180,9 +183,29 @@ void NetHost::request(Session& session, const Command& command) {
   else if (!commands_.push(command))
     refusal = "the server is busy: " + std::to_string(commands_.commands_max()) +
               " commands wait already (limits.commands_waiting_max); try again";
-  if (refusal.empty()) return;
+  if (!refusal.empty()) refuse_request(session, command.request, refusal);
+}
+
+void NetHost::refuse_request(Session& session, uint32_t request, const std::string& reason) {
   ++counts_.requests_refused;
-  session.send(ServerMessage(ReplyMessage{command.request, refusal, 0}));
+  session.send(ServerMessage(ReplyMessage{request, reason, 0}));
+}
+
+/// One guess at the token a connection.
+Result<void> NetHost::administer(Session& session, const AdminMessage& message) {
+  if (config_.admin_token.empty()) {
+    ++counts_.requests;
+    refuse_request(session, message.request,
+                   "this server was started without an admin token: nobody may change its settings "
+                   "(--admin-token-file)");
+    return {};
+  }
+  if (!same_token(message.token, config_.admin_token)) return fail("the admin token is wrong");
+  std::string changes;
+  for (const SettingValue& setting : message.settings) changes += " " + setting.name + "=" + setting.value;
+  spdlog::info("session {}: {} sets{}", session.id(), session.peer(), changes);
+  request(session, {session.id(), message.request, SettingsRequest{message.settings}});
+  return {};
 }
 
 void NetHost::refused(Session& session, const std::string& reason) {

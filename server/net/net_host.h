@@ -41,6 +41,8 @@ class NetHost final : public SessionHost {
   void accepted(asio::ip::tcp::socket socket);
   void tick_timer();
   void request(Session& session, const Command& command);
+  Result<void> administer(Session& session, const AdminMessage& message);
+  void refuse_request(Session& session, uint32_t request, const std::string& reason);
   uint32_t joined_count() const;
   void update_stats();
 

@@ -23,7 +23,8 @@ struct NetConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
   uint32_t sessions_max = limits::sessions_max_default;
-  bool replay = false;  ///< a recording: carves and fills are refused
+  bool replay = false;      ///< a recording: carves and fills are refused
+  std::string admin_token;  ///< lets a client change settings; empty: none may
   double requests_per_second = limits::requests_per_second_max;
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;

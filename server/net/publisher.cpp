@@ -189,6 +189,7 @@ void Publisher::send_status(uint64_t session, Client& client) {
   status.pieces_merged = state_.pieces_merged();
   status.field_hash = state_.field_hash();
   status.repairs = client.repairs;
+  status.settings = state_.settings();
   send(session, client, bytes_of(status));
 }
 

@@ -39,6 +39,7 @@ struct ReplaySource::State {
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
   Ledger ledger;
+  SettingValues settings;
   uint64_t state_hash = 0;
   Tick tick = 0;
   bool keyframe_due = false;
@@ -49,6 +50,7 @@ void ReplaySource::State::restart() {
   pieces.clear();
   poses.clear();
   ledger = {};
+  settings.clear();
   state_hash = 0;
   tick = 0;
   keyframe_due = false;
@@ -69,6 +71,7 @@ Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe) {
     poses[piece.id] = piece.pose;
   }
   ledger = from_recorded(keyframe.ledger);
+  settings = keyframe.settings;
   state_hash = keyframe.state_hash;
   return check_hash(keyframe.field_hash);
 }
@@ -118,6 +121,8 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::State::advance() {
   for (const BrickCoord coord : changed) delta->bricks.push_back(brick_state(coord));
   ledger = from_recorded(frame->ledger);
   state_hash = frame->state_hash;
+  if (!frame->settings.empty()) settings = frame->settings;
+  delta->settings = frame->settings;
   delta->ledger = ledger;
   delta->field_hash = frame->field_hash;
   delta->state_hash = state_hash;
@@ -135,6 +140,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
     delta->pieces.push_back({id, poses.at(id)});
   }
   delta->ledger = ledger;
+  delta->settings = settings;
   delta->field_hash = field->hash();
   delta->state_hash = state_hash;
   return delta;

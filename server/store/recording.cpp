@@ -1,30 +1,31 @@
 #include "server/store/recording.h"
 
+#include "server/world/settings.h"
+
 namespace scree {
 
 RecordedHeader to_recorded(const RecordingHeader& header) {
   // Bound one by one, so that a setting that is new and not recorded yet does not compile.
-  const auto& [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, impacts, dents] = header.world;
+  const auto& [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, methods] = header.world;
   RecordedHeader out;
   out.program = header.program;
   out.terrain = terrain;
   out.tick_rate_hz = tick_rate_hz;
   out.pieces_max = pieces_max;
   out.merges_per_tick_max = merges_per_tick_max;
-  out.impacts = impacts;
-  out.dents = dents;
+  out.settings = print(methods);
   return out;
 }
 
-RecordingHeader from_recorded(const RecordedHeader& header) {
+Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   RecordingHeader out;
   out.program = header.program;
   out.world.terrain = header.terrain;
   out.world.tick_rate_hz = header.tick_rate_hz;
   out.world.pieces_max = header.pieces_max;
   out.world.merges_per_tick_max = header.merges_per_tick_max;
-  out.world.impacts = header.impacts;
-  out.world.dents = header.dents;
+  if (Result<void> known = set_all(out.world.methods, header.settings); !known)
+    return tl::unexpected(known.error());
   return out;
 }
 
@@ -45,6 +46,8 @@ std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
                                          carve->random_seed, carve->impact_m, carve->blast_speed_m_s}});
     else if (const auto* fill = std::get_if<FillRequest>(&command.body))
       out.push_back({command.session, FillMessage{command.request, fill->shape}});
+    else if (const auto* settings = std::get_if<SettingsRequest>(&command.body))
+      out.push_back({command.session, AdminMessage{command.request, {}, settings->settings}});
   }
   return out;
 }
@@ -58,6 +61,8 @@ std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
                                   carve->impact_m, carve->blast_speed_m_s}});
     else if (const auto* fill = std::get_if<FillMessage>(&command.request))
       out.push_back({command.session, fill->request, FillRequest{fill->shape}});
+    else if (const auto* admin = std::get_if<AdminMessage>(&command.request))
+      out.push_back({command.session, admin->request, SettingsRequest{admin->settings}});
   }
   return out;
 }
@@ -73,6 +78,7 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
   frame.ledger = to_recorded(delta.ledger);
   frame.field_hash = delta.field_hash;
   frame.state_hash = delta.state_hash;
+  frame.settings = delta.settings;
   return frame;
 }
 
@@ -85,6 +91,7 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
   keyframe.ledger = to_recorded(delta.ledger);
   keyframe.field_hash = delta.field_hash;
   keyframe.state_hash = delta.state_hash;
+  keyframe.settings = delta.settings;
   return keyframe;
 }
 

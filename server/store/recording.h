@@ -10,6 +10,7 @@
 #include "server/world/published_state.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
+#include "shared/base/result.h"
 
 namespace scree {
 
@@ -19,7 +20,8 @@ struct RecordingHeader {
 };
 
 RecordedHeader to_recorded(const RecordingHeader& header);
-RecordingHeader from_recorded(const RecordedHeader& header);
+/// Refuses settings that this program does not know.
+Result<RecordingHeader> from_recorded(const RecordedHeader& header);
 
 RecordedLedger to_recorded(const Ledger& ledger);
 Ledger from_recorded(const RecordedLedger& ledger);

@@ -87,7 +87,9 @@ Result<void> RecordingReader::State::read_header() {
   if (!recorded) return fail(database.path() + ": damaged: " + recorded.error().message);
   if (recorded->format != recording_format)
     return fail(database.path() + ": damaged: its header is of format " + std::to_string(recorded->format));
-  header = from_recorded(*recorded);
+  auto understood = from_recorded(*recorded);
+  if (!understood) return fail(database.path() + ": made by another release: " + understood.error().message);
+  header = std::move(*understood);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "shared/base/setting_value.h"
 #include "shared/field/shape.h"
 #include "shared/field/voronoi.h"
 
@@ -26,10 +27,17 @@ struct FillRequest {
   bool operator==(const FillRequest&) const = default;
 };
 
+/// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
+struct SettingsRequest {
+  SettingValues settings;
+
+  bool operator==(const SettingsRequest&) const = default;
+};
+
 struct Command {
   uint64_t session = 0;  ///< who asked; 0: the server itself
   uint32_t request = 0;  ///< the asker's number for it, returned in the reply
-  std::variant<CarveRequest, FillRequest> body;
+  std::variant<CarveRequest, FillRequest, SettingsRequest> body;
 
   bool operator==(const Command&) const = default;
 };

@@ -184,14 +184,14 @@ bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
 }  // namespace
 
 void apply_impacts(World::State& state, TickDelta& delta) {
-  if (!state.config.impacts && !state.config.dents) return;
+  if (!state.methods.impacts && !state.methods.dents) return;
   uint32_t breaks = 0, dents = 0;
   for (const Blow& blow : blows_of(state)) {
     const bool on_terrain = !blow.impact.other.has_value();
-    if (state.config.dents && on_terrain && dents < limits::dents_per_tick_max &&
+    if (state.methods.dents && on_terrain && dents < limits::dents_per_tick_max &&
         dent_ground(state, blow, delta))
       ++dents;
-    if (state.config.impacts && blow.excess > 1.0F && breaks < limits::breaks_per_tick_max &&
+    if (state.methods.impacts && blow.excess > 1.0F && breaks < limits::breaks_per_tick_max &&
         break_piece(state, blow, delta))
       ++breaks;
   }

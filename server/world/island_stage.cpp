@@ -1,6 +1,7 @@
 #include "server/world/island_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
@@ -33,6 +34,18 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
     return born;
   };
   spawn(state, applied, at_rest, delta);
+}
+
+/// One search, or several where cuts of many ticks have waited for islands to be switched on: a search over
+/// all of them would start afresh with every change anywhere among them.
+void take_cuts(World::State& state) {
+  std::vector<BrickCoord> part;
+  for (const BrickCoord brick : state.cut) {
+    part.push_back(brick);
+    if (part.size() == limits::island_cut_bricks_max) state.islands.push(std::exchange(part, {}));
+  }
+  state.islands.push(std::move(part));
+  state.cut.clear();
 }
 
 }  // namespace
@@ -68,8 +81,8 @@ std::optional<std::vector<Island>> IslandQueue::next(Field& field, size_t& brick
 void drop_islands(World::State& state, TickDelta& delta) {
   const std::vector<BrickCoord> changed(state.changed.begin(), state.changed.end());
   state.islands.changed(changed);
-  state.islands.push({state.cut.begin(), state.cut.end()});
-  state.cut.clear();
+  if (!state.methods.islands) return;
+  take_cuts(state);
   size_t bricks = limits::island_bricks_per_tick;
   std::vector<BrickCoord> later;
   while (const auto islands = state.islands.next(state.field, bricks))

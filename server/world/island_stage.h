@@ -4,6 +4,9 @@
 // looks at limits::island_bricks_per_tick bricks; what is not finished goes on in the next tick, and starts
 // afresh when what it has seen changed in between. With every fresh start its budget doubles, so that each
 // search ends. Part of the simulation: it counts bricks, never time.
+//
+// Switched off (Methods::islands), cuts and unfinished searches wait; switched on again, what they loosened
+// meanwhile falls.
 #pragma once
 
 #include <deque>

@@ -9,6 +9,10 @@ namespace scree::limits {
 /// Bricks at which the search for islands looks in one tick: about 1 ms. Above: it goes on in the next tick.
 inline constexpr size_t island_bricks_per_tick = 1024;
 
+/// Bricks that lost rock around which one search looks: more than one blow changes. Those of the time while
+/// islands were switched off may be more: they make several searches.
+inline constexpr size_t island_cut_bricks_max = 4096;
+
 /// Points of an island's surface that are tested against the ground, besides the corners of its hull. Above:
 /// they are spread more thinly.
 inline constexpr size_t concave_samples_max = 128;

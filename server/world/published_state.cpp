@@ -46,6 +46,7 @@ void PublishedState::apply(const TickDelta& delta) {
   for (const AppliedOperation& applied : delta.operations)
     pieces_merged_ += std::holds_alternative<StampOperation>(applied.operation) ? 1 : 0;
   ledger_ = delta.ledger;
+  if (!delta.settings.empty()) settings_ = delta.settings;
   field_hash_ = delta.field_hash;
   state_hash_ = delta.state_hash;
 }
@@ -61,6 +62,7 @@ TickDelta PublishedState::as_delta() const {
     delta.pieces.push_back({id, piece.pose});
   }
   delta.ledger = ledger_;
+  delta.settings = settings_;
   delta.field_hash = field_hash_;
   delta.state_hash = state_hash_;
   return delta;

@@ -49,6 +49,7 @@ class PublishedState {
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
   const Ledger& ledger() const { return ledger_; }
+  const SettingValues& settings() const { return settings_; }
   uint64_t field_hash() const { return field_hash_; }
   uint64_t pieces_made() const { return pieces_made_; }
   uint64_t pieces_merged() const { return pieces_merged_; }
@@ -61,6 +62,7 @@ class PublishedState {
   std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
   std::map<PieceId, PublishedPiece> pieces_;
   Ledger ledger_;
+  SettingValues settings_;
   uint64_t field_hash_ = 0;
   uint64_t state_hash_ = 0;
   uint64_t pieces_made_ = 0;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
@@ -77,13 +78,27 @@ Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta
   return 0U;
 }
 
+Result<uint32_t> change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
+  const Methods before = state.methods;
+  if (Result<void> done = set_all(state.methods, request.settings); !done)
+    return tl::unexpected(done.error());
+  if (state.methods != before) delta.settings = print(state.methods);
+  return 0U;
+}
+
+struct Executing {
+  World::State& state;
+  TickDelta& delta;
+
+  Result<uint32_t> operator()(const CarveRequest& request) const { return carve(state, request, delta); }
+  Result<uint32_t> operator()(const FillRequest& request) const { return fill(state, request, delta); }
+  Result<uint32_t> operator()(const SettingsRequest& request) const { return change(state, request, delta); }
+};
+
 }  // namespace
 
 void execute(World::State& state, const Command& command, TickDelta& delta) {
-  const auto* carve_request = std::get_if<CarveRequest>(&command.body);
-  const Result<uint32_t> made = carve_request != nullptr
-                                    ? carve(state, *carve_request, delta)
-                                    : fill(state, std::get<FillRequest>(command.body), delta);
+  const Result<uint32_t> made = std::visit(Executing{state, delta}, command.body);
   Reply reply{command.session, command.request, {}, 0};
   if (made) {
     reply.pieces = *made;

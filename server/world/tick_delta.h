@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/base/ids.h"
+#include "shared/base/setting_value.h"
 #include "shared/field/operation.h"
 
 namespace scree {
@@ -73,6 +74,7 @@ struct TickDelta {
   std::vector<SpawnedPiece> spawned;         ///< pieces made in this tick, ordered; some may be gone again
   std::vector<PieceState> pieces;            ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
+  SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
   Ledger ledger;
   StageTimes times;
   uint64_t field_hash = 0;  ///< Field::hash()

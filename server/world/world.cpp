@@ -6,6 +6,7 @@
 #include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
 #include "server/world/request_stage.h"
+#include "server/world/settings.h"
 #include "server/world/state_hash.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
@@ -55,6 +56,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   Stopwatch whole, watch;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
+  if (s.tick == 1) delta->settings = print(s.methods);
   for (const Command& command : commands) execute(s, command, *delta);
   watch.lap_ms();
   s.bodies.step();
@@ -77,6 +79,9 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
 
 const WorldConfig& World::config() const {
   return state_->config;
+}
+const Methods& World::methods() const {
+  return state_->methods;
 }
 Tick World::tick() const {
   return state_->tick;

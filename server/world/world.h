@@ -8,6 +8,7 @@
 #include <span>
 
 #include "server/world/command.h"
+#include "server/world/methods.h"
 #include "server/world/tick_delta.h"
 #include "shared/field/terrain.h"
 
@@ -18,8 +19,7 @@ struct WorldConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
   uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
-  bool impacts = true;               ///< hard contacts break pieces again
-  bool dents = true;                 ///< hard contacts dent soft ground
+  Methods methods;                   ///< to start with
 
   bool operator==(const WorldConfig&) const = default;
 };
@@ -31,10 +31,12 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Advances one tick: commands in order, bodies, rest, recombination.
+  /// Advances one tick: commands in order, bodies, rest, recombination. The first delta says how every
+  /// setting stands, later ones only when one changes.
   std::shared_ptr<const TickDelta> step(std::span<const Command> commands);
 
   const WorldConfig& config() const;
+  const Methods& methods() const;
   Tick tick() const;
   /// The terrain's gain since the start, measured afresh from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();

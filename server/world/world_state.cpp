@@ -36,6 +36,7 @@ bool cuts(const Operation& operation, const Applied& applied) {
 
 World::State::State(const WorldConfig& world_config)
     : config(world_config),
+      methods(config.methods),
       field(config.terrain),
       bodies(field, bodies_config(config)),
       rest(RestConfig{}, config.tick_rate_hz) {}

@@ -32,6 +32,7 @@ struct World::State {
   PieceTraits traits_of(PieceId id) const;
 
   WorldConfig config;
+  Methods methods;  ///< as they stand; config.methods: as they were at the start
   VdbField field;
   PieceTable pieces;
   Bodies bodies;                          ///< one for each of `pieces`
@@ -41,7 +42,7 @@ struct World::State {
   Tick tick = 0;
   PieceId next_piece = 1;
   std::set<BrickCoord> changed;  ///< in this tick
-  std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up
+  std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up: not searched yet
   IslandQueue islands;
 };
 

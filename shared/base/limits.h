@@ -34,6 +34,17 @@ inline constexpr float voxel_size_max_m = 2.0F;
 /// Bytes of one message on the wire, either way. Above: the connection is refused.
 inline constexpr size_t message_bytes_max = size_t{1} << 20;
 
+/// Settings in one request to change them, and the length of a name and of a value, bytes: twice what there
+/// are and need. Above: refused.
+inline constexpr size_t settings_max = 32;
+inline constexpr size_t setting_name_bytes_max = 32;
+inline constexpr size_t setting_value_bytes_max = 64;
+
+/// Length of the token that lets a client change settings, bytes. Shorter ones could be guessed; both are
+/// refused.
+inline constexpr size_t token_bytes_min = 8;
+inline constexpr size_t token_bytes_max = 128;
+
 /// Radius of interest that a client may ask for, metres; more is cut to this.
 inline constexpr float interest_radius_max_m = 256.0F;
 

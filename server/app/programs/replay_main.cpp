@@ -6,6 +6,7 @@
 
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
+#include "server/world/settings.h"
 
 namespace scree {
 namespace {
@@ -79,6 +80,8 @@ int info(const Options& options) {
   const WorldConfig& world = header.world;
   const Tick ticks = (*recording)->last_tick();
   const Ledger ledger = from_recorded(sums->last.ledger);
+  Json settings = Json::object();
+  for (const SettingValue& setting : print(world.methods)) settings[setting.name] = setting.value;
   print({{"file", options.path},
          {"format", recording_format},
          {"recorded_by", header.program},
@@ -87,6 +90,7 @@ int info(const Options& options) {
          {"voxel_size_m", world.terrain.voxel_size_m},
          {"tick_rate_hz", world.tick_rate_hz},
          {"pieces_max", world.pieces_max},
+         {"settings", settings},
          {"ticks", ticks},
          {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
          {"keyframes", (*recording)->keyframes()},

@@ -1,0 +1,16 @@
+// How the simulation does what can be done in more than one way. Starts with WorldConfig's and changes by
+// SettingsRequests while running; settings.h gives each member its name. Part of the simulation: the same
+// commands give the same hashes.
+#pragma once
+
+namespace scree {
+
+struct Methods {
+  bool impacts = true;  ///< hard contacts break pieces again
+  bool dents = true;    ///< hard contacts dent soft ground
+  bool islands = true;  ///< what is cut off from the ground falls
+
+  bool operator==(const Methods&) const = default;
+};
+
+}  // namespace scree

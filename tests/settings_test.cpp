@@ -1,0 +1,259 @@
+// Settings: one table for everything, changed while running, recorded, and replayed to the same hashes; over
+// the wire only for those who know the token.
+#include "server/world/settings.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+#include <unistd.h>
+
+#include "client/admin/admin.h"
+#include "server/app/live_server.h"
+#include "server/replay/replay_source.h"
+#include "server/replay/verify.h"
+#include "server/store/recorder.h"
+#include "shared/base/limits.h"
+#include "shared/base/token.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string good_token = "a-token-of-some-length";
+
+WorldConfig flat_world() {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  return config;
+}
+
+Command change(const SettingValues& settings) {
+  return {1, 7, SettingsRequest{settings}};
+}
+
+/// A table of rock that stands on one leg, and the cut through the leg.
+Command fill(const Shape& shape) {
+  return {1, 1, FillRequest{shape}};
+}
+std::vector<Command> table_on_a_leg(float x_m) {
+  return {fill(box({x_m, 1.0F, 0.0F}, {0.5F, 1.2F, 0.5F})), fill(box({x_m, 2.5F, 0.0F}, {1.5F, 0.5F, 1.5F}))};
+}
+Command cut_leg(float x_m) {
+  CarveRequest carve;
+  carve.shape = sphere({x_m, 1.0F, 0.0F}, 0.9F);
+  carve.seeds = 4;
+  carve.impact_m = {x_m, 1.0F, 1.0F};
+  return {1, 2, carve};
+}
+
+int64_t islands_in(const TickDelta& delta) {
+  return std::ranges::count_if(delta.operations, [](const AppliedOperation& applied) {
+    return std::holds_alternative<IslandOperation>(applied.operation);
+  });
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(settings, every_one_prints_what_it_was_set_to_and_says_what_it_may_be) {
+  std::set<std::string_view> names;
+  for (const Setting& setting : settings()) {
+    SCOPED_TRACE(setting.name);
+    EXPECT_TRUE(names.insert(setting.name).second);
+    EXPECT_LE(setting.name.size(), limits::setting_name_bytes_max);
+    EXPECT_FALSE(setting.help.empty());
+    Methods methods;
+    EXPECT_TRUE(setting.parse(setting.print(Methods{}), methods));
+    EXPECT_EQ(methods, Methods{});
+    const Result<void> refused = set(methods, {std::string(setting.name), "sideways"});
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(holds(refused.error().message, std::string(setting.name) + " is "))
+        << refused.error().message;
+    EXPECT_EQ(methods, Methods{});
+  }
+  EXPECT_LE(settings().size(), limits::settings_max);
+  EXPECT_EQ(print(Methods{}).size(), settings().size());
+}
+
+TEST(settings, are_changed_all_or_none) {
+  Methods methods;
+  const auto refusal = [&](const SettingValues& values) {
+    const Result<void> done = set_all(methods, values);
+    return done ? "" : done.error().message;
+  };
+  EXPECT_TRUE(
+      holds(refusal({{"impacts", "false"}, {"gravity", "1"}}), "no setting 'gravity'; there are impacts"));
+  EXPECT_TRUE(holds(refusal({{"impacts", "false"}, {"dents", "no"}}), "dents is true or false, not 'no'"));
+  EXPECT_TRUE(holds(refusal({{"dents", "false"}, {"dents", "true"}}), "dents is set twice"));
+  EXPECT_TRUE(holds(refusal(SettingValues(limits::settings_max + 1)), "limits.settings_max"));
+  EXPECT_EQ(methods, Methods{});
+  EXPECT_EQ(refusal({{"dents", "false"}, {"impacts", "false"}}), "");
+  EXPECT_EQ(methods.dents, false);
+  EXPECT_EQ(methods.impacts, false);
+  EXPECT_EQ(methods.islands, true);
+}
+
+TEST(settings, a_world_publishes_them_at_first_and_when_they_change) {
+  World world(flat_world());
+  EXPECT_EQ(world.step({})->settings, print(Methods{}));
+  EXPECT_TRUE(world.step({})->settings.empty());
+  const std::vector<Command> same{change({{"dents", "true"}})};
+  EXPECT_TRUE(world.step(same)->settings.empty());
+  const std::vector<Command> other{change({{"dents", "false"}})};
+  const auto delta = world.step(other);
+  EXPECT_EQ(delta->settings, print(world.methods()));
+  EXPECT_EQ(delta->replies.front().refusal, "");
+  EXPECT_FALSE(world.methods().dents);
+  const std::vector<Command> wrong{change({{"dents", "true"}, {"impacts", "maybe"}})};
+  EXPECT_TRUE(holds(world.step(wrong)->replies.front().refusal, "impacts is true or false"));
+  EXPECT_FALSE(world.methods().dents);
+}
+
+TEST(settings, what_was_cut_off_while_islands_were_off_falls_when_they_are_switched_on) {
+  WorldConfig config = flat_world();
+  config.methods.islands = false;
+  World world(config);
+  for (const float x_m : {0.0F, 20.0F}) {
+    world.step(table_on_a_leg(x_m));
+    const std::vector<Command> cut{cut_leg(x_m)};
+    world.step(cut);
+    for (int i = 0; i < 60; ++i) ASSERT_EQ(islands_in(*world.step({})), 0);
+  }
+  const std::vector<Command> on{change({{"islands", "true"}})};
+  int64_t fell = islands_in(*world.step(on));
+  for (int i = 0; i < 10; ++i) fell += islands_in(*world.step({}));
+  EXPECT_EQ(fell, 2);
+}
+
+class SettingsSession : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() /
+             ("scree_settings_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(folder / name) << content;
+    return (folder / name).string();
+  }
+  fs::path folder;
+};
+
+TEST_F(SettingsSession, a_recording_verifies_though_settings_changed_in_the_middle) {
+  const std::string path = (folder / "session.scree").string();
+  WorldConfig config = flat_world();
+  config.methods.islands = false;
+  const std::map<Tick, std::vector<Command>> script{
+      {2, table_on_a_leg(0.0F)},
+      {4, {cut_leg(0.0F)}},
+      {60, {change({{"islands", "true"}, {"impacts", "false"}})}},
+      {90, {change({{"impacts", "no"}})}},
+      {130, {change({{"impacts", "true"}}), cut_leg(3.0F)}},
+  };
+  auto recorder = Recorder::create(path, {"test", config});
+  ASSERT_TRUE(recorder) << recorder.error().message;
+  World world(config);
+  uint64_t state_hash = 0;
+  for (Tick tick = 1; tick <= 200; ++tick) {
+    const auto commands = script.find(tick);
+    const auto delta = world.step(commands == script.end() ? std::vector<Command>{} : commands->second);
+    state_hash = delta->state_hash;
+    (*recorder)->push(delta, commands == script.end() ? std::vector<Command>{} : commands->second);
+  }
+  ASSERT_TRUE((*recorder)->finish());
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ((*reader)->header().world, config);
+  const auto report = verify(**reader);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->difference;
+  EXPECT_EQ(report->commands, 7U);
+  EXPECT_EQ(report->state_hash, state_hash);
+  // A replay that starts in the middle knows them, too.
+  auto source = ReplaySource::open(path, 100);
+  ASSERT_TRUE(source) << source.error().message;
+  const auto keyframe = (*source)->next();
+  ASSERT_TRUE(keyframe && *keyframe);
+  Methods then = config.methods;
+  then.islands = true;
+  then.impacts = false;
+  EXPECT_EQ((*keyframe)->settings, print(then));
+}
+
+TEST_F(SettingsSession, tokens_come_from_the_first_line_of_a_file_and_are_checked) {
+  const auto refusal = [&](const std::string& content) {
+    const auto read = read_token(file("token", content));
+    return read ? "" : read.error().message;
+  };
+  EXPECT_EQ(*read_token(file("token", good_token + "\r\nmore\n")), good_token);
+  EXPECT_TRUE(holds(refusal("short\n"), "limits.token_bytes_min"));
+  EXPECT_TRUE(holds(refusal(std::string(limits::token_bytes_max + 1, 'x')), "token_bytes_max"));
+  EXPECT_TRUE(holds(refusal("with spaces in it"), "printable"));
+  EXPECT_FALSE(read_token((folder / "none").string()));
+}
+
+TEST(settings, tokens_are_the_same_only_when_they_are) {
+  EXPECT_TRUE(same_token("abcdefgh", "abcdefgh"));
+  for (const char* wrong : {"", "abcdefg", "abcdefgi", "abcdefghh", "abcdefghabcdefgh", "bbcdefgh"})
+    EXPECT_FALSE(same_token(wrong, "abcdefgh")) << wrong;
+}
+
+class AdminSession : public SettingsSession {
+ protected:
+  void start(const std::string& token) {
+    LiveConfig config;
+    config.world = flat_world();
+    config.net.admin_token = token;
+    auto started = LiveServer::start(config);
+    ASSERT_TRUE(started) << started.error().message;
+    server = std::move(*started);
+    target.port = server->port();
+    target.within = std::chrono::seconds(60);
+  }
+  std::string refusal(const std::string& token, const SettingValues& changes) const {
+    const auto changed = change_settings(target, token, changes);
+    return changed ? "" : changed.error().message;
+  }
+  std::unique_ptr<LiveServer> server;
+  AdminServer target;
+};
+
+TEST_F(AdminSession, whoever_knows_the_token_changes_settings_and_everybody_sees_them) {
+  start(good_token);
+  Methods wanted;
+  ASSERT_EQ(read_settings(target).value(), print(wanted));
+  wanted.dents = wanted.islands = false;
+  const auto changed = change_settings(target, good_token, {{"dents", "false"}, {"islands", "false"}});
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_EQ(*changed, print(wanted));
+  EXPECT_EQ(read_settings(target).value(), print(wanted));
+  EXPECT_TRUE(holds(refusal(good_token, {{"dents", "5"}}), "dents is true or false"));
+  EXPECT_TRUE(holds(refusal(good_token, {{"colour", "red"}}), "no setting 'colour'"));
+  ASSERT_TRUE(server->stop());
+  EXPECT_EQ(server->report().settings, print(wanted));
+  EXPECT_TRUE(holds(to_json(server->report()), "\"dents\": \"false\""));
+}
+
+TEST_F(AdminSession, whoever_does_not_is_refused) {
+  start(good_token);
+  EXPECT_EQ(refusal("another-token-of-length", {{"dents", "false"}}),
+            "the server refused: the admin token is wrong");
+  EXPECT_EQ(refusal("", {{"dents", "false"}}), "the server refused: the admin token is wrong");
+  EXPECT_EQ(read_settings(target).value(), print(Methods{}));
+}
+
+TEST_F(AdminSession, a_server_without_a_token_refuses_everybody) {
+  start("");
+  for (const std::string& token : {good_token, std::string()})
+    EXPECT_TRUE(holds(refusal(token, {{"dents", "false"}}), "started without an admin token"));
+  EXPECT_EQ(read_settings(target).value(), print(Methods{}));
+}
+
+}  // namespace
+}  // namespace scree
