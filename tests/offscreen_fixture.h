@@ -4,28 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <link.h>
 #include <thread>
 
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/viewer/egl_context.h"
 #include "shared/field/operation.h"
+#include "tests/loaded_libraries.h"
 
 namespace scree {
-
-/// Keeps every library that is loaded now until the process ends. Mesa's driver is unloaded with the context,
-/// and what its globals point to would look like leaks of nobody's to LeakSanitizer.
-inline void keep_libraries_loaded() {
-  dl_iterate_phdr(
-      [](dl_phdr_info* library, size_t, void*) {
-        ::dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-        return 0;
-      },
-      nullptr);
-}
 
 /// One field, some pieces, and a method that draws them into small images; at first from a little above the
 /// origin.

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 
 #include "client/render/gl.h"
 #include "client/render/gl_errors.h"
@@ -56,6 +57,16 @@ struct Canvas {
   }
 };
 
+/// What an image is drawn into, and what its samples are then averaged into.
+struct Canvases {
+  int width;
+  int height;
+  Canvas many;
+  Canvas one;
+
+  Canvases(int w, int h, int samples) : width(w), height(h), many(w, h, samples), one(w, h, 0) {}
+};
+
 Image read_pixels(int width, int height) {
   std::vector<uint8_t> rgba(static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -80,9 +91,13 @@ struct Renderer::Parts {
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
   gl::ErrorLog errors;
+  std::optional<Canvases> canvases;  ///< of the last image
 
   Parts(gl::Program&& sky_program, float radius_m)
       : sky(std::move(sky_program)), view_radius_m(radius_m), description(describe()) {}
+
+  /// Canvases of that size.
+  Result<void> prepare(int width, int height);
 
   void draw_sky(const DrawPass& pass) const {
     sky.use();
@@ -142,7 +157,9 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   parts_->errors.poll();
 }
 
-Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height) {
+Result<void> Renderer::Parts::prepare(int width, int height) {
+  if (canvases && canvases->width == width && canvases->height == height) return {};
+  canvases.reset();
   GLint largest = 0;
   GLint samples = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
@@ -150,20 +167,32 @@ Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int
   if (std::max(width, height) > largest)
     return fail("an image of " + std::to_string(width) + "x" + std::to_string(height) +
                 " pixels is over this driver's " + std::to_string(largest) + " a side: use a smaller --size");
-  const Canvas many(width, height, std::min(samples, image_samples));
-  const Canvas one(width, height, 0);
-  if (!many.complete() || !one.complete())
-    return fail("the driver refuses a framebuffer of " + std::to_string(width) + "x" +
-                std::to_string(height) + " pixels: use a smaller --size");
-  draw(&method, camera, many.framebuffer.name(), width, height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, many.framebuffer.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, one.framebuffer.name());
+  canvases.emplace(width, height, std::min(samples, image_samples));
+  if (canvases->many.complete() && canvases->one.complete()) return {};
+  canvases.reset();
+  return fail("the driver refuses a framebuffer of " + std::to_string(width) + "x" + std::to_string(height) +
+              " pixels: use a smaller --size");
+}
+
+Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height) {
+  if (Result<void> ready = parts_->prepare(width, height); !ready) return fail(ready.error().message);
+  const Canvases& canvases = *parts_->canvases;
+  draw(&method, camera, canvases.many.framebuffer.name(), width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvases.many.framebuffer.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvases.one.framebuffer.name());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, one.framebuffer.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, canvases.one.framebuffer.name());
   Image image = read_pixels(width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   parts_->errors.poll();
   return image;
+}
+
+Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int width, int height) {
+  if (Result<void> ready = parts_->prepare(width, height); !ready) return ready;
+  draw(&method, camera, parts_->canvases->many.framebuffer.name(), width, height);
+  glFinish();
+  return {};
 }
 
 const std::string& Renderer::description() const {

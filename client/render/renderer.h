@@ -28,6 +28,8 @@ class Renderer {
 
   /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height);
+  /// The same without the image: returns when the GPU has finished. For measurements.
+  Result<void> draw_unseen(DrawMethod& method, const Camera& camera, int width, int height);
 
   /// "OpenGL 4.5 (llvmpipe …)", for people.
   const std::string& description() const;

@@ -42,4 +42,11 @@ inline constexpr double flight_s = 0.5;
 /// How long no piece may be alive before the terrain counts as settled, seconds.
 inline constexpr double settled_s = 2.0;
 
+/// Bytes of a path or of the settings; a larger file is refused.
+inline constexpr size_t text_file_bytes_max = size_t{1} << 20;
+
+/// Key frames of a path, and its seconds: an hour, 108,000 pictures. More is refused.
+inline constexpr size_t path_keys_max = 10000;
+inline constexpr double path_duration_max_s = 3600.0;
+
 }  // namespace scree::limits

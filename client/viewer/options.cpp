@@ -1,7 +1,7 @@
 #include "client/viewer/options.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <sstream>
 
@@ -10,9 +10,6 @@
 
 namespace scree {
 namespace {
-
-constexpr float radians_per_degree = 0.01745329F;
-constexpr float pitch_max_degrees = 89.0F;
 
 /// Over the canyon floor, looking at the cliff and the arch.
 constexpr const char* default_camera = "30,9,19,63,-7";
@@ -31,22 +28,18 @@ Result<void> parse_size(const std::string& text, ViewerOptions& options) {
 
 Result<void> parse_camera(const std::string& text, Camera& camera) {
   std::istringstream in(text);
-  float v[5];
-  for (int i = 0; i < 5; ++i) {
+  std::array<float, 5> values{};
+  for (size_t i = 0; i < values.size(); ++i) {
     char comma = ',';
-    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> v[i]) || !std::isfinite(v[i]))
+    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
       return fail("--camera: '" + text +
                   "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
   }
   if (in.peek() != std::istringstream::traits_type::eof())
     return fail("--camera: '" + text + "' has more than x,y,z,yaw,pitch");
-  if (std::abs(v[0]) > limits::world_half_width_m || std::abs(v[2]) > limits::world_half_width_m ||
-      std::abs(v[1]) > limits::world_half_height_m)
-    return fail("--camera: '" + text +
-                "' is outside the world (limits.world_half_width_m, world_half_height_m)");
-  camera.eye_m = {v[0], v[1], v[2]};
-  camera.yaw = v[3] * radians_per_degree;
-  camera.pitch = std::clamp(v[4], -pitch_max_degrees, pitch_max_degrees) * radians_per_degree;
+  const Result<Camera> place = camera_of(values);
+  if (!place) return fail("--camera: '" + text + "': " + place.error().message);
+  camera = *place;
   return {};
 }
 
@@ -79,7 +72,27 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
          "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), pieces>=N (that many pieces are in sight), "
          "settled (something was carved, and all pieces are terrain again)")
       ->envname("SCREE_SCREENSHOT");
-  app.add_option("--timeout", options.timeout_s, "Offscreen: seconds after which to give up")
+  app.add_option("--path", options.path_file,
+                 "FILE with key frames of the camera (JSON, client/viewer/camera_path.h): fly along it")
+      ->envname("SCREE_PATH");
+  app.add_option("--frames", options.frames, "Offscreen: DIR for every frame of the path, as PNG")
+      ->envname("SCREE_FRAMES");
+  app.add_option("--fps", options.frames_per_s, "Offscreen: frames a second of the path")
+      ->envname("SCREE_FPS")
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_flag("--timedemo", options.time_demo,
+               "Offscreen: draw the path's frames as fast as possible, print their times as a line of JSON")
+      ->envname("SCREE_TIMEDEMO");
+  app.add_option("--reference", options.reference,
+                 "Offscreen: PNG to compare the screenshot with; prints the difference, exits with 3 above "
+                 "--threshold")
+      ->envname("SCREE_REFERENCE");
+  app.add_option("--threshold", options.threshold,
+                 "Root mean square of the difference of all colour values, 0 (equal) to 1")
+      ->envname("SCREE_THRESHOLD")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--timeout", options.timeout_s,
+                 "Offscreen: seconds to wait for the next picture or frame before giving up")
       ->envname("SCREE_TIMEOUT")
       ->check(CLI::PositiveNumber);
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
@@ -88,6 +101,21 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
       "Keys: W A S D move, Space and C up and down, Shift faster, mouse looks, left click carves, the wheel "
       "sets\n"
       "the radius, M draws by the next method, Tab frees the mouse, H help, Esc ends.");
+}
+
+Result<void> understand_pictures(ViewerOptions& options) {
+  const bool every_frame = !options.frames.empty() || options.time_demo;
+  if (every_frame && (!options.offscreen || options.path_file.empty()))
+    return fail("--frames and --timedemo need --offscreen and --path FILE");
+  if (!options.reference.empty() && (!options.offscreen || options.screenshots.size() != 1))
+    return fail("--reference needs --offscreen and exactly one --screenshot FILE to compare");
+  if (options.offscreen && options.screenshots.empty() && !every_frame)
+    return fail("--offscreen without --screenshot FILE, --frames DIR or --timedemo shows nothing to anyone");
+  if (options.path_file.empty()) return {};
+  Result<CameraPath> path = CameraPath::read(options.path_file);
+  if (!path) return fail(path.error().message);
+  options.path = std::move(*path);
+  return {};
 }
 
 Result<void> understand(const Texts& texts, ViewerOptions& options) {
@@ -101,9 +129,7 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
     if (!order) return fail(order.error().message);
     options.screenshots.push_back(std::move(*order));
   }
-  if (options.offscreen && options.screenshots.empty())
-    return fail("--offscreen without --screenshot FILE shows nothing to anyone");
-  return {};
+  return understand_pictures(options);
 }
 
 }  // namespace
@@ -113,6 +139,8 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   options.port = default_port;
   options.view_radius_m = 96.0F;
   options.timeout_s = 120.0;
+  options.frames_per_s = 30.0;
+  options.threshold = 0.01;
   Texts texts;
   CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
   app.option_defaults()->always_capture_default();

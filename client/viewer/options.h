@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "client/render/camera.h"
 #include "client/render/methods.h"
+#include "client/viewer/camera_path.h"
 #include "client/viewer/screenshots.h"
 
 namespace scree {
@@ -24,6 +26,13 @@ struct ViewerOptions {
   bool gl_debug = false;
   double timeout_s = 0.0;
   std::vector<ScreenshotOrder> screenshots;
+  std::string path_file;           ///< empty: none
+  std::optional<CameraPath> path;  ///< of that file
+  double frames_per_s = 0.0;       ///< of the path, offscreen
+  std::string frames;              ///< folder for every frame of the path as a picture; empty: none
+  bool time_demo = false;
+  std::string reference;  ///< picture to compare the screenshot with; empty: none
+  double threshold = 0.0;
 };
 
 /// The program should end now, with this status; what there was to say is printed.

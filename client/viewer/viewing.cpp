@@ -1,0 +1,83 @@
+#include "client/viewer/viewing.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "client/viewer/picture_difference.h"
+#include "client/viewer/png.h"
+#include "client/viewer/sight.h"
+
+namespace scree {
+
+Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
+  Result<std::unique_ptr<View>> view = View::create(*options.method, options.view_radius_m);
+  if (!view) return fail(view.error().message);
+  return std::unique_ptr<Viewing>(new Viewing(options, std::move(*view)));
+}
+
+Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
+    : options(given),
+      session(given.host, given.port, given.view_radius_m),
+      view(std::move(drawn)),
+      camera(given.camera),
+      screenshots(given.screenshots) {}
+
+Result<void> Viewing::step(double now_s) {
+  const SessionStep step = session.step(now_s, camera.eye_m);
+  if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
+  return check_gl_errors();
+}
+
+Result<void> Viewing::check_gl_errors() {
+  if (!options.gl_debug || view->renderer().gl_errors() == 0) return {};
+  return fail(std::to_string(view->renderer().gl_errors()) +
+              " OpenGL errors; the first: " + view->renderer().first_gl_error());
+}
+
+bool Viewing::joined(double now_s) {
+  return view->methods().loaded() && session.joined(now_s);
+}
+
+Moment Viewing::moment(double now_s) {
+  Moment moment;
+  moment.now_s = now_s;
+  moment.current = view->methods().complete();
+  moment.joined = joined(now_s);
+  moment.carved = session.carved();
+  if (Mirror* mirror = session.mirror()) {
+    const Scene scene{mirror->field(), session.pieces(now_s)};
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    moment.pieces = pieces_in_sight(scene, camera, aspect, options.view_radius_m);
+    const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;
+    moment.alive = !mirror->pieces().empty() || elsewhere;
+  }
+  return moment;
+}
+
+Result<Image> Viewing::picture() {
+  return view->renderer().draw_image(*view->methods().shown(), camera, options.width, options.height);
+}
+
+Result<void> Viewing::take(const ScreenshotOrder& order) {
+  const Result<Image> image = picture();
+  if (!image) return fail(image.error().message);
+  if (Result<void> written = write_png(order.file, *image); !written) return written;
+  // Standard output is for figures alone.
+  std::fprintf(stderr, "wrote %s\n", order.description().c_str());
+  if (options.reference.empty()) return {};
+  const Result<Image> reference = read_png(options.reference);
+  if (!reference) return fail("--reference: " + reference.error().message);
+  const Result<double> measured = picture_difference(*image, *reference);
+  if (!measured) return fail("--reference: " + measured.error().message);
+  difference = *measured;
+  return {};
+}
+
+Result<void> Viewing::take_due(double now_s) {
+  if (screenshots.empty()) return {};
+  for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s)))
+    if (Result<void> taken = take(order); !taken) return taken;
+  return {};
+}
+
+}  // namespace scree

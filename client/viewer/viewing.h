@@ -1,0 +1,43 @@
+// What a window and offscreen drawing have in common: a session, what is drawn of it, where the camera is,
+// and the pictures that were ordered. Needs the GL context current.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "client/viewer/options.h"
+#include "client/viewer/session.h"
+#include "client/viewer/view.h"
+
+namespace scree {
+
+class Viewing {
+ public:
+  /// `options` must outlive it.
+  static Result<std::unique_ptr<Viewing>> begin(const ViewerOptions& options);
+
+  /// Messages come in, work begins and is shown. An error of GL's, where asked for, is an error.
+  Result<void> step(double now_s);
+  /// Takes the screenshots whose moment has come.
+  Result<void> take_due(double now_s);
+  /// The picture of this moment.
+  Result<Image> picture();
+  /// All around the camera has arrived and is shown.
+  bool joined(double now_s);
+
+  const ViewerOptions& options;
+  Session session;
+  std::unique_ptr<View> view;
+  Camera camera;
+  ScreenshotQueue screenshots;
+  /// Of the picture compared with --reference.
+  std::optional<double> difference;
+
+ private:
+  Viewing(const ViewerOptions& options, std::unique_ptr<View> view);
+  Moment moment(double now_s);
+  Result<void> take(const ScreenshotOrder& order);
+  Result<void> check_gl_errors();
+};
+
+}  // namespace scree
