@@ -105,16 +105,18 @@ float sun_at(vec3 from, vec3 sun, int level) {
   return light * light * (3.0 - 2.0 * light);
 }
 
+const float probe_height = 2.75;  // voxels, as for meshes (shared/field/surface_nets.h)
+
 // 1 under the open sky, less in a crevice, from the distances above the surface: over open ground they grow as fast as
-// one climbs. At the height that meshes ask for, then farther on coarser levels.
-float openness_at(vec3 from_eye, vec3 normal, int level) {
-  const float height = 2.75;
+// one climbs. At the height that meshes ask for, where something else may be as near as `other`, then farther on
+// coarser levels.
+float openness_at(vec3 from_eye, vec3 normal, int level, float other) {
   float open = 1.0;
   float weight = 1.0;
   for (int i = 0; i < 3 && level + i < u_levels; ++i) {
-    float h = height / u_voxels_per_m[level + i];
-    float found = field_at(from_eye + normal * h, level + i) / height;
-    open *= mix(1.0, clamp(found, 0.0, 1.0), weight);
+    float found = field_at(from_eye + normal * (probe_height / u_voxels_per_m[level + i]), level + i);
+    if (i == 0) found = min(found, other);
+    open *= mix(1.0, clamp(found / probe_height, 0.0, 1.0), weight);
     weight *= 0.6;
   }
   return open;

@@ -23,17 +23,18 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   return mix(rock, mix(sand, scrub, green), flatness);
 }
 
-// At p in the frame of the rock, whose patterns stay with a piece that moves. `before`: code / 127 of the field as
-// generated. `away`: metres from the eye.
-Rock rock_at(vec3 p, vec3 shape_normal, float before, float away) {
+// How much of broken rock, which is paler and warmer than what the weather has had, and of rubble, which lies dusty,
+// shows where the field as generated was `before` (code / 127).
+float cut_of(float before) { return smoothstep(-0.08, -0.40, before); }
+float heap_of(float before) { return smoothstep(0.10, 0.45, before); }
+
+// At p in the frame of the rock, whose patterns stay with a piece that moves. `away`: metres from the eye.
+Rock rock_at(vec3 p, vec3 shape_normal, float cut, float heap, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
   float fine = 0.6 * middle.x + 0.4 * small.x;
 
-  // Broken rock is paler and warmer than what the weather has had; what came to rest lies dusty.
-  float cut = smoothstep(-0.08, -0.40, before);
-  float heap = smoothstep(0.10, 0.45, before);
   vec3 albedo = weathered(p, shape_normal, coarse, fine);
   float vein = smoothstep(0.46, 0.5, middle.x) * (1.0 - smoothstep(0.5, 0.54, middle.x));
   vec3 fresh = mix(vec3(0.62, 0.33, 0.155), vec3(0.80, 0.53, 0.30), fine) * (1.0 - 0.18 * vein);

@@ -13,7 +13,7 @@ out vec4 o_colour;
 
 void main() {
   float away = length(v_world - u_eye);
-  Rock rock = rock_at(v_rock, normalize(v_rock_normal), v_before, away);
+  Rock rock = rock_at(v_rock, normalize(v_rock_normal), cut_of(v_before), heap_of(v_before), away);
   vec3 albedo = rock.albedo * (1.0 + u_loose * 0.22 * (u_tint - 0.4));
   vec3 normal = normalize(rotated(u_rotation, rock.normal));
   float sunlight = max(dot(normal, u_sun), 0.0);

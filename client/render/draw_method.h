@@ -38,7 +38,7 @@ struct Lighting {
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
 };
 
-/// One walk over the scene. For `shadow` only depth counts, and the lighting is not used.
+/// One walk over the scene. For `shadow` only depth counts, and of the lighting only the sun is known.
 struct DrawPass {
   enum class Kind { shadow, colour };
   Kind kind = Kind::colour;

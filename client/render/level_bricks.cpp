@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "client/render/block_windows.h"
+
 namespace scree {
 namespace {
 
@@ -26,7 +28,8 @@ AtlasBrick as_brick(const Window& window) {
   return brick;
 }
 
-/// By the samples of its own cells.
+}  // namespace
+
 LevelBrick::Kind kind_of(const AtlasBrick& brick) {
   constexpr int lo = atlas_apron_low;
   constexpr int hi = lo + brick_size;
@@ -43,20 +46,6 @@ LevelBrick::Kind kind_of(const AtlasBrick& brick) {
   if (most < 0) return LevelBrick::Kind::solid;
   return least > encode(air_kept_voxels) ? LevelBrick::Kind::empty : LevelBrick::Kind::stored;
 }
-
-Window gather_generated_at(Field& generator, const VoxelBox& box) {
-  Window window(box);
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z) {
-        const VoxelCoord v{x, y, z};
-        window.at(x, y, z) = generator.generated_brick(brick_of(v))
-                                 .codes[static_cast<size_t>(Brick::index(x & 7, y & 7, z & 7))];
-      }
-  return window;
-}
-
-}  // namespace
 
 LevelBricks::LevelBricks(const TerrainSource& source, int level)
     : level_(level), source_(spaced(source, level)) {
@@ -117,7 +106,7 @@ LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   }
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
-  if (edited) before = level_ == 0 ? gather_generated_at(field, window.box) : window;
+  if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
   if (level_ > 0 && edited) take_edits(field, window);
   LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}};
   read.kind = kind_of(read.field);

@@ -21,6 +21,9 @@ struct LevelBrick {
   std::optional<AtlasBrick> before;
 };
 
+/// By the samples of its own cells, not the rest of its apron.
+LevelBrick::Kind kind_of(const AtlasBrick& brick);
+
 class LevelBricks {
  public:
   LevelBricks(const TerrainSource& source, int level);

@@ -12,6 +12,7 @@
 #include "client/render/gl.h"
 #include "client/render/gpu_mesh.h"
 #include "client/render/mesh_scheduler.h"
+#include "client/render/piece_tint.h"
 #include "client/render/shader_sources.h"
 
 namespace scree {
@@ -19,11 +20,6 @@ namespace {
 
 glm::vec3 as_vector(VoxelCoord v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-/// 0..1, different for neighbours in the order of ids.
-float tint_of(PieceId id) {
-  return static_cast<float>((id * 0x9E3779B1U) >> 8U) / 16777216.0F;
 }
 
 /// The uniforms of surface.vert that differ from mesh to mesh, looked up once.

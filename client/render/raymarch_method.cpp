@@ -5,38 +5,61 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <initializer_list>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "client/render/brick_world.h"
 #include "client/render/gl.h"
 #include "client/render/march_targets.h"
+#include "client/render/piece_volumes.h"
 #include "client/render/shader_sources.h"
 
 namespace scree {
 namespace {
 
+/// Texture units: 0 and 1 are BrickWorld's, 2 the tiles' or the pieces' entries.
+constexpr int shadow_unit = 3;
+
 struct Programs {
   gl::Program cone;
   gl::Program march;
+  gl::Program piece;
+  gl::Program piece_shadow;
   gl::Program composite;
 };
 
+/// Links a program of shaders/ files.
+Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
+                         std::initializer_list<std::string_view> fragment) {
+  const auto sources = [](std::initializer_list<std::string_view> files) {
+    std::vector<std::string_view> texts;
+    for (const std::string_view file : files) texts.push_back(shader_source(file));
+    return texts;
+  };
+  return gl::Program::link(name, sources(vertex), sources(fragment));
+}
+
 Result<Programs> link_programs() {
-  const std::array ray{shader_source("raymarch.vert")};
-  const std::array cone{shader_source("bricks.glsl"), shader_source("march.glsl"),
-                        shader_source("raymarch_cone.frag")};
-  Result<gl::Program> cones = gl::Program::link("raymarch_cone", ray, cone);
-  if (!cones) return fail(cones.error().message);
-  const std::array pixel{shader_source("bricks.glsl"),     shader_source("march.glsl"),
-                         shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
-                         shader_source("rock.glsl"),       shader_source("raymarch.frag")};
-  Result<gl::Program> pixels = gl::Program::link("raymarch", ray, pixel);
-  if (!pixels) return fail(pixels.error().message);
-  Result<gl::Program> composite = gl::Program::link("composite", std::array{shader_source("screen.vert")},
-                                                    std::array{shader_source("composite.frag")});
+  Result<gl::Program> cone =
+      link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
+  if (!cone) return fail(cone.error().message);
+  Result<gl::Program> march = link("raymarch", {"raymarch.vert"},
+                                   {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "rock.glsl",
+                                    "shadow.glsl", "raymarch.frag"});
+  if (!march) return fail(march.error().message);
+  Result<gl::Program> piece = link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+                                   {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl",
+                                    "noise.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+  if (!piece) return fail(piece.error().message);
+  Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+                                    {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});
+  if (!shadow) return fail(shadow.error().message);
+  Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"});
   if (!composite) return fail(composite.error().message);
-  return Programs{std::move(*cones), std::move(*pixels), std::move(*composite)};
+  return Programs{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
+                  std::move(*composite)};
 }
 
 /// Radius that a pixel covers at one metre: half of what lies between two rays.
@@ -47,6 +70,18 @@ float pixel_at_one_metre(const glm::mat4& inverse, int height) {
     return glm::normalize(glm::vec3(far) / far.w - glm::vec3(near) / near.w);
   };
   return glm::length(ray(1.0F / static_cast<float>(height)) - ray(-1.0F / static_cast<float>(height)));
+}
+
+/// What the shaders of atmosphere.glsl, rock.glsl and shadow.glsl take.
+void set_light(const gl::Program& program, const DrawPass& pass) {
+  program.set("u_eye", pass.eye_m);
+  program.set("u_sun", pass.lighting.sun);
+  program.set("u_fog_m", pass.lighting.fog_m);
+  program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
+  program.set("u_shadow_map", shadow_unit);
+  glActiveTexture(GL_TEXTURE0 + shadow_unit);
+  glBindTexture(GL_TEXTURE_2D, pass.lighting.shadow_map);
+  glActiveTexture(GL_TEXTURE0);
 }
 
 class RaymarchMethod final : public DrawMethod {
@@ -67,6 +102,7 @@ class RaymarchMethod final : public DrawMethod {
  private:
   void draw_cones(const DrawPass& pass, const glm::mat4& inverse, float pixel);
   void draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel);
+  void draw_pieces(const DrawPass& pass);
   void composite(glm::ivec2 size);
 
   WorkPool& pool_;
@@ -75,6 +111,7 @@ class RaymarchMethod final : public DrawMethod {
   MarchTargets targets_;
   gl::VertexArray nothing_;  ///< core profiles draw with an array bound only
   std::optional<BrickWorld> world_;
+  PieceVolumes pieces_;
   std::vector<BrickCoord> bricks_;  ///< changed since the last update
 };
 
@@ -82,10 +119,12 @@ void RaymarchMethod::update(const Scene& scene, const Camera& camera) {
   if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_);
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
+  pieces_.update(scene.field, scene.pieces, world_->atlas());
 }
 
 void RaymarchMethod::draw(const DrawPass& pass) {
-  if (pass.kind == DrawPass::Kind::shadow || !world_) return;
+  if (!world_) return;
+  if (pass.kind == DrawPass::Kind::shadow) return draw_pieces(pass);
   GLint framebuffer = 0;
   std::array<GLint, 4> viewport{};
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
@@ -97,6 +136,8 @@ void RaymarchMethod::draw(const DrawPass& pass) {
   glBindVertexArray(nothing_.name());
   draw_cones(pass, inverse, pixel);
   draw_pixels(pass, inverse, pixel);
+  draw_pieces(pass);
+  glBindVertexArray(nothing_.name());
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
   glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   composite(size);
@@ -124,9 +165,8 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
   world_->use(program, pass.eye_m);
   program.set("u_inverse_view_projection", inverse);
   program.set("u_view_projection", pass.view_projection);
-  program.set("u_eye", pass.eye_m);
-  program.set("u_sun", pass.lighting.sun);
-  program.set("u_fog_m", pass.lighting.fog_m);
+  set_light(program, pass);
+  program.set("u_pieces", pieces_.count() > 0 ? 1 : 0);
   program.set("u_pixel", pixel);
   program.set("u_tile", MarchTargets::tile);
   program.set("u_tiles", 2);
@@ -138,6 +178,23 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
   glDepthFunc(GL_ALWAYS);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthFunc(GL_LESS);
+}
+
+void RaymarchMethod::draw_pieces(const DrawPass& pass) {
+  if (pieces_.count() == 0) return;
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece;
+  program.use();
+  world_->use(program, pass.eye_m);
+  set_light(program, pass);
+  program.set("u_view_projection", pass.view_projection);
+  const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
+  glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);
+  program.set("u_piece_entries", 2);
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, pieces_.entry_texture());
+  glActiveTexture(GL_TEXTURE0);
+  pieces_.draw();
 }
 
 void RaymarchMethod::composite(glm::ivec2 size) {
@@ -158,9 +215,10 @@ void RaymarchMethod::composite(glm::ivec2 size) {
 
 DrawStats RaymarchMethod::stats() const {
   DrawStats stats;
-  stats.draws = 3;
-  stats.triangles = 3;
-  stats.gpu_bytes = targets_.bytes() + (world_ ? world_->gpu_bytes() : 0);
+  stats.draws = pieces_.count() > 0 ? 4 : 3;
+  stats.triangles = 3 + 12 * pieces_.count();
+  stats.pieces = pieces_.count();
+  stats.gpu_bytes = targets_.bytes() + pieces_.gpu_bytes() + (world_ ? world_->gpu_bytes() : 0);
   stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);
   return stats;
 }

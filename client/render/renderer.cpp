@@ -139,6 +139,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   DrawPass pass;
   pass.kind = DrawPass::Kind::shadow;
   pass.eye_m = camera.eye_m;
+  pass.lighting.sun = sun;
   pass.view_projection = parts_->shadows.begin(camera, sun, parts_->view_radius_m);
   if (method != nullptr) method->draw(pass);
   parts_->shadows.end();

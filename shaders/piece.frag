@@ -1,0 +1,43 @@
+out vec4 o_colour;
+
+// Of the terrain as generated, at a point of the piece: what it will look like when it has merged.
+float generated_at(vec3 from_eye) {
+  vec3 p = in_level(from_eye, 0);
+  ivec3 at = ivec3(floor(p / brick));
+  if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, u_window))) return 1.0;
+  uvec2 entry = entry_at(at, 0);
+  if (entry.y != 0u) return brick_value(entry.y, p - vec3(at) * brick) / band;
+  return field_at(from_eye, 0) / band;
+}
+
+void main() {
+  PieceHit hit = march_piece();
+  if (!hit.found) discard;
+  gl_FragDepth = depth_of(hit.world);
+  vec3 from_eye = hit.world - u_eye;
+  float away = length(from_eye);
+  float voxel_m = 1.0 / u_voxels_per_m[0];
+  vec3 local_normal = rotated(unturned(), -from_eye / max(away, 1e-3));
+  float before = 0.0;
+  if (hit.entry.x != 0u) {
+    vec3 slope = brick_gradient(hit.entry.x, hit.in_brick);
+    if (dot(slope, slope) > 0.0) local_normal = normalize(slope);
+    if (hit.entry.y != 0u) before = brick_value(hit.entry.y, hit.in_brick) / band;
+  }
+  vec3 normal = rotated(v_rotation, local_normal);
+  // On the ground it takes on the looks of what it is about to become.
+  float there = generated_at(from_eye);
+  vec2 wear = mix(vec2(cut_of(before), heap_of(before)), vec2(cut_of(there), heap_of(there)), v_dust);
+  Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, wear.x, wear.y, away);
+  vec3 albedo = rock.albedo * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
+  vec3 bent = normalize(rotated(v_rotation, rock.normal));
+  int level = level_of(from_eye, 0);
+  float open = 1.0;
+  float sunlight = max(dot(bent, u_sun), 0.0);
+  if (level < u_levels) {
+    open = openness_at(from_eye, normal, level, piece_at(hit.local + local_normal * probe_height));
+    if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel_m), u_sun, level);
+  }
+  if (sunlight > 0.0) sunlight *= lit(hit.world, normal);
+  o_colour = vec4(tone(in_fog(lit_rock(albedo, bent, open, sunlight), hit.world, away)), 1.0);
+}
