@@ -11,13 +11,13 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/field/cell_cut.h"
+#include "shared/field/cell_groups.h"
 
 namespace scree {
 
 namespace {
 
-using Label = uint16_t;
-static_assert(limits::seeds_max <= std::numeric_limits<Label>::max());
+using Label = CellLabel;
 
 /// Side of the blocks of voxels that share a list of candidate seeds.
 constexpr int block_side = 4;
@@ -165,74 +165,9 @@ std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const 
   return touch.pairs();
 }
 
-/// Which cells make up which piece: cells too light to stand alone join the heaviest piece that they touch.
-class Grouping {
- public:
-  Grouping(const std::vector<MassUnits>& cells, const std::vector<std::pair<Label, Label>>& touching)
-      : parent_(cells.size()), mass_(cells) {
-    std::iota(parent_.begin(), parent_.end(), Label{0});
-    for (bool joined = true; joined;) joined = join_round(touching);
-    join_stragglers();
-  }
-
-  Label root(Label i) const {
-    while (parent_[i] != i) i = parent_[i];
-    return i;
-  }
-  MassUnits mass(Label root) const { return mass_[root]; }
-
- private:
-  bool light(Label root) const { return mass_[root] < limits::piece_mass_min; }
-
-  /// The lower index stays the root, so that pieces keep the order of their first seeds.
-  void join(Label a, Label b) {
-    const auto [low, high] = std::minmax(a, b);
-    parent_[high] = low;
-    mass_[low] += mass_[high];
-  }
-
-  bool join_round(const std::vector<std::pair<Label, Label>>& touching) {
-    std::vector<int> heaviest(parent_.size(), -1);
-    const auto offer = [&](Label to, Label other) {
-      if (light(to) && (heaviest[to] < 0 || mass_[other] > mass_[static_cast<size_t>(heaviest[to])]))
-        heaviest[to] = other;
-    };
-    for (const auto& [a, b] : touching) {
-      const Label ra = root(a), rb = root(b);
-      if (ra == rb) continue;
-      offer(ra, rb);
-      offer(rb, ra);
-    }
-    bool joined = false;
-    for (size_t i = 0; i < heaviest.size(); ++i) {
-      if (heaviest[i] < 0) continue;
-      const Label a = root(static_cast<Label>(i)), b = root(static_cast<Label>(heaviest[i]));
-      if (a == b || !light(a)) continue;
-      join(a, b);
-      joined = true;
-    }
-    return joined;
-  }
-
-  /// Light cells that touch nothing go to the heaviest piece there is.
-  void join_stragglers() {
-    Label heaviest = 0;
-    for (size_t i = 0; i < parent_.size(); ++i)
-      if (parent_[i] == i && mass_[i] > mass_[heaviest]) heaviest = static_cast<Label>(i);
-    for (size_t i = 0; i < parent_.size(); ++i) {
-      const auto cell = static_cast<Label>(i);
-      heaviest = root(heaviest);
-      if (parent_[i] == i && light(cell) && cell != heaviest) join(cell, heaviest);
-    }
-  }
-
-  std::vector<Label> parent_;
-  std::vector<MassUnits> mass_;
-};
-
 /// Per piece: the bounds of its voxels in or near the volume, grown so that its surface lies within.
 std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>& labels,
-                                  const Grouping& groups, size_t cells) {
+                                  const CellGroups& groups, size_t cells) {
   const VoxelBox nothing{volume.box.hi, volume.box.lo};
   std::vector<VoxelBox> boxes(cells, nothing);
   std::vector<Label> roots(cells);
@@ -291,7 +226,7 @@ Cut cut_cells(const Window& volume, const Window& before, const Window& after,
   const size_t cells = seeds_voxels.size();
   std::vector<Label> labels = label_voxels(volume, seeds_voxels);
   const auto touching = touching_cells(volume, labels, cells);
-  const Grouping groups(rough_masses(lost, labels, cells), touching);
+  const CellGroups groups(rough_masses(lost, labels, cells), touching);
   const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
 
   std::vector<std::vector<glm::vec3>> own(cells), neighbours(cells);

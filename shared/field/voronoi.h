@@ -1,5 +1,5 @@
-// Fracture: seeds scattered in a volume, and the volume cut along their Voronoi cells, without any mesh
-// (paper, section 2.3; cell of seed i = intersection of the half-spaces nearer to i than to j).
+// Fracture: seeds scattered in a volume, and the volume cut along their Voronoi cells (paper, section 2.3;
+// cell of seed i = intersection of the half-spaces nearer to i than to j).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,11 @@ namespace scree {
 
 /// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
 enum class SeedPattern : uint8_t { uniform = 0, radial = 1 };
+
+/// How a volume is cut along cells. field: its codes, without any mesh (cut_cells). slice: the paper's, its
+/// surface as polygons, cut by each cell's planes and capped (slice_cutter.h). conform: cells bounded by the
+/// shape itself (conform_cutter.h).
+enum class Cutter : uint8_t { field = 0, slice = 1, conform = 2 };
 
 /// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room.
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
@@ -29,9 +34,9 @@ struct Cut {
   MassUnits dust = 0;            ///< mass of a volume too small for any piece
 };
 
-/// Cuts `volume` (= before ∩ shape). The mass that the terrain lost, Σ occupancy(before) − occupancy(after),
-/// is shared out by nearest seed, so that Σ piece mass + dust is exactly that. All three windows have the
-/// same box.
+/// The cutter `field`: cuts `volume` (= before ∩ shape). The mass that the terrain lost, Σ occupancy(before)
+/// − occupancy(after), is shared out by nearest seed, so that Σ piece mass + dust is exactly that. All three
+/// windows have the same box.
 Cut cut_cells(const Window& volume, const Window& before, const Window& after,
               const std::vector<glm::vec3>& seeds_voxels);
 

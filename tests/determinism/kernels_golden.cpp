@@ -10,6 +10,7 @@
 #include "shared/field/edit.h"
 #include "shared/field/island_search.h"
 #include "shared/field/operation.h"
+#include "shared/field/polygon_cut.h"
 #include "shared/field/redistance.h"
 #include "shared/field/stamp.h"
 #include "shared/field/terrain.h"
@@ -38,6 +39,13 @@ class Digest {
     add(volume.window);
     add(static_cast<uint64_t>(volume.mass));
     add(volume.centre_voxels);
+  }
+  void add(const Cut& cut) {
+    for (const CutPiece& piece : cut.pieces) {
+      add(piece.volume);
+      for (const uint32_t seed : piece.seeds) add(uint64_t{seed});
+    }
+    add(static_cast<uint64_t>(cut.dust));
   }
   void add(const Pose& pose) {
     add(pose.position_m);
@@ -143,36 +151,49 @@ void print_sample() {
 struct Fracture {
   Window before;
   Window after;
+  Window volume;
+  std::vector<glm::vec3> seeds;
   Cut cut;
 };
 
-Fracture fracture(SeedPattern pattern, uint32_t count, Digest& digest) {
+Fracture fracture(Cutter cutter, SeedPattern pattern, uint32_t count, Digest& digest) {
   Fracture result;
   result.before = terrain_window(3.0F, 11.0F, 32);
   const glm::vec3 c = centre(result.before);
   const Shape shape = sphere(c, 8.0F);
-  const Window volume = extract(result.before, codes_of(shape, result.before.box));
+  result.volume = extract(result.before, codes_of(shape, result.before.box));
   result.after = result.before;
   carve(result.after, codes_of(shape, result.after.box));
-  const auto seeds = scatter_seeds(volume, pattern, count, 99, c);
-  for (const glm::vec3& seed : seeds) digest.add(seed);
-  result.cut = cut_cells(volume, result.before, result.after, seeds);
+  result.seeds = scatter_seeds(result.volume, pattern, count, 99, c);
+  for (const glm::vec3& seed : result.seeds) digest.add(seed);
+  result.cut = cut_volume(cutter, result.volume, result.before, result.after, result.seeds);
   return result;
+}
+
+Fracture fracture(SeedPattern pattern, uint32_t count, Digest& digest) {
+  return fracture(Cutter::field, pattern, count, digest);
 }
 
 void print_fracture() {
   for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial}) {
     for (const uint32_t count : {1U, 8U, 64U}) {
       Digest digest;
-      const Fracture fractured = fracture(pattern, count, digest);
-      for (const CutPiece& piece : fractured.cut.pieces) {
-        digest.add(piece.volume);
-        for (const uint32_t seed : piece.seeds) digest.add(uint64_t{seed});
-      }
-      digest.add(static_cast<uint64_t>(fractured.cut.dust));
+      digest.add(fracture(pattern, count, digest).cut);
       digest.print(std::string(pattern == SeedPattern::uniform ? "cut_uniform_" : "cut_radial_") +
                    std::to_string(count));
     }
+  }
+}
+
+void print_polygon_cutters() {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
+    Digest digest;
+    const Fracture fractured = fracture(cutter, SeedPattern::radial, 40, digest);
+    digest.add(fractured.cut);
+    for (const PolygonMesh& part : cut_polygons(cutter, fractured.volume, fractured.seeds).parts)
+      for (const glm::dvec3& vertex : part.vertices)
+        for (int i = 0; i < 3; ++i) digest.add(std::bit_cast<uint64_t>(vertex[i]));
+    digest.print(cutter == Cutter::slice ? "cut_slice" : "cut_conform");
   }
 }
 
@@ -299,6 +320,7 @@ int main() {
   scree::print_sample();
   scree::print_poses();
   scree::print_fracture();
+  scree::print_polygon_cutters();
   scree::print_stamp();
   scree::print_shatter();
   scree::print_islands();
