@@ -85,8 +85,8 @@ TEST(settings, are_changed_all_or_none) {
     const Result<void> done = set_all(methods, values);
     return done ? "" : done.error().message;
   };
-  EXPECT_TRUE(
-      holds(refusal({{"impacts", "false"}, {"gravity", "1"}}), "no setting 'gravity'; there are impacts"));
+  EXPECT_TRUE(holds(refusal({{"impacts", "false"}, {"gravity", "1"}}),
+                    "no setting 'gravity'; there are collider, impacts"));
   EXPECT_TRUE(holds(refusal({{"impacts", "false"}, {"dents", "no"}}), "dents is true or false, not 'no'"));
   EXPECT_TRUE(holds(refusal({{"dents", "false"}, {"dents", "true"}}), "dents is set twice"));
   EXPECT_TRUE(holds(refusal(SettingValues(limits::settings_max + 1)), "limits.settings_max"));
@@ -152,9 +152,9 @@ TEST_F(SettingsSession, a_recording_verifies_though_settings_changed_in_the_midd
   const std::map<Tick, std::vector<Command>> script{
       {2, table_on_a_leg(0.0F)},
       {4, {cut_leg(0.0F)}},
-      {60, {change({{"islands", "true"}, {"impacts", "false"}})}},
+      {60, {change({{"islands", "true"}, {"impacts", "false"}, {"collider", "mesh"}})}},
       {90, {change({{"impacts", "no"}})}},
-      {130, {change({{"impacts", "true"}}), cut_leg(3.0F)}},
+      {130, {change({{"impacts", "true"}, {"collider", "rays"}}), cut_leg(3.0F)}},
   };
   auto recorder = Recorder::create(path, {"test", config});
   ASSERT_TRUE(recorder) << recorder.error().message;
@@ -183,6 +183,7 @@ TEST_F(SettingsSession, a_recording_verifies_though_settings_changed_in_the_midd
   Methods then = config.methods;
   then.islands = true;
   then.impacts = false;
+  then.collider = TerrainColliderKind::mesh;
   EXPECT_EQ((*keyframe)->settings, print(then));
 }
 

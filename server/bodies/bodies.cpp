@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <utility>
 #include <xxhash.h>
 
 #include "server/bodies/body_shape.h"
@@ -44,14 +45,6 @@ Pose from_bullet(const btTransform& transform) {
   return {from_bullet(transform.getOrigin()), glm::quat(q.w(), q.x(), q.y(), q.z())};
 }
 
-std::unique_ptr<TerrainCollider> make_collider(TerrainColliderKind kind, Field& field) {
-  switch (kind) {
-    case TerrainColliderKind::field:
-      return make_field_collider(field);
-  }
-  CHECK(false);
-}
-
 btVector3 stable_inertia(glm::vec3 inertia) {
   const float least = std::max({inertia.x, inertia.y, inertia.z}) * limits::inertia_ratio_min;
   return to_bullet(glm::max(inertia, glm::vec3(least)));
@@ -61,6 +54,7 @@ struct Body {
   std::unique_ptr<btConvexHullShape> shape;
   std::unique_ptr<HullCorners> corners;  ///< of `shape`, turned; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
+  std::vector<glm::vec3> points_m;  ///< what touches the terrain
   std::unique_ptr<TerrainProbe> probe;
   btPersistentManifold* ground = nullptr;  ///< the dispatcher's; body 0 is `rigid`
   float reach_m = 0.0F;
@@ -94,12 +88,13 @@ bool is_finite(const btVector3& v) {
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c)
       : config(c),
+        terrain_field(field),
         voxel_size_m(field.source().voxel_size_m),
         tick_s(1.0F / static_cast<float>(c.tick_rate_hz)),
         collision_configuration(sizes()),
         dispatcher(&collision_configuration),
         dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
-        terrain_collider(make_collider(c.terrain_collider, field)) {
+        terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
     terrain.setCollisionShape(&terrain_shape);
     // Asleep, so that the island manager leaves sleeping bodies on it alone.
     terrain.forceActivationState(ISLAND_SLEEPING);
@@ -124,6 +119,7 @@ struct Bodies::State {
   void wake_near(const btVector3& lo, const btVector3& hi);
 
   BodiesConfig config;
+  Field& terrain_field;
   float voxel_size_m;
   float tick_s;
   HullAlgorithmCreator hull_algorithm;
@@ -216,9 +212,10 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
-  body.probe = s.terrain_collider->attach(
-      shape.surface_m.empty() ? surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m)
-                              : shape.surface_m);
+  body.points_m = shape.surface_m.empty()
+                      ? surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m)
+                      : shape.surface_m;
+  body.probe = s.terrain_collider->attach(body.points_m);
   s.dynamics.addRigidBody(body.rigid.get());
   body.ground = s.dispatcher.getNewManifold(body.rigid.get(), &s.terrain);
   s.limit_speeds(body);
@@ -260,6 +257,7 @@ void Bodies::step() {
 
 void Bodies::terrain_changed(const VoxelBox& box) {
   State& s = *state_;
+  s.terrain_collider->terrain_changed(box);
   for (auto& [id, body] : s.bodies) body.probe->terrain_changed(box);
   const auto corner = [&](VoxelCoord v) {
     return btVector3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) *
@@ -267,6 +265,19 @@ void Bodies::terrain_changed(const VoxelBox& box) {
   };
   const VoxelBox near = box.grown(1);
   s.wake_near(corner(near.lo), corner(near.hi));
+}
+
+void Bodies::set_terrain_collider(TerrainColliderKind kind) {
+  State& s = *state_;
+  if (kind == s.config.terrain_collider) return;
+  s.config.terrain_collider = kind;
+  // The old one outlives its probes.
+  const std::unique_ptr<TerrainCollider> old =
+      std::exchange(s.terrain_collider, make_terrain_collider(kind, s.terrain_field));
+  for (auto& [id, body] : s.bodies) {
+    body.probe = s.terrain_collider->attach(body.points_m);
+    body.rigid->activate(true);
+  }
 }
 
 std::vector<BodyState> Bodies::states() const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "server/bodies/terrain_collider_kind.h"
 #include "shared/base/ids.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
@@ -61,9 +62,6 @@ struct BodyImpact {
   float impulse_n_s = 0.0F;      ///< along the normal, over all points of the contact
 };
 
-/// How bodies find the terrain. Later methods (mesh, rays) go beside it.
-enum class TerrainColliderKind : uint8_t { field = 0 };
-
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
@@ -93,6 +91,9 @@ class Bodies {
   /// The terrain changed within this box of voxels (after any operation: the box of its changed bricks).
   /// Must be called before the next step; bodies near it wake and look at the ground afresh.
   void terrain_changed(const VoxelBox& box);
+
+  /// From the next step on, bodies find the terrain that way; they stay where they are, and wake.
+  void set_terrain_collider(TerrainColliderKind kind);
 
   /// Of every body, ordered by id.
   std::vector<BodyState> states() const;

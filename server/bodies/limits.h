@@ -31,6 +31,21 @@ inline constexpr float sample_spacing_voxels = 2.0F;
 /// Points of one piece that are tested against the terrain. Above: spacing doubles until they are fewer.
 inline constexpr unsigned samples_max = 96;
 
+/// Voxels around a body, beyond its bounds, of which its probe keeps a copy: it may move that far before the
+/// copy is made again.
+inline constexpr int probe_slack_voxels = 2;
+
+/// Depth behind a triangle at which the mesh collider still finds it, voxels: a mesh knows no inside. What is
+/// deeper falls.
+inline constexpr float mesh_depth_voxels = 1.5F;
+
+/// Blocks of 16³ voxels of which the mesh collider keeps triangles: about 25 KB each. Above: all are dropped
+/// and made anew on demand.
+inline constexpr unsigned mesh_blocks_max = 1024;
+
+/// Rays of the rays collider along each side of a body's footprint.
+inline constexpr int rays_side = 4;
+
 /// Bullet's margin around a hull, metres: a tenth of the piece's thickness, but not more than this. Thinner
 /// margins make GJK fall back to its slow penetration search; zero is slowest of all.
 inline constexpr float margin_max_m = 0.03F;

@@ -3,12 +3,15 @@
 // commands give the same hashes.
 #pragma once
 
+#include "server/bodies/terrain_collider_kind.h"
+
 namespace scree {
 
 struct Methods {
-  bool impacts = true;  ///< hard contacts break pieces again
-  bool dents = true;    ///< hard contacts dent soft ground
-  bool islands = true;  ///< what is cut off from the ground falls
+  TerrainColliderKind collider = TerrainColliderKind::field;  ///< how bodies find the terrain
+  bool impacts = true;                                        ///< hard contacts break pieces again
+  bool dents = true;                                          ///< hard contacts dent soft ground
+  bool islands = true;                                        ///< what is cut off from the ground falls
 
   bool operator==(const Methods&) const = default;
 };

@@ -83,6 +83,7 @@ Result<uint32_t> change(World::State& state, const SettingsRequest& request, Tic
   if (Result<void> done = set_all(state.methods, request.settings); !done)
     return tl::unexpected(done.error());
   if (state.methods != before) delta.settings = print(state.methods);
+  state.bodies.set_terrain_collider(state.methods.collider);
   return 0U;
 }
 

@@ -19,6 +19,30 @@ std::string print_value(bool value) {
   return value ? "true" : "false";
 }
 
+/// A choice among named values; `names` in the order of the enum's, which count from 0.
+template <typename Enum, size_t Count>
+Result<void> parse_choice(std::string_view value, Enum& to,
+                          const std::array<std::string_view, Count>& names) {
+  const auto found = std::ranges::find(names, value);
+  if (found != names.end()) {
+    to = static_cast<Enum>(found - names.begin());
+    return {};
+  }
+  std::string all;
+  for (const std::string_view name : names) all += (all.empty() ? "is one of " : ", ") + std::string(name);
+  return fail(all);
+}
+
+constexpr std::array<std::string_view, 3> collider_names{"field", "mesh", "rays"};
+
+Result<void> parse_value(std::string_view value, TerrainColliderKind& to) {
+  return parse_choice(value, to, collider_names);
+}
+
+std::string print_value(TerrainColliderKind value) {
+  return std::string(collider_names[static_cast<size_t>(value)]);
+}
+
 /// A row of the table: any member whose type has a parse_value and a print_value.
 template <auto Member>
 constexpr Setting setting(std::string_view name, std::string_view help) {
@@ -27,6 +51,8 @@ constexpr Setting setting(std::string_view name, std::string_view help) {
 }
 
 constexpr std::array table{
+    setting<&Methods::collider>("collider",
+                                "how pieces find the terrain that they touch: field, mesh or rays"),
     setting<&Methods::impacts>("impacts", "whether pieces that strike hard break again: true or false"),
     setting<&Methods::dents>("dents", "whether pieces that strike hard dent soft ground: true or false"),
     setting<&Methods::islands>("islands",
@@ -35,8 +61,10 @@ constexpr std::array table{
 
 /// Bound one by one, so that a member that is new and not in the table does not compile.
 constexpr size_t members() {
-  const auto [impacts, dents, islands] = Methods{};
-  return std::array{static_cast<int>(impacts), static_cast<int>(dents), static_cast<int>(islands)}.size();
+  const auto [collider, impacts, dents, islands] = Methods{};
+  return std::array{static_cast<int>(collider), static_cast<int>(impacts), static_cast<int>(dents),
+                    static_cast<int>(islands)}
+      .size();
 }
 static_assert(members() == table.size());
 

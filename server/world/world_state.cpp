@@ -11,6 +11,7 @@ namespace {
 BodiesConfig bodies_config(const WorldConfig& config) {
   BodiesConfig out;
   out.tick_rate_hz = config.tick_rate_hz;
+  out.terrain_collider = config.methods.collider;
   return out;
 }
 

@@ -1,0 +1,29 @@
+#include "server/bodies/nearby_codes.h"
+
+#include <algorithm>
+
+#include "server/bodies/limits.h"
+
+namespace scree {
+
+void NearbyCodes::look(glm::vec3 lo, glm::vec3 hi) {
+  if (covers(codes_, lo) && covers(codes_, hi)) return;
+  codes_ = gather(field_, box_around(lo, hi).grown(limits::probe_slack_voxels));
+  all_air_ = std::ranges::all_of(codes_.codes, [](Code code) { return code == code_air; });
+}
+
+void NearbyCodes::terrain_changed(const VoxelBox& box) {
+  if (overlap(box, codes_.box)) codes_ = Window();
+}
+
+bool overlap(const VoxelBox& a, const VoxelBox& b) {
+  return a.hi.x > b.lo.x && a.lo.x < b.hi.x && a.hi.y > b.lo.y && a.lo.y < b.hi.y && a.hi.z > b.lo.z &&
+         a.lo.z < b.hi.z;
+}
+
+VoxelBox box_around(glm::vec3 lo, glm::vec3 hi) {
+  return {{floor_to_voxel(lo.x), floor_to_voxel(lo.y), floor_to_voxel(lo.z)},
+          {floor_to_voxel(hi.x) + 2, floor_to_voxel(hi.y) + 2, floor_to_voxel(hi.z) + 2}};
+}
+
+}  // namespace scree

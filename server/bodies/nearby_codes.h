@@ -1,0 +1,32 @@
+// A body's own copy of the codes around it: a hash lookup for each of them would cost ten times more. Voxels.
+#pragma once
+
+#include "shared/field/window_sample.h"
+
+namespace scree {
+
+class NearbyCodes {
+ public:
+  explicit NearbyCodes(Field& field) : field_(field) {}
+
+  /// Makes codes() cover the bounds.
+  void look(glm::vec3 lo, glm::vec3 hi);
+  /// The copy is stale, if it has anything of this box.
+  void terrain_changed(const VoxelBox& box);
+
+  const Window& codes() const { return codes_; }
+  bool all_air() const { return all_air_; }
+
+ private:
+  Field& field_;
+  Window codes_;
+  bool all_air_ = false;
+};
+
+/// Whether two boxes have a voxel in common.
+bool overlap(const VoxelBox& a, const VoxelBox& b);
+
+/// The smallest box with all voxels that sampling between these corners may read.
+VoxelBox box_around(glm::vec3 lo, glm::vec3 hi);
+
+}  // namespace scree
