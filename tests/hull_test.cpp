@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "server/fracture/cells.h"
 #include "shared/field/window_sample.h"
 
 namespace scree {
@@ -92,45 +91,10 @@ TEST(Hull, masses_and_inertias_are_sane) {
   EXPECT_NEAR(size_m3, static_cast<float>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m, 0.01F);
 }
 
-TEST(Hull, of_a_volume_alone_is_nearly_the_same) {
-  const Blast blast(32);
-  for (const PieceHull& hull : blast.hulls) {
-    const PieceHull alone = make_hull(hull.id, *blast.pieces.at(hull.id), voxel_m);
-    const glm::vec3 difference = glm::abs(extent_of(hull.corners_m) - extent_of(alone.corners_m));
-    EXPECT_LT(std::max({difference.x, difference.y, difference.z}), 0.15F);
-    EXPECT_EQ(alone.size_m3, hull.size_m3);
-  }
-}
-
 TEST(Hull, is_the_same_every_time) {
   const Blast a(64), b(64);
   ASSERT_EQ(a.hulls.size(), b.hulls.size());
   for (size_t i = 0; i < a.hulls.size(); ++i) EXPECT_EQ(a.hulls[i].corners_m, b.hulls[i].corners_m);
-}
-
-TEST(Cells, odd_seeds_are_survived) {
-  const glm::vec3 lo(0.0F), hi(10.0F, 10.0F, 10.0F);
-  EXPECT_TRUE(cell_corners({}, lo, hi).empty());
-  const std::vector<glm::vec3> seeds = {
-      {5.0F, 5.0F, 5.0F}, {5.0F, 5.0F, 5.0F}, {50.0F, 0.0F, 0.0F}, {10.0F, 10.0F, 10.0F}, {2.0F, 5.0F, 5.0F}};
-  const auto cells = cell_corners(seeds, lo, hi);
-  ASSERT_EQ(cells.size(), seeds.size());
-  EXPECT_EQ(cells[0].size(), 8U);
-  EXPECT_TRUE(cells[1].empty()) << "coincides with the first";
-  EXPECT_TRUE(cells[2].empty()) << "lies outside";
-  EXPECT_EQ(cells[4].size(), 8U);
-  EXPECT_TRUE(cell_corners(seeds, hi, lo)[0].empty()) << "a box that is none";
-}
-
-TEST(Cells, coplanar_and_lattice_seeds_all_get_cells) {
-  std::vector<glm::vec3> seeds;
-  for (int x = 0; x < 6; ++x)
-    for (int y = 0; y < 6; ++y)
-      for (int z = 0; z < 3; ++z)
-        seeds.emplace_back(1.0F + static_cast<float>(x), 1.0F + static_cast<float>(y),
-                           1.0F + static_cast<float>(z));
-  for (const auto& corners : cell_corners(seeds, glm::vec3(0.0F), glm::vec3(8.0F)))
-    EXPECT_GE(corners.size(), 8U);
 }
 
 }  // namespace

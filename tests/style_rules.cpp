@@ -54,7 +54,7 @@ const std::vector<Library>& libraries() {
       // bench/peers_*: its own tools are what ours are measured beside.
       {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers_"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/"}},
-      {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers_"}},
+      {"voro++", std::regex("voro\\+\\+.*"), {"bench/peers_"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/"}},

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <set>
+#include <span>
 #include <tuple>
 
-#include "server/fracture/cells.h"
 #include "shared/base/check.h"
-#include "shared/field/window_sample.h"
+#include "shared/base/vector_clones.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 
@@ -22,62 +25,74 @@ constexpr float hull_error_voxels = 0.12F;
 /// Thinnest that a hull may be, voxels: what Bullet still tells apart from a plane.
 constexpr float thickness_min_voxels = 0.3F;
 
-float distance_at(const Window& window, glm::vec3 p) {
-  return covers(window, p) ? sample_covered(window, p).distance_voxels : band_voxels;
-}
-
-/// `corner` where it lies in the volume; else where the way to the centre first enters it. False if never.
-bool pull_inside(const Window& window, glm::vec3 centre, glm::vec3& corner) {
-  float outside = distance_at(window, corner);
-  if (outside <= 0.0F) return true;
-  const glm::vec3 way = centre - corner;
-  const float length = std::sqrt(glm::dot(way, way));
-  constexpr float step_voxels = 0.5F;
-  const int steps = static_cast<int>(length / step_voxels) + 1;
-  glm::vec3 last = corner;
-  for (int i = 1; i <= steps; ++i) {
-    const glm::vec3 p = corner + way * (static_cast<float>(i) / static_cast<float>(steps));
-    const float inside = distance_at(window, p);
-    if (inside <= 0.0F) {
-      corner = last + (p - last) * (outside / (outside - inside));
-      return true;
-    }
-    last = p;
-    outside = inside;
+/// Bit k: whether codes[k] is inside or on the surface; `count` is at most 64.
+uint64_t inside_bits(const Code* codes, int count) {
+  constexpr uint64_t signs = 0x8080808080808080U, rest = ~signs;
+  uint64_t bits = 0;
+  for (int from = 0; from < count; from += 8) {
+    uint64_t eight = rest;  // past the end: outside
+    std::memcpy(&eight, codes + from, static_cast<size_t>(std::min(8, count - from)));
+    const uint64_t outside = ((eight & rest) + rest) & ~eight & signs;
+    const uint64_t inside = (outside ^ signs) >> 7;
+    bits |= ((inside * 0x0102040810204080U) >> 56) << from;
   }
-  return false;
+  return bits;
 }
 
-/// Where the volume's surface crosses the edges of the voxel lattice.
-void add_surface(const Window& window, std::vector<glm::vec3>& points) {
-  const VoxelBox& b = window.box;
-  const VoxelCoord size = b.size();
-  const auto nz = static_cast<size_t>(size.z), nyz = static_cast<size_t>(size.y) * nz;
-  const auto cross = [&](const Code* from, size_t step, glm::vec3 at, glm::vec3 along) {
-    const int a = from[0], c = from[step];
-    if ((a <= 0) == (c <= 0)) return;
-    points.push_back(at + along * (static_cast<float>(a) / static_cast<float>(a - c)));
-  };
-  const Code* code = window.codes.data();
-  for (int x = b.lo.x; x < b.hi.x; ++x)
-    for (int y = b.lo.y; y < b.hi.y; ++y)
-      for (int z = b.lo.z; z < b.hi.z; ++z, ++code) {
-        const glm::vec3 at(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-        if (x + 1 < b.hi.x) cross(code, nyz, at, {1.0F, 0.0F, 0.0F});
-        if (y + 1 < b.hi.y) cross(code, nz, at, {0.0F, 1.0F, 0.0F});
-        if (z + 1 < b.hi.z) cross(code, 1, at, {0.0F, 0.0F, 1.0F});
-      }
+/// Appends where the volume's surface crosses the edges of the voxel lattice. Whole rows are compared at
+/// once: few voxels are near the surface.
+class SurfacePoints {
+ public:
+  SurfacePoints(const Window& window, std::vector<glm::vec3>& points) : window_(window), points_(points) {
+    const VoxelBox& b = window.box;
+    const VoxelCoord size = b.size();
+    const auto nz = static_cast<size_t>(size.z), nyz = static_cast<size_t>(size.y) * nz;
+    for (int x = b.lo.x; x < b.hi.x; ++x)
+      for (int y = b.lo.y; y < b.hi.y; ++y)
+        for (int z = b.lo.z; z < b.hi.z; z += 64) {
+          const int count = std::min(64, b.hi.z - z);
+          const Code* row = window.codes.data() + window.index(x, y, z);
+          const glm::vec3 at(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+          const uint64_t here = inside_bits(row, count);
+          if (x + 1 < b.hi.x) cross(row, nyz, here ^ inside_bits(row + nyz, count), at, {1.0F, 0.0F, 0.0F});
+          if (y + 1 < b.hi.y) cross(row, nz, here ^ inside_bits(row + nz, count), at, {0.0F, 1.0F, 0.0F});
+          const int next = std::min(count, b.hi.z - z - 1);
+          const uint64_t known = next == 64 ? ~uint64_t{0} : (uint64_t{1} << next) - 1;
+          cross(row, 1, (here ^ inside_bits(row + 1, next)) & known, at, {0.0F, 0.0F, 1.0F});
+        }
+  }
+
+ private:
+  void cross(const Code* row, size_t step, uint64_t edges, glm::vec3 first, glm::vec3 along) {
+    for (; edges != 0; edges &= edges - 1) {
+      const int k = std::countr_zero(edges);
+      const int a = row[k], c = row[static_cast<size_t>(k) + step];
+      points_.push_back(first + glm::vec3(0.0F, 0.0F, static_cast<float>(k)) +
+                        along * (static_cast<float>(a) / static_cast<float>(a - c)));
+    }
+  }
+
+  const Window& window_;
+  std::vector<glm::vec3>& points_;
+};
+
+std::vector<glm::vec3> surface_of(const Window& window) {
+  std::vector<glm::vec3> points;
+  SurfacePoints(window, points);
+  return points;
 }
 
-/// Four at a time, spelt out: the compiler alone does not find these loops' vectors.
-using Lanes = float __attribute__((vector_size(16)));
-using IntLanes = int __attribute__((vector_size(16)));
+/// Eight at a time, spelt out: the compiler alone does not find these loops' vectors.
+using Lanes = float __attribute__((vector_size(32)));
+using IntLanes = int __attribute__((vector_size(32)));
+constexpr size_t lanes = 8;
 
 /// Lines along which a hull is compared with its shape: to the faces, edges and corners of a cube, and
-/// half-way between those. Four to a vector, coordinates apart; what is left over of the last vector is zero.
+/// half-way between those. Eight to a vector, coordinates apart; what is left over of the last vector is
+/// zero.
 struct Lines {
   static constexpr size_t count = (6 + 12 + 8 + 24) / 2;
-  static constexpr size_t vectors = (count + 3) / 4;
+  static constexpr size_t vectors = (count + lanes - 1) / lanes;
   std::array<Lanes, vectors> x, y, z;
 };
 
@@ -94,9 +109,9 @@ Lines make_lines() {
         const bool mirrored = x == 0 && (y < 0 || (y == 0 && z < 0));
         if ((!cube && !between) || mirrored) continue;
         const float length = std::sqrt(static_cast<float>(x * x + y * y + z * z));
-        found.x[count / 4][count % 4] = static_cast<float>(x) / length;
-        found.y[count / 4][count % 4] = static_cast<float>(y) / length;
-        found.z[count / 4][count % 4] = static_cast<float>(z) / length;
+        found.x[count / lanes][count % lanes] = static_cast<float>(x) / length;
+        found.y[count / lanes][count % lanes] = static_cast<float>(y) / length;
+        found.z[count / lanes][count % lanes] = static_cast<float>(z) / length;
         ++count;
       }
   CHECK(count == Lines::count);
@@ -109,46 +124,56 @@ const Lines& lines() {
 }
 
 /// How far some points reach along each line, both ways, and which of them do.
-class Extent {
- public:
+struct Extent {
+  std::array<Lanes, Lines::vectors> lows, highs;
+  std::array<IntLanes, Lines::vectors> lowest_points{}, highest_points{};
+
   Extent() {
-    low_.fill(Lanes{} + 1e30F);
-    high_.fill(Lanes{} - 1e30F);
+    lows.fill(Lanes{} + 1e30F);
+    highs.fill(Lanes{} - 1e30F);
   }
-
-  float low(size_t line) const { return low_[line / 4][line % 4]; }
-  float high(size_t line) const { return high_[line / 4][line % 4]; }
-  int lowest(size_t line) const { return lowest_[line / 4][line % 4]; }
-  int highest(size_t line) const { return highest_[line / 4][line % 4]; }
-
-  void add(glm::vec3 p, int number) {
-    const Lines& along = lines();
-    const IntLanes own = IntLanes{} + number;
-    for (size_t i = 0; i < Lines::vectors; ++i) {
-      const Lanes r = p.x * along.x[i] + p.y * along.y[i] + p.z * along.z[i];
-      const IntLanes above = r > high_[i], below = r < low_[i];
-      high_[i] = above ? r : high_[i];
-      highest_[i] = above ? own : highest_[i];
-      low_[i] = below ? r : low_[i];
-      lowest_[i] = below ? own : lowest_[i];
-    }
-  }
+  float low(size_t line) const { return lows[line / lanes][line % lanes]; }
+  float high(size_t line) const { return highs[line / lanes][line % lanes]; }
+  int lowest(size_t line) const { return lowest_points[line / lanes][line % lanes]; }
+  int highest(size_t line) const { return highest_points[line / lanes][line % lanes]; }
   bool is_solid() const {
     for (size_t i = 0; i < Lines::count; ++i)
       if (high(i) - low(i) < thickness_min_voxels) return false;
     return true;
   }
-
- private:
-  std::array<Lanes, Lines::vectors> low_, high_;
-  std::array<IntLanes, Lines::vectors> lowest_{}, highest_{};
 };
+
+}  // namespace
+
+SCREE_VECTOR_CLONES static void extend(Extent& extent, std::span<const glm::vec3> points) {
+  const Lines& along = lines();
+  for (size_t i = 0; i < Lines::vectors; ++i) {
+    const Lanes x = along.x[i], y = along.y[i], z = along.z[i];
+    Lanes low = extent.lows[i], high = extent.highs[i];
+    IntLanes lowest = extent.lowest_points[i], highest = extent.highest_points[i], number{};
+    for (const glm::vec3& p : points) {
+      const Lanes r = p.x * x + p.y * y + p.z * z;
+      const IntLanes above = r > high, below = r < low;
+      high = above ? r : high;
+      highest = above ? number : highest;
+      low = below ? r : low;
+      lowest = below ? number : lowest;
+      number += 1;
+    }
+    extent.lows[i] = low;
+    extent.highs[i] = high;
+    extent.lowest_points[i] = lowest;
+    extent.highest_points[i] = highest;
+  }
+}
+
+namespace {
 
 /// A few of the candidates, whose hull is nearly that of all: always the one that the hull misses most.
 /// Empty when their hull is too thin to collide.
 std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) {
   Extent wanted, have;
-  for (size_t i = 0; i < candidates.size(); ++i) wanted.add(candidates[i], static_cast<int>(i));
+  extend(wanted, candidates);
   std::vector<glm::vec3> corners;
   if (!wanted.is_solid()) return corners;
   while (corners.size() < static_cast<size_t>(hull_corners_max)) {
@@ -161,7 +186,7 @@ std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) 
     }
     if (corners.size() >= 4 && missed < hull_error_voxels) break;
     corners.push_back(candidates[static_cast<size_t>(next)]);
-    have.add(corners.back(), 0);
+    extend(have, std::span(&corners.back(), 1));
   }
   if (corners.size() < 4 || !have.is_solid()) corners.clear();
   return corners;
@@ -177,69 +202,69 @@ std::vector<glm::vec3> cube_of(MassUnits mass) {
   return corners;
 }
 
+/// Sums over one row of voxels along z, of their units, and of those times z and z².
+struct RowSums {
+  int64_t units = 0;
+  int64_t z = 0;
+  int64_t zz = 0;
+};
+
+RowSums sums_of_row(const Code* codes, int count) {
+  RowSums sums;
+  for (int from = 0; from < count; from += 64) {  // 64: no int overflows
+    int units = 0, first = 0, second = 0;
+    const int to = std::min(count - from, 64);
+    for (int k = 0; k < to; ++k) {
+      const int u = occupancy(codes[from + k]);
+      units += u;
+      first += u * k;
+      second += u * k * k;
+    }
+    sums.units += units;
+    sums.z += first + int64_t{from} * units;
+    sums.zz += second + 2 * int64_t{from} * first + int64_t{from} * from * units;
+  }
+  return sums;
+}
+
 /// Of 1 kg, about the centre of mass, in voxels²; every voxel counts as a small cube.
 glm::vec3 inertia_of(const Volume& volume) {
   const VoxelBox& b = volume.window.box;
+  const glm::dvec3 centre(volume.centre_voxels);
+  const int count = b.size().z;
+  const double low_z = b.lo.z - centre.z;
   glm::dvec3 squares(0.0);
   double mass = 0.0;
-  const Code* code = volume.window.codes.data();
+  const Code* codes = volume.window.codes.data();
   for (int x = b.lo.x; x < b.hi.x; ++x)
-    for (int y = b.lo.y; y < b.hi.y; ++y)
-      for (int z = b.lo.z; z < b.hi.z; ++z, ++code) {
-        const int units = occupancy(*code);
-        if (units == 0) continue;
-        const glm::dvec3 off = glm::dvec3(x, y, z) - glm::dvec3(volume.centre_voxels);
-        squares += off * off * static_cast<double>(units);
-        mass += units;
-      }
+    for (int y = b.lo.y; y < b.hi.y; ++y, codes += count) {
+      const RowSums sums = sums_of_row(codes, count);
+      const auto units = static_cast<double>(sums.units);
+      const double off_x = x - centre.x, off_y = y - centre.y;
+      squares.x += off_x * off_x * units;
+      squares.y += off_y * off_y * units;
+      squares.z += static_cast<double>(sums.zz) + low_z * (2.0 * static_cast<double>(sums.z) + low_z * units);
+      mass += units;
+    }
   if (mass > 0.0) squares /= mass;
   squares += glm::dvec3(1.0 / 12.0);
   return {squares.y + squares.z, squares.x + squares.z, squares.x + squares.y};
-}
-
-PieceHull finish(PieceId id, const Volume& volume, std::vector<glm::vec3> candidates, float voxel_size_m) {
-  for (glm::vec3& p : candidates) p -= volume.centre_voxels;
-  PieceHull hull;
-  hull.id = id;
-  hull.corners_m = choose_corners(candidates);
-  if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
-  for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;
-  hull.inertia_m2 = inertia_of(volume) * (voxel_size_m * voxel_size_m);
-  hull.size_m3 =
-      static_cast<float>(volume.mass) / units_per_voxel * voxel_size_m * voxel_size_m * voxel_size_m;
-  return hull;
 }
 
 }  // namespace
 
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m) {
   std::vector<PieceHull> hulls;
-  glm::vec3 lo(1e30F), hi(-1e30F);
-  std::vector<const Volume*> volumes;
   for (const CreatedPiece& created : applied.created) {
     const auto found = pieces.find(created.id);
     CHECK(found != pieces.end());
-    const VoxelBox& b = found->second->window.box;
-    lo = glm::min(lo, glm::vec3(b.lo.x, b.lo.y, b.lo.z));
-    hi = glm::max(hi, glm::vec3(b.hi.x, b.hi.y, b.hi.z));
-    volumes.push_back(found->second.get());
-  }
-  const auto cells = cell_corners(applied.seeds_voxels, lo, hi);
-  for (size_t i = 0; i < volumes.size(); ++i) {
-    const Volume& volume = *volumes[i];
-    std::vector<glm::vec3> candidates;
-    for (const uint32_t seed : applied.created[i].seeds)
-      for (glm::vec3 corner : cells[seed])
-        if (pull_inside(volume.window, volume.centre_voxels, corner)) candidates.push_back(corner);
-    add_surface(volume.window, candidates);
-    hulls.push_back(finish(applied.created[i].id, volume, std::move(candidates), voxel_size_m));
+    hulls.push_back(make_hull(created.id, *found->second, voxel_size_m));
   }
   return hulls;
 }
 
 std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max) {
-  std::vector<glm::vec3> surface;
-  add_surface(volume.window, surface);
+  const std::vector<glm::vec3> surface = surface_of(volume.window);
   std::vector<glm::vec3> samples;
   for (float spacing_voxels = 2.0F;; spacing_voxels *= 1.25F) {
     std::set<std::tuple<int, int, int>> taken;
@@ -255,9 +280,17 @@ std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m,
 }
 
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m) {
-  std::vector<glm::vec3> candidates;
-  add_surface(volume.window, candidates);
-  return finish(id, volume, std::move(candidates), voxel_size_m);
+  std::vector<glm::vec3> candidates = surface_of(volume.window);
+  for (glm::vec3& p : candidates) p -= volume.centre_voxels;
+  PieceHull hull;
+  hull.id = id;
+  hull.corners_m = choose_corners(candidates);
+  if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
+  for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;
+  hull.inertia_m2 = inertia_of(volume) * (voxel_size_m * voxel_size_m);
+  hull.size_m3 =
+      static_cast<float>(volume.mass) / units_per_voxel * voxel_size_m * voxel_size_m * voxel_size_m;
+  return hull;
 }
 
 }  // namespace scree

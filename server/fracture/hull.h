@@ -1,7 +1,7 @@
 // Convex hulls, masses and inertias of freshly cut pieces, for the rigid bodies.
 //
-// A hull is the convex hull of the corners of the piece's Voronoi cells (voro++), pulled onto the surface of
-// its volume where they lie outside it, and of the volume's own surface. Deterministic; metres, kilograms.
+// A hull is the convex hull of a few points of the volume's own surface, whatever cutter made the piece.
+// Deterministic; metres, kilograms.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -28,7 +28,6 @@ std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& piec
 /// touches the ground. Metres, relative to the centre of mass.
 std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max);
 
-/// Of one volume by its own surface alone, without cells: for a piece whose seeds are not at hand (restored).
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m);
 
 }  // namespace scree

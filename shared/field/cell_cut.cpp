@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
+
+#include "shared/base/vector_clones.h"
 
 namespace scree {
 
@@ -25,37 +28,71 @@ struct Bisector {
   }
 };
 
-/// Voxels along z that are cut at a time: two vectors of four, spelt out. Left to itself the compiler did
-/// this loop, the dearest of a carve, one voxel at a time.
+/// Voxels along z that are cut at a time, in one vector, spelt out. Left to itself the compiler did this
+/// loop, the dearest of a carve, one voxel at a time.
 constexpr int cut_width = 8;
-using CutRow = std::array<float, cut_width>;
-using Lanes = float __attribute__((vector_size(16)));
+using Lanes = float __attribute__((vector_size(32)));
 
 /// Far inside every plane, voxels.
 constexpr float deep_inside = -2.0F * band_voxels;
 
 /// Distance beyond the farthest of the bisectors, the nearest over the own seeds of each neighbour. `planes`
 /// holds own · neighbours bisectors, those of one neighbour together.
-void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, CutRow& row) {
-  const Lanes low = {0.0F, 1.0F, 2.0F, 3.0F}, high = {4.0F, 5.0F, 6.0F, 7.0F};
-  Lanes d_low = low * 0.0F + deep_inside, d_high = d_low;
+inline void cut_row(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, Lanes& row) {
+  const Lanes steps = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
+  row = steps * 0.0F + deep_inside;
   for (size_t p = 0; p < planes.size(); p += own) {
-    Lanes near_low{}, near_high{};
+    Lanes near{};
     for (size_t k = 0; k < own; ++k) {
       const Bisector& plane = planes[p + k];
       const float base =
           plane.offset + (plane.normal.x * first.x + plane.normal.y * first.y + plane.normal.z * first.z);
-      const Lanes at_low = base + plane.normal.z * low, at_high = base + plane.normal.z * high;
-      near_low = k == 0 ? at_low : (at_low < near_low ? at_low : near_low);
-      near_high = k == 0 ? at_high : (at_high < near_high ? at_high : near_high);
+      const Lanes at = base + plane.normal.z * steps;
+      near = k == 0 ? at : (at < near ? at : near);
     }
-    d_low = near_low > d_low ? near_low : d_low;
-    d_high = near_high > d_high ? near_high : d_high;
+    row = near > row ? near : row;
   }
-  for (int z = 0; z < 4; ++z) {
-    row[static_cast<size_t>(z)] = d_low[z];
-    row[static_cast<size_t>(z + 4)] = d_high[z];
+}
+
+using IntLanes = int __attribute__((vector_size(32)));
+using CodeLanes = Code __attribute__((vector_size(8)));
+
+/// encode() of each.
+inline void encode_row(const Lanes& distances, IntLanes& codes) {
+  const Lanes scaled = distances * codes_per_voxel;
+  const Lanes low = scaled < -127.0F ? Lanes{} - 127.0F : scaled;
+  const Lanes clamped = low > 127.0F ? Lanes{} + 127.0F : low;
+  codes = __builtin_convertvector(clamped + (clamped < 0.0F ? Lanes{} - 0.5F : Lanes{} + 0.5F), IntLanes);
+}
+
+/// occupancy() of each.
+inline void occupancy_row(const IntLanes& codes, IntLanes& units) {
+  const IntLanes ramp = 127 - 6 * codes;
+  const IntLanes low = ramp < 0 ? IntLanes{} : ramp;
+  units = low > units_per_voxel ? IntLanes{} + units_per_voxel : low;
+}
+
+/// Cuts `count` voxels of a row of the volume, at most cut_width, from `first` on.
+inline void cut_voxels(const std::vector<Bisector>& planes, size_t own, glm::vec3 first, int count,
+                       const Code* from, Code* to, uint8_t* within) {
+  CodeLanes codes = CodeLanes{} + code_air, shares{};
+  std::memcpy(&codes, from, static_cast<size_t>(count));
+  // Of nothing but air no part gets anything.
+  constexpr uint64_t all_air = 0x7F7F7F7F7F7F7F7FU;
+  uint64_t eight;
+  std::memcpy(&eight, &codes, sizeof(eight));
+  if (eight != all_air) {
+    Lanes distances;
+    cut_row(planes, own, first, distances);
+    IntLanes cut, units;
+    encode_row(distances, cut);
+    occupancy_row(cut, units);
+    const auto narrow = __builtin_convertvector(cut, CodeLanes);
+    codes = codes > narrow ? codes : narrow;
+    shares = __builtin_convertvector(units, CodeLanes);
   }
+  std::memcpy(to, &codes, static_cast<size_t>(count));
+  std::memcpy(within, &shares, static_cast<size_t>(count));
 }
 
 /// One part's claims as they stand in the window shared out: f(voxel there, voxel in the part, count).
@@ -82,8 +119,9 @@ void add(PartMass& part, MassUnits mass, int x, int y, int z) {
 
 }  // namespace
 
-CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
-                  const std::vector<glm::vec3>& neighbours) {
+SCREE_VECTOR_CLONES CellPart cut_part(const Window& volume, const VoxelBox& box,
+                                      const std::vector<glm::vec3>& own,
+                                      const std::vector<glm::vec3>& neighbours) {
   std::vector<Bisector> planes;
   planes.reserve(own.size() * neighbours.size());
   for (const glm::vec3& other : neighbours)
@@ -96,14 +134,13 @@ CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<g
       const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
       for (int z = box.lo.z; z < box.hi.z; z += cut_width) {
         const int count = std::min(cut_width, box.hi.z - z);
-        CutRow d;
-        cut_row(planes, own.size(), as_vec3(x, y, z), d);
-        std::array<int, cut_width> code;
-        for (int k = 0; k < cut_width; ++k) code[static_cast<size_t>(k)] = encode(d[static_cast<size_t>(k)]);
-        for (int k = 0; k < count; ++k) {
-          *within++ = static_cast<uint8_t>(occupancy(code[static_cast<size_t>(k)]));
-          *to++ = std::max(*from++, static_cast<Code>(code[static_cast<size_t>(k)]));
-        }
+        const glm::vec3 first = as_vec3(x, y, z);
+        // A count that is known makes single moves of the copies.
+        if (count == cut_width)
+          cut_voxels(planes, own.size(), first, cut_width, from, to, within);
+        else
+          cut_voxels(planes, own.size(), first, count, from, to, within);
+        from += count, to += count, within += count;
       }
     }
   return part;
