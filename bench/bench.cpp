@@ -15,6 +15,8 @@ const std::vector<Bench>& all_benches() {
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
        run_ledger_bench},
+      {"raymarch", "a frame after 0 to 10,000 carves: the atlas of bricks, the paper's list of carves",
+       run_raymarch_bench},
       {"recombine", "stamps against OpenVDB's meshToVolume and csgUnion, and the paper's spheres",
        run_recombine_bench},
       {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},

@@ -59,7 +59,7 @@ const std::vector<Library>& libraries() {
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/"}},
       {"EGL", std::regex("(epoxy/egl|EGL/).*"), {"client/render/", "client/viewer/"}},
-      {"OpenGL", std::regex("(epoxy/gl|GL/|GLES).*"), {"client/render/", "client/viewer/"}},
+      {"OpenGL", std::regex("(epoxy/gl|GL/|GLES).*"), {"client/render/", "client/viewer/", "bench/peers_"}},
       {"Asio", std::regex("(boost/)?asio.*"), {"server/net/", "client/connection/", "tests/", "bench/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/"}},
   };

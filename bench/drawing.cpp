@@ -1,0 +1,78 @@
+#include "bench/drawing.h"
+
+#include <thread>
+
+#include "bench/bench.h"
+#include "shared/base/random.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+Result<std::unique_ptr<Stage>> Stage::create(float view_radius_m) {
+  auto stage = std::make_unique<Stage>();
+  Result<std::unique_ptr<EglContext>> context = EglContext::create(false);
+  if (!context) return fail(context.error().message);
+  stage->context = std::move(*context);
+  Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
+  if (!renderer) return fail(renderer.error().message);
+  stage->renderer = std::move(*renderer);
+  return stage;
+}
+
+Drawing::Drawing(Stage& stage, const TerrainSource& terrain, std::unique_ptr<DrawMethod> method)
+    : stage_(stage), field_(terrain), method_(std::move(method)) {}
+
+void Drawing::carve(int carves, float half_width_m, float radius_m, uint64_t random_seed) {
+  MirrorChanges changes;
+  Random random(random_seed);
+  PieceTable pieces;
+  for (int i = 0; i < carves; ++i) {
+    const auto place = [&] { return (random.unit() * 2.0F - 1.0F) * half_width_m; };
+    const float x_m = place(), z_m = place();
+    const glm::vec3 centre(x_m, ground_height_m(field_.source(), x_m, z_m), z_m);
+    const Shape ball = sphere(centre, radius_m);
+    const Applied applied =
+        apply(CarveOperation{ball, SeedPattern::uniform, 1, 1, centre, 1}, field_, pieces);
+    pieces.clear();
+    changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());
+    balls_.emplace_back(centre, radius_m);
+  }
+  method_->changed(changes);
+}
+
+double Drawing::finish() {
+  const Scene scene{field_, pieces_};
+  Stopwatch watch;
+  method_->update(scene, camera);
+  const double first_ms = watch.lap_ms();
+  while (!method_->complete()) {
+    std::this_thread::yield();
+    method_->update(scene, camera);
+  }
+  return first_ms;
+}
+
+Result<double> Drawing::frame_ms(int width, int height, int frames) {
+  std::vector<double> times_ms;
+  // The first one warms up.
+  for (int i = 0; i <= frames; ++i) {
+    Stopwatch watch;
+    if (Result<void> drawn = stage_.renderer->draw_unseen(*method_, camera, width, height); !drawn)
+      return fail(drawn.error().message);
+    if (i > 0) times_ms.push_back(watch.lap_ms());
+  }
+  return quantile(times_ms, 0.5);
+}
+
+Result<Image> Drawing::picture(int width, int height) {
+  return stage_.renderer->draw_image(*method_, camera, width, height);
+}
+
+size_t differing_pixels(const Image& a, const Image& b) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.rgb.size(); i += 3)
+    if (a.rgb[i] != b.rgb[i] || a.rgb[i + 1] != b.rgb[i + 1] || a.rgb[i + 2] != b.rgb[i + 2]) ++count;
+  return count;
+}
+
+}  // namespace scree

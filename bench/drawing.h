@@ -1,0 +1,59 @@
+// A field, a method and a camera without any server: what the drawing benches measure. Needs no display; the
+// GL context is made here, and belongs to the thread that made it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "client/render/method_switch.h"
+#include "client/render/renderer.h"
+#include "client/viewer/egl_context.h"
+#include "shared/field/operation.h"
+
+namespace scree {
+
+/// The GL context that every drawing of a bench shares.
+struct Stage {
+  std::unique_ptr<EglContext> context;
+  std::unique_ptr<Renderer> renderer;
+  WorkPool pool{default_worker_threads()};
+
+  /// Fails where there is no EGL or no fit OpenGL, saying so.
+  static Result<std::unique_ptr<Stage>> create(float view_radius_m);
+};
+
+/// A terrain that is carved and drawn; pieces vanish as soon as they are cut.
+class Drawing {
+ public:
+  Drawing(Stage& stage, const TerrainSource& terrain, std::unique_ptr<DrawMethod> method);
+
+  /// Carves balls scattered about the origin, each a carve of the world's; the method hears of all as one.
+  void carve(int carves, float half_width_m, float radius_m, uint64_t random_seed);
+  /// Updates until all is shown; returns what the first update took, milliseconds.
+  double finish();
+  /// What one frame takes until the GPU has finished, milliseconds; the median over some.
+  Result<double> frame_ms(int width, int height, int frames);
+  Result<Image> picture(int width, int height);
+
+  Field& field() { return field_; }
+  DrawMethod& method() { return *method_; }
+  /// Shows the same field by another method from now on.
+  void take(std::unique_ptr<DrawMethod> method) { method_ = std::move(method); }
+  const std::vector<glm::vec4>& balls() const {
+    return balls_;
+  }  ///< carved so far: centre and radius, metres
+
+  Camera camera;
+
+ private:
+  Stage& stage_;
+  MapField field_;
+  ScenePieces pieces_;
+  std::unique_ptr<DrawMethod> method_;
+  std::vector<glm::vec4> balls_;
+};
+
+/// Pixels that differ in any colour.
+size_t differing_pixels(const Image& a, const Image& b);
+
+}  // namespace scree

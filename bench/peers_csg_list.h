@@ -1,0 +1,20 @@
+// The paper's raymarcher (section 2.2): the density function is evaluated at every step, noise from a texture
+// that repeats, and then every carve so far, one after the other. Measured beside the atlas; nothing else
+// draws so.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "client/render/draw_method.h"
+
+namespace scree::peers {
+
+/// Carves that the list holds: what a uniform array can on every driver.
+inline constexpr size_t csg_list_max = 128;
+
+/// Draws the open terrain with these balls (centre and radius, metres) carved out. Needs the GL context
+/// current. Fails when a shader does.
+Result<std::unique_ptr<DrawMethod>> make_csg_list_method(const std::vector<glm::vec4>& balls);
+
+}  // namespace scree::peers
