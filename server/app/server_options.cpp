@@ -60,7 +60,8 @@ void add_settings(CLI::App& app, Raw& raw) {
       if (Result<void> done = set(methods, {name, value}); !done)
         throw CLI::ValidationError(done.error().message);
     };
-    app.add_option_function<std::string>("--" + std::string(row.name), take, std::string(row.help))
+    app.add_option_function<std::string>("--" + std::string(row.name), take,
+                                         std::string(row.help) + ": " + listed(row.values))
         ->default_str(row.print(Methods{}));
   }
 }

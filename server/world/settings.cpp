@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "shared/base/limits.h"
 
@@ -9,54 +10,42 @@ namespace scree {
 
 namespace {
 
-Result<void> parse_value(std::string_view value, bool& to) {
-  if (value != "true" && value != "false") return fail("is true or false");
-  to = value == "true";
+/// What the values of a choice are called, in their order.
+template <typename Choice>
+constexpr std::array<std::string_view, 0> names_of{};
+template <>
+constexpr std::array<std::string_view, 2> names_of<bool>{"false", "true"};
+template <>
+constexpr std::array<std::string_view, 3> names_of<TerrainColliderKind>{"field", "mesh", "rays"};
+
+template <typename Choice>
+Result<void> parse_choice(std::string_view value, Choice& to) {
+  const auto& names = names_of<Choice>;
+  const auto found = std::ranges::find(names, value);
+  if (found == names.end()) return fail("is " + listed(names));
+  to = static_cast<Choice>(found - names.begin());
   return {};
 }
 
-std::string print_value(bool value) {
-  return value ? "true" : "false";
+template <typename Choice>
+std::string print_choice(Choice value) {
+  return std::string(names_of<Choice>.at(static_cast<size_t>(value)));
 }
 
-/// A choice among named values; `names` in the order of the enum's, which count from 0.
-template <typename Enum, size_t Count>
-Result<void> parse_choice(std::string_view value, Enum& to,
-                          const std::array<std::string_view, Count>& names) {
-  const auto found = std::ranges::find(names, value);
-  if (found != names.end()) {
-    to = static_cast<Enum>(found - names.begin());
-    return {};
-  }
-  std::string all;
-  for (const std::string_view name : names) all += (all.empty() ? "is one of " : ", ") + std::string(name);
-  return fail(all);
-}
-
-constexpr std::array<std::string_view, 3> collider_names{"field", "mesh", "rays"};
-
-Result<void> parse_value(std::string_view value, TerrainColliderKind& to) {
-  return parse_choice(value, to, collider_names);
-}
-
-std::string print_value(TerrainColliderKind value) {
-  return std::string(collider_names[static_cast<size_t>(value)]);
-}
-
-/// A row of the table: any member whose type has a parse_value and a print_value.
+/// A row of the table, for a member whose type has names_of.
 template <auto Member>
-constexpr Setting setting(std::string_view name, std::string_view help) {
-  return {name, help, [](std::string_view value, Methods& to) { return parse_value(value, to.*Member); },
-          [](const Methods& from) { return print_value(from.*Member); }};
+constexpr Setting choice(std::string_view name, std::string_view help) {
+  using Choice = std::remove_cvref_t<decltype(Methods{}.*Member)>;
+  return {name, help, names_of<Choice>,
+          [](std::string_view value, Methods& to) { return parse_choice(value, to.*Member); },
+          [](const Methods& from) { return print_choice(from.*Member); }};
 }
 
 constexpr std::array table{
-    setting<&Methods::collider>("collider",
-                                "how pieces find the terrain that they touch: field, mesh or rays"),
-    setting<&Methods::impacts>("impacts", "whether pieces that strike hard break again: true or false"),
-    setting<&Methods::dents>("dents", "whether pieces that strike hard dent soft ground: true or false"),
-    setting<&Methods::islands>("islands",
-                               "whether terrain that is cut off from the ground falls: true or false"),
+    choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
+    choice<&Methods::impacts>("impacts", "whether pieces that strike hard break again"),
+    choice<&Methods::dents>("dents", "whether pieces that strike hard dent soft ground"),
+    choice<&Methods::islands>("islands", "whether terrain that is cut off from the ground falls"),
 };
 
 /// Bound one by one, so that a member that is new and not in the table does not compile.
@@ -69,6 +58,13 @@ constexpr size_t members() {
 static_assert(members() == table.size());
 
 }  // namespace
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
+  return list;
+}
 
 std::span<const Setting> settings() {
   return table;
