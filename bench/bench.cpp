@@ -17,7 +17,7 @@ const std::vector<Bench>& all_benches() {
        run_ledger_bench},
       {"raymarch", "a frame after 0 to 10,000 carves: the atlas of bricks, the paper's list of carves",
        run_raymarch_bench},
-      {"recombine", "stamps against OpenVDB's meshToVolume and csgUnion, and the paper's spheres",
+      {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",
        run_recombine_bench},
       {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},
       {"storm", "1,000 pieces alive at once, and one blast of 64, with recombination and without",

@@ -32,7 +32,7 @@ void ByteWriter::varint(uint64_t value) {
 }
 
 void ByteWriter::zigzag(int64_t value) {
-  varint((static_cast<uint64_t>(value) << 1U) ^ static_cast<uint64_t>(value >> 63));
+  varint(fold_sign(value));
 }
 
 void ByteWriter::f32(float value) {
@@ -89,8 +89,7 @@ uint64_t ByteReader::varint(const char* what, uint64_t max) {
 }
 
 int64_t ByteReader::zigzag(const char* what, int64_t max) {
-  const uint64_t folded = varint(what);
-  const auto value = static_cast<int64_t>((folded >> 1U) ^ (0ULL - (folded & 1U)));
+  const int64_t value = unfold_sign(varint(what));
   if (value >= -max && value <= max) return value;
   refuse(std::string(what) + " is " + std::to_string(value) + ", beyond ±" + std::to_string(max));
   return 0;

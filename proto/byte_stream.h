@@ -18,6 +18,14 @@
 
 namespace scree {
 
+/// Signed to unsigned and back, small numbers staying small: 0, −1, 1, −2 … become 0, 1, 2, 3 …
+constexpr uint64_t fold_sign(int64_t value) {
+  return (static_cast<uint64_t>(value) << 1U) ^ static_cast<uint64_t>(value >> 63);
+}
+constexpr int64_t unfold_sign(uint64_t folded) {
+  return static_cast<int64_t>((folded >> 1U) ^ (0ULL - (folded & 1U)));
+}
+
 class ByteWriter {
  public:
   explicit ByteWriter(std::vector<uint8_t>& bytes) : bytes_(bytes) {}

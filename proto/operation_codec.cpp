@@ -1,6 +1,7 @@
 #include "proto/operation_codec.h"
 
 #include "proto/byte_stream.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/field/stamp.h"
 
@@ -20,6 +21,12 @@ enum Kind : uint8_t {
 };
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
+
+/// Of a stamp's shift, its sign folded in. What is above them is the method, so that the usual one takes no
+/// byte of its own.
+constexpr unsigned shift_bits = 14;
+static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
+              fold_sign(stamp_shift_max) >> shift_bits == 0);
 
 void write_head(ByteWriter& writer, Kind kind, PieceId id) {
   writer.varint((uint64_t{id} << kind_bits) | kind);
@@ -60,7 +67,9 @@ struct Writing {
     write_head(writer, kind_stamp, stamp.piece);
     writer.position(stamp.pose);
     writer.u32(stamp.pose.rotation);
-    writer.zigzag(stamp.shift);
+    const uint64_t shift = fold_sign(stamp.shift);
+    CHECK(shift >> shift_bits == 0);
+    writer.varint((uint64_t{static_cast<uint8_t>(stamp.method)} << shift_bits) | shift);
   }
   void operator()(const DiscardOperation& discard) const { write_head(writer, kind_discard, discard.piece); }
   void operator()(const ShatterOperation& shatter) const {
@@ -105,7 +114,13 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
   stamp.piece = id;
   stamp.pose = reader.position("position of a stamp");
   stamp.pose.rotation = reader.u32("rotation of a stamp");
-  stamp.shift = static_cast<int32_t>(reader.zigzag("shift of a stamp", stamp_shift_max));
+  constexpr uint64_t method_max = static_cast<uint64_t>(StampMethod::sphere);
+  const uint64_t method_and_shift =
+      reader.varint("method and shift of a stamp", ((method_max + 1) << shift_bits) - 1);
+  stamp.method = static_cast<StampMethod>(method_and_shift >> shift_bits);
+  stamp.shift = static_cast<int32_t>(unfold_sign(method_and_shift & ((1U << shift_bits) - 1)));
+  if (stamp.shift < -stamp_shift_max)
+    reader.refuse("shift of a stamp is beyond ±" + std::to_string(stamp_shift_max));
   return stamp;
 }
 

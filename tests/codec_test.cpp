@@ -95,12 +95,13 @@ TEST(Codec, a_volume_round_trips) {
 TEST(Codec, stamps_round_trip_at_the_ends_of_their_range) {
   for (const int32_t x : {0, 1, -1, 65535, -65536, limits::pose_coordinate_max, -limits::pose_coordinate_max})
     for (const int32_t y : {0, -limits::pose_coordinate_max, 1023})
-      for (const int32_t shift : {-stamp_shift_max, 0, stamp_shift_max}) {
-        const Operation sent = StampOperation{0xFFFFFFFFU, {x, y, -x, 0xFFFFFFFFU}, shift};
-        const Result<Operation> got = decode_operation(encode_operation(sent));
-        ASSERT_TRUE(got) << got.error().message;
-        EXPECT_EQ(*got, sent);
-      }
+      for (const StampMethod method : {StampMethod::stamp, StampMethod::slices, StampMethod::sphere})
+        for (const int32_t shift : {-stamp_shift_max, 0, stamp_shift_max}) {
+          const Operation sent = StampOperation{0xFFFFFFFFU, {x, y, -x, 0xFFFFFFFFU}, shift, method};
+          const Result<Operation> got = decode_operation(encode_operation(sent));
+          ASSERT_TRUE(got) << got.error().message;
+          EXPECT_EQ(*got, sent);
+        }
 }
 
 TEST(Codec, a_carve_alone_in_its_frame_takes_at_most_200_bytes) {
@@ -168,8 +169,12 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   piece.pose.y = std::numeric_limits<int32_t>::min();
   EXPECT_TRUE(names(server_refusal(piece), "position"));
   FrameMessage frame;
-  frame.operations = {StampOperation{1, {}, stamp_shift_max + 1}};
-  EXPECT_TRUE(names(server_refusal(frame), "shift"));
+  for (const StampOperation& stamp : {StampOperation{1, {}, -stamp_shift_max - 1},
+                                      StampOperation{1, {}, -stamp_shift_max - 1, StampMethod::sphere},
+                                      StampOperation{1, {}, 0, static_cast<StampMethod>(3)}}) {
+    frame.operations = {stamp};
+    EXPECT_TRUE(names(server_refusal(frame), "shift of a stamp"));
+  }
   frame.operations = {
       CarveOperation{sphere({0, 0, 0}, 1.0F), SeedPattern::uniform, limits::seeds_max + 1, 0, {}, 0}};
   EXPECT_TRUE(names(server_refusal(frame), "number of seeds"));

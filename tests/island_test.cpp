@@ -175,12 +175,6 @@ TEST(island, what_is_longer_than_the_limit_counts_as_ground) {
   }
 }
 
-MassUnits mass_of(const Window& window) {
-  MassUnits sum = 0;
-  for (const Code code : window.codes) sum += occupancy(code);
-  return sum;
-}
-
 TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_had_never_been) {
   MapField field(flat);
   Window with = slab_on_a_post(field, false);

@@ -41,6 +41,8 @@ inline FrameMessage frame() {
                       FillOperation{box({-1.0F, 0.5F, 9.0F}, {1.0F, 2.0F, 0.5F})},
                       FillOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F)},
                       stamp_operation(),
+                      StampOperation{77789, {1, 2, 3, 4}, -8000, StampMethod::slices},
+                      StampOperation{77788, {-1, 2, 3, 4}, 8000, StampMethod::sphere},
                       DiscardOperation{77791},
                       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000},
                       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005}};

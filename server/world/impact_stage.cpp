@@ -8,6 +8,7 @@
 #include "server/world/spawn.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "shared/base/roots.h"
 
 namespace scree {
 
@@ -129,13 +130,6 @@ bool break_piece(World::State& state, const Blow& blow, TickDelta& delta) {
   const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
   spawn(state, applied, born, delta);
   return true;
-}
-
-/// By Newton; std::cbrt may differ between systems. For positive numbers of ordinary size.
-float cube_root(float x) {
-  float root = std::max(x, 1.0F);
-  for (int i = 0; i < 24; ++i) root = (2.0F * root + x / (root * root)) / 3.0F;
-  return root;
 }
 
 /// Radius of the ball that takes this much out of flat ground when its centre is a quarter of it above: the

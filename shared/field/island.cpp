@@ -168,12 +168,6 @@ Window alone(const Window& window, const VoxelBox& box, const Marks& marks) {
   return part_of(own, box.grown(band));
 }
 
-MassUnits mass_of(const Window& window) {
-  MassUnits sum = 0;
-  for (const Code code : window.codes) sum += occupancy(code);
-  return sum;
-}
-
 glm::vec3 centre_of_mass(const Window& window) {
   int64_t sum = 0, sum_x = 0, sum_y = 0, sum_z = 0;
   size_t at = 0;

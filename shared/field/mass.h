@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "shared/field/brick.h"
+#include "shared/field/window.h"
 
 namespace scree {
 
@@ -24,6 +24,12 @@ inline constexpr int occupancy(int code) {
 inline MassUnits brick_mass(const Brick& brick) {
   int sum = 0;
   for (const Code code : brick.codes) sum += occupancy(code);
+  return sum;
+}
+
+inline MassUnits mass_of(const Window& window) {
+  MassUnits sum = 0;
+  for (const Code code : window.codes) sum += occupancy(code);
   return sum;
 }
 

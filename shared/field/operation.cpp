@@ -9,17 +9,11 @@
 #include "shared/field/edit.h"
 #include "shared/field/island.h"
 #include "shared/field/shatter.h"
-#include "shared/field/stamp.h"
+#include "shared/field/stamp_method.h"
 
 namespace scree {
 
 namespace {
-
-MassUnits mass_of(const Window& window) {
-  MassUnits sum = 0;
-  for (const Code code : window.codes) sum += occupancy(code);
-  return sum;
-}
 
 bool in_world(glm::vec3 p) {
   return std::abs(p.x) <= limits::world_half_width_m && std::abs(p.z) <= limits::world_half_width_m &&
@@ -89,10 +83,10 @@ std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces) {
   const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
   const float dx = field.source().voxel_size_m;
-  Window window = gather(field, stamp_box(*volume, op.pose, dx));
+  Window window = gather(field, stamp_box(op.method, *volume, op.pose, dx));
   Applied applied;
   applied.terrain_gain = -mass_of(window);
-  stamp(window, *volume, op.pose, dx, op.shift);
+  stamp(op.method, window, *volume, op.pose, dx, op.shift);
   applied.terrain_gain += mass_of(window);
   applied.changed = scatter(field, window);
   return applied;
@@ -153,6 +147,8 @@ struct Validator {
   Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
   Result<void> operator()(const StampOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    if (op.method > StampMethod::sphere)
+      return fail("the stamp's method is none that is known (stamp, slices, sphere)");
     if (std::abs(op.shift) > stamp_shift_max)
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
     if (!in_world(dequantise(op.pose).position_m))
@@ -207,7 +203,7 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
   if (op == nullptr) return {};
   const auto found = pieces.find(op->piece);
   CHECK(found != pieces.end());
-  return stamp_box(*found->second, op->pose, voxel_size_m);
+  return stamp_box(op->method, *found->second, op->pose, voxel_size_m);
 }
 
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces) {

@@ -12,6 +12,7 @@
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
+#include "shared/field/stamp.h"
 #include "shared/field/voronoi.h"
 
 namespace scree {
@@ -39,7 +40,8 @@ struct FillOperation {
 struct StampOperation {
   PieceId piece = 0;
   QuantisedPose pose;
-  int32_t shift = 0;  ///< of the iso-level, 1/2048 voxel
+  int32_t shift = 0;  ///< how its mass is met; its meaning is the method's
+  StampMethod method = StampMethod::stamp;
 
   bool operator==(const StampOperation&) const = default;
 };

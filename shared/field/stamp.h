@@ -11,6 +11,10 @@
 
 namespace scree {
 
+/// How a piece becomes terrain again: `stamp` as above; `slices` and `sphere`: the paper's method, and what
+/// its program did (stamp_slices.h, stamp_sphere.h). It decides bits, so it crosses the wire.
+enum class StampMethod : uint8_t { stamp = 0, slices = 1, sphere = 2 };
+
 /// How far to round edges (negative) or to fill clefts (positive): all the way at ± half of the maximum;
 /// beyond it the whole surface moves, by up to half a voxel at the maximum. Each voxel rounds at a shift of
 /// its own, so that the mass can be met to a few units. 14 bits: two bytes on the wire.

@@ -12,7 +12,7 @@
 #include "shared/field/operation.h"
 #include "shared/field/polygon_cut.h"
 #include "shared/field/redistance.h"
-#include "shared/field/stamp.h"
+#include "shared/field/stamp_method.h"
 #include "shared/field/terrain.h"
 #include "shared/field/voronoi.h"
 
@@ -218,7 +218,7 @@ void print_poses() {
   digest.print("poses");
 }
 
-void print_stamp() {
+void print_stamp(StampMethod method, const std::string& name) {
   constexpr float voxel_size_m = 0.25F;
   Digest unused, digest;
   const Fracture fractured = fracture(SeedPattern::uniform, 8, unused);
@@ -227,14 +227,14 @@ void print_stamp() {
   for (const CutPiece& piece : fractured.cut.pieces) {
     const glm::vec3 place_m = piece.volume.centre_voxels * voxel_size_m;
     const QuantisedPose pose = some_pose(place_m, random);
-    Window window = gather(field, stamp_box(piece.volume, pose, voxel_size_m));
-    const StampPlan plan = plan_stamp(window, piece.volume, pose, voxel_size_m, piece.volume.mass);
+    Window window = gather(field, stamp_box(method, piece.volume, pose, voxel_size_m));
+    const StampPlan plan = plan_stamp(method, window, piece.volume, pose, voxel_size_m, piece.volume.mass);
     digest.add(static_cast<uint64_t>(plan.shift));
     digest.add(static_cast<uint64_t>(plan.gain));
-    stamp(window, piece.volume, pose, voxel_size_m, plan.shift);
+    stamp(method, window, piece.volume, pose, voxel_size_m, plan.shift);
     digest.add(window);
   }
-  digest.print("plan_and_stamp");
+  digest.print("plan_and_" + name);
 }
 
 void print_shatter() {
@@ -321,7 +321,9 @@ int main() {
   scree::print_poses();
   scree::print_fracture();
   scree::print_polygon_cutters();
-  scree::print_stamp();
+  scree::print_stamp(scree::StampMethod::stamp, "stamp");
+  scree::print_stamp(scree::StampMethod::slices, "slices");
+  scree::print_stamp(scree::StampMethod::sphere, "sphere");
   scree::print_shatter();
   scree::print_islands();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
