@@ -3,15 +3,22 @@
 // commands give the same hashes.
 #pragma once
 
+#include <cstdint>
+
 #include "server/bodies/terrain_collider_kind.h"
 
 namespace scree {
+
+/// How pieces at rest become terrain again: by one of the methods of shared/field/stamp_method.h, or never:
+/// then they stay bodies.
+enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3 };
 
 struct Methods {
   TerrainColliderKind collider = TerrainColliderKind::field;  ///< how bodies find the terrain
   bool impacts = true;                                        ///< hard contacts break pieces again
   bool dents = true;                                          ///< hard contacts dent soft ground
   bool islands = true;                                        ///< what is cut off from the ground falls
+  Recombination recombine = Recombination::stamp;             ///< how pieces at rest become terrain again
 
   bool operator==(const Methods&) const = default;
 };

@@ -17,6 +17,8 @@ template <>
 constexpr std::array<std::string_view, 2> names_of<bool>{"false", "true"};
 template <>
 constexpr std::array<std::string_view, 3> names_of<TerrainColliderKind>{"field", "mesh", "rays"};
+template <>
+constexpr std::array<std::string_view, 4> names_of<Recombination>{"stamp", "slices", "sphere", "off"};
 
 template <typename Choice>
 Result<void> parse_choice(std::string_view value, Choice& to) {
@@ -46,13 +48,14 @@ constexpr std::array table{
     choice<&Methods::impacts>("impacts", "whether pieces that strike hard break again"),
     choice<&Methods::dents>("dents", "whether pieces that strike hard dent soft ground"),
     choice<&Methods::islands>("islands", "whether terrain that is cut off from the ground falls"),
+    choice<&Methods::recombine>("recombine", "how pieces at rest become terrain again; off: never"),
 };
 
 /// Bound one by one, so that a member that is new and not in the table does not compile.
 constexpr size_t members() {
-  const auto [collider, impacts, dents, islands] = Methods{};
+  const auto [collider, impacts, dents, islands, recombine] = Methods{};
   return std::array{static_cast<int>(collider), static_cast<int>(impacts), static_cast<int>(dents),
-                    static_cast<int>(islands)}
+                    static_cast<int>(islands), static_cast<int>(recombine)}
       .size();
 }
 static_assert(members() == table.size());
