@@ -78,12 +78,14 @@ TEST_P(RecombineMethods, a_client_that_applies_the_same_operations_ends_with_the
   EXPECT_GT(mirror.counters().pieces_merged, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    recombine, RecombineMethods,
-    ::testing::Values(Recombination::stamp, Recombination::slices, Recombination::sphere),
-    [](const auto& info) {
-      return std::vector<std::string>{"stamp", "slices", "sphere"}[static_cast<size_t>(info.param)];
-    });
+std::string name_of_method(const ::testing::TestParamInfo<Recombination>& info) {
+  return std::vector<std::string>{"stamp", "slices", "sphere"}.at(static_cast<size_t>(info.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(recombine, RecombineMethods,
+                         ::testing::Values(Recombination::stamp, Recombination::slices,
+                                           Recombination::sphere),
+                         name_of_method);
 
 TEST(recombine, off_leaves_pieces_at_rest_as_bodies_until_it_is_switched_on) {
   World world(config_of(Recombination::off));

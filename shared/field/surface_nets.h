@@ -1,5 +1,5 @@
-// Surface nets: triangles of the zero level of a window of codes (Gibson 1998), for the eye and for the
-// cutters that work on polygons (polygon_mesh.h): deterministic.
+// Surface nets: triangles of the zero level of a window of codes (Gibson 1998), for the eye, and for cutters
+// and slices, which work on polygons (polygon_mesh.h, stamp_slices.h): deterministic.
 //
 // A cell is the cube between 8 voxels; each sheet of surface in it gets one vertex, at the mean of the
 // crossings of its edges, and each grid edge that the surface crosses gets one quad. Where a cell holds
