@@ -12,6 +12,7 @@ namespace scree::peers {
 namespace {
 
 constexpr int noise_side = 64;
+constexpr float reach = 96.0F;  ///< metres
 
 constexpr const char* vertex_text = R"GLSL(#version 330 core
 uniform mat4 u_inverse;
@@ -108,6 +109,7 @@ class CsgList final : public DrawMethod {
   void update(const Scene&, const Camera&) override {}
   bool loaded() const override { return true; }
   bool complete() const override { return true; }
+  float reach_m() const override { return reach; }
   DrawStats stats() const override { return {}; }
   void draw(const DrawPass& pass) override;
 

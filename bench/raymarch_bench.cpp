@@ -60,7 +60,8 @@ Result<void> measure_atlas(Stage& stage, const BenchOptions& options, BenchRepor
   const size_t differing = differing_pixels(*lived, *afresh);
   report.check("pixels_of_a_fresh_atlas", differing == 0,
                fmt::format("{} pixels differ, wanted none", differing));
-  report.metric("atlas_mib", static_cast<double>(drawing.method().stats().gpu_bytes) / (1024.0 * 1024.0));
+  report.metric("atlas_mib",
+                static_cast<double>(gpu_bytes_of(drawing.method().stats().memory)) / (1024.0 * 1024.0));
   return {};
 }
 

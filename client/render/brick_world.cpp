@@ -118,15 +118,11 @@ float BrickWorld::reach_m() const {
   return levels_.back().voxel_m() * static_cast<float>((side_ / 2 - chunk_bricks) * brick_size);
 }
 
-size_t BrickWorld::gpu_bytes() const {
+MemoryCounts BrickWorld::memory() const {
   const size_t entries = static_cast<size_t>(side_ * side_) * static_cast<size_t>(side_ / 2) * levels_.size();
-  return atlas_.bytes() + entries * sizeof(ClipEntry);
-}
-
-size_t BrickWorld::cpu_bytes() const {
-  size_t sum = 0;
-  for (const ClipLevel& level : levels_) sum += level.cpu_bytes();
-  return sum;
+  size_t cpu_bytes = 0;
+  for (const ClipLevel& level : levels_) cpu_bytes += level.cpu_bytes();
+  return {{"atlas", 0, atlas_.bytes()}, {"windows", cpu_bytes, entries * sizeof(ClipEntry)}};
 }
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 
 #include "client/render/camera.h"
 #include "client/render/clip_level.h"
+#include "shared/base/memory_count.h"
 
 namespace scree {
 
@@ -28,8 +29,7 @@ class BrickWorld {
   /// How far from the camera terrain is drawn at least.
   float reach_m() const;
   float voxel_m() const { return levels_.front().voxel_m(); }
-  size_t gpu_bytes() const;
-  size_t cpu_bytes() const;
+  MemoryCounts memory() const;
 
  private:
   void upload_entries(ClipLevel& level);

@@ -14,8 +14,11 @@
 
 #include "client/mirror/mirror.h"
 #include "client/render/camera.h"
+#include "shared/base/memory_count.h"
 
 namespace scree {
+
+class GpuTimers;
 
 struct ScenePiece {
   std::shared_ptr<const Volume> volume;
@@ -38,22 +41,23 @@ struct Lighting {
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
 };
 
-/// One walk over the scene. For `shadow` only depth counts, and of the lighting only the sun is known.
+/// One walk over the scene. For `shadow` only depth counts, and there is no shadow matrix yet.
 struct DrawPass {
   enum class Kind { shadow, colour };
   Kind kind = Kind::colour;
   glm::mat4 view_projection{1.0F};
   glm::vec3 eye_m{0.0F};
   Lighting lighting;
+  GpuTimers* timers = nullptr;  ///< for what a method likes to measure of itself; may be null
 };
 
 /// For the HUD and for benches.
 struct DrawStats {
   size_t draws = 0;      ///< GL draw calls of the last colour pass
   size_t triangles = 0;  ///< of the last colour pass
-  size_t gpu_bytes = 0;
-  size_t pieces = 0;   ///< shown now
-  size_t waiting = 0;  ///< units of work not yet shown
+  size_t pieces = 0;     ///< shown now
+  size_t waiting = 0;    ///< units of work not yet shown
+  MemoryCounts memory;
 };
 
 class DrawMethod {
@@ -69,6 +73,8 @@ class DrawMethod {
   virtual bool loaded() const = 0;
   /// Whether all within the view radius is shown as the field and pieces are now.
   virtual bool complete() const = 0;
+  /// How far from the camera it draws; the fog hides what would be beyond. Metres.
+  virtual float reach_m() const = 0;
   virtual void draw(const DrawPass& pass) = 0;
   virtual DrawStats stats() const = 0;
 };

@@ -65,13 +65,17 @@ struct PieceView {
 class MeshMethod final : public DrawMethod {
  public:
   MeshMethod(WorkPool& pool, float view_radius_m, SurfaceProgram&& surface, SurfaceProgram&& shadow)
-      : scheduler_(pool, view_radius_m), surface_(std::move(surface)), shadow_(std::move(shadow)) {}
+      : view_radius_m_(view_radius_m),
+        scheduler_(pool, view_radius_m),
+        surface_(std::move(surface)),
+        shadow_(std::move(shadow)) {}
 
   std::string_view name() const override { return "mesh"; }
   void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
   bool loaded() const override { return scheduler_.loaded(); }
   bool complete() const override { return scheduler_.complete(); }
   void update(const Scene& scene, const Camera& camera) override;
+  float reach_m() const override { return view_radius_m_; }
   void draw(const DrawPass& pass) override;
   DrawStats stats() const override;
 
@@ -82,6 +86,7 @@ class MeshMethod final : public DrawMethod {
   void draw_pieces(const SurfaceProgram& program, const Frustum& frustum);
   void count(const GpuMesh& mesh);
 
+  float view_radius_m_;
   MeshScheduler scheduler_;
   SurfaceProgram surface_;
   SurfaceProgram shadow_;
@@ -211,7 +216,7 @@ void MeshMethod::draw_pieces(const SurfaceProgram& program, const Frustum& frust
 
 DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
-  stats.gpu_bytes = gpu_bytes_;
+  stats.memory = {{"meshes", 0, gpu_bytes_}};
   stats.pieces = pieces_.size();
   stats.waiting = scheduler_.waiting();
   return stats;

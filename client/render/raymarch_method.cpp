@@ -12,6 +12,7 @@
 
 #include "client/render/brick_world.h"
 #include "client/render/gl.h"
+#include "client/render/gpu_timers.h"
 #include "client/render/march_targets.h"
 #include "client/render/piece_volumes.h"
 #include "client/render/shader_sources.h"
@@ -96,6 +97,7 @@ class RaymarchMethod final : public DrawMethod {
   void update(const Scene& scene, const Camera& camera) override;
   bool loaded() const override { return world_ && world_->loaded(); }
   bool complete() const override { return loaded() && bricks_.empty(); }
+  float reach_m() const override { return world_ ? world_->reach_m() : view_radius_m_; }
   void draw(const DrawPass& pass) override;
   DrawStats stats() const override;
 
@@ -144,6 +146,7 @@ void RaymarchMethod::draw(const DrawPass& pass) {
 }
 
 void RaymarchMethod::draw_cones(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
+  const GpuTimers::Part part(pass.timers, "cones");
   const gl::Program& program = programs_.cone;
   program.use();
   world_->use(program, pass.eye_m);
@@ -160,6 +163,7 @@ void RaymarchMethod::draw_cones(const DrawPass& pass, const glm::mat4& inverse, 
 }
 
 void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
+  const GpuTimers::Part part(pass.timers, "march");
   const gl::Program& program = programs_.march;
   program.use();
   world_->use(program, pass.eye_m);
@@ -184,6 +188,7 @@ void RaymarchMethod::draw_pieces(const DrawPass& pass) {
   if (pieces_.count() == 0) return;
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
   const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece;
+  const GpuTimers::Part part(pass.timers, "pieces");
   program.use();
   world_->use(program, pass.eye_m);
   set_light(program, pass);
@@ -218,7 +223,9 @@ DrawStats RaymarchMethod::stats() const {
   stats.draws = pieces_.count() > 0 ? 4 : 3;
   stats.triangles = 3 + 12 * pieces_.count();
   stats.pieces = pieces_.count();
-  stats.gpu_bytes = targets_.bytes() + pieces_.gpu_bytes() + (world_ ? world_->gpu_bytes() : 0);
+  if (world_) stats.memory = world_->memory();
+  stats.memory.push_back({"targets", 0, targets_.bytes()});
+  stats.memory.push_back({"pieces", pieces_.cpu_bytes(), pieces_.gpu_bytes()});
   stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);
   return stats;
 }

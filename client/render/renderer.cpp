@@ -20,6 +20,9 @@ const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
 
 constexpr int image_samples = 4;
 
+/// What a method keeps beyond its reach, and the corners of its box, still lie before the far plane.
+constexpr float far_per_reach = limits::view_radius_keep * 2.0F;
+
 std::string describe() {
   const auto text = [](GLenum what) {
     const auto* found = reinterpret_cast<const char*>(glGetString(what));
@@ -91,6 +94,8 @@ struct Renderer::Parts {
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
   gl::ErrorLog errors;
+  GpuTimers timers;
+  Trace* trace = nullptr;
   std::optional<Canvases> canvases;  ///< of the last image
 
   Parts(gl::Program&& sky_program, float radius_m)
@@ -99,7 +104,9 @@ struct Renderer::Parts {
   /// Canvases of that size.
   Result<void> prepare(int width, int height);
 
-  void draw_sky(const DrawPass& pass) const {
+  void draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass);
+  void draw_sky(const DrawPass& pass) {
+    const GpuTimers::Part part(&timers, "sky");
     sky.use();
     sky.set("u_inverse_view_projection", glm::inverse(pass.view_projection));
     sky.set("u_eye", pass.eye_m);
@@ -130,19 +137,20 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
 
 void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height) {
   if (width <= 0 || height <= 0) return;
+  const TraceSpan span(parts_->trace, "viewer", "draw");
+  parts_->timers.begin_frame(parts_->trace);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_CULL_FACE);
+  const float reach_m = method == nullptr ? parts_->view_radius_m : method->reach_m();
   DrawPass pass;
-  pass.kind = DrawPass::Kind::shadow;
+  pass.timers = &parts_->timers;
   pass.eye_m = camera.eye_m;
-  pass.lighting.sun = sun;
-  pass.view_projection = parts_->shadows.begin(camera, sun, parts_->view_radius_m);
-  if (method != nullptr) method->draw(pass);
-  parts_->shadows.end();
+  pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture()};
+  if (method != nullptr) parts_->draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
@@ -150,12 +158,22 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   pass.kind = DrawPass::Kind::colour;
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  pass.view_projection =
-      camera.projection(aspect, parts_->view_radius_m * limits::view_radius_keep * 2.0F) * camera.view();
-  pass.lighting = {sun, parts_->view_radius_m, parts_->shadows.matrix(), parts_->shadows.texture()};
-  if (method != nullptr) method->draw(pass);
+  pass.view_projection = camera.projection(aspect, reach_m * far_per_reach) * camera.view();
+  if (method != nullptr) {
+    const GpuTimers::Part part(&parts_->timers, "method");
+    method->draw(pass);
+  }
   parts_->draw_sky(pass);
   parts_->errors.poll();
+}
+
+void Renderer::Parts::draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass) {
+  const GpuTimers::Part part(&timers, "shadows");
+  pass.kind = DrawPass::Kind::shadow;
+  pass.view_projection = shadows.begin(camera, sun, view_radius_m);
+  method.draw(pass);
+  shadows.end();
+  pass.lighting.shadow_matrix = shadows.matrix();
 }
 
 Result<void> Renderer::Parts::prepare(int width, int height) {
@@ -194,6 +212,14 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
   draw(&method, camera, parts_->canvases->many.framebuffer.name(), width, height);
   glFinish();
   return {};
+}
+
+const std::vector<GpuTime>& Renderer::gpu_times() const {
+  return parts_->timers.latest();
+}
+
+void Renderer::set_trace(Trace* trace) {
+  parts_->trace = trace;
 }
 
 const std::string& Renderer::description() const {

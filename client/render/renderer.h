@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "client/render/draw_method.h"
+#include "client/render/gpu_timers.h"
 
 namespace scree {
 
@@ -33,6 +34,10 @@ class Renderer {
 
   /// "OpenGL 4.5 (llvmpipe …)", for people.
   const std::string& description() const;
+  /// What the GPU took for the parts of a frame, some frames ago; empty where it cannot say.
+  const std::vector<GpuTime>& gpu_times() const;
+  /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.
+  void set_trace(Trace* trace);
   /// Errors that GL reported since the start (by its debug output, where the context has one), and the first.
   uint64_t gl_errors() const;
   const std::string& first_gl_error() const;

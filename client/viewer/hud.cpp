@@ -61,6 +61,18 @@ void draw_ledger(const StatusMessage& status) {
               static_cast<double>(status.tick_worst_ms));
 }
 
+double mebibytes(size_t bytes) {
+  return static_cast<double>(bytes) / (1024.0 * 1024.0);
+}
+
+void draw_memory(const MemoryCounts& counts) {
+  ImGui::TextUnformatted("MiB            CPU     GPU");
+  for (const MemoryCount& count : counts)
+    ImGui::Text("%-10s %7.1f %7.1f", std::string(count.category).c_str(), mebibytes(count.cpu_bytes),
+                mebibytes(count.gpu_bytes));
+  ImGui::Text("%-10s %7.1f", "process", mebibytes(process_memory_bytes()));
+}
+
 }  // namespace
 
 Hud::Hud(const AppWindow& window) {
@@ -91,8 +103,11 @@ void Hud::draw_figures(const HudFacts& facts) const {
   ImGui::Separator();
   if (facts.status) draw_ledger(*facts.status);
   ImGui::Separator();
-  ImGui::Text("%s: %zu draws, %zu k triangles, %zu MiB", facts.method.c_str(), facts.draw.draws,
-              facts.draw.triangles / 1000, facts.draw.gpu_bytes >> 20U);
+  ImGui::Text("%s: %zu draws, %zu k triangles", facts.method.c_str(), facts.draw.draws,
+              facts.draw.triangles / 1000);
+  for (const GpuTime& time : facts.gpu_times)
+    ImGui::Text("GPU %-9s %7.2f ms", std::string(time.name).c_str(), time.ms);
+  draw_memory(facts.draw.memory);
   if (facts.draw.waiting > 0) ImGui::Text("%zu waiting", facts.draw.waiting);
   ImGui::Text("carve radius %.2f m", static_cast<double>(facts.carve_radius_m));
   if (!facts.notice.empty()) ImGui::TextColored(ImVec4(1.0F, 0.6F, 0.4F, 1.0F), "%s", facts.notice.c_str());

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/render/draw_method.h"
+#include "client/render/gpu_timers.h"
 #include "client/viewer/app_window.h"
 #include "proto/messages.h"
 
@@ -23,6 +25,7 @@ struct HudFacts {
   std::string notice;  ///< the server's last refusal, for a while
   std::string method;
   DrawStats draw;
+  std::vector<GpuTime> gpu_times;
 };
 
 class Hud {

@@ -69,6 +69,7 @@ Result<int> run(const ViewerOptions& options) {
   std::optional<Flight> flight;
   if (options.path) flight.emplace(*options.path);
   if (Result<void> drawn = draw_all(**viewing, flight); !drawn) return fail(drawn.error().message);
+  if (Result<void> finished = (*viewing)->finish(); !finished) return fail(finished.error().message);
   if (options.time_demo) std::printf("%s\n", flight->times(**viewing).c_str());
   const std::optional<double>& difference = (*viewing)->difference;
   if (!difference) return 0;

@@ -95,6 +95,10 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Offscreen: seconds to wait for the next picture or frame before giving up")
       ->envname("SCREE_TIMEOUT")
       ->check(CLI::PositiveNumber);
+  app.add_option(
+         "--trace", options.trace_file,
+         "FILE to write what took how long to, at the end; chrome://tracing and ui.perfetto.dev open it")
+      ->envname("SCREE_TRACE");
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
       ->envname("SCREE_GL_DEBUG");
   app.footer(

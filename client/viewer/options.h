@@ -33,6 +33,7 @@ struct ViewerOptions {
   bool time_demo = false;
   std::string reference;  ///< picture to compare the screenshot with; empty: none
   double threshold = 0.0;
+  std::string trace_file;  ///< of what took how long; empty: none
 };
 
 /// The program should end now, with this status; what there was to say is printed.

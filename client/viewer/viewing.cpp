@@ -17,13 +17,20 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
 
 Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
     : options(given),
+      trace(given.trace_file.empty() ? nullptr : std::make_unique<Trace>()),
       session(given.host, given.port, given.view_radius_m),
       view(std::move(drawn)),
       camera(given.camera),
-      screenshots(given.screenshots) {}
+      screenshots(given.screenshots) {
+  view->renderer().set_trace(trace.get());
+}
 
 Result<void> Viewing::step(double now_s) {
-  const SessionStep step = session.step(now_s, camera.eye_m);
+  const SessionStep step = [&] {
+    const TraceSpan span(trace.get(), "viewer", "messages");
+    return session.step(now_s, camera.eye_m);
+  }();
+  const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
 }
@@ -32,6 +39,10 @@ Result<void> Viewing::check_gl_errors() {
   if (!options.gl_debug || view->renderer().gl_errors() == 0) return {};
   return fail(std::to_string(view->renderer().gl_errors()) +
               " OpenGL errors; the first: " + view->renderer().first_gl_error());
+}
+
+Result<void> Viewing::finish() {
+  return trace ? trace->write(options.trace_file) : Result<void>{};
 }
 
 bool Viewing::joined(double now_s) {

@@ -8,6 +8,7 @@
 #include "client/viewer/options.h"
 #include "client/viewer/session.h"
 #include "client/viewer/view.h"
+#include "shared/base/trace.h"
 
 namespace scree {
 
@@ -22,10 +23,13 @@ class Viewing {
   Result<void> take_due(double now_s);
   /// The picture of this moment.
   Result<Image> picture();
+  /// Writes the trace, if one was asked for.
+  Result<void> finish();
   /// All around the camera has arrived and is shown.
   bool joined(double now_s);
 
   const ViewerOptions& options;
+  std::unique_ptr<Trace> trace;  ///< null: not asked for
   Session session;
   std::unique_ptr<View> view;
   Camera camera;

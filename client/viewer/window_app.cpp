@@ -33,6 +33,7 @@ HudFacts facts_of(Viewing& viewing, float radius_m, double now_s) {
   if (DrawMethod* method = viewing.view->methods().shown()) {
     facts.method = method->name();
     facts.draw = method->stats();
+    facts.gpu_times = viewing.view->renderer().gpu_times();
   }
   return facts;
 }
@@ -75,7 +76,7 @@ Result<void> run(const ViewerOptions& options) {
   float radius_m = radius_start_m;
   while (!(*window)->should_close())
     if (Result<void> done = run_frame(**window, **viewing, hud, path_begun_s, radius_m); !done) return done;
-  return {};
+  return (*viewing)->finish();
 }
 
 }  // namespace

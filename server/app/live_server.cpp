@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "server/app/limits.h"
+#include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
 
 namespace scree {
@@ -44,6 +45,7 @@ struct LiveServer::State {
   std::unique_ptr<TickFeed> feed;  ///< the simulation thread's own
   std::unique_ptr<NetServer> net;
   std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<Trace> trace;  ///< null: not asked for
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
@@ -82,6 +84,7 @@ Result<void> LiveServer::State::open() {
     report.record_path = config.record_path;
   }
   if (!feed) feed = live_feed(config.world);
+  if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   return {};
 }
 
@@ -105,6 +108,7 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
 
 /// One tick. False when it was the last.
 bool LiveServer::State::step() {
+  const Clock::time_point begin = Clock::now();
   std::vector<Command> waiting = commands.drain();
   const auto next = feed->next(waiting);
   if (!next) {
@@ -117,7 +121,11 @@ bool LiveServer::State::step() {
     end("");
     return false;
   }
-  net->publish(delta);
+  if (trace) trace_tick(*trace, begin, *delta);
+  {
+    const TraceSpan span(trace.get(), "simulation", "hand over");
+    net->publish(delta);
+  }
   if (recorder) record(delta, std::move(waiting));
   const std::scoped_lock lock(mutex);
   report.add(*delta);
@@ -202,6 +210,9 @@ Result<void> LiveServer::stop() {
   state_->net->stop();
   if (state_->recorder)
     if (const auto finished = state_->recorder->finish(); !finished) state_->end(finished.error().message);
+  if (state_->trace)
+    if (const auto written = state_->trace->write(state_->config.trace_path); !written)
+      state_->end(written.error().message);
   const ServerReport all = report();
   if (all.error) return fail(*all.error);
   return {};

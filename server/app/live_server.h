@@ -23,6 +23,7 @@ struct LiveConfig {
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording
+  std::string trace_path;   ///< of what took how long (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   Tick ticks_max = 0;         ///< ends after so many ticks; 0: does not
   double seconds_max = 0.0;   ///< ends after so many seconds; 0: does not

@@ -94,6 +94,9 @@ void add_run(CLI::App& app, Raw& raw) {
   app.add_option("--wait-clients", live.wait_clients, "the first tick waits until so many have joined")
       ->capture_default_str();
   app.add_option("--report", raw.options.report_path, "writes what happened to this file at the end (JSON)");
+  app.add_option(
+      "--trace", live.trace_path,
+      "writes what took how long to this file at the end; chrome://tracing and ui.perfetto.dev open it");
   app.add_option("--log", raw.options.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();

@@ -1,0 +1,27 @@
+// How much memory is whose, for people: bytes on the CPU's side and on the GPU's, by category.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace scree {
+
+struct MemoryCount {
+  std::string_view category;  ///< a literal
+  size_t cpu_bytes = 0;
+  size_t gpu_bytes = 0;
+};
+
+using MemoryCounts = std::vector<MemoryCount>;
+
+inline size_t gpu_bytes_of(const MemoryCounts& counts) {
+  size_t sum = 0;
+  for (const MemoryCount& count : counts) sum += count.gpu_bytes;
+  return sum;
+}
+
+/// What this process occupies in all (its resident set); 0 where the system does not say.
+size_t process_memory_bytes();
+
+}  // namespace scree
