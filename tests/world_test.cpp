@@ -117,20 +117,6 @@ TEST(world, carves_beyond_the_most_pieces_are_refused_until_some_have_settled) {
   EXPECT_EQ(delta->ledger.error(), 0);
 }
 
-TEST(world, a_carve_in_air_and_two_at_one_place_in_one_tick_conserve_mass) {
-  World world({});
-  Command air = blow(world, 12.0F, 12.0F, 8, 1);
-  std::get<CarveRequest>(air.body).shape.a.y += 60.0F;
-  const auto delta = step(world, {air, blow(world, 12.0F, 12.0F, 8, 2), blow(world, 12.0F, 12.0F, 8, 3),
-                                  blow(world, 12.4F, 12.0F, 8, 4)});
-  ASSERT_EQ(delta->replies.size(), 4U);
-  EXPECT_EQ(delta->replies[0].pieces, 0U);
-  EXPECT_EQ(delta->replies[1].pieces, 8U);
-  EXPECT_EQ(delta->replies[2].pieces, 0U) << "the first carve left nothing";
-  EXPECT_EQ(delta->ledger.error(), 0);
-  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
-}
-
 TEST(world, a_fill_is_entered_as_poured) {
   World world({});
   const auto delta = step(world, {{1, 1, FillRequest{box({30.0F, 25.0F, 0.0F}, {1.0F, 1.0F, 1.0F})}}});
