@@ -15,6 +15,8 @@ const std::vector<Bench>& all_benches() {
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
        run_ledger_bench},
+      {"mesh", "surface nets of a changed block, beside OpenVDB's volumeToMesh; from a change to its picture",
+       run_mesh_bench},
       {"raymarch", "a frame after 0 to 10,000 carves: the atlas of bricks, the paper's list of carves",
        run_raymarch_bench},
       {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",

@@ -8,6 +8,7 @@ namespace scree {
 BenchReport run_carve_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
+BenchReport run_mesh_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);

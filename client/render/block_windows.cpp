@@ -1,40 +1,92 @@
 #include "client/render/block_windows.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace scree {
+namespace {
 
-std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) {
-  const VoxelBox box = owned.grown(surface_nets_apron);
+/// Calls f(coordinate, index in the chunk) for each brick of the chunk that the box touches.
+template <typename F>
+void for_each_brick_in(ChunkCoord chunk, const VoxelBox& box, F&& f) {
+  const VoxelCoord first = first_voxel(chunk);
+  const VoxelBox part{{std::max(box.lo.x, first.x), std::max(box.lo.y, first.y), std::max(box.lo.z, first.z)},
+                      {std::min(box.hi.x, first.x + chunk_size), std::min(box.hi.y, first.y + chunk_size),
+                       std::min(box.hi.z, first.z + chunk_size)}};
+  for_each_brick(part, [&](BrickCoord coord) { f(coord, index_in_chunk(coord)); });
+}
+
+bool is_bit(uint64_t bits, int index) {
+  return ((bits >> index) & 1U) != 0;
+}
+
+/// What the bricks of a box have in common.
+struct Survey {
   bool air = true;
   bool rock = true;
   bool edited = false;
-  for_each_brick(box, [&](BrickCoord coord) {
-    const Brick* brick = &field.brick(coord);
-    air = air && brick == &air_brick();
-    rock = rock && brick == &solid_brick();
-    edited = edited || field.is_edited(coord);
+};
+
+Survey survey(Field& field, const VoxelBox& box) {
+  Survey seen;
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    const Field::ChunkBricks bricks = field.chunk_bricks(chunk);
+    for_each_brick_in(chunk, box, [&](BrickCoord coord, int index) {
+      const bool edited = is_bit(bricks.edited, index);
+      const Brick* brick = edited ? &field.brick(coord) : bricks.generated.bricks[static_cast<size_t>(index)];
+      seen.air = seen.air && brick == &air_brick();
+      seen.rock = seen.rock && brick == &solid_brick();
+      seen.edited = seen.edited || edited;
+    });
   });
-  if (air || rock) return std::nullopt;
-  BlockWindows windows{owned, gather(field, box), std::nullopt};
-  if (edited) windows.before = gather_generated(field, box);
+  return seen;
+}
+
+/// The brick's part of the window.
+void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
+  const VoxelBox& box = window.box;
+  const VoxelCoord first = first_voxel(coord);
+  const VoxelCoord lo{std::max(first.x, box.lo.x), std::max(first.y, box.lo.y), std::max(first.z, box.lo.z)};
+  const VoxelCoord hi{std::min(first.x + brick_size, box.hi.x), std::min(first.y + brick_size, box.hi.y),
+                      std::min(first.z + brick_size, box.hi.z)};
+  const auto count = static_cast<size_t>(hi.z - lo.z);
+  const auto stride = static_cast<size_t>(box.size().z);
+  for (int x = lo.x; x < hi.x; ++x) {
+    const Code* from =
+        &brick.codes[static_cast<size_t>(Brick::index(x - first.x, lo.y - first.y, lo.z - first.z))];
+    Code* to = &window.at(x, lo.y, lo.z);
+    for (int y = lo.y; y < hi.y; ++y, from += brick_size, to += stride) {
+      if (count == brick_size) {
+        std::memcpy(to, from, brick_size);
+      } else {
+        std::memcpy(to, from, count);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) {
+  const VoxelBox box = owned.grown(surface_nets_apron);
+  const Survey seen = survey(field, box);
+  if (seen.air || seen.rock) return std::nullopt;
+  BlockWindows windows{owned, Window(box), std::nullopt};
+  if (seen.edited) windows.before.emplace(box);
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    const Field::ChunkBricks bricks = field.chunk_bricks(chunk);
+    for_each_brick_in(chunk, box, [&](BrickCoord coord, int index) {
+      const Brick& generated = *bricks.generated.bricks[static_cast<size_t>(index)];
+      copy_brick(coord, is_bit(bricks.edited, index) ? field.brick(coord) : generated, windows.now);
+      if (windows.before) copy_brick(coord, generated, *windows.before);
+    });
+  });
   return windows;
 }
 
 Window gather_generated(Field& field, const VoxelBox& box) {
   Window window(box);
-  for_each_brick(box, [&](BrickCoord coord) {
-    const Brick& brick = field.generated_brick(coord);
-    const VoxelCoord first = first_voxel(coord);
-    const VoxelCoord lo{std::max(first.x, box.lo.x), std::max(first.y, box.lo.y),
-                        std::max(first.z, box.lo.z)};
-    const VoxelCoord hi{std::min(first.x + brick_size, box.hi.x), std::min(first.y + brick_size, box.hi.y),
-                        std::min(first.z + brick_size, box.hi.z)};
-    for (int x = lo.x; x < hi.x; ++x)
-      for (int y = lo.y; y < hi.y; ++y)
-        std::copy_n(&brick.codes[static_cast<size_t>(Brick::index(x - first.x, y - first.y, lo.z - first.z))],
-                    hi.z - lo.z, &window.at(x, y, lo.z));
-  });
+  for_each_brick(box, [&](BrickCoord coord) { copy_brick(coord, field.generated_brick(coord), window); });
   return window;
 }
 

@@ -53,6 +53,11 @@ const Brick& Field::generated_brick(BrickCoord coord) {
   return *generated_chunk(chunk_of(coord)).bricks[static_cast<size_t>(index_in_chunk(coord))];
 }
 
+Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
+  const auto edited = edited_.find(chunk);
+  return {generated_chunk(chunk), edited == edited_.end() ? 0 : edited->second.bricks};
+}
+
 const Brick& Field::brick(BrickCoord coord) {
   const auto chunk = edited_.find(chunk_of(coord));
   if (chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0)

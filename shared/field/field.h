@@ -28,6 +28,12 @@ class Field {
   const Brick& brick(BrickCoord coord);
   /// As generated, whether edited since or not; same lifetime.
   const Brick& generated_brick(BrickCoord coord);
+  /// Bit i of `edited`: brick i of the chunk is. The same lifetime as brick()'s.
+  struct ChunkBricks {
+    const GeneratedChunk& generated;
+    uint64_t edited;
+  };
+  ChunkBricks chunk_bricks(ChunkCoord chunk);
   bool is_edited(BrickCoord coord) const { return find_edited(coord) != nullptr; }
   /// Whether any brick of the chunk is edited.
   bool has_edits(ChunkCoord chunk) const { return edited_.contains(chunk); }

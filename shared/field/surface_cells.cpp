@@ -95,6 +95,7 @@ CellCase make_case(int signs, const std::array<CellEdge, cell_edges>& edges,
     uint8_t& sheet = sheet_of_root[static_cast<size_t>(links.find(static_cast<int>(e)))];
     if (sheet == no_sheet) sheet = result.sheets++;
     result.sheet_of_edge[e] = sheet;
+    result.edges_of_sheet[sheet] = static_cast<uint16_t>(result.edges_of_sheet[sheet] | (1U << e));
   }
   for (size_t f = 0; f < cell_faces; ++f) {
     if (!is_ambiguous(signs, faces[f])) continue;
@@ -118,6 +119,11 @@ CellTables make_tables() {
   for (int signs = 0; signs < 256; ++signs) {
     tables.joined[static_cast<size_t>(signs)] = make_case(signs, tables.edges, faces, true);
     tables.split[static_cast<size_t>(signs)] = make_case(signs, tables.edges, faces, false);
+    const CellCase& joined = tables.joined[static_cast<size_t>(signs)];
+    const bool plain = joined.sheets == 1 && joined.pinched_face == no_face;
+    tables.only_sheet[static_cast<size_t>(signs)] = plain ? joined.edges_of_sheet[0] : uint16_t{0};
+    for (const int neighbour : {1, 2, 4})
+      if (is_rock(signs, 0) != is_rock(signs, neighbour)) ++tables.first_edges[static_cast<size_t>(signs)];
   }
   return tables;
 }

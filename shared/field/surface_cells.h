@@ -24,6 +24,7 @@ inline constexpr uint8_t no_face = 255;
 struct CellCase {
   uint8_t sheets = 0;                               ///< 0..4
   std::array<uint8_t, cell_edges> sheet_of_edge{};  ///< no_sheet where the edge is not crossed
+  std::array<uint16_t, 4> edges_of_sheet{};         ///< bit e: the sheet crosses edge e
   /// Of this one face both halves belong to one sheet. If the neighbour across says the same, the two cells
   /// would share an edge of four triangles: both must then use the split case.
   uint8_t pinched_face = no_face;
@@ -33,6 +34,9 @@ struct CellTables {
   std::array<CellEdge, cell_edges> edges;
   std::array<CellCase, 256> joined;  ///< ambiguous faces join their air corners
   std::array<CellCase, 256> split;   ///< ambiguous faces join their rock corners
+  /// Edges of the one sheet of the cases that have no more and no pinched face: nearly all; of others 0.
+  std::array<uint16_t, 256> only_sheet;
+  std::array<uint8_t, 256> first_edges;  ///< how many of the three edges at corner 0 are crossed
 };
 
 /// Case index: bit i set when corner i is rock.

@@ -11,43 +11,9 @@
 // Pure, safe from any thread. Units: voxels.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include "shared/field/window.h"
+#include "shared/field/surface_mesh.h"
 
 namespace scree {
-
-/// Voxels that the window must reach beyond the owned box on every side: the crossings need one, the
-/// gradients two, the probe for openness four.
-inline constexpr int surface_nets_apron = 4;
-
-/// Positions are multiples of 1/256 voxel.
-inline constexpr float surface_steps_per_voxel = 256.0F;
-
-/// Longest side of an owned box, voxels: positions must fit 16 bits.
-inline constexpr int surface_side_max = 250;
-
-/// Ready to be uploaded: 12 bytes.
-struct SurfaceVertex {
-  std::array<uint16_t, 3> position{};  ///< 1/256 voxel, from the mesh's origin
-  uint8_t openness = 255;              ///< 255: the field is open above; less: a crevice
-  Code before = 0;                     ///< code of the `before` window here; 0 without one
-  std::array<int8_t, 3> normal{};      ///< the field's gradient, out of the rock; unit length is 127
-  int8_t padding = 0;
-
-  bool operator==(const SurfaceVertex&) const = default;
-};
-static_assert(sizeof(SurfaceVertex) == 12);
-
-struct SurfaceMesh {
-  VoxelCoord origin;                    ///< voxel of position (0, 0, 0)
-  std::vector<SurfaceVertex> vertices;  ///< each once
-  std::vector<uint32_t> indices;        ///< triangles, counter-clockwise seen from the air
-
-  bool empty() const { return indices.empty(); }
-};
 
 /// Meshes `owned`; `window` must cover owned.grown(surface_nets_apron). `before`, if given, has the window's
 /// box: what the field was as generated, so that fresh surfaces can be told from weathered ones.

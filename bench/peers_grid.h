@@ -1,0 +1,14 @@
+// A field's narrow band as OpenVDB's own kind of level set, for the peers that work on one.
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include "shared/field/field.h"
+
+namespace scree::peers {
+
+/// The distances of the box, in metres: leaves where the surface is; what is solid without one is filled in
+/// from them.
+openvdb::FloatGrid::Ptr level_set_of(Field& field, const VoxelBox& box);
+
+}  // namespace scree::peers
