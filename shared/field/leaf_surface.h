@@ -1,0 +1,81 @@
+// The surface over the leaf cells of an octree, closed where leaves of different sizes meet: dual
+// contouring's walk over edges (Ju et al. 2002), with a vertex for each sheet of surface in a leaf (Nielson
+// 2004).
+//
+// Neighbouring leaves, by corner, too, differ by at most a factor of two. The boundary of a leaf is divided
+// where smaller leaves touch it; on each of the polygons that result, crossed edges are linked so that each
+// run of rock is cut off on its own. Both leaves at a polygon see the same, so the loops of links close up
+// from leaf to leaf, and the dual of that surface (a vertex a loop, a polygon a crossed edge) has two
+// polygons at every edge. Where two leaves share two links between the same two loops, a vertex on the face
+// keeps them apart. Pure, safe from any thread. Units: sides of the smallest leaf there can be.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/field/window.h"
+
+namespace scree {
+
+/// In place of a side: nothing is known there. Edges beside it have no polygon.
+inline constexpr uint8_t leaf_unknown = 0;
+
+/// A leaf's lowest point, a multiple of its side.
+struct Leaf {
+  VoxelCoord at;
+  int side = 1;
+
+  bool operator==(const Leaf&) const = default;
+};
+
+/// A part of an octree.
+struct LeafGrid {
+  VoxelBox cells;              ///< of side 1
+  std::vector<uint8_t> sides;  ///< of the leaf that holds the cell, a power of two, in a window's order
+  Window codes;                ///< at the leaves' corners; covers `cells` and one more at the upper ends
+
+  LeafGrid(const VoxelBox& box, Window window);
+  uint8_t& side_at(VoxelCoord cell) { return sides[index(cell)]; }
+  uint8_t side_at(VoxelCoord cell) const { return cells.holds(cell) ? sides[index(cell)] : leaf_unknown; }
+  /// The leaf that holds the cell, which must be known.
+  Leaf leaf_at(VoxelCoord cell) const;
+
+ private:
+  size_t index(VoxelCoord cell) const;
+};
+
+/// Where the surface crosses an edge.
+struct LeafCrossing {
+  glm::vec3 at;  ///< from the grid's origin (0, 0, 0)
+  int axis = 0;
+};
+
+/// What the caller decides.
+class LeafRules {
+ public:
+  virtual ~LeafRules() = default;
+  /// Whether the polygon of the edge between these leaves, three or four, is to be made.
+  virtual bool owns(std::span<const Leaf> around) const = 0;
+  /// The vertex of a sheet that crosses the leaf's edges there; it is moved into the leaf if it lies outside.
+  virtual glm::vec3 place(const Leaf& leaf, std::span<const LeafCrossing> crossings) const = 0;
+};
+
+struct LeafPoint {
+  Leaf leaf;  ///< one that holds it
+  glm::vec3 at;
+};
+
+struct LeafMesh {
+  std::vector<LeafPoint> points;
+  std::vector<uint32_t> indices;  ///< triangles, counter-clockwise seen from the air
+};
+
+/// The polygons of all owned edges of these leaves, each once.
+LeafMesh leaf_surface(const LeafGrid& grid, std::span<const Leaf> leaves, const LeafRules& rules);
+
+/// The mean of the crossings: surface nets.
+glm::vec3 mean_of(std::span<const LeafCrossing> crossings);
+
+}  // namespace scree

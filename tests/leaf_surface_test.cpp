@@ -1,0 +1,130 @@
+#include "shared/field/leaf_surface.h"
+
+#include <functional>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <map>
+
+#include "shared/base/random.h"
+
+namespace scree {
+namespace {
+
+constexpr int extent = 24;
+const VoxelBox region{{-extent / 2, -extent / 2, -extent / 2}, {extent / 2, extent / 2, extent / 2}};
+
+template <typename F>
+void for_each_cell(const VoxelBox& box, int step, F&& f) {
+  for (int x = box.lo.x; x < box.hi.x; x += step)
+    for (int y = box.lo.y; y < box.hi.y; y += step)
+      for (int z = box.lo.z; z < box.hi.z; z += step) f(VoxelCoord{x, y, z});
+}
+
+void set_side(LeafGrid& grid, VoxelCoord at, int leaf, int side) {
+  for_each_cell({at, at + VoxelCoord{leaf, leaf, leaf}}, 1,
+                [&](VoxelCoord cell) { grid.side_at(cell) = static_cast<uint8_t>(side); });
+}
+
+/// Splits leaves that touch one of less than half their side, until there is none.
+void balance(LeafGrid& grid) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for_each_cell(region, 1, [&](VoxelCoord cell) {
+      const Leaf leaf = grid.leaf_at(cell);
+      if (leaf.at != cell || leaf.side == 1) return;
+      int smallest = leaf.side;
+      const VoxelCoord size{leaf.side, leaf.side, leaf.side};
+      for_each_cell(VoxelBox{leaf.at, leaf.at + size}.grown(1), 1, [&](VoxelCoord near) {
+        if (grid.side_at(near) != leaf_unknown) smallest = std::min<int>(smallest, grid.side_at(near));
+      });
+      if (smallest * 2 >= leaf.side) return;
+      set_side(grid, leaf.at, leaf.side, leaf.side / 2);
+      changed = true;
+    });
+  }
+}
+
+LeafGrid random_octree(Random& random, const std::function<Code(VoxelCoord)>& code) {
+  LeafGrid grid(region, Window(region.grown(1)));
+  for_each_cell(region, 4, [&](VoxelCoord at) {
+    set_side(grid, at, 4, 4);
+    if (random.below(2) == 0) return;
+    for_each_cell({at, at + VoxelCoord{4, 4, 4}}, 2,
+                  [&](VoxelCoord half) { set_side(grid, half, 2, random.below(3) == 0 ? 1 : 2); });
+  });
+  balance(grid);
+  // Air all around closes the surface.
+  for_each_cell(region.grown(-3), 1, [&](VoxelCoord p) { grid.codes.at(p.x, p.y, p.z) = code(p); });
+  return grid;
+}
+
+std::vector<Leaf> all_leaves(const LeafGrid& grid) {
+  std::vector<Leaf> leaves;
+  for_each_cell(region, 1, [&](VoxelCoord cell) {
+    if (grid.leaf_at(cell).at == cell) leaves.push_back(grid.leaf_at(cell));
+  });
+  return leaves;
+}
+
+struct Mean final : LeafRules {
+  bool owns(std::span<const Leaf>) const override { return true; }
+  glm::vec3 place(const Leaf&, std::span<const LeafCrossing> crossings) const override {
+    return mean_of(crossings);
+  }
+};
+
+int open_edges(const LeafMesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int> uses;
+  for (size_t t = 0; t < mesh.indices.size(); t += 3)
+    for (size_t i = 0; i < 3; ++i) ++uses[{mesh.indices[t + i], mesh.indices[t + (i + 1) % 3]}];
+  int open = 0;
+  for (const auto& [edge, count] : uses) {
+    const auto back = uses.find({edge.second, edge.first});
+    if (count != 1 || back == uses.end() || back->second != 1) ++open;
+  }
+  return open;
+}
+
+TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
+    Random random(seed);
+    const glm::vec3 centre(random.unit() * 2.0F, random.unit() * 2.0F, random.unit() * 2.0F);
+    const LeafGrid grid = random_octree(random, [&](VoxelCoord p) {
+      return encode((glm::length(glm::vec3(p.x, p.y, p.z) - centre) - 6.7F) * 0.3F);
+    });
+    const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
+    EXPECT_GT(mesh.indices.size(), 300U);
+    EXPECT_EQ(open_edges(mesh), 0) << "seed " << seed;
+  }
+}
+
+/// Every corner of ambiguity at once: no smooth field has as many.
+TEST(LeafSurface, every_edge_has_two_triangles_even_in_noise) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(seed);
+    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
+    const LeafGrid grid = random_octree(random, [&](VoxelCoord) {
+      const int depth = 1 + static_cast<int>(random.below(126));
+      return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
+    });
+    EXPECT_EQ(open_edges(leaf_surface(grid, all_leaves(grid), Mean())), 0) << "seed " << seed;
+  }
+}
+
+TEST(LeafSurface, triangles_face_the_air) {
+  Random random(3);
+  const LeafGrid grid = random_octree(
+      random, [](VoxelCoord p) { return encode((glm::length(glm::vec3(p.x, p.y, p.z)) - 6.3F) * 0.3F); });
+  const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
+  double volume = 0.0;
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const glm::vec3 a = mesh.points[mesh.indices[t]].at, b = mesh.points[mesh.indices[t + 1]].at,
+                    c = mesh.points[mesh.indices[t + 2]].at;
+    volume += static_cast<double>(glm::dot(a, glm::cross(b, c))) / 6.0;
+  }
+  EXPECT_NEAR(volume / (4.0 / 3.0 * 3.14159265 * 6.3 * 6.3 * 6.3), 1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace scree
