@@ -13,11 +13,6 @@ namespace {
 
 constexpr int bin_voxels = 2;
 
-glm::vec3 middle_of(const TerrainTriangle& triangle) {
-  const auto& [a, b, c] = triangle.corners;
-  return 0.5F * (glm::min(a, glm::min(b, c)) + glm::max(a, glm::max(b, c)));
-}
-
 /// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi regions of corners, edges, face.
 glm::vec3 closest_on(const TerrainTriangle& triangle, glm::vec3 p) {
   const auto& [a, b, c] = triangle.corners;
@@ -41,6 +36,15 @@ glm::vec3 closest_on(const TerrainTriangle& triangle, glm::vec3 p) {
 
 }  // namespace
 
+TriangleBins::Sphere TriangleBins::sphere_around(const TerrainTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  const glm::vec3 middle = 0.5F * (glm::min(a, glm::min(b, c)) + glm::max(a, glm::max(b, c)));
+  float radius2 = 0.0F;
+  for (const glm::vec3& corner : triangle.corners)
+    radius2 = std::max(radius2, glm::dot(corner - middle, corner - middle));
+  return {middle, std::sqrt(radius2)};
+}
+
 TriangleBins::TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBox& box) : box_(box) {
   if (triangles.empty()) return;
   const auto bins = [](int lo, int hi) { return (hi - lo + bin_voxels - 1) / bin_voxels; };
@@ -49,11 +53,9 @@ TriangleBins::TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBo
       static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z) + 1, 0);
   std::vector<size_t> bin_of(triangles.size());
   for (size_t i = 0; i < triangles.size(); ++i) {
-    const glm::vec3 middle = middle_of(triangles[i]);
-    for (const glm::vec3& corner : triangles[i].corners) {
-      const glm::vec3 off = glm::abs(corner - middle);
-      extent_ = std::max({extent_, off.x, off.y, off.z});
-    }
+    const Sphere sphere = sphere_around(triangles[i]);
+    const glm::vec3 middle = sphere.middle;
+    extent_ = std::max(extent_, sphere.radius);
     bin_of[i] =
         static_cast<size_t>((bin(0, middle.x) * size_.y + bin(1, middle.y)) * size_.z + bin(2, middle.z));
     ++first_[bin_of[i] + 1];
@@ -61,7 +63,12 @@ TriangleBins::TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBo
   for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
   triangles_.resize(triangles.size());
-  for (size_t i = 0; i < triangles.size(); ++i) triangles_[next[bin_of[i]]++] = triangles[i];
+  spheres_.resize(triangles.size());
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const uint32_t at = next[bin_of[i]]++;
+    triangles_[at] = triangles[i];
+    spheres_[at] = sphere_around(triangles[i]);
+  }
 }
 
 /// Those beyond the box lie in its outermost bins.
@@ -76,9 +83,9 @@ std::optional<NearestTriangle> TriangleBins::nearest(glm::vec3 p, float reach) c
   if (triangles_.empty()) return std::nullopt;
   // Two triangles that share the nearest edge are as near as each other: the one that sees p more squarely
   // knows its side.
-  constexpr float same = 1e-5F;
+  constexpr float same = 1e-5F, rounding = 0.01F;
   const float around = reach + extent_;
-  float least = reach * reach, square = 0.0F;
+  float root = reach, least = reach * reach, square = 0.0F;
   const TerrainTriangle* best = nullptr;
   const int x_hi = bin(0, p.x + around), y_hi = bin(1, p.y + around);
   const int z_lo = bin(2, p.z - around), z_hi = bin(2, p.z + around);
@@ -87,6 +94,9 @@ std::optional<NearestTriangle> TriangleBins::nearest(glm::vec3 p, float reach) c
       const size_t row = static_cast<size_t>((x * size_.y + y) * size_.z);
       const uint32_t end = first_[row + static_cast<size_t>(z_hi) + 1];
       for (uint32_t i = first_[row + static_cast<size_t>(z_lo)]; i < end; ++i) {
+        const glm::vec3 apart = p - spheres_[i].middle;
+        const float farthest = root + spheres_[i].radius + rounding;
+        if (glm::dot(apart, apart) > farthest * farthest) continue;
         const TerrainTriangle& triangle = triangles_[i];
         const glm::vec3 off = p - closest_on(triangle, p);
         const float distance2 = glm::dot(off, off);
@@ -95,12 +105,12 @@ std::optional<NearestTriangle> TriangleBins::nearest(glm::vec3 p, float reach) c
         if (best != nullptr && distance2 > least - same && std::abs(along) <= std::abs(square)) continue;
         best = &triangle;
         least = std::min(least, distance2);
+        root = std::sqrt(least);
         square = along;
       }
     }
   if (best == nullptr) return std::nullopt;
-  const float distance = std::sqrt(least);
-  return NearestTriangle{best->normal, square < 0.0F ? -distance : distance};
+  return NearestTriangle{best->normal, square < 0.0F ? -root : root};
 }
 
 }  // namespace scree

@@ -25,12 +25,18 @@ class TriangleBins {
   std::optional<NearestTriangle> nearest(glm::vec3 p, float reach) const;
 
  private:
+  struct Sphere {
+    glm::vec3 middle{0.0F};
+    float radius = 0.0F;
+  };
+  static Sphere sphere_around(const TerrainTriangle& triangle);
   int bin(int axis, float x) const;
 
   VoxelBox box_;
   VoxelCoord size_;                         ///< in bins
-  float extent_ = 0.0F;                     ///< farthest corner from the middle of its triangle, on any axis
+  float extent_ = 0.0F;                     ///< the largest sphere's radius
   std::vector<TerrainTriangle> triangles_;  ///< in order of bins
+  std::vector<Sphere> spheres_;             ///< around each
   std::vector<uint32_t> first_;             ///< of each bin, and the end
 };
 
