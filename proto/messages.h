@@ -2,6 +2,7 @@
 // Their encoding is proto/scree.proto; proto/codec.h turns one into the other and checks every byte.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -135,6 +136,10 @@ struct ReplyMessage {
   uint32_t pieces = 0;
 };
 
+/// The stages of a tick, as a status names them.
+inline constexpr std::array<const char*, 8> stage_names{"carve", "spawn",     "bodies",  "impacts",
+                                                        "rest",  "recombine", "islands", "publish"};
+
 /// Once a second, for people.
 struct StatusMessage {
   Tick tick = 0;
@@ -150,9 +155,10 @@ struct StatusMessage {
   uint64_t sent_bytes = 0;   ///< to this client since it joined
   uint64_t pieces_made = 0;  ///< since the start
   uint64_t pieces_merged = 0;
-  uint64_t field_hash = 0;  ///< of the whole field after `tick`
-  uint32_t repairs = 0;     ///< chunks resent to this client because a check failed
-  SettingValues settings;   ///< every setting of the simulation
+  uint64_t field_hash = 0;                           ///< of the whole field after `tick`
+  uint32_t repairs = 0;                              ///< chunks resent to this client because a check failed
+  SettingValues settings;                            ///< every setting of the simulation
+  std::array<float, stage_names.size()> stage_ms{};  ///< mean over the last second
 };
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,

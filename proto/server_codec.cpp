@@ -1,4 +1,6 @@
 // ServerMessage to bytes and back.
+#include <algorithm>
+
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
@@ -83,6 +85,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_field_hash(from.field_hash);
   to.set_repairs(from.repairs);
   write(*to.mutable_settings(), from.settings);
+  to.mutable_stage_ms()->Add(from.stage_ms.begin(), from.stage_ms.end());
 }
 
 struct Writing {
@@ -206,6 +209,12 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.field_hash = from.field_hash();
   status.repairs = from.repairs();
   status.settings = check.settings(from.settings());
+  if (static_cast<size_t>(from.stage_ms_size()) != status.stage_ms.size())
+    check.refuse(std::to_string(from.stage_ms_size()) + " stage_ms where there are " +
+                 std::to_string(status.stage_ms.size()) + " stages");
+  else
+    std::ranges::transform(from.stage_ms(), status.stage_ms.begin(),
+                           [&](float ms) { return check.not_negative(ms, "stage_ms"); });
   return status;
 }
 

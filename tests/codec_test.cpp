@@ -142,6 +142,11 @@ TEST(Codec, numbers_that_are_not_finite_are_refused_by_name) {
   StatusMessage status;
   status.tick_worst_ms = infinity;
   EXPECT_TRUE(names(server_refusal(status), "tick_worst_ms"));
+  status.tick_worst_ms = 1.0F;
+  status.stage_ms[3] = nan;
+  EXPECT_TRUE(names(server_refusal(status), "stage_ms"));
+  status.stage_ms[3] = -1.0F;
+  EXPECT_TRUE(names(server_refusal(status), "stage_ms is negative"));
 }
 
 TEST(Codec, a_carve_over_the_limits_is_decoded_for_the_world_to_answer) {

@@ -351,5 +351,20 @@ TEST_F(PublisherTest, replies_go_to_who_asked_and_status_comes_once_a_second) {
   EXPECT_EQ(followers.at(1).statuses[0].clients, 2U);
 }
 
+TEST(TickClock, stages_are_means_over_the_last_second) {
+  TickClock clock(2);
+  EXPECT_EQ(clock.stages_ms()[2], 0.0F);
+  for (const double ms : {100.0, 3.0, 5.0}) {
+    StageTimes times;
+    times.bodies_ms = ms;
+    times.total_ms = 2.0 * ms;
+    clock.add(times);
+  }
+  EXPECT_STREQ(stage_names[2], "bodies");
+  EXPECT_FLOAT_EQ(clock.stages_ms()[2], 4.0F) << "the 100 ms left the window";
+  EXPECT_FLOAT_EQ(clock.worst_ms(), 10.0F);
+  EXPECT_EQ(clock.stages_ms()[0], 0.0F);
+}
+
 }  // namespace
 }  // namespace scree

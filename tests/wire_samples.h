@@ -76,6 +76,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.ledger_dust = 1;
   status.tick_median_ms = 1.5F;
   status.tick_worst_ms = 8.25F;
+  status.stage_ms = {0.0F, 1.0F, 2.5F, 3.0F, 4.0F, 5.0F, 6.0F, 1e-3F};
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
   status.settings = {{"impacts", "true"}, {"collider", "field"}};

@@ -290,6 +290,7 @@ ConnectionCounters Connection::counters() const {
   const std::scoped_lock lock(impl_->mutex);
   ConnectionCounters counters = impl_->counters;
   counters.waiting_messages = impl_->queue.size();
+  counters.waiting_bytes = impl_->queue_memory;
   return counters;
 }
 

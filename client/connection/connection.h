@@ -28,6 +28,7 @@ struct ConnectionCounters {
   uint64_t sent_bytes = 0;  ///< handed to send()
   uint64_t sent_messages = 0;
   size_t waiting_messages = 0;  ///< received, not yet polled
+  size_t waiting_bytes = 0;     ///< their memory, decoded
   uint64_t pauses = 0;          ///< times that reading stopped because the queue was full
 };
 

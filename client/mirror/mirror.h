@@ -82,6 +82,7 @@ class Mirror {
   Pose pose_at(const PieceMotion& motion, double tick) const;
 
   Field& field() { return field_; }
+  const Field& field() const { return field_; }
   const TerrainSource& terrain() const { return field_.source(); }
   /// Chunks that follow the server: their edited bricks are exactly the server's.
   const std::unordered_set<ChunkCoord, CoordHash>& held_chunks() const { return held_; }

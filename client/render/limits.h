@@ -49,4 +49,7 @@ inline constexpr size_t chunks_read_max = 64;
 /// How far the far terrain is drawn, in view radii.
 inline constexpr float horizon_per_view_radius = 8.0F;
 
+/// Lines over a picture: 1,000 pieces' hulls, and margin. More are left out.
+inline constexpr size_t lines_max = 100000;
+
 }  // namespace scree::limits

@@ -9,6 +9,7 @@
 #include "client/render/gl.h"
 #include "client/render/gl_errors.h"
 #include "client/render/limits.h"
+#include "client/render/line_drawer.h"
 #include "client/render/shader_sources.h"
 #include "client/render/shadow_map.h"
 
@@ -89,6 +90,7 @@ Image read_pixels(int width, int height) {
 
 struct Renderer::Parts {
   gl::Program sky;
+  LineDrawer lines;
   float view_radius_m;
   ShadowMap shadows;
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
@@ -98,8 +100,11 @@ struct Renderer::Parts {
   Trace* trace = nullptr;
   std::optional<Canvases> canvases;  ///< of the last image
 
-  Parts(gl::Program&& sky_program, float radius_m)
-      : sky(std::move(sky_program)), view_radius_m(radius_m), description(describe()) {}
+  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, float radius_m)
+      : sky(std::move(sky_program)),
+        lines(std::move(line_drawer)),
+        view_radius_m(radius_m),
+        description(describe()) {}
 
   /// Canvases of that size.
   Result<void> prepare(int width, int height);
@@ -132,10 +137,14 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
       gl::Program::link("sky", std::array{shader_source("sky.vert")},
                         std::array{shader_source("atmosphere.glsl"), shader_source("sky.frag")});
   if (!sky) return fail(sky.error().message);
-  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Parts>(std::move(*sky), view_radius_m)));
+  Result<LineDrawer> lines = LineDrawer::create();
+  if (!lines) return fail(lines.error().message);
+  return std::unique_ptr<Renderer>(
+      new Renderer(std::make_unique<Parts>(std::move(*sky), std::move(*lines), view_radius_m)));
 }
 
-void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height) {
+void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
+                    const LineList& lines) {
   if (width <= 0 || height <= 0) return;
   const TraceSpan span(parts_->trace, "viewer", "draw");
   parts_->timers.begin_frame(parts_->trace);
@@ -164,6 +173,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
     method->draw(pass);
   }
   parts_->draw_sky(pass);
+  parts_->lines.draw(lines, pass.view_projection);
   parts_->errors.poll();
 }
 
@@ -193,10 +203,11 @@ Result<void> Renderer::Parts::prepare(int width, int height) {
               " pixels: use a smaller --size");
 }
 
-Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height) {
+Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height,
+                                   const LineList& lines) {
   if (Result<void> ready = parts_->prepare(width, height); !ready) return fail(ready.error().message);
   const Canvases& canvases = *parts_->canvases;
-  draw(&method, camera, canvases.many.framebuffer.name(), width, height);
+  draw(&method, camera, canvases.many.framebuffer.name(), width, height, lines);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, canvases.many.framebuffer.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvases.one.framebuffer.name());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

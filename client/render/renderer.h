@@ -8,6 +8,7 @@
 
 #include "client/render/draw_method.h"
 #include "client/render/gpu_timers.h"
+#include "client/render/line_list.h"
 
 namespace scree {
 
@@ -24,11 +25,13 @@ class Renderer {
   ~Renderer();
 
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
-  /// method there is only sky.
-  void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height);
+  /// method there is only sky. `lines` come last.
+  void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
+            const LineList& lines = {});
 
   /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
-  Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height);
+  Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,
+                           const LineList& lines = {});
   /// The same without the image: returns when the GPU has finished. For measurements.
   Result<void> draw_unseen(DrawMethod& method, const Camera& camera, int width, int height);
 

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <imgui/imgui.h>
 #include <utility>
 
 namespace scree {
@@ -9,6 +10,7 @@ namespace scree {
 namespace {
 
 constexpr int samples = 4;
+constexpr double minimised_pause_s = 0.02;  ///< about a tick: the world goes on
 
 std::string last_error() {
   const char* text = nullptr;
@@ -37,16 +39,16 @@ struct AppWindowEvents {
 
   static void on_key(GLFWwindow* window, int key, int, int action, int) {
     if (action != GLFW_PRESS) return;
-    if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
-    if (key == GLFW_KEY_H) of(window).toggle_help_ = true;
-    if (key == GLFW_KEY_M) of(window).next_method_ = true;
-    if (key == GLFW_KEY_TAB) of(window).hold_mouse(!of(window).holds_mouse_);
+    for (const Binding& binding : bindings())
+      if (binding.key == key) of(window).act(binding.action);
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
     if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
+    // On the panel the mouse is the panel's.
+    if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse) return;
     // The first click takes the mouse; only the following ones carve.
     if (of(window).holds_mouse_) {
-      of(window).click_ = true;
+      of(window).strike_ = true;
     } else {
       of(window).hold_mouse(true);
     }
@@ -96,12 +98,31 @@ void AppWindow::hold_mouse(bool hold) {
   glfwGetCursorPos(window_, &mouse_.x, &mouse_.y);
 }
 
+void AppWindow::act(Action action) {
+  if (action == Action::end) {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+  } else if (action == Action::free_mouse) {
+    hold_mouse(!holds_mouse_);
+  } else {
+    actions_.push_back(action);
+  }
+}
+
 AppInput AppWindow::poll() {
   glfwPollEvents();
   glfwGetFramebufferSize(window_, &width_, &height_);
   AppInput input;
   const double now_s = glfwGetTime();
   input.elapsed_s = static_cast<float>(now_s - std::exchange(last_s_, now_s));
+  poll_keys(input);
+  poll_gamepad(input);
+  input.wheel = std::exchange(wheel_, 0.0F);
+  input.strike = std::exchange(strike_, false);
+  input.actions = std::exchange(actions_, {});
+  return input;
+}
+
+void AppWindow::poll_keys(AppInput& input) {
   const auto axis = [this](int plus, int minus) {
     return static_cast<float>((glfwGetKey(window_, plus) == GLFW_PRESS) -
                               (glfwGetKey(window_, minus) == GLFW_PRESS));
@@ -109,20 +130,48 @@ AppInput AppWindow::poll() {
   input.fly.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_SPACE, GLFW_KEY_C),
                     axis(GLFW_KEY_W, GLFW_KEY_S)};
   input.fly.fast = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
-  if (holds_mouse_) {
-    glm::dvec2 mouse;
-    glfwGetCursorPos(window_, &mouse.x, &mouse.y);
-    input.fly.look = glm::vec2(mouse - std::exchange(mouse_, mouse));
-  }
-  input.wheel = std::exchange(wheel_, 0.0F);
-  input.click = std::exchange(click_, false);
-  input.next_method = std::exchange(next_method_, false);
-  input.toggle_help = std::exchange(toggle_help_, false);
-  return input;
+  if (!holds_mouse_) return;
+  glm::dvec2 mouse;
+  glfwGetCursorPos(window_, &mouse.x, &mouse.y);
+  input.fly.look = glm::vec2(mouse - std::exchange(mouse_, mouse));
+}
+
+/// The first gamepad that GLFW knows a mapping for.
+void AppWindow::poll_gamepad(AppInput& input) {
+  int pad = GLFW_JOYSTICK_1;
+  while (pad <= GLFW_JOYSTICK_LAST && glfwJoystickIsGamepad(pad) != GLFW_TRUE) ++pad;
+  GLFWgamepadstate state;
+  if (pad > GLFW_JOYSTICK_LAST || glfwGetGamepadState(pad, &state) != GLFW_TRUE) return;
+  PadState now{state.axes[GLFW_GAMEPAD_AXIS_LEFT_X],
+               state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y],
+               state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER],
+               0};
+  for (unsigned button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
+    if (state.buttons[button] == GLFW_PRESS) now.buttons |= 1U << button;
+  for (const Action action : pad_.step(now, input.elapsed_s, input.fly)) act(action);
+  strike_ = strike_ || pad_.struck();
+}
+
+bool AppWindow::minimised() const {
+  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || width_ == 0 || height_ == 0;
+}
+
+std::pair<int, int> AppWindow::window_size() const {
+  std::pair<int, int> size;
+  glfwGetWindowSize(window_, &size.first, &size.second);
+  return size;
 }
 
 void AppWindow::show_frame() {
-  glfwSwapBuffers(window_);
+  if (minimised()) {
+    // Buffers of a window that is not shown may be swapped without any wait.
+    glfwWaitEventsTimeout(minimised_pause_s);
+  } else {
+    glfwSwapBuffers(window_);
+  }
 }
 
 }  // namespace scree

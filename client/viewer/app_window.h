@@ -1,10 +1,15 @@
-// A window with an OpenGL context, its keys and its mouse. One at a time; on the main thread only.
+// A window with an OpenGL context, its keys, its mouse, and the first gamepad if there is one. One at a time;
+// on the main thread only.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "client/viewer/actions.h"
 #include "client/viewer/fly_camera.h"
+#include "client/viewer/gamepad.h"
 #include "shared/base/result.h"
 
 struct GLFWwindow;
@@ -15,10 +20,9 @@ namespace scree {
 struct AppInput {
   FlyInput fly;
   float elapsed_s = 0.0F;
-  float wheel = 0.0F;  ///< notches, up is positive
-  bool click = false;  ///< left button went down, with the mouse held by the window
-  bool next_method = false;
-  bool toggle_help = false;
+  float wheel = 0.0F;   ///< notches, up is positive
+  bool strike = false;  ///< left button went down, with the mouse held by the window; or the right trigger
+  std::vector<Action> actions;  ///< in order; free_mouse and end are the window's own
 };
 
 class AppWindow {
@@ -31,9 +35,14 @@ class AppWindow {
 
   bool should_close() const;
   AppInput poll();
+  bool holds_mouse() const { return holds_mouse_; }
   /// Pixels; nothing while minimised.
   int width() const { return width_; }
   int height() const { return height_; }
+  bool minimised() const;
+  /// As the desktop counts: what --size asked for.
+  std::pair<int, int> window_size() const;
+  /// While minimised, it waits a little instead: nobody sees anything.
   void show_frame();
 
   /// For Dear ImGui's backend.
@@ -42,6 +51,9 @@ class AppWindow {
  private:
   explicit AppWindow(GLFWwindow* window);
   void hold_mouse(bool hold);
+  void act(Action action);
+  void poll_keys(AppInput& input);
+  void poll_gamepad(AppInput& input);
 
   GLFWwindow* window_;
   int width_ = 0;
@@ -50,9 +62,9 @@ class AppWindow {
   glm::dvec2 mouse_{0.0};
   bool holds_mouse_ = false;
   float wheel_ = 0.0F;
-  bool click_ = false;
-  bool next_method_ = false;
-  bool toggle_help_ = false;
+  bool strike_ = false;
+  std::vector<Action> actions_;
+  Gamepad pad_;
   friend struct AppWindowEvents;
 };
 

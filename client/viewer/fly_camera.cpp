@@ -24,7 +24,8 @@ void fly(Camera& camera, const FlyInput& input, float elapsed_s) {
                          camera.forward() * input.move.z;
   if (glm::dot(move, move) < 1e-6F) return;
   const float speed = speed_m_s * (input.fast ? fast_factor : 1.0F);
-  camera.eye_m += glm::normalize(move) * (speed * glm::min(elapsed_s, step_max_s));
+  const float part = glm::min(glm::length(move), 1.0F);
+  camera.eye_m += glm::normalize(move) * (part * speed * glm::min(elapsed_s, step_max_s));
   const glm::vec3 half(limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m);
   camera.eye_m = glm::clamp(camera.eye_m, -half, half);
 }

@@ -10,7 +10,7 @@ namespace scree {
 
 /// Of one frame.
 struct FlyInput {
-  glm::vec3 move{0.0F};  ///< right, up, forward: each -1, 0 or 1
+  glm::vec3 move{0.0F};  ///< right, up, forward, as parts of the full speed; together at most that
   bool fast = false;
   glm::vec2 look{0.0F};  ///< mouse, pixels to the right and down
 };

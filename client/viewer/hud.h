@@ -1,31 +1,19 @@
-// Figures and messages over the picture, by Dear ImGui. Needs the window's GL context current.
+// Figures, graphs, a panel of methods and tools, help and messages over the picture, by Dear ImGui. Needs the
+// window's GL context current.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "client/render/draw_method.h"
-#include "client/render/gpu_timers.h"
 #include "client/viewer/app_window.h"
-#include "proto/messages.h"
+#include "client/viewer/history.h"
+#include "client/viewer/hud_facts.h"
+#include "client/viewer/settings.h"
 
 namespace scree {
 
-struct HudFacts {
-  std::string connection;  ///< one line
-  bool lost = false;       ///< the connection is gone: say so loudly
-  Tick tick = 0;
-  size_t pieces = 0;
-  std::optional<StatusMessage> status;  ///< the server's last
-  double bytes_per_s = 0.0;
-  uint64_t mismatches = 0;
-  float carve_radius_m = 0.0F;
-  std::string notice;  ///< the server's last refusal, for a while
-  std::string method;
-  DrawStats draw;
-  std::vector<GpuTime> gpu_times;
+/// Milliseconds of the last frame.
+struct FrameParts {
+  float frame_ms = 0.0F;   ///< from one frame to the next
+  float update_ms = 0.0F;  ///< messages applied, work shown and begun
+  float draw_ms = 0.0F;    ///< the main thread's part of drawing
 };
 
 class Hud {
@@ -35,13 +23,26 @@ class Hud {
   Hud(const Hud&) = delete;
   Hud& operator=(const Hud&) = delete;
 
-  void toggle_help() { help_ = !help_; }
-  void draw(const HudFacts& facts, float frame_ms);
+  /// Begins a frame, before any other of these. The panel takes the mouse while the window does not hold it.
+  void begin(bool mouse_is_free);
+  /// Remembers a frame for the graphs, shown or not.
+  void note(const HudFacts& facts, const FrameParts& parts);
+  void figures(const HudFacts& facts);
+  void graphs(const HudFacts& facts);
+  /// The method that was chosen, if one was. `tool` is changed by what is dragged.
+  const MethodEntry* panel(const MethodEntry& chosen, Tool& tool);
+  void help();
+  void crosshair();
+  void banner(const std::string& text);
+  void end();
 
  private:
-  void draw_figures(const HudFacts& facts) const;
-  bool help_ = true;
-  float frame_ms_ = 0.0F;  ///< smoothed
+  History frame_;
+  History update_;
+  History draw_;
+  History network_;
+  History tick_;
+  bool mouse_is_free_ = false;
 };
 
 }  // namespace scree

@@ -49,4 +49,7 @@ inline constexpr size_t text_file_bytes_max = size_t{1} << 20;
 inline constexpr size_t path_keys_max = 10000;
 inline constexpr double path_duration_max_s = 3600.0;
 
+/// Seconds between two countings of what is costly to count, for the HUD.
+inline constexpr double count_interval_s = 0.5;
+
 }  // namespace scree::limits

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "client/viewer/actions.h"
 #include "client/viewer/limits.h"
 #include "proto/messages.h"
 
@@ -101,10 +102,7 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_TRACE");
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
       ->envname("SCREE_GL_DEBUG");
-  app.footer(
-      "Keys: W A S D move, Space and C up and down, Shift faster, mouse looks, left click carves, the wheel "
-      "sets\n"
-      "the radius, M draws by the next method, Tab frees the mouse, H help, Esc ends.");
+  app.footer("Keys, mouse and gamepad:\n" + describe_controls());
 }
 
 Result<void> understand_pictures(ViewerOptions& options) {
@@ -151,6 +149,8 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   declare(app, options, texts);
   try {
     app.parse(argc, argv);
+    const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+    options.given = {given("--size"), given("--method"), given("--view-radius")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

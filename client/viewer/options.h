@@ -20,6 +20,12 @@ struct ViewerOptions {
   int width = 1280;
   int height = 720;
   Camera camera;
+  /// Said by a flag or by the environment.
+  struct Given {
+    bool size = false;
+    bool method = false;
+    bool view_radius = false;
+  } given;
   const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
   bool offscreen = false;

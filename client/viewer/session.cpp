@@ -14,11 +14,6 @@ constexpr std::chrono::seconds connect_within{3};
 constexpr double notice_s = 5.0;
 constexpr double rate_window_s = 1.0;
 
-/// More rock, more pieces: about as large ones at every radius up to 3 m.
-uint32_t seeds_for(float radius_m) {
-  return static_cast<uint32_t>(std::clamp(8.0F * radius_m * radius_m, 6.0F, 96.0F));
-}
-
 double seconds_of(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
@@ -163,19 +158,19 @@ bool Session::carved() const {
   return saw_pieces_ || made;
 }
 
-void Session::carve(glm::vec3 from_m, glm::vec3 direction, float radius_m) {
-  if (!connection_) return;
+std::optional<glm::vec3> Session::aim(glm::vec3 from_m, glm::vec3 direction) {
+  if (!mirror_) return std::nullopt;
   const float voxel_m = mirror_->terrain().voxel_size_m;
   const std::optional<float> hit =
       trace(mirror_->field(), from_m / voxel_m, direction, limits::carve_reach_m / voxel_m);
-  if (!hit) return;
-  CarveMessage carve;
-  carve.request = ++requests_;
-  carve.impact_m = from_m + direction * (*hit * voxel_m);
-  carve.shape = sphere(carve.impact_m + direction * (radius_m * carve_depth_in_radii), radius_m);
-  carve.seeds = seeds_for(radius_m);
-  carve.random_seed = carve.request * 0x9E3779B1U;
-  connection_->send(carve);
+  if (!hit) return std::nullopt;
+  return from_m + direction * (*hit * voxel_m);
+}
+
+void Session::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction) {
+  if (!connection_) return;
+  if (const std::optional<glm::vec3> hit_m = aim(from_m, direction))
+    connection_->send(strike_with(tool, *hit_m, direction, ++requests_));
 }
 
 std::string Session::description() const {

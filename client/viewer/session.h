@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "client/render/draw_method.h"
 #include "client/viewer/playback.h"
+#include "client/viewer/tool.h"
 
 namespace scree {
 
@@ -40,13 +42,17 @@ class Session {
   /// Pieces were made in this world at some time.
   bool carved() const;
 
-  /// Asks for a sphere to be carved where the ray meets rock; nothing happens if it meets none.
-  void carve(glm::vec3 from_m, glm::vec3 direction, float radius_m);
+  /// Where a ray (unit direction) meets rock within reach, metres.
+  std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
+  /// Asks for what the tool takes out where the ray meets rock; nothing happens if it meets none.
+  void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction);
 
   /// For people: the state of the connection, in one line; the server's last refusal, for a while.
   std::string description() const;
   std::string notice(double now_s) const;
   double received_bytes_per_s() const { return bytes_per_s_; }
+  /// Memory of what was received and has not been looked at.
+  size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
 
  private:
   /// One of the two.

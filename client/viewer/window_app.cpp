@@ -1,81 +1,118 @@
-#include <algorithm>
-#include <cmath>
+#include "client/viewer/window_app.h"
+
 #include <cstdio>
+#include <tuple>
 
 #include "client/viewer/app.h"
-#include "client/viewer/app_window.h"
-#include "client/viewer/fly_camera.h"
-#include "client/viewer/hud.h"
-#include "client/viewer/viewing.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 namespace {
 
-constexpr float radius_start_m = 2.0F;
-constexpr float radius_min_m = 0.5F;
-constexpr float radius_max_m = 4.0F;
-constexpr float radius_step = 1.12F;  ///< factor a notch of the wheel
+constexpr LineColour preview_colour{255, 236, 170, 150};
 
-HudFacts facts_of(Viewing& viewing, float radius_m, double now_s) {
-  HudFacts facts;
-  Session& session = viewing.session;
-  facts.connection = session.description();
-  facts.lost = !session.connected();
-  facts.bytes_per_s = session.received_bytes_per_s();
-  facts.carve_radius_m = radius_m;
-  facts.notice = session.notice(now_s);
-  if (const Mirror* mirror = session.mirror()) {
-    facts.tick = mirror->tick();
-    facts.pieces = mirror->pieces().size();
-    facts.status = mirror->status();
-    facts.mismatches = mirror->mismatches();
-  }
-  if (DrawMethod* method = viewing.view->methods().shown()) {
-    facts.method = method->name();
-    facts.draw = method->stats();
-    facts.gpu_times = viewing.view->renderer().gpu_times();
-  }
-  return facts;
-}
+}  // namespace
+
+WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
+    : window_(window), viewing_(viewing), hud_(window), choice_(kept.hud), tool_(kept.tool) {}
 
 /// Flies along the path by the clock, once the world is there; afterwards the person has the camera.
-void follow_path(Viewing& viewing, std::optional<double>& begun_s, double now_s) {
-  if (!begun_s && viewing.joined(now_s)) begun_s = now_s;
-  const double flown_s = begun_s ? now_s - *begun_s : 0.0;
-  if (flown_s <= viewing.options.path->duration_s()) viewing.camera = viewing.options.path->at(flown_s);
+void WindowApp::follow_path(double now_s) {
+  if (!path_begun_s_ && viewing_.joined(now_s)) path_begun_s_ = now_s;
+  const double flown_s = path_begun_s_ ? now_s - *path_begun_s_ : 0.0;
+  const CameraPath& path = *viewing_.options.path;
+  if (flown_s <= path.duration_s()) viewing_.camera = path.at(flown_s);
 }
 
-/// One frame of the window: from the person's input to the picture.
-Result<void> run_frame(AppWindow& window, Viewing& viewing, Hud& hud, std::optional<double>& path_begun_s,
-                       float& radius_m) {
-  const AppInput input = window.poll();
+Result<void> WindowApp::choose(const MethodEntry& method) {
+  return viewing_.view->methods().choose(method);
+}
+
+Result<void> WindowApp::act(const AppInput& input) {
+  const MethodSwitch& methods = viewing_.view->methods();
+  for (const Action action : input.actions) {
+    change(tool_, action);
+    if (action == Action::help) choice_.help = !choice_.help;
+    if (action == Action::graphs) choice_.graphs = !choice_.graphs;
+    if (action == Action::panel) choice_.panel = !choice_.panel;
+    if (action == Action::next_method)
+      if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
+  }
+  grow(tool_, input.wheel);
+  if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward());
+  return {};
+}
+
+LineList WindowApp::lines() {
+  LineList lines;
+  const glm::vec3 direction = viewing_.camera.forward();
+  if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
+    lines.shape(shape_of(tool_, *hit_m, direction), preview_colour);
+  return lines;
+}
+
+Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
+  const HudFacts facts = facts_.find(viewing_, now_s);
+  hud_.begin(!window_.holds_mouse());
+  hud_.crosshair();
+  hud_.note(facts, parts);
+  hud_.figures(facts);
+  if (choice_.graphs) hud_.graphs(facts);
+  const MethodEntry* picked = choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_) : nullptr;
+  if (choice_.help) hud_.help();
+  if (facts.lost) hud_.banner(facts.connection);
+  hud_.end();
+  return picked == nullptr ? Result<void>() : choose(*picked);
+}
+
+Result<void> WindowApp::frame() {
+  const AppInput input = window_.poll();
   const double now_s = steady_now_s();
-  fly(viewing.camera, input.fly, input.elapsed_s);
-  if (viewing.options.path) follow_path(viewing, path_begun_s, now_s);
-  radius_m = std::clamp(radius_m * std::pow(radius_step, input.wheel), radius_min_m, radius_max_m);
-  if (input.toggle_help) hud.toggle_help();
-  MethodSwitch& methods = viewing.view->methods();
-  if (input.next_method)
-    if (Result<void> chosen = methods.choose(next_available(methods.chosen())); !chosen) return chosen;
-  if (input.click) viewing.session.carve(viewing.camera.eye_m, viewing.camera.forward(), radius_m);
-  if (Result<void> stepped = viewing.step(now_s); !stepped) return stepped;
-  viewing.view->renderer().draw(methods.shown(), viewing.camera, 0, window.width(), window.height());
-  hud.draw(facts_of(viewing, radius_m, now_s), input.elapsed_s * 1000.0F);
-  window.show_frame();
-  return viewing.take_due(now_s);
+  fly(viewing_.camera, input.fly, input.elapsed_s);
+  if (viewing_.options.path) follow_path(now_s);
+  if (Result<void> acted = act(input); !acted) return acted;
+  FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
+  Stopwatch watch;
+  if (Result<void> stepped = viewing_.step(now_s); !stepped) return stepped;
+  parts.update_ms = static_cast<float>(watch.lap_ms());
+  if (!window_.minimised()) {
+    View& view = *viewing_.view;
+    view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
+                         lines());
+    parts.draw_ms = static_cast<float>(watch.lap_ms());
+    if (Result<void> drawn = draw_hud(parts, now_s); !drawn) return drawn;
+  }
+  window_.show_frame();
+  return viewing_.take_due(now_s);
 }
 
-Result<void> run(const ViewerOptions& options) {
+Settings WindowApp::settings() const {
+  Settings settings;
+  std::tie(settings.width, settings.height) = window_.window_size();
+  settings.method = viewing_.view->methods().chosen().name;
+  settings.view_radius_m = viewing_.options.view_radius_m;
+  settings.hud = choice_;
+  settings.tool = tool_;
+  return settings;
+}
+
+namespace {
+
+Result<void> run(ViewerOptions options) {
+  const KeptSettings kept(settings_file());
+  apply_settings(kept.loaded(), options);
   const Result<std::unique_ptr<AppWindow>> window =
       AppWindow::open(options.width, options.height, options.gl_debug);
   if (!window) return fail(window.error().message);
+  // Another driver may lack what the one of last time had.
+  if (!options.given.method && options.method->missing()) options.method = &all_methods().front();
   const Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options);
   if (!viewing) return fail(viewing.error().message);
-  Hud hud(**window);
-  std::optional<double> path_begun_s;
-  float radius_m = radius_start_m;
+  WindowApp app(**window, **viewing, kept.loaded());
+  const Settings start = app.settings();
   while (!(*window)->should_close())
-    if (Result<void> done = run_frame(**window, **viewing, hud, path_begun_s, radius_m); !done) return done;
+    if (Result<void> done = app.frame(); !done) return done;
+  kept.keep(start, app.settings());
   return (*viewing)->finish();
 }
 

@@ -1,9 +1,13 @@
-// How long the ticks of the last second took, for the status that people read.
+// How long the ticks of the last second took, and each of their stages, for the status that people read.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
+
+#include "proto/messages.h"
+#include "server/world/tick_delta.h"
 
 namespace scree {
 
@@ -11,29 +15,44 @@ class TickClock {
  public:
   explicit TickClock(uint32_t ticks_per_second) : window_(std::max(1U, ticks_per_second)) {}
 
-  void add(double tick_ms) {
-    if (times_ms_.size() < window_) {
-      times_ms_.push_back(tick_ms);
+  void add(const StageTimes& times) {
+    if (times_.size() < window_) {
+      times_.push_back(times);
       return;
     }
-    times_ms_[next_] = tick_ms;
+    times_[next_] = times;
     next_ = (next_ + 1) % window_;
   }
   float median_ms() const {
-    if (times_ms_.empty()) return 0.0F;
-    std::vector<double> sorted = times_ms_;
+    if (times_.empty()) return 0.0F;
+    std::vector<StageTimes> sorted = times_;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    return static_cast<float>(*middle);
+    std::ranges::nth_element(sorted, middle, {}, &StageTimes::total_ms);
+    return static_cast<float>(middle->total_ms);
   }
   float worst_ms() const {
-    return times_ms_.empty() ? 0.0F : static_cast<float>(std::ranges::max(times_ms_));
+    if (times_.empty()) return 0.0F;
+    return static_cast<float>(std::ranges::max_element(times_, {}, &StageTimes::total_ms)->total_ms);
+  }
+  /// Means, in the order of stage_names.
+  std::array<float, stage_names.size()> stages_ms() const {
+    constexpr std::array stages{&StageTimes::carve_ms,   &StageTimes::spawn_ms,  &StageTimes::bodies_ms,
+                                &StageTimes::impacts_ms, &StageTimes::rest_ms,   &StageTimes::recombine_ms,
+                                &StageTimes::islands_ms, &StageTimes::publish_ms};
+    static_assert(stages.size() == stage_names.size());
+    std::array<float, stages.size()> means{};
+    for (size_t i = 0; i < stages.size() && !times_.empty(); ++i) {
+      double sum = 0.0;
+      for (const StageTimes& times : times_) sum += times.*stages[i];
+      means[i] = static_cast<float>(sum / static_cast<double>(times_.size()));
+    }
+    return means;
   }
 
  private:
   size_t window_;
   size_t next_ = 0;  ///< the oldest, once the window is full
-  std::vector<double> times_ms_;
+  std::vector<StageTimes> times_;
 };
 
 }  // namespace scree

@@ -1,0 +1,56 @@
+// The HUD's panel: which method draws, and what a strike does.
+#include <algorithm>
+#include <array>
+
+#include "client/viewer/hud.h"
+#include "client/viewer/hud_style.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+template <typename E, size_t n>
+void choose(E& value, const std::array<E, n>& all) {
+  for (size_t i = 0; i < n; ++i) {
+    if (i > 0) ImGui::SameLine();
+    const std::string name(name_of(all[i]));
+    if (ImGui::RadioButton(name.c_str(), value == all[i])) value = all[i];
+  }
+}
+
+/// Those that this driver cannot draw by are grey, and say why.
+const MethodEntry* choose_method(const MethodEntry& chosen) {
+  const MethodEntry* picked = nullptr;
+  for (const MethodEntry& entry : all_methods()) {
+    const std::optional<std::string> missing = entry.missing();
+    const std::string name(entry.name);
+    ImGui::BeginDisabled(missing.has_value());
+    if (ImGui::RadioButton(name.c_str(), &entry == &chosen) && &entry != &chosen) picked = &entry;
+    ImGui::EndDisabled();
+    if (missing) ImGui::TextDisabled("    %s", missing->c_str());
+  }
+  return picked;
+}
+
+}  // namespace
+
+const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool) {
+  begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
+                mouse_is_free_);
+  ImGui::PushItemWidth(150.0F);
+  const MethodEntry* picked = choose_method(chosen);
+  ImGui::Separator();
+  choose(tool.kind, std::array{ToolKind::sphere, ToolKind::box, ToolKind::tunnel});
+  ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
+  ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
+  choose(tool.pattern, std::array{SeedPattern::uniform, SeedPattern::radial});
+  auto seeds = static_cast<int>(tool.seeds);
+  const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
+  if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
+    tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
+  ImGui::PopItemWidth();
+  ImGui::End();
+  return picked;
+}
+
+}  // namespace scree

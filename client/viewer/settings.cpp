@@ -1,0 +1,163 @@
+#include "client/viewer/settings.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "client/viewer/files.h"
+#include "client/viewer/limits.h"
+
+namespace scree {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reads one field after the other; the first that is wrong is remembered.
+class Reader {
+ public:
+  explicit Reader(const Json& json) : json_(json) {}
+
+  void flag(const char* name, bool& value) {
+    if (const Json* found = find(name, &Json::is_boolean)) value = found->get<bool>();
+  }
+  template <typename T>
+  void number(const char* name, T& value, T min, T max) {
+    const Json* found = find(name, &Json::is_number);
+    if (found == nullptr) return;
+    const auto given = found->get<double>();
+    if (!(given >= static_cast<double>(min) && given <= static_cast<double>(max)))
+      return wrong(name, "is out of range");
+    value = static_cast<T>(given);
+  }
+  /// The place in `names`.
+  template <typename E, size_t n>
+  void choice(const char* name, E& value, const std::array<E, n>& all) {
+    const Json* found = find(name, &Json::is_string);
+    if (found == nullptr) return;
+    for (const E one : all) {
+      if (name_of(one) != found->get<std::string>()) continue;
+      value = one;
+      return;
+    }
+    wrong(name, "has no such value");
+  }
+  void text(const char* name, std::string& value) {
+    if (const Json* found = find(name, &Json::is_string)) value = found->get<std::string>();
+  }
+  void wrong(const char* name, const char* how) {
+    if (error_.empty()) error_ = std::string(name) + " " + how;
+  }
+  const std::string& error() const { return error_; }
+
+ private:
+  const Json* find(const char* name, bool (Json::*is_right)() const noexcept) {
+    const auto found = json_.find(name);
+    if (found == json_.end()) return nullptr;
+    if (((*found).*is_right)()) return &*found;
+    wrong(name, "is of another kind");
+    return nullptr;
+  }
+
+  const Json& json_;
+  std::string error_;
+};
+
+/// What changed from `start` to `end`, else what was loaded.
+template <typename T>
+T merged(const T& loaded, const T& start, const T& end) {
+  return start == end ? loaded : end;
+}
+
+}  // namespace
+
+std::string settings_file() {
+  const auto folder = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  // The XDG base directory specification: a path that is not absolute is to be ignored.
+  const std::filesystem::path config = folder("XDG_CONFIG_HOME");
+  if (config.is_absolute()) return (config / "scree" / "viewer.json").string();
+  const std::filesystem::path home = folder("HOME");
+  return home.is_absolute() ? (home / ".config" / "scree" / "viewer.json").string() : std::string();
+}
+
+Result<Settings> parse_settings(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return fail("it is no JSON object");
+  Settings settings;
+  Reader reader(json);
+  reader.number("width", settings.width, 1, limits::image_side_max);
+  reader.number("height", settings.height, 1, limits::image_side_max);
+  reader.text("method", settings.method);
+  if (!settings.method.empty() && method_named(settings.method) == nullptr)
+    reader.wrong("method", "has no such value");
+  reader.number("view_radius_m", settings.view_radius_m, limits::view_radius_min_m,
+                limits::view_radius_max_m);
+  reader.flag("help", settings.hud.help);
+  reader.flag("graphs", settings.hud.graphs);
+  reader.flag("panel", settings.hud.panel);
+  reader.choice("tool", settings.tool.kind, std::array{ToolKind::sphere, ToolKind::box, ToolKind::tunnel});
+  reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
+  reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
+  reader.choice("pattern", settings.tool.pattern, std::array{SeedPattern::uniform, SeedPattern::radial});
+  reader.number("seeds", settings.tool.seeds, 0U, tool_seeds_max);
+  if (!reader.error().empty()) return fail(reader.error());
+  return settings;
+}
+
+std::string to_text(const Settings& settings) {
+  const Json json{{"width", settings.width},
+                  {"height", settings.height},
+                  {"method", settings.method},
+                  {"view_radius_m", settings.view_radius_m},
+                  {"help", settings.hud.help},
+                  {"graphs", settings.hud.graphs},
+                  {"panel", settings.hud.panel},
+                  {"tool", name_of(settings.tool.kind)},
+                  {"radius_m", settings.tool.radius_m},
+                  {"blast_speed_m_s", settings.tool.blast_speed_m_s},
+                  {"pattern", name_of(settings.tool.pattern)},
+                  {"seeds", settings.tool.seeds}};
+  return json.dump(2) + "\n";
+}
+
+void apply_settings(const Settings& settings, ViewerOptions& options) {
+  if (!options.given.size) {
+    options.width = settings.width;
+    options.height = settings.height;
+  }
+  if (!options.given.view_radius) options.view_radius_m = settings.view_radius_m;
+  const MethodEntry* method = method_named(settings.method);
+  if (!options.given.method && method != nullptr) options.method = method;
+}
+
+KeptSettings::KeptSettings(std::string file) : file_(std::move(file)) {
+  if (file_.empty() || !std::filesystem::exists(file_)) return;
+  const Result<std::string> text = read_text(file_);
+  const Result<Settings> settings = text ? parse_settings(*text) : fail(text.error().message);
+  if (settings) {
+    loaded_ = *settings;
+    return;
+  }
+  std::fprintf(stderr, "scree-viewer: warning: settings %s are ignored, and kept as they are: %s\n",
+               file_.c_str(), settings.error().message.c_str());
+  file_.clear();
+}
+
+void KeptSettings::keep(const Settings& start, const Settings& end) const {
+  if (file_.empty() || start == end) return;
+  Settings kept;
+  kept.width = merged(loaded_.width, start.width, end.width);
+  kept.height = merged(loaded_.height, start.height, end.height);
+  kept.method = merged(loaded_.method, start.method, end.method);
+  kept.view_radius_m = merged(loaded_.view_radius_m, start.view_radius_m, end.view_radius_m);
+  kept.hud = end.hud;
+  kept.tool = end.tool;
+  if (const Result<void> written = write_text(file_, to_text(kept)); !written)
+    std::fprintf(stderr, "scree-viewer: warning: %s\n", written.error().message.c_str());
+}
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+// A window on a session: what the person sees and does, frame by frame. Needs the window's GL context
+// current.
+#pragma once
+
+#include <optional>
+
+#include "client/viewer/app_window.h"
+#include "client/viewer/hud.h"
+#include "client/viewer/settings.h"
+#include "client/viewer/viewing.h"
+
+namespace scree {
+
+class WindowApp {
+ public:
+  /// The window and what is viewed in it must outlive the app.
+  WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept);
+
+  /// From the person's input to the picture.
+  Result<void> frame();
+  /// As they stand, to be kept.
+  Settings settings() const;
+
+ private:
+  void follow_path(double now_s);
+  Result<void> act(const AppInput& input);
+  Result<void> choose(const MethodEntry& method);
+  /// Over the world: what a strike would take out.
+  LineList lines();
+  Result<void> draw_hud(const FrameParts& parts, double now_s);
+
+  AppWindow& window_;
+  Viewing& viewing_;
+  Hud hud_;
+  HudChoice choice_;
+  Tool tool_;
+  FactFinder facts_;
+  std::optional<double> path_begun_s_;
+};
+
+}  // namespace scree

@@ -1,0 +1,181 @@
+// What the viewer keeps, what its tools ask for, and what a gamepad does.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "client/viewer/gamepad.h"
+#include "client/viewer/history.h"
+#include "client/viewer/settings.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SettingsTest : public testing::Test {
+ protected:
+  SettingsTest()
+      : folder_(fs::path(testing::TempDir()) /
+                ("scree_settings_" +
+                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::remove_all(folder_);
+    ::setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
+  }
+  ~SettingsTest() override { fs::remove_all(folder_); }
+
+  void write(const std::string& text) const {
+    fs::create_directories(fs::path(settings_file()).parent_path());
+    std::ofstream(settings_file()) << text;
+  }
+  static std::string written() {
+    std::ostringstream text;
+    text << std::ifstream(settings_file()).rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SettingsTest, lie_where_xdg_says) {
+  EXPECT_EQ(settings_file(), (folder_ / "scree" / "viewer.json").string());
+  ::setenv("XDG_CONFIG_HOME", "relative", 1);
+  ::setenv("HOME", "/home/somebody", 1);
+  EXPECT_EQ(settings_file(), "/home/somebody/.config/scree/viewer.json");
+  ::unsetenv("HOME");
+  EXPECT_EQ(settings_file(), "");
+}
+
+TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
+  const KeptSettings first(settings_file());
+  EXPECT_EQ(first.loaded(), Settings{});
+  Settings start;
+  start.width = 333;  // by a flag
+  Settings end = start;
+  end.hud.graphs = true;
+  end.tool.kind = ToolKind::tunnel;
+  end.view_radius_m = 64.0F;
+  first.keep(start, end);
+
+  const KeptSettings second(settings_file());
+  EXPECT_EQ(second.loaded().width, 1280);
+  EXPECT_TRUE(second.loaded().hud.graphs);
+  EXPECT_EQ(second.loaded().tool.kind, ToolKind::tunnel);
+  EXPECT_EQ(second.loaded().view_radius_m, 64.0F);
+}
+
+TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
+  for (const std::string broken :
+       {"{\"width\": 12", "[]", R"({"width": "wide"})", R"({"width": -5})", R"({"method": "magic"})",
+        R"({"tool": "spoon"})", R"({"help": 1})", R"({"radius_m": 1e30})"}) {
+    write(broken);
+    testing::internal::CaptureStderr();
+    const KeptSettings kept(settings_file());
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("warning"), std::string::npos) << broken;
+    EXPECT_EQ(kept.loaded(), Settings{});
+    Settings end;
+    end.width = 500;
+    kept.keep(Settings{}, end);
+    EXPECT_EQ(written(), broken);
+  }
+}
+
+TEST_F(SettingsTest, text_is_understood_again) {
+  Settings settings;
+  settings.width = 801;
+  settings.method = all_methods().front().name;
+  settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
+  settings.hud = {false, true, false};
+  const Result<Settings> again = parse_settings(to_text(settings));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(*again, settings);
+}
+
+TEST_F(SettingsTest, flags_win) {
+  Settings settings;
+  settings.width = 640;
+  settings.height = 360;
+  settings.view_radius_m = 48.0F;
+  ViewerOptions options;
+  options.given.size = true;
+  options.width = 100;
+  apply_settings(settings, options);
+  EXPECT_EQ(options.width, 100);
+  EXPECT_EQ(options.view_radius_m, 48.0F);
+}
+
+TEST(Tool, every_shape_is_within_the_servers_limits) {
+  for (const ToolKind kind : {ToolKind::sphere, ToolKind::box, ToolKind::tunnel})
+    for (const float radius_m : {tool_radius_min_m, 2.0F, tool_radius_max_m}) {
+      Tool tool;
+      tool.kind = kind;
+      tool.radius_m = radius_m;
+      const CarveMessage carve =
+          strike_with(tool, {1.0F, 2.0F, 3.0F}, glm::normalize(glm::vec3(1, -2, 3)), 7);
+      EXPECT_TRUE(validate(carve.shape));
+      EXPECT_LE(reach_of(carve.shape), limits::edit_reach_max_m + 1e-4F) << name_of(kind) << " " << radius_m;
+      EXPECT_GE(reach_of(carve.shape), limits::edit_reach_min_m);
+      EXPECT_LT(distance(carve.shape, carve.impact_m), 0.0F) << "the surface is opened";
+      EXPECT_LE(carve.seeds, limits::seeds_max);
+    }
+}
+
+TEST(Tool, actions_stay_within_the_ranges) {
+  Tool tool;
+  for (const Action action : {Action::larger, Action::stronger, Action::more_seeds})
+    for (int i = 0; i < 100; ++i) change(tool, action);
+  EXPECT_EQ(tool.radius_m, tool_radius_max_m);
+  EXPECT_EQ(tool.blast_speed_m_s, limits::blast_speed_max_m_s);
+  EXPECT_EQ(tool.seeds, tool_seeds_max);
+  for (const Action action : {Action::smaller, Action::weaker, Action::fewer_seeds})
+    for (int i = 0; i < 100; ++i) change(tool, action);
+  EXPECT_EQ(tool.radius_m, tool_radius_min_m);
+  EXPECT_EQ(tool.blast_speed_m_s, 0.0F);
+  EXPECT_GE(seeds_of(tool), 1U);
+  change(tool, Action::box);
+  change(tool, Action::next_tool);
+  EXPECT_EQ(tool.kind, ToolKind::tunnel);
+  change(tool, Action::next_tool);
+  EXPECT_EQ(tool.kind, ToolKind::sphere);
+}
+
+TEST(Gamepad, sticks_fly_and_worn_ones_rest) {
+  Gamepad pad;
+  PadState state;
+  state.left_x = 0.1F;  // worn
+  state.left_y = -1.0F;
+  state.right_x = 1.0F;
+  FlyInput fly;
+  pad.step(state, 0.1F, fly);
+  EXPECT_EQ(fly.move.x, 0.0F);
+  EXPECT_FLOAT_EQ(fly.move.z, 1.0F);
+  EXPECT_GT(fly.look.x, 0.0F);
+  EXPECT_FALSE(fly.fast);
+}
+
+TEST(Gamepad, buttons_act_once_when_they_go_down) {
+  Gamepad pad;
+  PadState state;
+  FlyInput fly;
+  state.buttons = 1U;  // A
+  state.right_trigger = 1.0F;
+  EXPECT_EQ(pad.step(state, 0.1F, fly), std::vector{Action::next_tool});
+  EXPECT_TRUE(pad.struck());
+  EXPECT_TRUE(pad.step(state, 0.1F, fly).empty());
+  EXPECT_FALSE(pad.struck());
+}
+
+TEST(History, is_a_ring_with_its_mean) {
+  History history;
+  EXPECT_EQ(history.mean(), 0.0F);
+  for (size_t i = 0; i < History::length + 10; ++i) history.add(i < 10 ? 1000.0F : 2.0F);
+  EXPECT_EQ(history.mean(), 2.0F);
+  EXPECT_EQ(history.worst(), 2.0F);
+  EXPECT_EQ(history.offset(), 10);
+}
+
+}  // namespace
+}  // namespace scree
