@@ -2,6 +2,7 @@
 // A voxel (x, y, z) is a sample at position (x, y, z) · voxel size. y is up.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -86,6 +87,12 @@ struct VoxelBox {
     return {{lo.x - by, lo.y - by, lo.z - by}, {hi.x + by, hi.y + by, hi.z + by}};
   }
 };
+
+/// What lies in both; its sides may be negative where that is nothing.
+inline VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+}
 
 /// Calls f(ChunkCoord) for each chunk that the box touches, x slowest.
 template <typename F>

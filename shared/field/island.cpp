@@ -21,26 +21,11 @@ std::array<ptrdiff_t, 3> strides(const Window& window) {
   return {static_cast<ptrdiff_t>(size.y) * size.z, size.z, 1};
 }
 
-VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
-  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
-}
-
 template <typename F>
 void for_each_voxel(const VoxelBox& box, F&& f) {
   for (int x = box.lo.x; x < box.hi.x; ++x)
     for (int y = box.lo.y; y < box.hi.y; ++y)
       for (int z = box.lo.z; z < box.hi.z; ++z) f(x, y, z);
-}
-
-Window part_of(const Window& window, const VoxelBox& box) {
-  Window part(box);
-  const auto count = static_cast<size_t>(box.hi.z - box.lo.z);
-  Code* to = part.codes.data();
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y, to += count)
-      std::copy_n(window.codes.data() + window.index(x, y, box.lo.z), count, to);
-  return part;
 }
 
 /// Marks what connects to the seed by faces of solid voxels, within the box.

@@ -21,16 +21,14 @@ inline constexpr int occupancy(int code) {
   return ramp < 0 ? 0 : (ramp > units_per_voxel ? units_per_voxel : ramp);
 }
 
-inline MassUnits brick_mass(const Brick& brick) {
-  int sum = 0;
-  for (const Code code : brick.codes) sum += occupancy(code);
-  return sum;
-}
+/// What so many voxels hold. At most 2^23.
+MassUnits mass_of(const Code* codes, size_t count);
 
+inline MassUnits brick_mass(const Brick& brick) {
+  return mass_of(brick.codes.data(), brick.codes.size());
+}
 inline MassUnits mass_of(const Window& window) {
-  MassUnits sum = 0;
-  for (const Code code : window.codes) sum += occupancy(code);
-  return sum;
+  return mass_of(window.codes.data(), window.codes.size());
 }
 
 }  // namespace scree

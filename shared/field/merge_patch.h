@@ -1,5 +1,5 @@
-// What a stamp works on: the terrain around a posed piece, united with it, and the two ways in which its
-// mass is met. All integer arithmetic. Voxels and codes.
+// What a stamp works on: the terrain around a posed piece, united with it, and the ways in which its mass is
+// met. All integer arithmetic. Voxels and codes.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,58 @@ namespace scree {
 
 class MergePatch {
  public:
-  /// `window` holds the terrain; `piece` the posed piece's codes, at least three voxels inside the window.
-  /// Unites the two and closes the gaps between them.
-  MergePatch(const Window& window, const Window& piece);
+  /// Voxels around a posed piece's window that the terrain's must hold more.
+  static constexpr int margin = 2;
 
-  /// What the terrain's mass changes by, once redistanced, with this shift. Keeps the codes for `write`.
-  MassUnits gain(int shift);
+  /// Unites the two and closes the gaps between them. `terrain` is the piece's box grown by the margin;
+  /// `piece` has a layer at least around the voxels that may become rock.
+  MergePatch(const Window& terrain, const Window& piece);
 
-  /// The codes of the last `gain` into the window given at first.
-  void write(Window& window) const;
+  /// Rounds edges or fills clefts, and moves the surface (stamp_roundness_max). Returns what the terrain's
+  /// mass will have changed by, once redistanced.
+  MassUnits shape(int roundness);
+
+  /// Units that half a code on every voxel of the surface near the piece is worth, before any shape.
+  MassUnits single_codes() const { return single_codes_; }
+
+  /// Then moves voxels at the surface by single codes, all over the piece, until the mass has changed by
+  /// `units`; returns by how much it has. Once after each `shape`.
+  MassUnits place(MassUnits units);
+
+  /// The terrain united with the piece, as `shape` and `place` left it, not redistanced.
+  const std::vector<Code>& codes() const { return codes_; }
 
  private:
-  void unite();
-  void close_gaps();
-  void find_curvature();
-  void shape(int shift);
+  /// Voxels of the surface near the piece that lie in a cleft or at an edge; all that the piece reaches; all.
+  enum class Tier { bent, piece, around };
+
+  void list_surface();
+  void list_movable(int direction, Tier tier);
+  MassUnits move_some(int direction, MassUnits count);
+  int move_ramp_ends(int units);
 
   VoxelBox box_;
   ptrdiff_t step_x_;
   ptrdiff_t step_y_;
   size_t first_;  ///< of the voxels that have all six neighbours in the box, and those between them in memory
-  size_t last_;   ///< past it
+  size_t count_;
   std::vector<Code> terrain_;
   std::vector<Code> piece_;
   std::vector<Code> united_;
-  std::vector<Code> codes_;       ///< as the last shift left them
-  std::vector<uint8_t> touched_;  ///< the piece changed this voxel
-  std::vector<uint8_t> pits_;     ///< all ones where a lone voxel outside is to be filled
-  std::vector<uint8_t> inner_;    ///< all ones where the voxel counts, else 0
-  std::vector<uint8_t> core_;    ///< all ones where gaps may be closed: changes count in all their neighbours
-  std::vector<int16_t> convex_;  ///< how far rounding raises the piece here
-  std::vector<int16_t> concave_;    ///< how far filling lowers the union here
-  std::vector<uint16_t> rounding_;  ///< where between two codes this voxel rounds
+  std::vector<Code> shaped_;
+  std::vector<Code> codes_;
+  std::vector<uint8_t> touched_;  ///< all ones where the piece changed the terrain
+  std::vector<uint8_t> inner_;    ///< all ones where the voxel's mass counts: all but the outermost layer
+  std::vector<uint8_t> core_;     ///< all ones where changes count in all their neighbours: two layers in
+  std::vector<int16_t> convex_;   ///< how far rounding raises the piece here
+  std::vector<int16_t> concave_;  ///< how far filling lowers the union here
+  std::vector<uint32_t> surface_;
+  std::vector<uint32_t> movable_;
   MassUnits before_ = 0;
+  MassUnits single_codes_ = 0;
 };
 
-/// What redistancing alone adds to the mass of a window at least three voxels wide, but its outermost layer.
+/// What redistancing alone adds to the mass of a window at least three voxels wide.
 MassUnits settling_gain(const Window& window);
 
 }  // namespace scree

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 namespace scree {
 
@@ -22,24 +23,22 @@ struct PosedAxes {
   glm::vec3 local(glm::vec3 world) const { return to_local * (world - world_centre) + local_centre; }
 };
 
-/// Bounds of the voxels within half a voxel of the volume; the whole window where there are none.
-VoxelBox near_box(const Window& window) {
-  constexpr Code near = 21;  // half a voxel
+constexpr Code near_surface = 21;  ///< half a voxel
+
+/// Calls f(x, y, first z, last z) for the rows with voxels near the surface or inside.
+template <typename F>
+void for_each_near_row(const Window& window, F&& f) {
   const VoxelBox& all = window.box;
-  VoxelBox found{all.hi, all.lo};
   const int nz = all.hi.z - all.lo.z;
   const Code* row = window.codes.data();
   for (int x = all.lo.x; x < all.hi.x; ++x)
     for (int y = all.lo.y; y < all.hi.y; ++y, row += nz) {
       int first = 0, last = nz - 1;
-      while (first < nz && row[first] > near) ++first;
+      while (first < nz && row[first] > near_surface) ++first;
       if (first == nz) continue;
-      while (row[last] > near) --last;
-      found.lo = {std::min(found.lo.x, x), std::min(found.lo.y, y), std::min(found.lo.z, all.lo.z + first)};
-      found.hi = {std::max(found.hi.x, x + 1), std::max(found.hi.y, y + 1),
-                  std::max(found.hi.z, all.lo.z + last + 1)};
+      while (row[last] > near_surface) --last;
+      f(x, y, all.lo.z + first, all.lo.z + last);
     }
-  return found.empty() ? all : found;
 }
 
 int ceil_to_int(float x) {
@@ -75,20 +74,38 @@ Code rounded(float code) {
 
 }  // namespace
 
+VoxelBox near_box(const Window& window) {
+  VoxelBox found{window.box.hi, window.box.lo};
+  for_each_near_row(window, [&](int x, int y, int first, int last) {
+    found.lo = {std::min(found.lo.x, x), std::min(found.lo.y, y), std::min(found.lo.z, first)};
+    found.hi = {std::max(found.hi.x, x + 1), std::max(found.hi.y, y + 1), std::max(found.hi.z, last + 1)};
+  });
+  return found;
+}
+
 VoxelBox posed_bounds(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
   const PosedAxes axes(volume, pose, voxel_size_m);
-  // Interpolation carries a voxel's code less than one voxel along each axis.
-  const VoxelBox box = near_box(volume.window).grown(1);
   const glm::mat3 to_world = glm::transpose(axes.to_local);
-  const glm::vec3 lo(static_cast<float>(box.lo.x), static_cast<float>(box.lo.y),
-                     static_cast<float>(box.lo.z));
-  const glm::vec3 hi(static_cast<float>(box.hi.x - 1), static_cast<float>(box.hi.y - 1),
-                     static_cast<float>(box.hi.z - 1));
-  const glm::vec3 half = (hi - lo) * 0.5F;
-  const glm::vec3 middle = to_world * ((lo + hi) * 0.5F - axes.local_centre) + axes.world_centre;
-  const glm::vec3 reach =
-      glm::abs(to_world[0]) * half.x + glm::abs(to_world[1]) * half.y + glm::abs(to_world[2]) * half.z;
-  const glm::vec3 first = middle - reach, last = middle + reach;
+  glm::vec3 lo(std::numeric_limits<float>::max()), hi(-lo);
+  const auto include = [&](int x, int y, int z) {
+    const glm::vec3 local(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+    const glm::vec3 world = to_world * (local - axes.local_centre);
+    lo = glm::min(lo, world);
+    hi = glm::max(hi, world);
+  };
+  for_each_near_row(volume.window, [&](int x, int y, int first, int last) {
+    include(x, y, first);
+    include(x, y, last);
+  });
+  if (lo.x > hi.x) {
+    const VoxelBox& box = volume.window.box;
+    for (int corner = 0; corner < 8; ++corner)
+      include((corner & 4) != 0 ? box.hi.x - 1 : box.lo.x, (corner & 2) != 0 ? box.hi.y - 1 : box.lo.y,
+              (corner & 1) != 0 ? box.hi.z - 1 : box.lo.z);
+  }
+  // Interpolation carries a voxel's code less than one voxel along each of the volume's axes.
+  const glm::vec3 reach = glm::abs(to_world[0]) + glm::abs(to_world[1]) + glm::abs(to_world[2]);
+  const glm::vec3 first = axes.world_centre + lo - reach, last = axes.world_centre + hi + reach;
   return {{ceil_to_int(first.x), ceil_to_int(first.y), ceil_to_int(first.z)},
           {floor_to_int(last.x) + 1, floor_to_int(last.y) + 1, floor_to_int(last.z) + 1}};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
@@ -15,7 +16,10 @@ namespace {
 constexpr float far_voxels = band_voxels + 1.0F;
 
 /// Jacobi passes: each carries distances one voxel further; along a diagonal the band's depth of 3 takes 6.
-constexpr int passes = 6;
+/// From codes, which are distances next to the surface already, 4 give the same (measured: benches seams and
+/// recombine).
+constexpr int passes_of_levels = 6;
+constexpr int passes_of_codes = 4;
 
 /// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis.
 inline float upwind(float p, float q, float r) {
@@ -31,10 +35,10 @@ inline float upwind(float p, float q, float r) {
   return one > b ? planar : one;
 }
 
-/// The update of a row of voxels, but never below their floors. No branch, so that it runs in vectors.
+/// The update of voxels, but never below their floors. No branch, so that it runs in vectors.
 SCREE_VECTOR_CLONES
-void relax_row(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float* __restrict u,
-               const float* __restrict floor, float* __restrict out) {
+void relax_rows(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float* __restrict u,
+                const float* __restrict floor, float* __restrict out) {
   for (ptrdiff_t z = 0; z < count; ++z) {
     const float a = std::min(u[z - 1], u[z + 1]);
     const float b = std::min(u[z - step_y], u[z + step_y]);
@@ -43,102 +47,70 @@ void relax_row(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float*
   }
 }
 
-/// A window's magnitudes and sides with a border all around, so that no pass looks outside; and for each row
-/// along z how many rows away the nearest source of distances is, so that passes skip what they cannot reach.
+/// The update of all voxels but the outermost layer, which must be fixed, or out of use: voxels that are far
+/// from any source are skipped, plane by plane. Others run in one go, rows and all, for a row is shorter than
+/// a few vectors; what that reads across the ends of rows belongs to the outermost layer.
 class Solver {
  public:
   explicit Solver(const VoxelCoord& size)
       : size_(size),
-        step_y_(static_cast<ptrdiff_t>(size.z) + 2),
-        step_x_(step_y_ * (size.y + 2)),
-        magnitudes_(static_cast<size_t>(step_x_) * static_cast<size_t>(size.x + 2), far_voxels),
+        step_y_(size.z),
+        step_x_(step_y_ * size.y),
+        magnitudes_(static_cast<size_t>(step_x_) * static_cast<size_t>(size.x), far_voxels),
         floors_(magnitudes_.size(), 0.0F),
-        inside_(magnitudes_.size(), 0),
-        row_distance_(static_cast<size_t>(size.x) * static_cast<size_t>(size.y), passes + 1) {}
+        sources_(static_cast<size_t>(size.x)) {}
 
-  /// Index of the first voxel of a row in the padded arrays.
-  size_t row(int x, int y) const { return static_cast<size_t>((x + 1) * step_x_ + (y + 1) * step_y_ + 1); }
-  bool on_border(int x, int y) const { return x == 0 || y == 0 || x + 1 == size_.x || y + 1 == size_.y; }
+  float* magnitudes() { return magnitudes_.data(); }
+  const float* magnitudes() const { return magnitudes_.data(); }
+  float* floors() { return floors_.data(); }  ///< a fixed voxel's own magnitude, else 0
 
-  void set_inside(size_t at, bool inside) { inside_[at] = inside ? 1 : 0; }
-  bool inside(size_t at) const { return inside_[at] != 0; }
-
-  /// Whether some voxel of the row has a neighbour within the window on the other side.
-  bool crosses(int x, int y) const {
-    const uint8_t* own = inside_.data() + row(x, y);
-    const auto count = static_cast<size_t>(size_.z);
-    const auto differs = [&](bool exists, ptrdiff_t step) {
-      return exists && std::memcmp(own, own + step, count) != 0;
-    };
-    return std::memcmp(own, own + 1, count - 1) != 0 || differs(x > 0, -step_x_) ||
-           differs(x + 1 < size_.x, step_x_) || differs(y > 0, -step_y_) || differs(y + 1 < size_.y, step_y_);
+  /// Row y of plane x holds voxels that others measure from.
+  void add_source(int x, int y) {
+    Rows& rows = sources_[static_cast<size_t>(x)];
+    rows = {std::min(rows.first, y), std::max(rows.last, y)};
   }
 
-  bool crosses_at(size_t at) const {
-    const uint8_t side = inside_[at];
-    const uint8_t* p = inside_.data() + at;
-    return p[-1] != side || p[1] != side || p[-step_y_] != side || p[step_y_] != side ||
-           p[-step_x_] != side || p[step_x_] != side;
-  }
-
-  /// The voxel keeps this magnitude, and others measure from it.
-  void fix(int x, int y, size_t at, float magnitude) {
-    magnitudes_[at] = magnitude;
-    floors_[at] = magnitude;
-    if (magnitude < band_voxels) row_distance_[row_index(x, y)] = 0;
-  }
-
-  void solve() {
-    spread_row_distances();
+  void solve(int passes) {
     std::vector<float> other = magnitudes_;
-    for (int pass = 0; pass < passes; pass += 2) {
-      relax(magnitudes_, other, pass + 1);
-      relax(other, magnitudes_, pass + 2);
+    for (int pass = 1; pass <= passes; ++pass) {
+      relax(other, pass);
+      magnitudes_.swap(other);
     }
   }
 
-  /// Code of a voxel that is not fixed.
-  Code code(size_t at) const { return encode(inside_[at] != 0 ? -magnitudes_[at] : magnitudes_[at]); }
-
  private:
-  size_t row_index(int x, int y) const {
-    return static_cast<size_t>(x) * static_cast<size_t>(size_.y) + static_cast<size_t>(y);
+  struct Rows {
+    int first = std::numeric_limits<int>::max() / 2;
+    int last = std::numeric_limits<int>::min() / 2;
+  };
+
+  /// Rows of a plane that sources reach within so many steps.
+  Rows reached(int x, int steps) const {
+    Rows rows;
+    for (int i = std::max(0, x - steps); i <= std::min(size_.x - 1, x + steps); ++i) {
+      const Rows& source = sources_[static_cast<size_t>(i)];
+      const int left = steps - (i < x ? x - i : i - x);
+      rows = {std::min(rows.first, source.first - left), std::max(rows.last, source.last + left)};
+    }
+    return {std::max(1, rows.first), std::min(size_.y - 2, rows.last)};
   }
 
-  void spread_row_distances() {
-    for (int step = 1; step <= passes; ++step)
-      for (int x = 0; x < size_.x; ++x)
-        for (int y = 0; y < size_.y; ++y) {
-          if (row_distance_[row_index(x, y)] != step - 1) continue;
-          const auto offer = [&](int i, int j) {
-            if (i < 0 || j < 0 || i >= size_.x || j >= size_.y) return;
-            int& there = row_distance_[row_index(i, j)];
-            there = std::min(there, step);
-          };
-          offer(x - 1, y);
-          offer(x + 1, y);
-          offer(x, y - 1);
-          offer(x, y + 1);
-        }
-  }
-
-  /// to := the update of every voxel within reach of a source.
-  void relax(const std::vector<float>& from, std::vector<float>& to, int reach) const {
-    for (int x = 0; x < size_.x; ++x)
-      for (int y = 0; y < size_.y; ++y) {
-        if (row_distance_[row_index(x, y)] > reach) continue;
-        const size_t first = row(x, y);
-        relax_row(size_.z, step_x_, step_y_, from.data() + first, floors_.data() + first, to.data() + first);
-      }
+  void relax(std::vector<float>& to, int reach) const {
+    for (int x = 1; x + 1 < size_.x; ++x) {
+      const Rows rows = reached(x, reach);
+      if (rows.first > rows.last) continue;
+      const auto first = static_cast<size_t>(x * step_x_ + rows.first * step_y_);
+      relax_rows((rows.last - rows.first + 1) * step_y_, step_x_, step_y_, magnitudes_.data() + first,
+                 floors_.data() + first, to.data() + first);
+    }
   }
 
   VoxelCoord size_;
   ptrdiff_t step_y_;
   ptrdiff_t step_x_;
   std::vector<float> magnitudes_;
-  std::vector<float> floors_;  ///< a fixed voxel's own magnitude, else 0
-  std::vector<uint8_t> inside_;
-  std::vector<int> row_distance_;
+  std::vector<float> floors_;
+  std::vector<Rows> sources_;
 };
 
 /// Distance to the zero set along the axes that cross it, from level `here` at `index`; as fast marching
@@ -163,59 +135,130 @@ float crossing_distance(const std::vector<float>& levels, const VoxelCoord& size
   return sum > 0.0F ? std::min(1.0F, 1.0F / std::sqrt(sum)) : far_voxels;
 }
 
-/// Calls f(x, y, index in the window, index in the solver) for each row along z.
+/// Whether some voxel of the row has a neighbour within the window on the other side.
+bool row_crosses(const std::vector<uint8_t>& sides, const VoxelCoord& size, int x, int y, size_t row) {
+  const uint8_t* own = sides.data() + row;
+  const auto count = static_cast<size_t>(size.z);
+  const ptrdiff_t step_y = size.z, step_x = step_y * size.y;
+  const auto differs = [&](bool exists, ptrdiff_t step) {
+    return exists && std::memcmp(own, own + step, count) != 0;
+  };
+  return std::memcmp(own, own + 1, count - 1) != 0 || differs(x > 0, -step_x) ||
+         differs(x + 1 < size.x, step_x) || differs(y > 0, -step_y) || differs(y + 1 < size.y, step_y);
+}
+
+/// What redistancing starts from: voxels next to a zero crossing keep their magnitudes, others have none yet.
+SCREE_VECTOR_CLONES
+void keep_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+                    float* __restrict magnitudes, float* __restrict floors) {
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = c[i];
+    const auto signs =
+        static_cast<int8_t>((own ^ c[i - 1]) | (own ^ c[i + 1]) | (own ^ c[i - step_y]) |
+                            (own ^ c[i + step_y]) | (own ^ c[i - step_x]) | (own ^ c[i + step_x]));
+    magnitudes[i] = signs < 0 ? magnitudes[i] : far_voxels;
+    floors[i] = signs < 0 ? floors[i] : 0.0F;
+  }
+}
+
+SCREE_VECTOR_CLONES
+void decode_magnitudes(size_t count, const Code* __restrict codes, float* __restrict magnitudes,
+                       float* __restrict floors) {
+  for (size_t i = 0; i < count; ++i) floors[i] = magnitudes[i] = std::abs(decode(codes[i]));
+}
+
+/// Codes of the magnitudes, on the sides where they were.
+SCREE_VECTOR_CLONES
+void encode_magnitudes(size_t count, const float* __restrict magnitudes, Code* __restrict codes) {
+  for (size_t i = 0; i < count; ++i) {
+    const float clamped = std::min(magnitudes[i], band_voxels);
+    const auto code = static_cast<int8_t>(static_cast<int>(clamped * codes_per_voxel + 0.5F));
+    codes[i] = codes[i] < 0 ? static_cast<Code>(-code) : code;
+  }
+}
+
+/// Calls f(index, count) for the runs of voxels in the outermost layer of the planes between the first and
+/// the last.
 template <typename F>
-void for_each_row(const VoxelCoord& size, const Solver& solver, F&& f) {
+void for_each_rim(const VoxelCoord& size, F&& f) {
+  const auto nz = static_cast<size_t>(size.z);
+  for (int x = 1; x + 1 < size.x; ++x) {
+    const size_t plane = static_cast<size_t>(x) * static_cast<size_t>(size.y) * nz;
+    f(plane, nz + 1);
+    for (int y = 1; y + 2 < size.y; ++y) f(plane + static_cast<size_t>(y + 1) * nz - 1, size_t{2});
+    f(plane + static_cast<size_t>(size.y - 1) * nz - 1, nz + 1);
+  }
+}
+
+/// Rows with voxels that others measure from.
+void find_sources(const VoxelCoord& size, Solver& solver) {
+  constexpr int rows_few = 1024;  // too few for skipping any to pay
+  const bool all = size.x * size.y <= rows_few;
+  const float* row = solver.magnitudes();
   for (int x = 0; x < size.x; ++x)
-    for (int y = 0; y < size.y; ++y)
-      f(x, y, static_cast<size_t>(x * size.y + y) * static_cast<size_t>(size.z), solver.row(x, y));
+    for (int y = 0; y < size.y; ++y, row += size.z)
+      if (all || *std::min_element(row, row + size.z) < band_voxels) solver.add_source(x, y);
 }
 
 }  // namespace
 
 void redistance(Window& window) {
   const VoxelCoord size = window.box.size();
-  const auto nz = static_cast<size_t>(size.z);
+  CHECK(std::min({size.x, size.y, size.z}) >= 3);
   Solver solver(size);
-  for_each_row(size, solver, [&](int, int, size_t i, size_t p) {
-    for (size_t z = 0; z < nz; ++z) solver.set_inside(p + z, window.codes[i + z] < 0);
+  const size_t count = window.codes.size();
+  decode_magnitudes(count, window.codes.data(), solver.magnitudes(), solver.floors());
+  const ptrdiff_t step_y = size.z, step_x = step_y * size.y, first = step_x + step_y + 1;
+  std::vector<float> rim;
+  for_each_rim(size, [&](size_t at, size_t many) {
+    rim.insert(rim.end(), solver.magnitudes() + at, solver.magnitudes() + at + many);
   });
-  std::vector<uint8_t> fixed(window.codes.size(), 0);
-  for_each_row(size, solver, [&](int x, int y, size_t i, size_t p) {
-    const bool border_row = solver.on_border(x, y);
-    const bool crosses = !border_row && solver.crosses(x, y);
-    for (size_t z = 0; z < nz; ++z) {
-      const bool border = border_row || z == 0 || z + 1 == nz;
-      if (!border && !(crosses && solver.crosses_at(p + z))) continue;
-      fixed[i + z] = 1;
-      solver.fix(x, y, p + z, std::abs(decode(window.codes[i + z])));
-    }
+  keep_crossings(static_cast<ptrdiff_t>(count) - 2 * first, step_x, step_y, window.codes.data() + first,
+                 solver.magnitudes() + first, solver.floors() + first);
+  size_t next = 0;
+  for_each_rim(size, [&](size_t at, size_t many) {
+    std::copy_n(rim.data() + next, many, solver.magnitudes() + at);
+    std::copy_n(rim.data() + next, many, solver.floors() + at);
+    next += many;
   });
-  solver.solve();
-  for_each_row(size, solver, [&](int, int, size_t i, size_t p) {
-    for (size_t z = 0; z < nz; ++z)
-      if (fixed[i + z] == 0) window.codes[i + z] = solver.code(p + z);
-  });
+  find_sources(size, solver);
+  solver.solve(passes_of_codes);
+  encode_magnitudes(count, solver.magnitudes(), window.codes.data());
 }
 
 void distances_from_levels(const std::vector<float>& levels, Window& window) {
   const VoxelCoord size = window.box.size();
-  const auto nz = static_cast<size_t>(size.z);
   CHECK(levels.size() == window.codes.size());
-  Solver solver(size);
-  for_each_row(size, solver, [&](int, int, size_t i, size_t p) {
-    for (size_t z = 0; z < nz; ++z) solver.set_inside(p + z, levels[i + z] < 0.0F);
-  });
-  for_each_row(size, solver, [&](int x, int y, size_t i, size_t p) {
-    if (!solver.crosses(x, y)) return;
-    for (size_t z = 0; z < nz; ++z) {
-      const float d = crossing_distance(levels, size, x, y, static_cast<int>(z), i + z);
-      if (d < far_voxels) solver.fix(x, y, p + z, d);
+  // A layer around the window that nothing is measured from.
+  const VoxelCoord padded = size + VoxelCoord{2, 2, 2};
+  Solver solver(padded);
+  std::fill_n(solver.floors(), Window::count({{}, padded}), far_voxels);
+  const auto for_each_row = [&](auto&& f) {
+    size_t i = 0;
+    for (int x = 0; x < size.x; ++x)
+      for (int y = 0; y < size.y; ++y, i += static_cast<size_t>(size.z))
+        f(x, y, i,
+          (static_cast<size_t>(x + 1) * static_cast<size_t>(padded.y) + static_cast<size_t>(y + 1)) *
+                  static_cast<size_t>(padded.z) +
+              1);
+  };
+  std::vector<uint8_t> sides(levels.size());
+  for (size_t i = 0; i < sides.size(); ++i) sides[i] = levels[i] < 0.0F ? 1 : 0;
+  for_each_row([&](int x, int y, size_t i, size_t p) {
+    std::fill_n(solver.floors() + p, size.z, 0.0F);
+    if (!row_crosses(sides, size, x, y, i)) return;
+    solver.add_source(x + 1, y + 1);
+    for (int z = 0; z < size.z; ++z, ++i, ++p) {
+      const float d = crossing_distance(levels, size, x, y, z, i);
+      if (d < far_voxels) solver.floors()[p] = solver.magnitudes()[p] = d;
     }
   });
-  solver.solve();
-  for_each_row(size, solver, [&](int, int, size_t i, size_t p) {
-    for (size_t z = 0; z < nz; ++z) window.codes[i + z] = solver.code(p + z);
+  solver.solve(passes_of_levels);
+  for_each_row([&](int, int, size_t i, size_t p) {
+    for (int z = 0; z < size.z; ++z, ++i, ++p) {
+      const float magnitude = solver.magnitudes()[p];
+      window.codes[i] = encode(levels[i] < 0.0F ? -magnitude : magnitude);
+    }
   });
 }
 

@@ -10,71 +10,85 @@ namespace scree {
 
 namespace {
 
-/// Around the voxels that may become rock: the narrow band that redistancing fills, and the outermost layer,
-/// which stays.
-constexpr int stamp_margin = 4;
+/// The surface is where voxels that may become rock and their outside neighbours put it.
+constexpr int laid_margin = 1;
 
-MergePatch patch_of(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                    float voxel_size_m) {
-  // One voxel more than may become rock: the surface is where it and its outside neighbours put it.
-  const VoxelBox box = posed_bounds(volume, pose, voxel_size_m).grown(1);
-  return MergePatch(window, posed_codes(volume, pose, voxel_size_m, box));
+/// A shift's two numbers; of the least shifts the roundness is one less than what plans use.
+int roundness(int shift) {
+  return shift >> stamp_dust_bits;
+}
+int dust_steps(int shift) {
+  return shift & ((1 << stamp_dust_bits) - 1);
 }
 
-/// Finds the largest shift whose gain is known to stay within the budget: false position (Illinois), for the
-/// gain is nearly linear in the shift, then bisection where the surface makes it jump.
-template <typename Gain>
-StampPlan search_shift(MassUnits budget, Gain&& gain_of) {
-  constexpr int evaluations_max = 12;
-  constexpr MassUnits near_enough = 0;  // half a code's worth of one voxel
-  int low = -stamp_shift_max, high = stamp_shift_max;
-  StampPlan best{low, gain_of(low)};
-  if (best.gain >= budget) return best;
-  const StampPlan most{high, gain_of(high)};
-  if (most.gain <= budget) return most;
-  auto under = static_cast<double>(best.gain - budget), over = static_cast<double>(most.gain - budget);
-  int side = 0;
-  for (int i = 0; i < evaluations_max && high - low > 1 && budget - best.gain > near_enough; ++i) {
-    const double part = under / (under - over);
-    const int guess = low + static_cast<int>(part * (high - low));
-    const int middle = std::clamp(i % 4 == 3 ? (low + high) / 2 : guess, low + 1, high - 1);
-    const MassUnits gain = gain_of(middle);
-    if (gain <= budget) {
-      best = {middle, gain};
-      low = middle;
-      under = static_cast<double>(gain - budget);
-      if (side == -1) over *= 0.5;
-      side = -1;
-    } else {
-      high = middle;
-      over = static_cast<double>(gain - budget);
-      if (side == 1) under *= 0.5;
-      side = 1;
-    }
+/// Finds the roundness whose gain is nearest to the mass, or near enough for single codes: from none on along
+/// the secant, for the gain is nearly linear in it, and by false position once it lies between two.
+/// Leaves the patch in that shape; returns what it gains there.
+StampPlan search_roundness(MergePatch& patch, MassUnits mass) {
+  constexpr int evaluations_max = 8, first_step = 8;
+  struct End {
+    int shift;
+    MassUnits off;
+  };
+  End low{-stamp_roundness_max - 1, 0}, high{stamp_roundness_max + 1, 0}, last{0, 0};
+  StampPlan best;
+  int shift = 0;
+  for (int i = 0; i < evaluations_max; ++i) {
+    const MassUnits gain = patch.shape(shift), off = gain - mass;
+    if (i == 0 || std::abs(off) < std::abs(best.gain - mass)) best = {shift, gain};
+    if (std::abs(off) <= patch.single_codes()) break;
+    const bool between = low.shift >= -stamp_roundness_max && high.shift <= stamp_roundness_max;
+    const End other = between ? (off < 0 ? high : low) : last;
+    (off < 0 ? low : high) = {shift, off};
+    if (high.shift - low.shift <= 1) break;
+    last = {shift, off};
+    const MassUnits rise = off - other.off;
+    const int step = off < 0 ? first_step : -first_step;
+    const MassUnits guess = i == 0 || rise == 0 ? shift + step : shift - off * (shift - other.shift) / rise;
+    shift = static_cast<int>(std::clamp<MassUnits>(guess, low.shift + 1, high.shift - 1));
   }
+  if (shift != best.shift) patch.shape(best.shift);
   return best;
 }
 
 }  // namespace
 
 VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
-  return posed_bounds(volume, pose, voxel_size_m).grown(stamp_margin);
+  return posed_bounds(volume, pose, voxel_size_m).grown(laid_margin + MergePatch::margin);
+}
+
+Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
+  const VoxelBox box = posed_bounds(volume, pose, voxel_size_m).grown(laid_margin);
+  Window posed = posed_codes(volume, pose, voxel_size_m, box);
+  const VoxelBox near = near_box(posed);
+  return near.empty() ? posed : part_of(posed, common(near.grown(laid_margin), box));
+}
+
+VoxelBox reach_of(const Window& laid) {
+  return laid.box.grown(MergePatch::margin);
 }
 
 void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift) {
-  MergePatch patch = patch_of(window, volume, pose, voxel_size_m);
-  patch.gain(shift);
-  patch.write(window);
-  redistance(window);
+  const Window laid = lay(volume, pose, voxel_size_m);
+  Window part = part_of(window, reach_of(laid));
+  MergePatch patch(part, laid);
+  const MassUnits mass = volume.mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
+  patch.place(mass - patch.shape(roundness(shift)));
+  part.codes = patch.codes();
+  redistance(part);
+  put(part, window);
 }
 
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget) {
-  MergePatch patch = patch_of(window, volume, pose, voxel_size_m);
-  // What redistancing alone changes, over the whole window, comes on top whatever the shift.
-  const MassUnits seams = settling_gain(window);
-  StampPlan plan = search_shift(budget - seams, [&](int shift) { return patch.gain(shift); });
-  plan.gain += seams;
+  const Window laid = lay(volume, pose, voxel_size_m);
+  MergePatch patch(part_of(window, reach_of(laid)), laid);
+  const int dust = static_cast<int>(
+      std::clamp<MassUnits>((budget - volume.mass) / stamp_dust_step, 0, (1 << stamp_dust_bits) - 1));
+  const MassUnits mass = volume.mass + MassUnits{dust} * stamp_dust_step;
+  StampPlan plan = search_roundness(patch, mass);
+  plan.gain += patch.place(mass - plan.gain);
+  plan.shift = plan.shift * (1 << stamp_dust_bits) + dust;
   return plan;
 }
 

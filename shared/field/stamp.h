@@ -3,8 +3,8 @@
 // terrain := terrain ∪ volume; gaps between the two closed, interior seams filled, the neighbourhood
 // redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile too light in its
 // clefts: so the mass is met there first, by rounding edges or filling clefts, and only what that cannot hold
-// by moving the whole surface. Pieces merged where they were thus restore the surface that they had (bench
-// seams; docs/architecture.md, Recombine).
+// by moving the whole surface; the last units by moving voxels by single codes, all over it. Pieces merged
+// where they were thus restore the surface that they had (bench seams; docs/architecture.md, Recombine).
 #pragma once
 
 #include "shared/field/piece.h"
@@ -15,15 +15,29 @@ namespace scree {
 /// its program did (stamp_slices.h, stamp_sphere.h). It decides bits, so it crosses the wire.
 enum class StampMethod : uint8_t { stamp = 0, slices = 1, sphere = 2 };
 
-/// How far to round edges (negative) or to fill clefts (positive): all the way at ± half of the maximum;
-/// beyond it the whole surface moves, by up to half a voxel at the maximum. Each voxel rounds at a shift of
-/// its own, so that the mass can be met to a few units. 14 bits: two bytes on the wire.
+/// Bounds of a shift, whose meaning is the method's: 14 bits on the wire.
 inline constexpr int stamp_shift_max = 8191;
 
-/// The voxels that stamping may read; all that it may change lie at least one voxel inside.
+/// The stamp's shift is two numbers, roundness · 2^7 + dust. How far to round edges (negative) or to fill
+/// clefts (positive): all the way at ± half of the maximum; beyond it the whole surface moves, by up to half
+/// a voxel at the maximum.
+inline constexpr int stamp_roundness_max = 63;
+/// And the dust that it takes along, in steps of so many units.
+inline constexpr int stamp_dust_bits = 7;
+inline constexpr int stamp_dust_step = 16;
+
+/// The voxels that stamping may read.
 VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 
-/// `window` must cover stamp_box.
+/// The piece on the terrain's grid: the voxels that may become rock, and a layer around them.
+Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
+
+/// The voxels around such a piece that stamping it reads; all that it may change lie at least one voxel
+/// inside.
+VoxelBox reach_of(const Window& laid);
+
+/// `window` must cover stamp_box. It gains the piece's mass and the dust, as near as single codes come from
+/// that roundness.
 void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift);
 
 /// What a merge may gain: the piece's mass, and of the dust waiting no more than a thirty-second of that, for
@@ -38,9 +52,9 @@ struct StampPlan {
   MassUnits gain = 0;  ///< what the window gains with that shift
 };
 
-/// The largest shift found whose gain stays within `budget`, and the exact gain of stamp()
-/// with it. Only where old seams in the window are worth more than the budget is the gain above it, with the
-/// least shift.
+/// The shift with which the gain is the piece's mass and of what the budget holds beyond it all but the last
+/// few units, or as near to that as can be; and the exact gain of stamp() with it. Only where old seams in
+/// the window are worth more than the budget is the gain above it.
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget);
 

@@ -1,6 +1,7 @@
 // A dense box of codes, gathered from a field for a kernel to work on, or a piece's own little field.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -30,5 +31,26 @@ struct Window {
   Code& at(int x, int y, int z) { return codes[index(x, y, z)]; }
   Code at(int x, int y, int z) const { return codes[index(x, y, z)]; }
 };
+
+/// The codes of a box that lies in the window.
+inline Window part_of(const Window& window, const VoxelBox& box) {
+  Window part(box);
+  const auto count = static_cast<size_t>(box.hi.z - box.lo.z);
+  Code* to = part.codes.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y, to += count)
+      std::copy_n(window.codes.data() + window.index(x, y, box.lo.z), count, to);
+  return part;
+}
+
+/// Writes a part back.
+inline void put(const Window& part, Window& window) {
+  const VoxelBox& box = part.box;
+  const auto count = static_cast<size_t>(box.hi.z - box.lo.z);
+  const Code* from = part.codes.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y, from += count)
+      std::copy_n(from, count, window.codes.data() + window.index(x, y, box.lo.z));
+}
 
 }  // namespace scree

@@ -1,0 +1,102 @@
+// Stamps: a piece at rest becomes terrain, with exactly its mass.
+#include "shared/field/stamp.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/field/merge_patch.h"
+#include "shared/field/operation.h"
+#include "shared/field/redistance.h"
+
+namespace scree {
+namespace {
+
+constexpr float dx = 0.25F;
+
+/// Pieces of a ball out of the ground, and where they lie turned on it, apart from each other.
+struct Rubble {
+  MapField field{{TerrainKind::noise, 3, dx}};
+  PieceTable pieces;
+  std::vector<std::pair<PieceId, QuantisedPose>> places;
+
+  Rubble() {
+    const glm::vec3 centre(0.0F, ground_height_m(field.source(), 0.0F, 0.0F) - 0.8F, 0.0F);
+    apply(CarveOperation{sphere(centre, 2.0F), SeedPattern::uniform, 40, 7, centre, 1}, field, pieces);
+    for (const auto& [id, volume] : pieces) {
+      const auto place = static_cast<float>(places.size());
+      const float x = 4.0F * place - 60.0F, z = 12.0F;
+      const glm::quat rotation =
+          glm::normalize(glm::quat(1.0F, 0.1F * place, 0.3F - 0.05F * place, 0.02F * place));
+      places.emplace_back(id, quantise({{x, ground_height_m(field.source(), x, z) + 0.3F, z}, rotation}));
+    }
+  }
+};
+
+TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
+  for (const MassUnits dust : {0, 160}) {
+    Rubble rubble;
+    for (const auto& [id, pose] : rubble.places) {
+      const std::shared_ptr<const Volume> volume = rubble.pieces.at(id);
+      const MassUnits mass = volume->mass + dust;
+      const Window window = gather(rubble.field, stamp_box(*volume, pose, dx));
+      const StampPlan plan = plan_stamp(window, *volume, pose, dx, mass);
+      const Applied applied = apply(StampOperation{id, pose, plan.shift}, rubble.field, rubble.pieces);
+      EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
+      EXPECT_LE(std::abs(applied.terrain_gain - mass) * 1000, mass) << "piece " << id;
+    }
+  }
+}
+
+TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side) {
+  Rubble rubble;
+  for (const auto& [id, pose] : rubble.places) {
+    const Window laid = lay(*rubble.pieces.at(id), pose, dx);
+    const Window terrain = gather(rubble.field, reach_of(laid));
+    for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
+      MergePatch patch(terrain, laid);
+      const MassUnits shaped = patch.shape(20);
+      const std::vector<Code> before = patch.codes();
+      const MassUnits placed = patch.place(units);
+      EXPECT_LE(placed, units);
+      Window after = terrain;
+      after.codes = patch.codes();
+      for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i] < 0, after.codes[i] < 0);
+      redistance(after);
+      EXPECT_EQ(mass_of(after) - mass_of(terrain), shaped + placed) << "piece " << id << ", units " << units;
+    }
+  }
+}
+
+TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
+  Rubble rubble;
+  for (const auto& [id, pose] : rubble.places) {
+    const Window laid = lay(*rubble.pieces.at(id), pose, dx);
+    const VoxelBox reach = reach_of(laid);
+    EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, dx)), reach);
+    const Window terrain = gather(rubble.field, reach);
+    Window after = terrain;
+    MergePatch patch(terrain, laid);
+    patch.shape(stamp_roundness_max);
+    patch.place(3000);
+    after.codes = patch.codes();
+    redistance(after);
+    EXPECT_NE(after.codes, terrain.codes);
+    const Window inner = part_of(after, reach.grown(-1));
+    Window framed = terrain;
+    for (int x = inner.box.lo.x; x < inner.box.hi.x; ++x)
+      for (int y = inner.box.lo.y; y < inner.box.hi.y; ++y)
+        for (int z = inner.box.lo.z; z < inner.box.hi.z; ++z) framed.at(x, y, z) = inner.at(x, y, z);
+    EXPECT_EQ(framed.codes, after.codes) << "piece " << id;
+  }
+}
+
+TEST(stamp, every_shift_there_is_can_be_applied) {
+  for (const int shift : {-stamp_shift_max, -stamp_shift_max / 2, -1, 0, 1, 127, 128, stamp_shift_max}) {
+    Rubble rubble;
+    const auto& [id, pose] = rubble.places.front();
+    const Applied applied = apply(StampOperation{id, pose, shift}, rubble.field, rubble.pieces);
+    EXPECT_GT(applied.terrain_gain, 0) << "shift " << shift;
+  }
+}
+
+}  // namespace
+}  // namespace scree
