@@ -22,11 +22,12 @@ struct StormTick {
   double bodies_ms = 0.0;
   size_t alive = 0;
   uint64_t state_hash = 0;
+  TickWork work;
 };
 
 WorldConfig storm_config(bool merging) {
   WorldConfig config;
-  if (!merging) config.merges_per_tick_max = 0;
+  if (!merging) config.methods.recombine = Recombination::off;
   return config;
 }
 
@@ -47,7 +48,8 @@ std::vector<StormTick> rage(World& world, Tick ticks_max) {
     std::vector<Command> commands;
     if (const auto blow = blows.next()) commands.push_back({0, static_cast<uint32_t>(ticks.size()), *blow});
     const auto delta = world.step(commands);
-    ticks.push_back({delta->times.total_ms, delta->times.bodies_ms, delta->pieces.size(), delta->state_hash});
+    ticks.push_back({delta->times.total_ms, delta->times.bodies_ms, delta->pieces.size(), delta->state_hash,
+                     delta->work});
     if (delta->pieces.empty() && commands.empty()) break;
   }
   return ticks;
@@ -83,6 +85,28 @@ std::vector<double> total_of(const std::vector<StormTick>& ticks, size_t alive_m
   return total_ms;
 }
 
+/// What was put off or left out, and how well the model's estimate follows the clock.
+void report_work(BenchReport& report, const std::string& when, const std::vector<StormTick>& ticks) {
+  double cut = 0.0, sooner = 0.0, waiting = 0.0, put_off = 0.0, left_out = 0.0;
+  std::vector<double> per_estimate;
+  for (const auto& [total_ms, bodies_ms, alive, hash, work] : ticks) {
+    cut += work.cut_short() ? 1.0 : 0.0;
+    sooner += work.merging_sooner ? 1.0 : 0.0;
+    waiting = std::max(waiting, static_cast<double>(work.requests_waiting));
+    put_off = std::max(put_off, static_cast<double>(work.merges_put_off));
+    left_out += work.breaks_left_out + work.dents_left_out;
+    if (work.estimate_us > 1000) per_estimate.push_back(total_ms * 1e3 / work.estimate_us);
+  }
+  report.metric(when + "_ticks_cut_short", cut);
+  report.metric(when + "_ticks_merging_sooner", sooner);
+  report.metric(when + "_requests_waiting_most", waiting);
+  report.metric(when + "_merges_put_off_most", put_off);
+  report.metric(when + "_breaks_dents_left_out", left_out);
+  if (per_estimate.empty()) return;
+  report.metric(when + "_time_per_estimate_median", quantile(per_estimate, 0.5));
+  report.metric(when + "_time_per_estimate_p99", quantile(per_estimate, 0.99));
+}
+
 void report_storm(BenchReport& report, const std::string& when, const std::vector<StormTick>& ticks) {
   std::vector<double> bodies_ms;
   size_t most = 0;
@@ -99,6 +123,7 @@ void report_storm(BenchReport& report, const std::string& when, const std::vecto
   report.metric(when + "_tick_p99_ms", p99_ms);
   report.metric(when + "_tick_worst_ms", quantile(all_ms, 1.0));
   report.metric(when + "_bodies_p99_ms", quantile(bodies_ms, 0.99));
+  report_work(report, when, ticks);
   report.metric(when + "_crowded_ticks", static_cast<double>(crowded_ms.size()));
   report.check(when + "_alive", !crowded_ms.empty(),
                fmt::format("{} pieces at once, wanted {}", most, alive_wanted));

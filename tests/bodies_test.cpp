@@ -193,5 +193,76 @@ TEST(Bodies, what_is_no_number_is_stopped_where_it_was) {
   EXPECT_NEAR(bodies.state(1).pose.position_m.y, 0.5F, 0.05F);
 }
 
+TEST(Frozen, stands_still_and_carries_like_the_ground) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
+  step(bodies, 60);
+  bodies.freeze(1);
+  const glm::vec3 stood = bodies.state(1).pose.position_m;
+  bodies.add(box_shape(glm::vec3(0.3F)), body_at(2, {0.1F, 1.5F, 0.0F}));
+  step(bodies, 120);
+  EXPECT_EQ(bodies.state(1).pose.position_m, stood);
+  EXPECT_TRUE(bodies.state(1).frozen);
+  EXPECT_NEAR(bodies.state(2).pose.position_m.y, 1.3F, 0.03F);
+  EXPECT_EQ(bodies.contacts().on_terrain, std::vector<PieceId>{2});
+  EXPECT_TRUE(bodies.contacts().carried.empty());
+  EXPECT_EQ(bodies.frozen(), 1U);
+  EXPECT_GT(bodies.mass_kg(1), 0.0F);
+}
+
+TEST(Frozen, a_heap_thaws_from_the_ground_up_when_it_is_undermined) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  for (PieceId id = 1; id <= 4; ++id)
+    bodies.add(box_shape(glm::vec3(0.5F)), body_at(id, {0.0F, 1.02F * static_cast<float>(id) - 0.5F, 0.0F}));
+  step(bodies, 120);
+  for (PieceId id = 1; id <= 4; ++id) bodies.freeze(id);
+  step(bodies, 60);
+  EXPECT_EQ(bodies.awake(), 0U);
+  dig(field, bodies, {0.0F, -0.6F, 0.0F}, 1.0F);
+  EXPECT_GT(bodies.frozen(), 0U) << "the upper ones are far from the ground";
+  EXPECT_LT(bodies.frozen(), 4U);
+  step(bodies, 120);
+  EXPECT_EQ(bodies.frozen(), 0U);
+  for (PieceId id = 1; id <= 4; ++id)
+    EXPECT_LT(bodies.state(id).pose.position_m.y, 1.0F * static_cast<float>(id) - 0.7F) << "piece " << id;
+}
+
+TEST(Frozen, a_hard_blow_thaws_and_its_momentum_is_kept) {
+  MapField field(terrain(TerrainKind::flat));
+  BodiesConfig config;
+  config.gravity_m_s2 = 0.0F;
+  Bodies bodies(field, config);
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 20.0F, 0.0F}));
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {3.0F, 20.0F, 0.0F}, {-8.0F, 0.0F, 0.0F}));
+  bodies.freeze(1);
+  step(bodies, 40);
+  EXPECT_FALSE(bodies.state(1).frozen);
+  const float sum = bodies.state(1).velocity_m_s.x + bodies.state(2).velocity_m_s.x;
+  EXPECT_LT(bodies.state(1).velocity_m_s.x, -1.0F);
+  EXPECT_NEAR(sum, -8.0F, 0.5F) << "less what the air took";
+}
+
+TEST(Frozen, removing_what_it_touches_thaws_it_and_a_light_touch_does_not) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {0.0F, 1.52F, 0.0F}));
+  step(bodies, 90);
+  bodies.freeze(1);
+  bodies.freeze(2);
+  bodies.add(box_shape(glm::vec3(0.2F)), body_at(3, {0.0F, 2.35F, 0.0F}));
+  step(bodies, 60);
+  EXPECT_EQ(bodies.frozen(), 2U);
+  bodies.remove(1);
+  EXPECT_FALSE(bodies.state(2).frozen);
+  step(bodies, 60);
+  EXPECT_NEAR(bodies.state(2).pose.position_m.y, 0.5F, 0.03F);
+  bodies.freeze(2);
+  bodies.thaw_all();
+  EXPECT_EQ(bodies.frozen(), 0U);
+}
+
 }  // namespace
 }  // namespace scree

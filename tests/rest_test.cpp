@@ -98,5 +98,15 @@ TEST(Rest, an_id_that_vanishes_is_forgotten) {
   EXPECT_EQ(rest.update(pieces, ground, {}, 8), (Ids{2})) << "1 starts anew";
 }
 
+TEST(Rest, in_a_hurry_half_of_it_will_do_and_what_waits_is_counted) {
+  RestDetector rest({}, rate_hz);
+  const std::vector<RestPiece> pieces = {piece(1, {0.0F, 1.0F, 0.0F}), piece(2, {5.0F, 1.0F, 0.0F})};
+  const Ids ground = {1, 2};
+  for (uint32_t tick = 0; tick < RestConfig{}.rest_ticks / 2; ++tick)
+    EXPECT_TRUE(rest.update(pieces, ground, {}, 1, true).empty()) << "tick " << tick;
+  EXPECT_EQ(rest.update(pieces, ground, {}, 1, true).size(), 1U);
+  EXPECT_EQ(rest.put_off(), 1U);
+}
+
 }  // namespace
 }  // namespace scree

@@ -1,5 +1,6 @@
 #include "server/app/server_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -37,6 +38,19 @@ Json json_of(const SettingValues& settings) {
   return json;
 }
 
+Json json_of(const WorkReport& work) {
+  return {{"budget_us", work.budget_us},
+          {"worst_us", work.worst_us},
+          {"ticks_cut_short", work.ticks_cut_short},
+          {"first_cut_short", work.first_cut_short},
+          {"last_cut_short", work.last_cut_short},
+          {"ticks_merging_sooner", work.ticks_merging_sooner},
+          {"requests_waiting_most", work.requests_waiting_most},
+          {"merges_put_off_most", work.merges_put_off_most},
+          {"breaks_left_out", work.breaks_left_out},
+          {"dents_left_out", work.dents_left_out}};
+}
+
 Json json_of(const NetStats& net) {
   const PublisherStats& sent = net.published;
   return {{"now", net.sessions},
@@ -51,6 +65,21 @@ Json json_of(const NetStats& net) {
 }
 
 }  // namespace
+
+void WorkReport::add(Tick tick, const TickWork& work) {
+  budget_us = work.budget_us;
+  worst_us = std::max(worst_us, work.estimate_us);
+  if (work.cut_short()) {
+    ++ticks_cut_short;
+    if (first_cut_short == 0) first_cut_short = tick;
+    last_cut_short = tick;
+  }
+  ticks_merging_sooner += work.merging_sooner ? 1 : 0;
+  requests_waiting_most = std::max(requests_waiting_most, work.requests_waiting);
+  merges_put_off_most = std::max(merges_put_off_most, work.merges_put_off);
+  breaks_left_out += work.breaks_left_out;
+  dents_left_out += work.dents_left_out;
+}
 
 void ServerReport::add(const TickDelta& delta) {
   ++ticks;
@@ -68,6 +97,7 @@ void ServerReport::add(const TickDelta& delta) {
   pieces_made += delta.spawned.size();
   pieces_alive = delta.pieces.size();
   ledger = delta.ledger;
+  work.add(delta.tick, delta.work);
   if (!delta.settings.empty()) settings = delta.settings;
   field_hash = delta.field_hash;
   state_hash = delta.state_hash;
@@ -102,6 +132,7 @@ std::string to_json(const ServerReport& report) {
             {"settings", json_of(report.settings)},
             {"field_hash", hex(report.field_hash)},
             {"state_hash", hex(report.state_hash)},
+            {"work", json_of(report.work)},
             {"late_ticks", report.late_ticks},
             {"overruns", report.overruns},
             {"bytes_sent", sent.sent_bytes},

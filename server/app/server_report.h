@@ -11,6 +11,22 @@
 
 namespace scree {
 
+/// What ticks had to do by the model (server/world/work.h), and what did not fit into them.
+struct WorkReport {
+  uint32_t budget_us = 0;
+  uint32_t worst_us = 0;
+  uint64_t ticks_cut_short = 0;  ///< in which anything was put off or left out
+  Tick first_cut_short = 0;      ///< 0: none was
+  Tick last_cut_short = 0;
+  uint64_t ticks_merging_sooner = 0;
+  uint32_t requests_waiting_most = 0;
+  uint32_t merges_put_off_most = 0;
+  uint64_t breaks_left_out = 0;
+  uint64_t dents_left_out = 0;
+
+  void add(Tick tick, const TickWork& work);
+};
+
 struct ServerReport {
   uint64_t ticks = 0;  ///< stepped, or played
   Tick last_tick = 0;
@@ -27,6 +43,7 @@ struct ServerReport {
   SettingValues settings;  ///< as they stand at the end
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
+  WorkReport work;
   uint64_t late_ticks = 0;  ///< began after their time, and were made up for
   uint64_t overruns = 0;    ///< ticks of real time that were lost
   std::map<std::string, Durations>

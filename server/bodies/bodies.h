@@ -37,6 +37,7 @@ struct BodyState {
   Pose pose;
   glm::vec3 velocity_m_s{0.0F};
   glm::vec3 spin_rad_s{0.0F};
+  bool frozen = false;  ///< see Bodies::freeze
 };
 
 /// `upper` lies on `lower` (or leans on it from above).
@@ -49,7 +50,7 @@ struct Carried {
 
 /// Who lay on what in the last step.
 struct BodyContacts {
-  std::vector<PieceId> on_terrain;  ///< ordered
+  std::vector<PieceId> on_terrain;  ///< or on what is frozen; ordered, without duplicates
   std::vector<Carried> carried;     ///< ordered, without duplicates
 };
 
@@ -88,6 +89,14 @@ class Bodies {
   /// Advances by one tick.
   void step();
 
+  /// A body at rest stands still from now on: the others find it as hard as the ground, and a step costs
+  /// next to nothing for it. It thaws where the terrain or a body in touch with its bounds goes away, when
+  /// what it lay on thaws and moves off, and when it is struck so hard that its speed would change by
+  /// limits::thaw_speed_m_s; it then takes that blow's momentum. Must be present, and not frozen.
+  void freeze(PieceId id);
+  void thaw_all();
+  size_t frozen() const;
+
   /// The terrain changed within this box of voxels (after any operation: the box of its changed bricks).
   /// Must be called before the next step; bodies near it wake and look at the ground afresh.
   void terrain_changed(const VoxelBox& box);
@@ -107,6 +116,8 @@ class Bodies {
   float reach_m(PieceId id) const;
   /// Bodies that are awake.
   size_t awake() const;
+  /// Points at which bodies touched terrain or each other in the last step.
+  size_t contact_points() const;
 
   /// XXH3 of the exact transforms and velocities, in order of id.
   uint64_t state_hash() const;

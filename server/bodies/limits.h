@@ -76,6 +76,13 @@ inline constexpr float penetration_slop_m = 0.004F;
 inline constexpr float sleep_speed_m_s = 0.15F;
 inline constexpr float sleep_spin_rad_s = 0.3F;
 
+/// Change of speed at which a blow thaws a frozen body, m/s: a heap's weight must not, a piece that drops on
+/// it from half a metre does.
+inline constexpr float thaw_speed_m_s = 2.0F;
+
+/// How far a body that thawed may move before those that touched it thaw, too, metres.
+inline constexpr float thawed_leash_m = 0.03F;
+
 /// Upward share of a contact's normal from which on the upper piece counts as carried by the lower.
 inline constexpr float carrying_slope = 0.2F;
 

@@ -65,7 +65,7 @@ void stack(std::vector<Resting>& resting, std::span<const RestSupport> supports)
 RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
     : config_(config), leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {}
 
-bool RestDetector::watch(const RestPiece& piece, bool on_terrain) {
+bool RestDetector::watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks) {
   const auto [found, is_new] = watches_.try_emplace(piece.id);
   Watch& watch = found->second;
   ++watch.age_ticks;
@@ -81,19 +81,21 @@ bool RestDetector::watch(const RestPiece& piece, bool on_terrain) {
     watch.anchor = piece.pose;
     watch.still_ticks = 0;
   }
-  return watch.still_ticks >= config_.rest_ticks;
+  return watch.still_ticks >= rest_ticks;
 }
 
 std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
                                           std::span<const PieceId> on_terrain,
-                                          std::span<const RestSupport> supports, size_t merges_max) {
+                                          std::span<const RestSupport> supports, size_t merges_max,
+                                          bool hurried) {
+  const uint32_t rest_ticks = hurried ? (config_.rest_ticks + 1) / 2 : config_.rest_ticks;
   std::vector<Resting> resting;
   auto known = watches_.begin();
   for (const RestPiece& piece : pieces) {
     while (known != watches_.end() && known->first < piece.id) known = watches_.erase(known);
     if (known != watches_.end() && known->first == piece.id) ++known;
     const bool touching = std::ranges::binary_search(on_terrain, piece.id);
-    if (!watch(piece, touching)) continue;
+    if (!watch(piece, touching, rest_ticks)) continue;
     const uint32_t touched = watches_.find(piece.id)->second.terrain_ticks;
     const bool grounded = touched > 0 && touched <= config_.contact_ticks;
     resting.push_back({piece.id, piece.pose.position_m.y, grounded ? 1U : 0U});
@@ -104,7 +106,8 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   stack(resting, supports);
   std::erase_if(resting, [](const Resting& piece) { return piece.layer == 0; });
   std::ranges::sort(resting, {}, [](const Resting& r) { return std::tuple(r.layer, r.height_m, r.id); });
-  if (resting.size() > merges_max) resting.resize(merges_max);
+  put_off_ = resting.size() - std::min(resting.size(), merges_max);
+  resting.resize(resting.size() - put_off_);
   std::vector<PieceId> ready;
   for (const Resting& piece : resting) ready.push_back(piece.id);
   return ready;

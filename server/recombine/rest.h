@@ -47,12 +47,15 @@ class RestDetector {
   /// Call once a tick, after the bodies' step, with every piece alive (ordered by id), those in touch with
   /// terrain, and who lies on whom. Pieces that are no longer given are forgotten. Returns the pieces that
   /// may merge now, in the order in which to merge them: those on terrain first, lowest first, then those on
-  /// them. At most `merges_max`; merging only a beginning of the list is fine.
+  /// them. At most `merges_max`; merging only a beginning of the list is fine. `hurried`: half of the rest
+  /// will do.
   std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
-                              std::span<const RestSupport> supports, size_t merges_max);
+                              std::span<const RestSupport> supports, size_t merges_max, bool hurried = false);
 
   /// How many pieces were at rest in the last update, on the ground or not.
   size_t at_rest() const { return at_rest_; }
+  /// How many more than `merges_max` could have merged.
+  size_t put_off() const { return put_off_; }
 
  private:
   struct Watch {
@@ -63,12 +66,13 @@ class RestDetector {
   };
 
   /// Whether the piece is at rest.
-  bool watch(const RestPiece& piece, bool on_terrain);
+  bool watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks);
 
   RestConfig config_;
   float leash_growth_m_tick_;
   std::map<PieceId, Watch> watches_;
   size_t at_rest_ = 0;
+  size_t put_off_ = 0;
 };
 
 }  // namespace scree

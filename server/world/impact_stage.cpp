@@ -6,6 +6,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
+#include "server/world/work.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/roots.h"
@@ -112,10 +113,28 @@ class Breakup {
   glm::vec3 surplus_{0.0F};
 };
 
-bool break_piece(World::State& state, const Blow& blow, TickDelta& delta) {
+/// Breaks or dents in one tick: up to a limit, and as far as the tick's work goes.
+struct Quota {
+  uint32_t max = 0;
+  float cost_us = 0.0F;
+  uint32_t done = 0;
+
+  /// Counts those for which there is no room.
+  bool take(WorkBudget& work, uint32_t& left_out) {
+    if (done >= max || !work.affords(cost_us)) {
+      ++left_out;
+      return false;
+    }
+    ++done;
+    work.spend(cost_us);
+    return true;
+  }
+};
+
+void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const PieceId id = blow.impact.id;
   const uint32_t seeds = seeds_for(state, blow);
-  if (seeds < 2) return false;
+  if (seeds < 2 || !quota.take(state.work, delta.work.breaks_left_out)) return;
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
@@ -129,7 +148,6 @@ bool break_piece(World::State& state, const Blow& blow, TickDelta& delta) {
   const PieceTraits traits{parent.material, static_cast<uint8_t>(parent.generation + 1)};
   const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
   spawn(state, applied, born, delta);
-  return true;
 }
 
 /// Radius of the ball that takes this much out of flat ground when its centre is a quarter of it above: the
@@ -138,7 +156,7 @@ float dent_radius_m(float volume_m3) {
   return std::min(cube_root(volume_m3 / 1.325F), limits::dent_radius_max_m);
 }
 
-bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
+void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const BodyImpact& impact = blow.impact;
   const TerrainSource& source = state.config.terrain;
   const float dx = source.voxel_size_m;
@@ -146,8 +164,8 @@ bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
   const float energy_j = 0.5F * impact.impulse_n_s * blow.speed_m_s;
   const float volume_m3 = energy_j / traits_of(material).dent_resistance_j_m3;
   const uint32_t seeds = limits::dent_seeds;
-  if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return false;
-  if (state.pieces.size() + seeds > state.config.pieces_max) return false;
+  if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return;
+  if (state.pieces.size() + seeds > state.config.pieces_max) return;
   const float radius_m = dent_radius_m(volume_m3);
   const CarveOperation operation{sphere(impact.point_m + impact.normal * (0.25F * radius_m), radius_m),
                                  SeedPattern::uniform,
@@ -155,7 +173,8 @@ bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
                                  random_seed(state, impact.id),
                                  impact.point_m,
                                  state.next_piece};
-  if (!validate(Operation(operation), state.pieces)) return false;  // at the world's edge
+  if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
+  if (!quota.take(state.work, delta.work.dents_left_out)) return;
   const Applied applied = state.apply_and_record(operation, delta);
   state.ledger.moved -= applied.terrain_gain;
   state.ledger.dust += applied.dust;
@@ -172,22 +191,18 @@ bool dent_ground(World::State& state, const Blow& blow, TickDelta& delta) {
     return piece;
   };
   spawn(state, applied, thrown, delta);
-  return true;
 }
 
 }  // namespace
 
 void apply_impacts(World::State& state, TickDelta& delta) {
   if (!state.methods.impacts && !state.methods.dents) return;
-  uint32_t breaks = 0, dents = 0;
+  Quota breaks{limits::breaks_per_tick_max, limits::break_cost_us};
+  Quota dents{limits::dents_per_tick_max, limits::dent_cost_us};
   for (const Blow& blow : blows_of(state)) {
     const bool on_terrain = !blow.impact.other.has_value();
-    if (state.methods.dents && on_terrain && dents < limits::dents_per_tick_max &&
-        dent_ground(state, blow, delta))
-      ++dents;
-    if (state.methods.impacts && blow.excess > 1.0F && breaks < limits::breaks_per_tick_max &&
-        break_piece(state, blow, delta))
-      ++breaks;
+    if (state.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);
+    if (state.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
   }
 }
 

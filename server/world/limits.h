@@ -56,4 +56,31 @@ inline constexpr float dent_radius_max_m = 1.5F;
 inline constexpr uint32_t dent_seeds = 4;
 inline constexpr float dent_throw = 0.3F;
 
+/// Share of a tick that its work may take by the model; the rest is for what the model does not see, and for
+/// other threads. Above: requests wait, pieces merge sooner, fewer break.
+inline constexpr float work_share = 0.75F;
+
+/// Share of that budget from which bodies alone count as a crowd: their rest is half as long.
+inline constexpr float crowded_share = 0.5F;
+
+/// The model, microseconds as measured on one core of a 2023 server (bench storm): a body that is awake, a
+/// point of contact, a voxel of an edit's box, a seed's piece with its hull and body, a break, a dent, a
+/// merge.
+inline constexpr float body_cost_us = 3.0F;
+inline constexpr float contact_cost_us = 0.9F;
+inline constexpr float edit_voxel_cost_us = 0.06F;
+inline constexpr float seed_cost_us = 22.0F;
+inline constexpr float break_cost_us = 500.0F;
+inline constexpr float dent_cost_us = 500.0F;
+inline constexpr float merge_cost_us = 250.0F;
+
+/// Merges in a tick whose budget is used up: it must get better some time.
+inline constexpr uint32_t merges_per_tick_min = 2;
+
+/// Requests that wait for a tick with room for them. Above: refused.
+inline constexpr size_t requests_waiting_max = 256;
+
+/// Pieces that freeze in one tick, about 10 us each. Above: in the next.
+inline constexpr size_t freezes_per_tick_max = 64;
+
 }  // namespace scree::limits

@@ -1,19 +1,44 @@
 #include "server/world/merge_stage.h"
 
+#include <algorithm>
+
+#include "server/world/limits.h"
 #include "shared/field/stamp_method.h"
 
 namespace scree {
 
-std::vector<PieceId> settled(World::State& state) {
+namespace {
+
+/// As many as are merged in any tick, and fewer, down to a few, where its budget ends.
+size_t merges_max(const World::State& state) {
+  const uint32_t most = state.config.merges_per_tick_max;
+  const auto room = static_cast<int>(state.work.left_us() / limits::merge_cost_us);
+  const auto least = static_cast<int>(std::min(limits::merges_per_tick_min, most));
+  return static_cast<size_t>(std::clamp(room, least, static_cast<int>(most)));
+}
+
+}  // namespace
+
+std::vector<PieceId> settled(World::State& state, TickDelta& delta) {
+  const bool merging = state.methods.recombine != Recombination::off;
+  if (merging && state.bodies.frozen() > 0) state.bodies.thaw_all();
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
-    alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
+    if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;
   for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});
-  const bool may_merge = state.methods.recombine != Recombination::off;
-  return state.rest.update(alive, contacts.on_terrain, supports,
-                           may_merge ? state.config.merges_per_tick_max : 0);
+  delta.work.merging_sooner = merging && state.work.crowded();
+  std::vector<PieceId> ready = state.rest.update(alive, contacts.on_terrain, supports,
+                                                 merging ? merges_max(state) : limits::freezes_per_tick_max,
+                                                 delta.work.merging_sooner);
+  if (!merging) {
+    for (const PieceId id : ready) state.bodies.freeze(id);
+    return {};
+  }
+  delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
+  state.work.spend(limits::merge_cost_us * static_cast<float>(ready.size()));
+  return ready;
 }
 
 namespace {

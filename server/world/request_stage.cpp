@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/limits.h"
@@ -107,6 +108,27 @@ void execute(World::State& state, const Command& command, TickDelta& delta) {
     reply.refusal = made.error().message;
   }
   delta.replies.push_back(std::move(reply));
+}
+
+void carry_out(World::State& state, std::span<const Command> commands, TickDelta& delta) {
+  for (const Command& command : commands) {
+    if (state.waiting.size() < limits::requests_waiting_max) {
+      state.waiting.push_back(command);
+      continue;
+    }
+    delta.replies.push_back({command.session, command.request,
+                             std::to_string(state.waiting.size()) +
+                                 " requests are waiting (limits.requests_waiting_max): ask again later",
+                             0});
+  }
+  for (bool first = true; !state.waiting.empty(); first = false) {
+    const float cost = cost_us(state.waiting.front(), state.config.terrain.voxel_size_m);
+    if (!first && !state.work.affords(cost)) break;
+    execute(state, state.waiting.front(), delta);
+    state.work.spend(cost);
+    state.waiting.pop_front();
+  }
+  delta.work.requests_waiting = static_cast<uint32_t>(state.waiting.size());
 }
 
 }  // namespace scree

@@ -39,6 +39,19 @@ struct StageTimes {
   double total_ms = 0.0;
 };
 
+/// How much there was to do in a tick by the model of server/world/work.h, and what was put off or left out.
+struct TickWork {
+  uint32_t budget_us = 0;
+  uint32_t estimate_us = 0;  ///< at the tick's end; over the budget where the least was done all the same
+  uint32_t requests_waiting = 0;  ///< put off to a later tick
+  uint32_t merges_put_off = 0;    ///< pieces that are at rest and wait their turn
+  uint32_t breaks_left_out = 0;   ///< blows that would have broken a piece
+  uint32_t dents_left_out = 0;    ///< blows that would have dented the ground
+  bool merging_sooner = false;    ///< a crowd: half of the rest will do
+
+  bool cut_short() const { return requests_waiting + merges_put_off + breaks_left_out + dents_left_out > 0; }
+};
+
 /// An operation as it was applied, with what a publisher needs to know to send it.
 struct AppliedOperation {
   Operation operation;
@@ -77,6 +90,7 @@ struct TickDelta {
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
   Ledger ledger;
   StageTimes times;
+  TickWork work;
   uint64_t field_hash = 0;  ///< Field::hash()
   uint64_t state_hash = 0;  ///< of the field, the ledger and every body's exact state
 };

@@ -41,6 +41,7 @@ void publish(World::State& state, TickDelta& delta) {
   state.changed.clear();
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = state.ledger;
+  state.work.report(delta.work);
   delta.field_hash = state.field.hash();
   delta.state_hash =
       state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});
@@ -57,14 +58,16 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
   if (s.tick == 1) delta->settings = print(s.methods);
-  for (const Command& command : commands) execute(s, command, *delta);
+  s.work.begin(s.bodies);
+  carry_out(s, commands, *delta);
   watch.lap_ms();
   s.bodies.step();
+  s.work.stepped(s.bodies);
   discard_lost(s, *delta);
   delta->times.bodies_ms = watch.lap_ms();
   apply_impacts(s, *delta);
   delta->times.impacts_ms = watch.lap_ms();
-  const std::vector<PieceId> at_rest = settled(s);
+  const std::vector<PieceId> at_rest = settled(s, *delta);
   delta->times.rest_ms = watch.lap_ms();
   for (const PieceId id : at_rest) merge(s, id, *delta);
   delta->times.recombine_ms = watch.lap_ms();

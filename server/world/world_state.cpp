@@ -40,7 +40,8 @@ World::State::State(const WorldConfig& world_config)
       methods(config.methods),
       field(config.terrain),
       bodies(field, bodies_config(config)),
-      rest(RestConfig{}, config.tick_rate_hz) {}
+      rest(RestConfig{}, config.tick_rate_hz),
+      work(config.tick_rate_hz) {}
 
 Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);

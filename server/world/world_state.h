@@ -6,6 +6,7 @@
 // in step with it.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
 #include "server/world/island_stage.h"
+#include "server/world/work.h"
 #include "server/world/world.h"
 #include "shared/field/material.h"
 
@@ -44,6 +46,8 @@ struct World::State {
   std::set<BrickCoord> changed;  ///< in this tick
   std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up: not searched yet
   IslandQueue islands;
+  WorkBudget work;
+  std::deque<Command> waiting;  ///< requests that no tick had room for yet, in order
 };
 
 }  // namespace scree

@@ -1,0 +1,193 @@
+#include "server/bodies/bodies_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "server/bodies/limits.h"
+#include "server/bodies/terrain_manifold.h"
+#include "server/bodies/to_bullet.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+btDefaultCollisionConstructionInfo sizes() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_customCollisionAlgorithmMaxElementSize = sizeof(HullAlgorithm);
+  return info;
+}
+
+bool is_finite(const btVector3& v) {
+  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+}
+
+/// What a contact did in the last step to the body that stands still in it.
+struct Blow {
+  btVector3 impulse{0.0F, 0.0F, 0.0F};
+  btVector3 at{0.0F, 0.0F, 0.0F};
+  float strength = 0.0F;  ///< sum of the points' impulses
+};
+
+Blow blow_on(const btPersistentManifold& manifold, bool first) {
+  Blow blow;
+  for (int k = 0; k < manifold.getNumContacts(); ++k) {
+    const btManifoldPoint& point = manifold.getContactPoint(k);
+    blow.impulse += point.m_normalWorldOnB * (first ? point.m_appliedImpulse : -point.m_appliedImpulse);
+    blow.at += point.m_positionWorldOnB * point.m_appliedImpulse;
+    blow.strength += point.m_appliedImpulse;
+  }
+  if (blow.strength > 0.0F) blow.at /= blow.strength;
+  return blow;
+}
+
+}  // namespace
+
+Bodies::State::State(Field& field, const BodiesConfig& c)
+    : config(c),
+      terrain_field(field),
+      voxel_size_m(field.source().voxel_size_m),
+      tick_s(1.0F / static_cast<float>(c.tick_rate_hz)),
+      collision_configuration(sizes()),
+      dispatcher(&collision_configuration),
+      dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
+      terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
+  terrain.setCollisionShape(&terrain_shape);
+  // Asleep, so that the island manager leaves sleeping bodies on it alone.
+  terrain.forceActivationState(ISLAND_SLEEPING);
+  // Bullet sorts manifolds by broadphase proxy, which what is in no broadphase lacks.
+  terrain_proxy.m_uniqueId = 0;
+  terrain_proxy.m_clientObject = &terrain;
+  terrain.setBroadphaseHandle(&terrain_proxy);
+  dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
+                                         &hull_algorithm);
+  dynamics.setGravity(btVector3(0.0F, -c.gravity_m_s2, 0.0F));
+  dynamics.setForceUpdateAllAabbs(false);
+  dynamics.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  btContactSolverInfo& info = dynamics.getSolverInfo();
+  info.m_numIterations = limits::solver_iterations;
+  info.m_linearSlop = limits::penetration_slop_m;
+  info.m_splitImpulsePenetrationThreshold = 0.0F;
+}
+
+void Bodies::State::find_ground(Body& body) {
+  const btRigidBody& rigid = *body.rigid;
+  const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
+  found.clear();
+  body.probe->find(from_bullet(rigid.getWorldTransform()), limits::contact_slack_m + speed * tick_s, found);
+  // A body's own is a root already.
+  const float friction = rigid.getFriction() * std::sqrt(config.friction);
+  refill(*body.ground, rigid, found, {friction, config.restitution, tick_s});
+}
+
+/// What a body may not exceed, or it would cross the narrow band in one tick.
+void Bodies::State::limit_speeds(Body& body) const {
+  btRigidBody& rigid = *body.rigid;
+  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / tick_s;
+  const float speed = rigid.getLinearVelocity().length();
+  if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
+  const float turning = rigid.getAngularVelocity().length();
+  if (turning > body.spin_max_rad_s)
+    rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
+}
+
+/// Damping and speed limits, after the step. Bullet's own damping would call libm.
+void Bodies::State::settle(Body& body) const {
+  btRigidBody& rigid = *body.rigid;
+  btVector3 velocity = rigid.getLinearVelocity();
+  btVector3 spin = rigid.getAngularVelocity();
+  if (!is_finite(velocity) || !is_finite(spin) || !is_finite(rigid.getWorldTransform().getOrigin())) {
+    rigid.setWorldTransform(body.last);
+    velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
+  }
+  const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
+  velocity *= 1.0F - tick_s * (creeping ? limits::ground_damping : limits::air_damping);
+  spin *= 1.0F - tick_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
+  rigid.setLinearVelocity(velocity);
+  rigid.setAngularVelocity(spin);
+  limit_speeds(body);
+}
+
+void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
+  for (auto& [id, body] : bodies) {
+    btVector3 body_lo, body_hi;
+    body.rigid->getAabb(body_lo, body_hi);
+    if (TestAabbAgainstAabb2(lo, hi, body_lo, body_hi)) wake(body);
+  }
+}
+
+void Bodies::State::enter(Body& body) {
+  dynamics.addRigidBody(body.rigid.get());
+  if (!body.frozen) body.ground = dispatcher.getNewManifold(body.rigid.get(), &terrain);
+}
+
+void Bodies::State::leave(Body& body) {
+  if (body.ground != nullptr) dispatcher.releaseManifold(std::exchange(body.ground, nullptr));
+  dynamics.removeRigidBody(body.rigid.get());
+}
+
+void Bodies::State::freeze(PieceId id, Body& body) {
+  leave(body);
+  btRigidBody& rigid = *body.rigid;
+  rigid.setLinearVelocity(btVector3(0.0F, 0.0F, 0.0F));
+  rigid.setAngularVelocity(btVector3(0.0F, 0.0F, 0.0F));
+  rigid.setMassProps(0.0F, btVector3(0.0F, 0.0F, 0.0F));
+  body.corners->turn(from_bullet(rigid.getWorldTransform().getBasis()));
+  body.frozen = BodyState{id, from_bullet(rigid.getWorldTransform()), glm::vec3(0.0F), glm::vec3(0.0F), true};
+  body.thawed.reset();
+  ++frozen;
+  enter(body);
+}
+
+void Bodies::State::wake(Body& body) {
+  btRigidBody& rigid = *body.rigid;
+  if (!body.frozen) {
+    rigid.activate(true);
+    return;
+  }
+  leave(body);
+  body.frozen.reset();
+  --frozen;
+  rigid.setCollisionFlags(0);
+  rigid.setMassProps(body.mass_kg, body.inertia_kg_m2);
+  rigid.updateInertiaTensor();
+  rigid.forceActivationState(ACTIVE_TAG);
+  rigid.setDeactivationTime(0.0F);
+  body.last = rigid.getWorldTransform();
+  body.thawed.emplace();
+  rigid.getAabb(body.thawed->lo, body.thawed->hi);
+  enter(body);
+}
+
+void Bodies::State::thaw_struck() {
+  std::vector<std::pair<PieceId, Blow>> struck;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getBody1() == &terrain) continue;
+    const bool first = manifold.getBody0()->isStaticObject();
+    if (first == manifold.getBody1()->isStaticObject()) continue;
+    if (!(first ? manifold.getBody1() : manifold.getBody0())->isActive()) continue;
+    const PieceId id = id_of(first ? manifold.getBody0() : manifold.getBody1());
+    const Blow blow = blow_on(manifold, first);
+    if (blow.strength >= limits::thaw_speed_m_s * bodies.at(id).mass_kg) struck.emplace_back(id, blow);
+  }
+  for (const auto& [id, blow] : struck) {
+    Body& body = bodies.at(id);
+    wake(body);
+    body.rigid->applyImpulse(blow.impulse, blow.at - body.rigid->getWorldTransform().getOrigin());
+    limit_speeds(body);
+  }
+}
+
+void Bodies::State::wake_around_thawed(Body& body) {
+  btVector3 lo, hi;
+  body.rigid->getAabb(lo, hi);
+  const btVector3 moved = (lo - body.thawed->lo).absolute() + (hi - body.thawed->hi).absolute();
+  if (std::max({moved.x(), moved.y(), moved.z()}) < 2.0F * limits::thawed_leash_m) return;
+  const Bounds stood = *body.thawed;
+  body.thawed.reset();
+  wake_near(stood.lo, stood.hi);
+}
+
+}  // namespace scree

@@ -1,0 +1,98 @@
+// What does not fit into a tick's budget: requests wait in order, fewer pieces break, and all of it is
+// counted.
+#include "server/world/work.h"
+
+#include <gtest/gtest.h>
+
+#include "bench/scenes.h"
+#include "server/app/server_report.h"
+#include "server/world/limits.h"
+#include "server/world/world.h"
+
+namespace scree {
+namespace {
+
+std::shared_ptr<const TickDelta> step(World& world, const std::vector<Command>& commands = {}) {
+  return world.step(commands);
+}
+
+/// That many blows side by side, as if asked for at once.
+std::vector<Command> blows(const World& world, uint32_t a_side, uint32_t seeds) {
+  BlowGrid grid(world.config().terrain, a_side, 5.0F, 2.0F, seeds);
+  std::vector<Command> commands;
+  while (const auto blow = grid.next())
+    commands.push_back({3, static_cast<uint32_t>(commands.size()), *blow});
+  return commands;
+}
+
+TEST(work, requests_over_the_budget_wait_and_are_carried_out_in_order) {
+  World world({});
+  auto delta = step(world, blows(world, 4, 64));
+  EXPECT_GT(delta->work.requests_waiting, 0U);
+  EXPECT_EQ(delta->replies.size() + delta->work.requests_waiting, 16U);
+  EXPECT_TRUE(delta->work.cut_short());
+  uint32_t next = 0;
+  for (int tick = 0; tick < 16; ++tick) {
+    for (const Reply& reply : delta->replies) EXPECT_EQ(reply.request, next++) << reply.refusal;
+    if (next == 16) break;
+    delta = step(world);
+    EXPECT_GE(delta->replies.size(), 1U) << "every tick carries out one, whatever it costs";
+  }
+  EXPECT_EQ(next, 16U);
+  EXPECT_EQ(delta->work.requests_waiting, 0U);
+}
+
+TEST(work, too_many_requests_at_once_are_refused_by_name) {
+  World world({});
+  std::vector<Command> commands;
+  for (uint32_t i = 0; i < limits::requests_waiting_max + 3; ++i) commands.push_back(blows(world, 1, 8)[0]);
+  const auto delta = step(world, commands);
+  ASSERT_GE(delta->replies.size(), 3U);
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_NE(delta->replies[i].refusal.find("limits.requests_waiting_max"), std::string::npos);
+}
+
+TEST(work, what_is_cut_is_the_same_every_time_and_reported) {
+  World one({}), two({});
+  ServerReport report;
+  bool sooner = false;
+  for (int tick = 0; tick < 60; ++tick) {
+    const std::vector<Command> commands = tick == 0 ? blows(one, 5, 64) : std::vector<Command>{};
+    const auto a = step(one, commands), b = step(two, commands);
+    ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
+    EXPECT_EQ(a->work.estimate_us, b->work.estimate_us);
+    EXPECT_EQ(a->ledger.error(), 0);
+    sooner = sooner || a->work.merging_sooner;
+    report.add(*a);
+  }
+  EXPECT_TRUE(sooner) << "a crowd merges sooner";
+  EXPECT_GT(report.work.ticks_cut_short, 0U);
+  EXPECT_EQ(report.work.budget_us, 12500U);
+  EXPECT_LE(report.work.first_cut_short, report.work.last_cut_short);
+  EXPECT_NE(to_json(report).find("ticks_merging_sooner"), std::string::npos);
+}
+
+TEST(work, without_merging_what_rests_is_frozen_and_thaws_for_the_next_blow) {
+  WorldConfig config;
+  config.methods.recombine = Recombination::off;
+  World world(config);
+  auto delta = step(world, blows(world, 1, 32));
+  const size_t made = delta->pieces.size();
+  for (int tick = 0; tick < 900; ++tick) delta = step(world);
+  EXPECT_GE(delta->pieces.size(), made);
+  EXPECT_EQ(delta->work.estimate_us, 0U) << "nothing is awake";
+  const auto settled = delta->pieces;
+  step(world, {{1, 1, blow_at(config.terrain, 2.0F, 0.0F, 2.0F, 8, 1)}});
+  for (int tick = 0; tick < 60; ++tick) delta = step(world);
+  size_t moved = 0;
+  for (size_t i = 0; i < settled.size(); ++i)
+    moved += i < delta->pieces.size() && !(delta->pieces[i].pose == settled[i].pose) ? 1 : 0;
+  EXPECT_GT(moved, 0U);
+  EXPECT_EQ(delta->ledger.error(), 0);
+  step(world, {{1, 2, SettingsRequest{{{"recombine", "stamp"}}}}});
+  for (int tick = 0; tick < 900 && !delta->pieces.empty(); ++tick) delta = step(world);
+  EXPECT_TRUE(delta->pieces.empty()) << "what was frozen merges when that is switched on again";
+}
+
+}  // namespace
+}  // namespace scree
