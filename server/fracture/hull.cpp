@@ -43,7 +43,7 @@ uint64_t inside_bits(const Code* codes, int count) {
 /// once: few voxels are near the surface.
 class SurfacePoints {
  public:
-  SurfacePoints(const Window& window, std::vector<glm::vec3>& points) : window_(window), points_(points) {
+  SurfacePoints(const Window& window, std::vector<glm::vec3>& points) : points_(points) {
     const VoxelBox& b = window.box;
     const VoxelCoord size = b.size();
     const auto nz = static_cast<size_t>(size.z), nyz = static_cast<size_t>(size.y) * nz;
@@ -72,7 +72,6 @@ class SurfacePoints {
     }
   }
 
-  const Window& window_;
   std::vector<glm::vec3>& points_;
 };
 
