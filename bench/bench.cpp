@@ -13,6 +13,8 @@ const std::vector<Bench>& all_benches() {
       {"carve", "a 2 m carve into 64 pieces: each stage of the server's tick", run_carve_bench},
       {"colliders", "terrain colliders field, mesh and rays: depth, falls, time of a tick and of a carve",
        run_colliders_bench},
+      {"cutters", "a 2 m carve into 64 pieces by every cutter, with bodies by every simplifier",
+       run_cutters_bench},
       {"islands", "what a cut loosened: towers and arches, in 64 m and 1,024 m of edited terrain",
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",

@@ -31,6 +31,7 @@ struct Writing {
     carve.set_random_seed(from.random_seed);
     write(*carve.mutable_impact(), from.impact_m);
     carve.set_blast_speed_m_s(from.blast_speed_m_s);
+    carve.set_authored(pack_points(from.authored_m));
   }
   void operator()(const FillMessage& from) const {
     wire::Fill& fill = *to.mutable_fill();
@@ -71,11 +72,12 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   CarveMessage carve;
   carve.request = from.request();
   carve.shape = check.shape(from.shape());
-  carve.pattern = static_cast<SeedPattern>(check.choice(from.pattern(), wire::RADIAL, "pattern"));
+  carve.pattern = static_cast<SeedPattern>(check.choice(from.pattern(), wire::AUTHORED, "pattern"));
   carve.seeds = from.seeds();
   carve.random_seed = from.random_seed();
   carve.impact_m = check.vec3(from.impact(), "impact");
   carve.blast_speed_m_s = check.finite(from.blast_speed_m_s(), "blast_speed_m_s");
+  carve.authored_m = check.points(from.authored(), limits::seeds_max, "authored");
   return carve;
 }
 

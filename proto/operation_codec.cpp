@@ -48,16 +48,22 @@ Shape read_shape(ByteReader& reader) {
   return shape;
 }
 
+/// Low and high half of a byte.
+uint8_t packed(SeedPattern pattern, Cutter cutter) {
+  return static_cast<uint8_t>(static_cast<unsigned>(pattern) | static_cast<unsigned>(cutter) << 4U);
+}
+
 struct Writing {
   ByteWriter& writer;
 
   void operator()(const CarveOperation& carve) const {
     write_head(writer, kind_carve, carve.first_piece);
     write_shape(writer, carve.shape);
-    writer.u8(static_cast<uint8_t>(carve.pattern));
+    writer.u8(packed(carve.pattern, carve.cutter));
     writer.varint(carve.seeds);
     writer.u32(carve.random_seed);
     writer.vec3(carve.impact_m);
+    for (const glm::vec3& point_m : carve.authored_m) writer.vec3(point_m);
   }
   void operator()(const FillOperation& fill) const {
     write_head(writer, kind_fill, 0);
@@ -75,7 +81,7 @@ struct Writing {
   void operator()(const ShatterOperation& shatter) const {
     write_head(writer, kind_shatter, shatter.first_piece);
     writer.varint(shatter.piece);
-    writer.u8(static_cast<uint8_t>(shatter.pattern));
+    writer.u8(packed(shatter.pattern, shatter.cutter));
     writer.varint(shatter.seeds);
     writer.u32(shatter.random_seed);
     writer.vec3(shatter.impact_voxels);
@@ -91,9 +97,12 @@ struct Writing {
 
 /// The part that whatever makes pieces has in common.
 template <typename Breaking>
-void read_seeds(ByteReader& reader, PieceId first_piece, Breaking& out) {
-  out.pattern =
-      static_cast<SeedPattern>(reader.u8("pattern of seeds", static_cast<uint8_t>(SeedPattern::radial)));
+void read_seeds(ByteReader& reader, PieceId first_piece, SeedPattern last_pattern, Breaking& out) {
+  const uint8_t byte = reader.u8("pattern and cutter", 0xFF);
+  out.pattern = static_cast<SeedPattern>(byte & 0xFU);
+  out.cutter = static_cast<Cutter>(byte >> 4U);
+  if (out.pattern > last_pattern) reader.refuse("seeds of a pattern that is none");
+  if (out.cutter > Cutter::conform) reader.refuse("a cutter that is none");
   out.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
   if (out.seeds == 0) reader.refuse("a break without seeds");
   if (first_piece > 0xFFFFFFFFU - out.seeds) reader.refuse("piece ids run over 2^32");
@@ -104,8 +113,12 @@ void read_seeds(ByteReader& reader, PieceId first_piece, Breaking& out) {
 CarveOperation read_carve(ByteReader& reader, PieceId id) {
   CarveOperation carve;
   carve.shape = read_shape(reader);
-  read_seeds(reader, id, carve);
+  read_seeds(reader, id, SeedPattern::authored, carve);
   carve.impact_m = reader.vec3("impact");
+  if (carve.pattern != SeedPattern::authored) return carve;
+  if (carve.seeds > limits::authored_seeds_max) reader.refuse("more authored seeds than authored_seeds_max");
+  for (uint32_t i = 0; i < carve.seeds && !reader.failed(); ++i)
+    carve.authored_m.push_back(reader.vec3("authored seed"));
   return carve;
 }
 
@@ -127,7 +140,7 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
 ShatterOperation read_shatter(ByteReader& reader, PieceId id) {
   ShatterOperation shatter;
   shatter.piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
-  read_seeds(reader, id, shatter);
+  read_seeds(reader, id, SeedPattern::clustered, shatter);
   shatter.impact_voxels = reader.vec3("impact");
   return shatter;
 }

@@ -86,6 +86,20 @@ std::vector<ChunkCoord> FieldChecker::chunks(const std::string& packed, size_t c
   return chunks;
 }
 
+std::vector<glm::vec3> FieldChecker::points(const std::string& packed, size_t count_max, const char* what) {
+  std::vector<glm::vec3> points;
+  ByteReader reader(as_span(packed), what);
+  while (!reader.at_end()) {
+    if (points.size() == count_max) {
+      reader.refuse("more than " + std::to_string(count_max) + " points");
+      break;
+    }
+    points.push_back(reader.vec3("point"));
+  }
+  if (reader.failed()) refuse(reader.error().message);
+  return points;
+}
+
 SettingValues FieldChecker::settings(const WireSettings& values) {
   SettingValues settings;
   if (static_cast<size_t>(values.size()) > limits::settings_max) {
@@ -135,6 +149,13 @@ std::string pack_chunks(const std::vector<ChunkCoord>& chunks) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
   write_coords<ChunkTag>(writer, chunks);
+  return to_string(bytes);
+}
+
+std::string pack_points(const std::vector<glm::vec3>& points) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  for (const glm::vec3& point : points) writer.vec3(point);
   return to_string(bytes);
 }
 

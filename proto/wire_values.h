@@ -29,6 +29,8 @@ class FieldChecker {
   Shape shape(const wire::Shape& value);
   /// Coordinates of chunks, packed.
   std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);
+  /// Points, packed as 3 × f32 each.
+  std::vector<glm::vec3> points(const std::string& packed, size_t count_max, const char* what);
   SettingValues settings(const WireSettings& values);
   /// What another decoder gave; its refusal becomes this one's.
   template <typename T>
@@ -53,6 +55,7 @@ void write(WireSettings& to, const SettingValues& from);
 /// Cut to the limit at the end of a character, control characters replaced.
 std::string clean_text(std::string text, size_t bytes_max);
 std::string pack_chunks(const std::vector<ChunkCoord>& chunks);
+std::string pack_points(const std::vector<glm::vec3>& points);
 
 inline std::string to_string(const std::vector<uint8_t>& bytes) {
   return {bytes.begin(), bytes.end()};

@@ -74,6 +74,20 @@ TEST_F(BotTest, carves_until_everything_has_settled_and_the_hashes_are_equal) {
   EXPECT_LE(report.merge_cost.bytes_worst, 32.0);
 }
 
+TEST_F(BotTest, authored_and_clustered_seeds_leave_both_sides_the_same_terrain) {
+  for (const SeedPattern pattern : {SeedPattern::authored, SeedPattern::clustered}) {
+    BotConfig patterned = config(2);
+    patterned.carver.pattern = pattern;
+    Bot bot(patterned);
+    ASSERT_TRUE(bot.join());
+    ASSERT_TRUE(finish(bot));
+    EXPECT_EQ(bot.report().failure, "");
+    EXPECT_EQ(bot.report().carves_accepted, 2U);
+    EXPECT_GT(bot.report().seen.pieces_made, 2U);
+    EXPECT_TRUE(bot.report().hash.equal);
+  }
+}
+
 TEST_F(BotTest, no_carves_is_a_check_that_the_server_answers) {
   Bot bot(config(0));
   ASSERT_TRUE(bot.join());

@@ -187,6 +187,38 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   EXPECT_TRUE(names(server_refusal(frame), "piece ids"));
 }
 
+TEST(Codec, patterns_cutters_and_authored_seeds_beyond_the_known_are_refused_by_name) {
+  const auto refusal = [](const Operation& operation) {
+    FrameMessage frame;
+    frame.operations = {operation};
+    return server_refusal(frame);
+  };
+  CarveOperation carve = samples::authored_carve_operation();
+  EXPECT_EQ(refusal(carve), "");
+  carve.cutter = static_cast<Cutter>(3);
+  EXPECT_TRUE(names(refusal(carve), "cutter"));
+  carve = samples::carve_operation();
+  carve.pattern = static_cast<SeedPattern>(4);
+  EXPECT_TRUE(names(refusal(carve), "pattern"));
+  EXPECT_TRUE(names(refusal(ShatterOperation{1, SeedPattern::authored, 2, 0, {}, 5}), "pattern"));
+  carve = samples::authored_carve_operation();
+  carve.authored_m.assign(limits::authored_seeds_max + 1, glm::vec3(0.0F));
+  carve.seeds = limits::authored_seeds_max + 1;
+  EXPECT_TRUE(names(refusal(carve), "authored_seeds_max"));
+  carve = samples::authored_carve_operation();
+  carve.authored_m.back().z = nan;
+  EXPECT_TRUE(names(refusal(carve), "authored seed"));
+  carve.authored_m.pop_back();
+  EXPECT_NE(refusal(carve), "") << "a point is missing";
+  CarveMessage message = carve_message(sphere(glm::vec3(0.0F), 1.0F), SeedPattern::authored);
+  message.authored_m.assign(limits::seeds_max, glm::vec3(1.0F));
+  EXPECT_EQ(client_refusal(message), "") << "for the world to answer";
+  message.authored_m.emplace_back(1.0F);
+  EXPECT_TRUE(names(client_refusal(message), "more than 4096 points"));
+  message.authored_m.assign(2, glm::vec3(infinity));
+  EXPECT_TRUE(names(client_refusal(message), "authored"));
+}
+
 TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   FrameMessage frame;
   frame.operations.assign(limits::operations_per_frame_max + 1, DiscardOperation{1});

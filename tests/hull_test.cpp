@@ -19,8 +19,9 @@ struct Blast {
   Applied applied;
   std::vector<PieceHull> hulls;
 
-  explicit Blast(uint32_t seeds, SeedPattern pattern = SeedPattern::uniform) {
+  explicit Blast(uint32_t seeds, SeedPattern pattern = SeedPattern::uniform, Cutter cutter = Cutter::field) {
     CarveOperation carve;
+    carve.cutter = cutter;
     const glm::vec3 at(3.0F, ground_height_m(field.source(), 3.0F, 3.0F) - 0.5F, 3.0F);
     carve.shape = sphere(at, 2.0F);
     carve.pattern = pattern;
@@ -89,6 +90,62 @@ TEST(Hull, masses_and_inertias_are_sane) {
     EXPECT_LE(hull.inertia_m2.x, hull.inertia_m2.y + hull.inertia_m2.z);
   }
   EXPECT_NEAR(size_m3, static_cast<float>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m, 0.01F);
+}
+
+constexpr Simplifier simplifiers[] = {Simplifier::none, Simplifier::hull, Simplifier::merge};
+
+/// Whether they are at least four, and not all in one plane.
+bool are_solid(const std::vector<glm::vec3>& corners) {
+  for (size_t i = 1; i < corners.size(); ++i)
+    for (size_t j = i + 1; j < corners.size(); ++j) {
+      const glm::vec3 normal = glm::cross(corners[i] - corners[0], corners[j] - corners[0]);
+      const float area = glm::length(normal);
+      if (area < 1e-3F * voxel_m * voxel_m) continue;
+      for (const glm::vec3& p : corners)
+        if (std::abs(glm::dot(normal / area, p - corners[0])) > 0.05F * voxel_m) return true;
+      return false;
+    }
+  return false;
+}
+
+TEST(Hull, every_simplifier_of_every_cutter_gives_bodies) {
+  for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform}) {
+    const Blast blast(64, SeedPattern::radial, cutter);
+    std::vector<size_t> points;
+    for (const Simplifier simplifier : simplifiers) {
+      const auto hulls = make_hulls(blast.applied, blast.pieces, voxel_m, simplifier);
+      ASSERT_EQ(hulls.size(), blast.applied.created.size());
+      points.push_back(0);
+      for (const PieceHull& hull : hulls) {
+        EXPECT_TRUE(are_solid(hull.corners_m));
+        EXPECT_LE(hull.corners_m.size(), whole_points_max);
+        points.back() += hull.corners_m.size();
+      }
+    }
+    EXPECT_GT(points[0], 2 * points[1]) << "none keeps more than hull";
+    EXPECT_GT(points[0], points[2]) << "none keeps more than merge";
+  }
+}
+
+TEST(Hull, of_any_simplifier_spans_the_whole_ball) {
+  const Blast blast(1);
+  for (const Simplifier simplifier : simplifiers) {
+    const auto hulls = make_hulls(blast.applied, blast.pieces, voxel_m, simplifier);
+    const glm::vec3 extent = extent_of(hulls.at(0).corners_m);
+    EXPECT_GT(extent.x, 3.2F);
+    EXPECT_LT(extent.x, 4.2F);
+  }
+}
+
+TEST(Simplify, points_nearer_than_a_voxel_become_one) {
+  const std::vector<glm::vec3> points = {
+      {0.0F, 0.0F, 0.0F}, {0.5F, 0.0F, 0.0F}, {1.2F, 0.0F, 0.0F}, {-0.2F, 0.3F, 0.0F}, {9.0F, 9.0F, 9.0F}};
+  const std::vector<glm::vec3> merged = merge_near(points, 10);
+  ASSERT_EQ(merged.size(), 3U);
+  EXPECT_LT(glm::distance(merged[0], glm::vec3(0.1F, 0.1F, 0.0F)), 1e-5F) << "the mean of three";
+  EXPECT_EQ(merged[1], points[2]);
+  EXPECT_EQ(merge_near(points, 2).size(), 2U) << "a wider tolerance";
+  EXPECT_EQ(spread(points, 100.0F, 10).size(), 1U + 1U) << "one each side of zero";
 }
 
 TEST(Hull, is_the_same_every_time) {

@@ -47,6 +47,40 @@ TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
     }
 }
 
+TEST(operation, every_cutter_and_pattern_conserves_mass) {
+  for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
+    for (const SeedPattern pattern :
+         {SeedPattern::uniform, SeedPattern::radial, SeedPattern::clustered, SeedPattern::authored}) {
+      MapField field(flat);
+      PieceTable pieces;
+      CarveOperation op = ball(4, pattern);
+      op.cutter = cutter;
+      // Two inside, one a hair beside the first, one in the air.
+      if (pattern == SeedPattern::authored)
+        op.authored_m = {{0.3F, -0.5F, 0.1F}, {0.31F, -0.5F, 0.1F}, {0.3F, 9.0F, 0.1F}, {-0.8F, -0.9F, 0.1F}};
+      ASSERT_TRUE(validate(op, pieces).has_value());
+      const Applied applied = apply(op, field, pieces);
+      EXPECT_EQ(pieces.size(), pattern == SeedPattern::authored ? 2U : 4U);
+      EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
+      const MassUnits before = mass_of(pieces);
+      const PieceId first = pieces.begin()->first;
+      const Applied broken =
+          apply(ShatterOperation{first, SeedPattern::clustered, 3, 1, {}, 50, cutter}, field, pieces);
+      EXPECT_EQ(broken.created.size(), 3U);
+      EXPECT_EQ(mass_of(pieces) + broken.dust, before);
+    }
+}
+
+TEST(operation, authored_seeds_outside_of_the_volume_leave_it_whole) {
+  MapField field(flat);
+  PieceTable pieces;
+  CarveOperation op = ball(2, SeedPattern::authored);
+  op.authored_m = {{0.3F, 9.0F, 0.1F}, {80.0F, 0.0F, 0.0F}};
+  const Applied applied = apply(op, field, pieces);
+  EXPECT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(mass_of(pieces), -applied.terrain_gain);
+}
+
 TEST(operation, a_carve_of_air_makes_nothing) {
   MapField field(flat);
   PieceTable pieces;
@@ -208,6 +242,22 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(op, "at least one seed");
   op.seeds = limits::seeds_max + 1;
   refused(op, "seeds_max");
+  op = ball(2, SeedPattern::authored);
+  refused(op, "0 authored seeds for a carve of 2");
+  op.authored_m = {{0.0F, 0.0F, 0.0F}, {0.0F, nan, 0.0F}};
+  refused(op, "authored seed's position");
+  op.authored_m[1] = {0.0F, 600.0F, 0.0F};
+  refused(op, "authored seed is outside the world");
+  op.authored_m.assign(limits::authored_seeds_max + 1, glm::vec3(0.0F));
+  op.seeds = limits::authored_seeds_max + 1;
+  refused(op, "limits.authored_seeds_max");
+  op.pattern = SeedPattern::radial;
+  refused(op, "257 authored seeds for a carve of 0");
+  op = ball(8, static_cast<SeedPattern>(4));
+  refused(op, "pattern");
+  op = ball(8);
+  op.cutter = static_cast<Cutter>(3);
+  refused(op, "cutter");
   refused(StampOperation{77, {}, 0}, "no piece 77");
   refused(DiscardOperation{78}, "no piece 78");
   refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");

@@ -30,6 +30,17 @@ inline CarveOperation carve_operation() {
   return {sphere({1.0F, 2.0F, 3.0F}, 2.0F), SeedPattern::radial, 64, 0xDEADBEEFU, {1.0F, 4.0F, 3.0F}, 77777};
 }
 
+inline CarveOperation authored_carve_operation() {
+  return {sphere({1.0F, 2.0F, 3.0F}, 2.0F),
+          SeedPattern::authored,
+          3,
+          7,
+          {1.0F, 4.0F, 3.0F},
+          77777,
+          Cutter::conform,
+          {{1.0F, 2.0F, 3.0F}, {-1.5F, 2.5F, 3.0F}, {0.0F, -900.0F, 4000.0F}}};
+}
+
 inline StampOperation stamp_operation() {
   return {77790, {-65000, 21234, 65535, 0x87654321U}, -12};
 }
@@ -37,15 +48,17 @@ inline StampOperation stamp_operation() {
 inline FrameMessage frame() {
   FrameMessage frame;
   frame.tick = 123456;
-  frame.operations = {carve_operation(),
-                      FillOperation{box({-1.0F, 0.5F, 9.0F}, {1.0F, 2.0F, 0.5F})},
-                      FillOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F)},
-                      stamp_operation(),
-                      StampOperation{77789, {1, 2, 3, 4}, -8000, StampMethod::slices},
-                      StampOperation{77788, {-1, 2, 3, 4}, 8000, StampMethod::sphere},
-                      DiscardOperation{77791},
-                      ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000},
-                      IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005}};
+  frame.operations = {
+      carve_operation(),
+      authored_carve_operation(),
+      FillOperation{box({-1.0F, 0.5F, 9.0F}, {1.0F, 2.0F, 0.5F})},
+      FillOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F)},
+      stamp_operation(),
+      StampOperation{77789, {1, 2, 3, 4}, -8000, StampMethod::slices},
+      StampOperation{77788, {-1, 2, 3, 4}, 8000, StampMethod::sphere},
+      DiscardOperation{77791},
+      ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
+      IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005}};
   frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2)}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
@@ -94,9 +107,14 @@ inline std::vector<ClientMessage> client_messages() {
   carve.pattern = SeedPattern::uniform;
   carve.random_seed = 0xFFFFFFFFU;
   carve.impact_m = {1.0F, -2.0F, 0.5F};
+  CarveMessage authored = carve;
+  authored.pattern = SeedPattern::authored;
+  authored.seeds = 2;
+  authored.authored_m = {{1.0F, 2.0F, 3.0F}, {-4.0F, 0.25F, 4095.0F}};
   return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F},
           InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
           carve,
+          authored,
           FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
           RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},

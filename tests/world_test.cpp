@@ -74,6 +74,30 @@ TEST(world, two_worlds_with_the_same_commands_agree_at_every_tick) {
   }
 }
 
+TEST(world, every_cutter_with_every_simplifier_conserves_mass_and_merges) {
+  for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
+    for (const Simplifier simplifier : {Simplifier::none, Simplifier::hull, Simplifier::merge}) {
+      SCOPED_TRACE(static_cast<int>(cutter) * 10 + static_cast<int>(simplifier));
+      WorldConfig config;
+      config.methods.cutter = cutter;
+      config.methods.simplifier = simplifier;
+      World one(config), other(config);
+      Command command = blow(one, 12.0F, 12.0F, 16);
+      size_t merges = 0;
+      for (int tick = 0; tick < 400; ++tick) {
+        const std::vector<Command> commands =
+            tick == 0 ? std::vector<Command>{command} : std::vector<Command>{};
+        const auto delta = step(one, commands);
+        ASSERT_EQ(delta->ledger.error(), 0);
+        ASSERT_EQ(step(other, commands)->state_hash, delta->state_hash);
+        EXPECT_EQ(delta->spawned.size(), tick == 0 ? 16U : 0U);
+        for (const AppliedOperation& applied : delta->operations)
+          merges += std::holds_alternative<StampOperation>(applied.operation) ? 1 : 0;
+      }
+      EXPECT_GT(merges, 8U);
+    }
+}
+
 TEST(world, requests_that_cannot_be_carried_out_are_answered_by_name_and_change_nothing) {
   World world({});
   const auto refused = [&](const CarveRequest& request, const char* word) {

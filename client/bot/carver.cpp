@@ -1,8 +1,11 @@
 #include "client/bot/carver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "client/bot/limits.h"
+#include "shared/base/limits.h"
 
 namespace scree {
 
@@ -10,6 +13,23 @@ namespace {
 
 /// Height above the undisturbed ground from which a bot looks down, metres.
 constexpr float eye_height_m = 12.0F;
+
+/// Places of stones in a ball of masonry, at most `count`.
+std::vector<glm::vec3> masonry(glm::vec3 centre_m, float radius_m, uint32_t count) {
+  constexpr float ball = 4.19F;  // volume of radius 1
+  const float pitch_m = radius_m * std::cbrt(ball / static_cast<float>(std::max(count, 1U)));
+  const int reach = static_cast<int>(radius_m / pitch_m) + 1;
+  std::vector<glm::vec3> places;
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x)
+      for (int z = -reach; z <= reach; ++z) {
+        const float aside = y % 2 == 0 ? 0.0F : 0.5F;
+        const glm::vec3 off = glm::vec3(static_cast<float>(x) + aside, y, static_cast<float>(z) + aside);
+        if (places.size() < count && glm::length(off) * pitch_m <= radius_m)
+          places.push_back(centre_m + off * pitch_m);
+      }
+  return places;
+}
 
 }  // namespace
 
@@ -41,6 +61,11 @@ CarveMessage Carver::next(Field& field, uint32_t request) {
   const SeedPattern in_turn = request % 2 == 0 ? SeedPattern::uniform : SeedPattern::radial;
   carve.pattern = config_.pattern.value_or(in_turn);
   carve.seeds = config_.seeds;
+  if (carve.pattern == SeedPattern::authored) {
+    carve.authored_m =
+        masonry(carve.shape.a, config_.radius_m, std::min(config_.seeds, limits::authored_seeds_max));
+    carve.seeds = static_cast<uint32_t>(carve.authored_m.size());
+  }
   carve.random_seed = random_.next();
   carve.impact_m = hit.point_m;
   carve.blast_speed_m_s = config_.blast_speed_m_s;

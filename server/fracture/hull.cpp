@@ -7,9 +7,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <set>
 #include <span>
-#include <tuple>
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
@@ -191,6 +189,29 @@ std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) 
   return corners;
 }
 
+/// Those points if their hull is thick enough to collide; else none.
+std::vector<glm::vec3> if_solid(std::vector<glm::vec3> points) {
+  Extent extent;
+  extend(extent, points);
+  if (points.size() < 4 || !extent.is_solid()) points.clear();
+  return points;
+}
+
+std::vector<glm::vec3> simplified(const std::vector<glm::vec3>& surface, Simplifier simplifier) {
+  constexpr float least_spacing_voxels = 0.5F;
+  switch (simplifier) {
+    case Simplifier::none:
+      return if_solid(surface.size() <= whole_points_max
+                          ? surface
+                          : spread(surface, least_spacing_voxels, whole_points_max));
+    case Simplifier::merge:
+      return if_solid(merge_near(surface, merged_points_max));
+    case Simplifier::hull:
+      break;
+  }
+  return choose_corners(surface);
+}
+
 /// A cube of that mass: what a volume that is all edge collides as. Half its side, voxels.
 std::vector<glm::vec3> cube_of(MassUnits mass) {
   const float half = 0.5F * std::cbrt(static_cast<float>(mass) / units_per_voxel);
@@ -252,38 +273,30 @@ glm::vec3 inertia_of(const Volume& volume) {
 
 }  // namespace
 
-std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m) {
+std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m,
+                                  Simplifier simplifier) {
   std::vector<PieceHull> hulls;
   for (const CreatedPiece& created : applied.created) {
     const auto found = pieces.find(created.id);
     CHECK(found != pieces.end());
-    hulls.push_back(make_hull(created.id, *found->second, voxel_size_m));
+    hulls.push_back(make_hull(created.id, *found->second, voxel_size_m, simplifier));
   }
   return hulls;
 }
 
 std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max) {
-  const std::vector<glm::vec3> surface = surface_of(volume.window);
-  std::vector<glm::vec3> samples;
-  for (float spacing_voxels = 2.0F;; spacing_voxels *= 1.25F) {
-    std::set<std::tuple<int, int, int>> taken;
-    samples.clear();
-    for (const glm::vec3& p : surface) {
-      const auto cube = [&](float x) { return floor_to_int(x / spacing_voxels); };
-      if (!taken.emplace(cube(p.x), cube(p.y), cube(p.z)).second) continue;
-      samples.push_back((p - volume.centre_voxels) * voxel_size_m);
-      if (samples.size() > count_max) break;
-    }
-    if (samples.size() <= count_max) return samples;
-  }
+  constexpr float spacing_voxels = 2.0F;
+  std::vector<glm::vec3> samples = spread(surface_of(volume.window), spacing_voxels, count_max);
+  for (glm::vec3& p : samples) p = (p - volume.centre_voxels) * voxel_size_m;
+  return samples;
 }
 
-PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m) {
+PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simplifier simplifier) {
   std::vector<glm::vec3> candidates = surface_of(volume.window);
   for (glm::vec3& p : candidates) p -= volume.centre_voxels;
   PieceHull hull;
   hull.id = id;
-  hull.corners_m = choose_corners(candidates);
+  hull.corners_m = simplified(candidates, simplifier);
   if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
   for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;
   hull.inertia_m2 = inertia_of(volume) * (voxel_size_m * voxel_size_m);

@@ -24,8 +24,9 @@ double steady_now_s() {
 }
 
 Command command_of(uint64_t session, const CarveMessage& m) {
-  return {session, m.request,
-          CarveRequest{m.shape, m.pattern, m.seeds, m.random_seed, m.impact_m, m.blast_speed_m_s}};
+  return {
+      session, m.request,
+      CarveRequest{m.shape, m.pattern, m.seeds, m.random_seed, m.impact_m, m.blast_speed_m_s, m.authored_m}};
 }
 
 Command command_of(uint64_t session, const FillMessage& m) {

@@ -41,9 +41,9 @@ std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
   std::vector<RecordedCommand> out;
   for (const Command& command : commands) {
     if (const auto* carve = std::get_if<CarveRequest>(&command.body))
-      out.push_back(
-          {command.session, CarveMessage{command.request, carve->shape, carve->pattern, carve->seeds,
-                                         carve->random_seed, carve->impact_m, carve->blast_speed_m_s}});
+      out.push_back({command.session, CarveMessage{command.request, carve->shape, carve->pattern,
+                                                   carve->seeds, carve->random_seed, carve->impact_m,
+                                                   carve->blast_speed_m_s, carve->authored_m}});
     else if (const auto* fill = std::get_if<FillRequest>(&command.body))
       out.push_back({command.session, FillMessage{command.request, fill->shape}});
     else if (const auto* settings = std::get_if<SettingsRequest>(&command.body))
@@ -58,7 +58,7 @@ std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
     if (const auto* carve = std::get_if<CarveMessage>(&command.request))
       out.push_back({command.session, carve->request,
                      CarveRequest{carve->shape, carve->pattern, carve->seeds, carve->random_seed,
-                                  carve->impact_m, carve->blast_speed_m_s}});
+                                  carve->impact_m, carve->blast_speed_m_s, carve->authored_m}});
     else if (const auto* fill = std::get_if<FillMessage>(&command.request))
       out.push_back({command.session, fill->request, FillRequest{fill->shape}});
     else if (const auto* admin = std::get_if<AdminMessage>(&command.request))

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "shared/base/setting_value.h"
 #include "shared/field/shape.h"
@@ -17,6 +18,7 @@ struct CarveRequest {
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};  ///< where the blow struck; pieces fly out towards it
   float blast_speed_m_s = 6.0F;
+  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
 
   bool operator==(const CarveRequest&) const = default;
 };

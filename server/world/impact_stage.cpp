@@ -138,10 +138,10 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
-  const Applied applied =
-      state.apply_and_record(ShatterOperation{id, SeedPattern::radial, seeds, random_seed(state, id),
-                                              breakup.impact_voxels(), state.next_piece},
-                             delta);
+  const Applied applied = state.apply_and_record(
+      ShatterOperation{id, SeedPattern::radial, seeds, random_seed(state, id), breakup.impact_voxels(),
+                       state.next_piece, state.methods.cutter},
+      delta);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   breakup.balance(applied, state.pieces);
@@ -172,7 +172,8 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                                  seeds,
                                  random_seed(state, impact.id),
                                  impact.point_m,
-                                 state.next_piece};
+                                 state.next_piece,
+                                 state.methods.cutter};
   if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
   if (!quota.take(state.work, delta.work.dents_left_out)) return;
   const Applied applied = state.apply_and_record(operation, delta);

@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "server/bodies/terrain_collider_kind.h"
+#include "server/fracture/simplify.h"
+#include "shared/field/voronoi.h"
 
 namespace scree {
 
@@ -19,6 +21,8 @@ struct Methods {
   bool dents = true;                                          ///< hard contacts dent soft ground
   bool islands = true;                                        ///< what is cut off from the ground falls
   Recombination recombine = Recombination::stamp;             ///< how pieces at rest become terrain again
+  Cutter cutter = Cutter::field;                              ///< how what breaks is cut into pieces
+  Simplifier simplifier = Simplifier::hull;                   ///< which points of a piece collide
 
   bool operator==(const Methods&) const = default;
 };

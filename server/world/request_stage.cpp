@@ -45,8 +45,9 @@ void throw_out(World::State& state, const Applied& applied, const CarveRequest& 
 }
 
 Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
-  const CarveOperation operation{request.shape,       request.pattern,  request.seeds,
-                                 request.random_seed, request.impact_m, state.next_piece};
+  const CarveOperation operation{request.shape,        request.pattern,   request.seeds,
+                                 request.random_seed,  request.impact_m,  state.next_piece,
+                                 state.methods.cutter, request.authored_m};
   if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
     return tl::unexpected(valid.error());
   if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||

@@ -19,6 +19,10 @@ template <>
 constexpr std::array<std::string_view, 3> names_of<TerrainColliderKind>{"field", "mesh", "rays"};
 template <>
 constexpr std::array<std::string_view, 4> names_of<Recombination>{"stamp", "slices", "sphere", "off"};
+template <>
+constexpr std::array<std::string_view, 3> names_of<Cutter>{"field", "slice", "conform"};
+template <>
+constexpr std::array<std::string_view, 3> names_of<Simplifier>{"none", "hull", "merge"};
 
 template <typename Choice>
 Result<void> parse_choice(std::string_view value, Choice& to) {
@@ -49,13 +53,16 @@ constexpr std::array table{
     choice<&Methods::dents>("dents", "whether pieces that strike hard dent soft ground"),
     choice<&Methods::islands>("islands", "whether terrain that is cut off from the ground falls"),
     choice<&Methods::recombine>("recombine", "how pieces at rest become terrain again; off: never"),
+    choice<&Methods::cutter>("cutter", "how what breaks is cut into pieces"),
+    choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
 };
 
 /// Bound one by one, so that a member that is new and not in the table does not compile.
 constexpr size_t members() {
-  const auto [collider, impacts, dents, islands, recombine] = Methods{};
-  return std::array{static_cast<int>(collider), static_cast<int>(impacts), static_cast<int>(dents),
-                    static_cast<int>(islands), static_cast<int>(recombine)}
+  const auto [collider, impacts, dents, islands, recombine, cutter, simplifier] = Methods{};
+  return std::array{static_cast<int>(collider),  static_cast<int>(impacts),   static_cast<int>(dents),
+                    static_cast<int>(islands),   static_cast<int>(recombine), static_cast<int>(cutter),
+                    static_cast<int>(simplifier)}
       .size();
 }
 static_assert(members() == table.size());

@@ -7,7 +7,8 @@ namespace scree {
 
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
-  for (const PieceHull& hull : make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m)) {
+  for (const PieceHull& hull :
+       make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m, state.methods.simplifier)) {
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;

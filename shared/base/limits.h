@@ -9,6 +9,9 @@ namespace scree::limits {
 /// Seeds in one carve. 4,096 is the most that the issue of one request may cost a tick; above: refused.
 inline constexpr uint32_t seeds_max = 4096;
 
+/// Authored seeds in one carve: 12 bytes each on the wire, to every client near. Above: refused.
+inline constexpr uint32_t authored_seeds_max = 256;
+
 /// Reach (half the longest extent) of one carve or fill, metres. Cost grows with its cube; above: refused.
 inline constexpr float edit_reach_max_m = 8.0F;
 

@@ -8,6 +8,7 @@
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
 #include "shared/field/island.h"
+#include "shared/field/polygon_cut.h"
 #include "shared/field/shatter.h"
 #include "shared/field/stamp_method.h"
 
@@ -44,6 +45,14 @@ void enter(Cut cut, PieceId id, PieceTable& pieces, Applied& applied) {
   applied.dust = cut.dust;
 }
 
+std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
+  if (op.pattern != SeedPattern::authored)
+    return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
+  std::vector<glm::vec3> points;
+  for (const glm::vec3& point_m : op.authored_m) points.push_back(point_m / voxel_size_m);
+  return authored_seeds(volume, points, op.random_seed);
+}
+
 Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pieces) {
   const float dx = field.source().voxel_size_m;
   const Shape shape = in_voxels(carve_op.shape, dx);
@@ -53,9 +62,9 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   carve(after, solid);
   const Window volume = extract(before, solid);
   Applied applied;
-  applied.seeds_voxels =
-      scatter_seeds(volume, carve_op.pattern, carve_op.seeds, carve_op.random_seed, carve_op.impact_m / dx);
-  enter(cut_cells(volume, before, after, applied.seeds_voxels), carve_op.first_piece, pieces, applied);
+  applied.seeds_voxels = seeds_of(carve_op, volume, dx);
+  enter(cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels), carve_op.first_piece,
+        pieces, applied);
   applied.changed = scatter(field, after);
   applied.terrain_gain = mass_of(after) - mass_of(before);
   return applied;
@@ -97,7 +106,7 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
-  enter(shatter(*volume, applied.seeds_voxels), op.first_piece, pieces, applied);
+  enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, pieces, applied);
   return applied;
 }
 
@@ -121,8 +130,10 @@ Result<void> known(PieceId id, const PieceTable& pieces) {
   return fail("there is no piece " + std::to_string(id));
 }
 
-Result<void> validate_seeds(SeedPattern pattern, uint32_t seeds, PieceId first_piece) {
-  if (pattern > SeedPattern::radial) return fail("the seed pattern is none that is known (uniform, radial)");
+Result<void> validate_seeds(SeedPattern pattern, Cutter cutter, uint32_t seeds, PieceId first_piece) {
+  if (pattern > SeedPattern::authored)
+    return fail("the seed pattern is none that is known (uniform, radial, clustered, authored)");
+  if (cutter > Cutter::conform) return fail("the cutter is none that is known (field, slice, conform)");
   if (seeds == 0) return fail("a carve needs at least one seed");
   if (seeds > limits::seeds_max)
     return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
@@ -135,6 +146,21 @@ bool is_finite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+Result<void> validate_authored(const CarveOperation& op) {
+  const size_t wanted = op.pattern == SeedPattern::authored ? op.seeds : 0;
+  if (op.authored_m.size() != wanted)
+    return fail(std::to_string(op.authored_m.size()) + " authored seeds for a carve of " +
+                std::to_string(wanted) + " (the pattern authored has as many as seeds, others none)");
+  if (wanted > limits::authored_seeds_max)
+    return fail(std::to_string(wanted) + " authored seeds are over the limit of " +
+                std::to_string(limits::authored_seeds_max) + " (limits.authored_seeds_max)");
+  for (const glm::vec3& point_m : op.authored_m) {
+    if (!is_finite(point_m)) return fail("an authored seed's position is not a finite number");
+    if (!in_world(point_m)) return fail("an authored seed is outside the world (limits.world_half_width_m)");
+  }
+  return {};
+}
+
 struct Validator {
   const PieceTable& pieces;
 
@@ -142,7 +168,8 @@ struct Validator {
     if (Result<void> valid = validate_place(op.shape); !valid) return valid;
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
-    return validate_seeds(op.pattern, op.seeds, op.first_piece);
+    if (Result<void> valid = validate_authored(op); !valid) return valid;
+    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
   Result<void> operator()(const StampOperation& op) const {
@@ -159,7 +186,8 @@ struct Validator {
   Result<void> operator()(const ShatterOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
-    return validate_seeds(op.pattern, op.seeds, op.first_piece);
+    if (op.pattern == SeedPattern::authored) return fail("a piece that breaks has no authored seeds");
+    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {
     constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);

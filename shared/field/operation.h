@@ -25,6 +25,8 @@ struct CarveOperation {
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};
   PieceId first_piece = 0;
+  Cutter cutter = Cutter::field;
+  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
 
   bool operator==(const CarveOperation&) const = default;
 };
@@ -54,7 +56,7 @@ struct DiscardOperation {
 };
 
 /// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
-/// impact is in the voxel frame of its volume.
+/// impact is in the voxel frame of its volume. Of any pattern but `authored`.
 struct ShatterOperation {
   PieceId piece = 0;
   SeedPattern pattern = SeedPattern::radial;
@@ -62,6 +64,7 @@ struct ShatterOperation {
   uint32_t random_seed = 0;
   glm::vec3 impact_voxels{0.0F};
   PieceId first_piece = 0;
+  Cutter cutter = Cutter::field;
 
   bool operator==(const ShatterOperation&) const = default;
 };

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "shared/base/check.h"
 #include "shared/base/random.h"
 #include "shared/field/voronoi.h"
 
@@ -37,49 +38,95 @@ class SpacedSeeds {
   std::unordered_map<VoxelCoord, glm::vec3, CoordHash> cells_;
 };
 
-struct SolidVoxels {
-  std::vector<VoxelCoord> voxels;
-  float nearest2 = 0.0F;  ///< squared distance of the impact to the nearest of them
-};
-
-SolidVoxels solid_voxels(const Window& volume, glm::vec3 impact) {
-  SolidVoxels out;
+std::vector<VoxelCoord> solid_voxels(const Window& volume) {
+  std::vector<VoxelCoord> out;
   const VoxelBox& box = volume.box;
   size_t i = 0;
   for (int x = box.lo.x; x < box.hi.x; ++x)
     for (int y = box.lo.y; y < box.hi.y; ++y)
       for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
-        if (volume.codes[i] >= 0) continue;
-        const glm::vec3 off = glm::vec3(x, y, z) - impact;
-        const float d2 = glm::dot(off, off);
-        out.nearest2 = out.voxels.empty() ? d2 : std::min(out.nearest2, d2);
-        out.voxels.push_back({x, y, z});
+        if (volume.codes[i] < 0) out.push_back({x, y, z});
       }
   return out;
+}
+
+glm::vec3 as_vec3(VoxelCoord v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Where seeds gather: density ∝ 1/d² from the nearest of the places; without any, the same everywhere.
+class Density {
+ public:
+  Density(std::vector<glm::vec3> places, const std::vector<VoxelCoord>& solid) : places_(std::move(places)) {
+    if (places_.empty()) return;
+    float nearest2 = distance2(as_vec3(solid.front()));
+    for (const VoxelCoord& voxel : solid) nearest2 = std::min(nearest2, distance2(as_vec3(voxel)));
+    // Within a voxel of a place the density is that at one voxel: 1/d² has no bound.
+    nearest2_ = std::max(1.0F, nearest2);
+  }
+
+  bool wants(glm::vec3 p, float draw) const { return places_.empty() || draw * distance2(p) < nearest2_; }
+
+ private:
+  float distance2(glm::vec3 p) const {
+    const auto to = [&](glm::vec3 place) { return glm::dot(p - place, p - place); };
+    float nearest2 = to(places_.front());
+    for (const glm::vec3& place : places_) nearest2 = std::min(nearest2, to(place));
+    return nearest2;
+  }
+
+  std::vector<glm::vec3> places_;
+  float nearest2_ = 0.0F;
+};
+
+constexpr uint32_t seeds_per_cluster = 8;
+/// Bounds what a seed's draw costs.
+constexpr size_t clusters_max = 64;
+
+std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 impact,
+                                 const std::vector<VoxelCoord>& solid, Random& random) {
+  if (pattern == SeedPattern::radial) return {impact};
+  std::vector<glm::vec3> places;
+  if (pattern == SeedPattern::clustered)
+    for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
+      places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+  return places;
+}
+
+int rounded(float x) {
+  return floor_to_int(x + 0.5F);
 }
 
 }  // namespace
 
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels) {
-  const SolidVoxels solid = solid_voxels(volume, impact_voxels);
-  if (solid.voxels.empty()) return {};
-  // Within a voxel of the impact the density is that at one voxel: 1/d² has no bound.
-  const float nearest2 = std::max(1.0F, solid.nearest2);
+  CHECK(pattern != SeedPattern::authored);
+  const std::vector<VoxelCoord> solid = solid_voxels(volume);
+  if (solid.empty()) return {};
   Random random(random_seed);
+  const Density density(places_of(pattern, count, impact_voxels, solid, random), solid);
   SpacedSeeds out;
   const uint64_t tries_max = static_cast<uint64_t>(count) * tries_per_seed;
   for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
-    const VoxelCoord voxel = solid.voxels[random.below(static_cast<uint32_t>(solid.voxels.size()))];
+    const VoxelCoord voxel = solid[random.below(static_cast<uint32_t>(solid.size()))];
     const float dx = random.unit() - 0.5F, dy = random.unit() - 0.5F, dz = random.unit() - 0.5F;
-    const glm::vec3 p(static_cast<float>(voxel.x) + dx, static_cast<float>(voxel.y) + dy,
-                      static_cast<float>(voxel.z) + dz);
-    const glm::vec3 off = p - impact_voxels;
+    const glm::vec3 p = as_vec3(voxel) + glm::vec3(dx, dy, dz);
     const float draw = random.unit();
-    const bool wanted = pattern == SeedPattern::uniform || draw * glm::dot(off, off) < nearest2;
-    // A radial pattern that keeps losing its draws falls back to uniform for the last quarter of the tries.
-    if (wanted || tries > tries_max - tries_max / 4) out.add(p);
+    // A pattern that keeps losing its draws falls back to uniform for the last quarter of the tries.
+    if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(p);
   }
+  return std::move(out.seeds);
+}
+
+std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,
+                                      uint32_t random_seed) {
+  SpacedSeeds out;
+  for (const glm::vec3& p : points_voxels) {
+    const VoxelCoord voxel{rounded(p.x), rounded(p.y), rounded(p.z)};
+    if (volume.box.holds(voxel) && volume.at(voxel.x, voxel.y, voxel.z) < 0) out.add(p);
+  }
+  if (out.seeds.empty()) return scatter_seeds(volume, SeedPattern::uniform, 1, random_seed, glm::vec3(0.0F));
   return std::move(out.seeds);
 }
 

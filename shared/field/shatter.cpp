@@ -1,10 +1,12 @@
 #include "shared/field/shatter.h"
 
+#include "shared/field/polygon_cut.h"
+
 namespace scree {
 
-Cut shatter(const Volume& piece, const std::vector<glm::vec3>& seeds_voxels) {
+Cut shatter(Cutter cutter, const Volume& piece, const std::vector<glm::vec3>& seeds_voxels) {
   const Window nothing(piece.window.box);
-  Cut cut = cut_cells(piece.window, piece.window, nothing, seeds_voxels);
+  Cut cut = cut_volume(cutter, piece.window, piece.window, nothing, seeds_voxels);
   MassUnits cells = 0;
   for (const CutPiece& child : cut.pieces) cells += child.volume.mass;
   // Up to here in the order of the pieces; differences of what is due in all leave nothing over. The products

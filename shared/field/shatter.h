@@ -6,8 +6,8 @@
 namespace scree {
 
 /// What the children weigh together, and the dust, is exactly what the piece weighed: its mass is shared out
-/// in proportion to the occupancy of their cells, whose sum differs a little from it (the piece's mass is
+/// in proportion to the masses of their cells, whose sum differs a little from it (the piece's mass is
 /// what the terrain lost to it). Children keep the voxel frame of the piece; their centres are their own.
-Cut shatter(const Volume& piece, const std::vector<glm::vec3>& seeds_voxels);
+Cut shatter(Cutter cutter, const Volume& piece, const std::vector<glm::vec3>& seeds_voxels);
 
 }  // namespace scree

@@ -11,7 +11,9 @@
 namespace scree {
 
 /// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
-enum class SeedPattern : uint8_t { uniform = 0, radial = 1 };
+/// clustered: density ∝ 1/d² from the nearest of a few places in the volume, one for every eight seeds, 64 at
+/// most. authored: where whoever asks wants them.
+enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, authored = 3 };
 
 /// How a volume is cut along cells. field: its codes, without any mesh (cut_cells). slice: the paper's, its
 /// surface as polygons, cut by each cell's planes and capped (slice_cutter.h). conform: cells bounded by the
@@ -19,8 +21,15 @@ enum class SeedPattern : uint8_t { uniform = 0, radial = 1 };
 enum class Cutter : uint8_t { field = 0, slice = 1, conform = 2 };
 
 /// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room.
+/// Of any pattern but `authored`.
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels);
+
+/// Those of the points (voxels) that can be seeds, in their order: what lies outside the volume (its voxel is
+/// not solid) or nearer than a voxel to one before is dropped, so that every seed gets a cell. When none is
+/// left, one anywhere: the volume stays whole.
+std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,
+                                      uint32_t random_seed);
 
 /// A piece, and the seeds whose cells it is made of (indices): one, or several where cells were too small to
 /// stand alone and joined their largest neighbour.

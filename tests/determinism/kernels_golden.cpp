@@ -185,6 +185,21 @@ void print_fracture() {
   }
 }
 
+void print_seed_patterns() {
+  const Window rock = terrain_window(3.0F, 11.0F, 32);
+  Digest digest;
+  for (const uint32_t count : {5U, 300U})
+    for (const glm::vec3& seed : scatter_seeds(rock, SeedPattern::clustered, count, 17, centre(rock)))
+      digest.add(seed);
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < 50; ++i) {
+    const auto along = static_cast<float>(i);
+    points.push_back(centre(rock) + glm::vec3(0.4F, -0.5F, 0.1F) * along);
+  }
+  for (const glm::vec3& seed : authored_seeds(rock, points, 17)) digest.add(seed);
+  digest.print("seeds_clustered_authored");
+}
+
 void print_polygon_cutters() {
   for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
     Digest digest;
@@ -237,7 +252,7 @@ void print_stamp(StampMethod method, const std::string& name) {
   digest.print("plan_and_" + name);
 }
 
-void print_shatter() {
+void print_shatter(Cutter cutter, const std::string& name) {
   MapField field({TerrainKind::canyon, 3, 0.25F});
   PieceTable pieces;
   const glm::vec3 ground(9.0F, ground_height_m(field.source(), 9.0F, 4.0F), 4.0F);
@@ -247,11 +262,11 @@ void print_shatter() {
   for (const auto& [id, parent] : parents) {
     const glm::vec3 impact = parent->centre_voxels - glm::vec3(0.0F, 3.0F, 0.0F);
     const Applied applied =
-        apply(ShatterOperation{id, SeedPattern::radial, 8, id, impact, id * 100}, field, pieces);
+        apply(ShatterOperation{id, SeedPattern::radial, 8, id, impact, id * 100, cutter}, field, pieces);
     digest.add(static_cast<uint64_t>(applied.dust));
     for (const CreatedPiece& child : applied.created) digest.add(*pieces.at(child.id));
   }
-  digest.print("shatter");
+  digest.print(name);
 }
 
 /// Posts, their feet carved away: found, and lifted.
@@ -324,7 +339,10 @@ int main() {
   scree::print_stamp(scree::StampMethod::stamp, "stamp");
   scree::print_stamp(scree::StampMethod::slices, "slices");
   scree::print_stamp(scree::StampMethod::sphere, "sphere");
-  scree::print_shatter();
+  scree::print_seed_patterns();
+  scree::print_shatter(scree::Cutter::field, "shatter");
+  scree::print_shatter(scree::Cutter::slice, "shatter_slice");
+  scree::print_shatter(scree::Cutter::conform, "shatter_conform");
   scree::print_islands();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);

@@ -52,9 +52,10 @@ void add_carving(CLI::App& app, Options& options) {
   app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into")
       ->envname("SCREE_SEEDS")
       ->capture_default_str();
-  app.add_option("--pattern", options.pattern, "of the seeds: radial, uniform, or both in turn")
+  app.add_option("--pattern", options.pattern,
+                 "of the seeds: radial, uniform, both in turn, clustered, or authored (as stones of a wall)")
       ->envname("SCREE_PATTERN")
-      ->check(CLI::IsMember({"radial", "uniform", "both"}))
+      ->check(CLI::IsMember({"radial", "uniform", "both", "clustered", "authored"}))
       ->capture_default_str();
   app.add_option("--centre", options.centre_m, "x and z around which to carve, metres")->expected(2);
   app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres")
@@ -82,6 +83,8 @@ void add_ending(CLI::App& app, Options& options) {
 void complete(Options& options) {
   scree::CarverConfig& carver = options.bot.carver;
   if (options.pattern == "uniform") carver.pattern = scree::SeedPattern::uniform;
+  if (options.pattern == "clustered") carver.pattern = scree::SeedPattern::clustered;
+  if (options.pattern == "authored") carver.pattern = scree::SeedPattern::authored;
   if (options.pattern == "both") carver.pattern.reset();
   carver.centre_m = {options.centre_m[0], 0.0F, options.centre_m[1]};
 }
