@@ -264,5 +264,47 @@ TEST(Frozen, removing_what_it_touches_thaws_it_and_a_light_touch_does_not) {
   EXPECT_EQ(bodies.frozen(), 0U);
 }
 
+/// A gate, 4 m wide with an opening of 2 m by 2 m: two posts and a beam, its centre of mass at the origin.
+BodyShape gate(bool of_parts) {
+  const auto block = [](glm::vec3 middle, glm::vec3 half) {
+    std::vector<glm::vec3> corners = box_shape(half).hull_m;
+    for (glm::vec3& p : corners) p += middle;
+    return corners;
+  };
+  BodyShape shape = box_shape({2.0F, 1.5F, 0.5F});
+  const std::vector<std::vector<glm::vec3>> parts = {block({-1.5F, -0.5F, 0.0F}, {0.5F, 1.0F, 0.5F}),
+                                                     block({1.5F, -0.5F, 0.0F}, {0.5F, 1.0F, 0.5F}),
+                                                     block({0.0F, 1.0F, 0.0F}, {2.0F, 0.5F, 0.5F})};
+  for (const auto& part : parts) shape.surface_m.insert(shape.surface_m.end(), part.begin(), part.end());
+  if (of_parts) shape.parts_m = parts;
+  return shape;
+}
+
+TEST(Compound, a_gate_comes_down_about_what_stands_in_its_opening) {
+  for (const bool of_parts : {true, false}) {
+    MapField field(terrain(TerrainKind::flat));
+    Bodies bodies(field, {});
+    bodies.add(box_shape(glm::vec3(0.6F)), body_at(1, {0.0F, 0.6F, 0.0F}));
+    bodies.add(gate(of_parts), body_at(2, {0.0F, 3.0F, 0.0F}));
+    step(bodies, 90);
+    const float height_m = bodies.state(2).pose.position_m.y;
+    if (of_parts)
+      EXPECT_NEAR(height_m, 1.5F, 0.05F);
+    else
+      EXPECT_GT(height_m, 2.0F) << "as one hull it has no opening";
+    EXPECT_NEAR(bodies.state(1).pose.position_m.x, 0.0F, 0.05F);
+  }
+}
+
+TEST(Compound, its_parts_bear_what_falls_on_them) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(gate(true), body_at(1, {0.0F, 1.5F, 0.0F}));
+  bodies.add(box_shape(glm::vec3(0.3F)), body_at(2, {0.0F, 3.5F, 0.0F}));
+  step(bodies, 120);
+  EXPECT_NEAR(bodies.state(2).pose.position_m.y, 3.3F, 0.06F);
+  EXPECT_EQ(bodies.contacts().carried.size(), 1U);
+}
+
 }  // namespace
 }  // namespace scree

@@ -154,5 +154,35 @@ TEST(Hull, is_the_same_every_time) {
   for (size_t i = 0; i < a.hulls.size(); ++i) EXPECT_EQ(a.hulls[i].corners_m, b.hulls[i].corners_m);
 }
 
+TEST(Hull, convex_parts_of_an_arch_leave_its_opening_open) {
+  Volume arch;
+  arch.window = Window(VoxelBox{{0, 0, 0}, {28, 22, 10}});
+  const auto solid = [](int x, int y, int z) {
+    const bool block = x >= 2 && x < 26 && y >= 2 && y < 20 && z >= 2 && z < 8;
+    return block && !(x >= 10 && x < 18 && y < 14);
+  };
+  for (int x = 0; x < 28; ++x)
+    for (int y = 0; y < 22; ++y)
+      for (int z = 0; z < 10; ++z) {
+        arch.window.codes[arch.window.index(x, y, z)] = solid(x, y, z) ? Code{-60} : Code{60};
+        arch.mass += solid(x, y, z) ? units_per_voxel : 0;
+      }
+  arch.centre_voxels = {13.5F, 12.0F, 4.5F};
+  const auto parts = convex_parts(arch, voxel_m, 64);
+  EXPECT_GE(parts.size(), 6U);
+  EXPECT_LE(parts.size(), 64U);
+  glm::vec3 lo(1e30F), hi(-1e30F);
+  for (const auto& part : parts) {
+    EXPECT_GE(part.size(), 4U);
+    for (const glm::vec3& corner : part) {
+      const glm::vec3 p = corner / voxel_m + arch.centre_voxels;
+      lo = glm::min(lo, p), hi = glm::max(hi, p);
+      EXPECT_FALSE(p.x > 11.0F && p.x < 16.0F && p.y < 12.5F) << "a corner in the opening";
+    }
+  }
+  EXPECT_NEAR(hi.x - lo.x, 24.0F, 1.0F);
+  EXPECT_NEAR(hi.y - lo.y, 18.0F, 1.0F);
+}
+
 }  // namespace
 }  // namespace scree

@@ -22,6 +22,22 @@ btVector3 stable_inertia(glm::vec3 inertia) {
   return to_bullet(glm::max(inertia, glm::vec3(least)));
 }
 
+glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
+  glm::vec3 sum(0.0F);
+  for (const glm::vec3& p : points) sum += p;
+  return sum / static_cast<float>(points.size());
+}
+
+/// What collides with other bodies.
+void add_hulls(const BodyShape& shape, Body& body) {
+  body.hulls = std::make_unique<CollisionHulls>();
+  for (const std::vector<glm::vec3>& part : shape.parts_m) {
+    body.parts.push_back(make_convex_shape(part, middle_of(part)));
+    body.hulls->add(*body.parts.back());
+  }
+  if (body.parts.empty()) body.hulls->add(*body.shape);
+}
+
 bool touches(const btPersistentManifold& manifold) {
   for (int i = 0; i < manifold.getNumContacts(); ++i)
     if (manifold.getContactPoint(i).getDistance() < limits::contact_slack_m) return true;
@@ -77,8 +93,8 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
   body.rigid = std::make_unique<btRigidBody>(info);
   body.rigid->setFlags(0);  // no gyroscopic torque: it costs a solve a body, and rubble does not show it
-  body.corners = std::make_unique<HullCorners>(corners_of(*body.shape));
-  body.rigid->setUserPointer(body.corners.get());
+  add_hulls(shape, body);
+  body.rigid->setUserPointer(body.hulls.get());
   body.rigid->setUserIndex(static_cast<int>(state.id));
   body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
@@ -116,7 +132,7 @@ void Bodies::step() {
   State& s = *state_;
   for (auto& [id, body] : s.bodies) {
     if (body.frozen) continue;
-    body.corners->turn(from_bullet(body.rigid->getWorldTransform().getBasis()));
+    body.hulls->turn(from_bullet(body.rigid->getWorldTransform().getBasis()));
     if (!body.rigid->isActive()) continue;
     body.last = body.rigid->getWorldTransform();
     s.find_ground(body);

@@ -30,6 +30,9 @@ struct BodyShape {
   /// What touches the terrain, where the hull would not do: points of a concave piece's own surface, in the
   /// same frame. None: points of the hull.
   std::vector<glm::vec3> surface_m{};
+  /// What touches other bodies, where the hull would not do: convex parts of a large concave piece, each as
+  /// `hull_m`. None: the hull.
+  std::vector<std::vector<glm::vec3>> parts_m{};
 };
 
 struct BodyState {

@@ -133,7 +133,7 @@ void Bodies::State::freeze(PieceId id, Body& body) {
   rigid.setLinearVelocity(btVector3(0.0F, 0.0F, 0.0F));
   rigid.setAngularVelocity(btVector3(0.0F, 0.0F, 0.0F));
   rigid.setMassProps(0.0F, btVector3(0.0F, 0.0F, 0.0F));
-  body.corners->turn(from_bullet(rigid.getWorldTransform().getBasis()));
+  body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
   body.frozen = BodyState{id, from_bullet(rigid.getWorldTransform()), glm::vec3(0.0F), glm::vec3(0.0F), true};
   body.thawed.reset();
   ++frozen;

@@ -25,8 +25,9 @@ struct Bounds {
 
 /// A piece as Bullet has it.
 struct Body {
-  std::unique_ptr<btConvexHullShape> shape;
-  std::unique_ptr<HullCorners> corners;  ///< of `shape`, turned; `rigid`'s user pointer
+  std::unique_ptr<btConvexHullShape> shape;               ///< about all of it
+  std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< what collides, where that is not `shape`
+  std::unique_ptr<CollisionHulls> hulls;                  ///< of those; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
   std::vector<glm::vec3> points_m;  ///< what touches the terrain
   std::unique_ptr<TerrainProbe> probe;

@@ -11,9 +11,9 @@ namespace scree {
 
 namespace {
 
-/// Distance of the hull's nearest face from the origin, or a little more: the least support over 26
+/// Distance of the hull's nearest face from a point inside, or a little more: the least support over 26
 /// directions.
-float thickness_of(const std::vector<glm::vec3>& hull_m) {
+float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
   float least = 1e30F;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
@@ -22,7 +22,7 @@ float thickness_of(const std::vector<glm::vec3>& hull_m) {
         const float length = std::sqrt(glm::dot(along, along));
         if (length == 0.0F) continue;
         float support = -1e30F;
-        for (const glm::vec3& p : hull_m) support = std::max(support, glm::dot(p, along));
+        for (const glm::vec3& p : hull_m) support = std::max(support, glm::dot(p - middle_m, along));
         least = std::min(least, support / length);
       }
   return least;
@@ -49,12 +49,16 @@ bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance)
 
 }  // namespace
 
-std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m) {
-  const float thickness = std::max(thickness_of(hull_m), 0.01F);
+std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
+                                                     glm::vec3 middle_m) {
+  const float thickness = std::max(thickness_of(hull_m, middle_m), 0.01F);
   const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
   const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
   auto shape = std::make_unique<btConvexHullShape>();
-  for (const glm::vec3& p : hull_m) shape->addPoint(btVector3(p.x * scale, p.y * scale, p.z * scale), false);
+  for (const glm::vec3& corner : hull_m) {
+    const glm::vec3 p = middle_m + (corner - middle_m) * scale;
+    shape->addPoint(btVector3(p.x, p.y, p.z), false);
+  }
   shape->setMargin(margin);
   shape->recalcLocalAabb();  // setMargin leaves the cached bounds stale
   return shape;

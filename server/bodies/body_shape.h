@@ -10,7 +10,9 @@ namespace scree {
 
 /// Bullet surrounds a convex shape with a margin; the hull is shrunk by it and a little more, so that
 /// neighbours do not overlap at birth. For piece against piece alone.
-std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m);
+/// `middle_m` must lie inside.
+std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
+                                                     glm::vec3 middle_m = glm::vec3(0.0F));
 
 /// The shrunken hull's corners.
 std::vector<glm::vec3> corners_of(const btConvexHullShape& shape);

@@ -8,23 +8,68 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <algorithm>
+#include <glm/common.hpp>
 #include <new>
 
+#include "server/bodies/body_shape.h"
 #include "server/bodies/limits.h"
 
 namespace scree {
 
 namespace {
 
-const HullCorners& corners_of(const btCollisionObjectWrapper* body) {
-  return *static_cast<const HullCorners*>(body->getCollisionObject()->getUserPointer());
+const CollisionHulls& hulls_of(const btCollisionObjectWrapper* body) {
+  return *static_cast<const CollisionHulls*>(body->getCollisionObject()->getUserPointer());
 }
 
-float margin_of(const btCollisionObjectWrapper* body) {
-  return static_cast<const btConvexHullShape*>(body->getCollisionShape())->getMargin();
+glm::vec3 from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
+                const btTransform& at_b, btManifoldResult& result) {
+  btVoronoiSimplexSolver simplex;
+  btGjkEpaPenetrationDepthSolver depth;
+  btGjkPairDetector detector(&a, &b, &simplex, &depth);
+  btGjkPairDetector::ClosestPointInput input;
+  input.m_transformA = at_a;
+  input.m_transformB = at_b;
+  detector.getClosestPoints(input, result, nullptr);
 }
 
 }  // namespace
+
+/// One part of a body near one of another.
+struct HullAlgorithm::Meeting {
+  const btCollisionObjectWrapper* object_a;
+  const btCollisionObjectWrapper* object_b;
+  const CollisionHulls::Part& a;
+  const CollisionHulls::Part& b;
+  glm::vec3 a_from_b;  ///< the bodies' centres
+
+  bool is_far() const {
+    const glm::vec3 off = a_from_b + a.turned_m - b.turned_m;
+    const float reach = a.reach_m + b.reach_m + limits::contact_slack_m;
+    return off.x * off.x + off.y * off.y + off.z * off.z > reach * reach;
+  }
+};
+
+void CollisionHulls::add(const btConvexHullShape& shape) {
+  const std::vector<glm::vec3> corners = corners_of(shape);
+  glm::vec3 lo(1e30F), hi(-1e30F);
+  for (const glm::vec3& p : corners) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  const glm::vec3 middle = 0.5F * (lo + hi);
+  std::vector<glm::vec3> about = corners;
+  for (glm::vec3& p : about) p -= middle;
+  parts_.push_back({&shape, HullCorners(corners), middle, middle, reach_of(about) + shape.getMargin()});
+}
+
+void CollisionHulls::turn(const glm::mat3& rotation) {
+  for (Part& part : parts_) {
+    part.corners.turn(rotation);
+    part.turned_m = rotation * part.middle_m;
+  }
+}
 
 HullAlgorithm::~HullAlgorithm() {
   if (manifold_ != nullptr) m_dispatcher->releaseManifold(manifold_);
@@ -32,40 +77,50 @@ HullAlgorithm::~HullAlgorithm() {
 
 void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                      const btDispatcherInfo& /*info*/, btManifoldResult* result) {
-  const btVector3& centre_b = b->getWorldTransform().getOrigin();
-  const btVector3 off = a->getWorldTransform().getOrigin() - centre_b;
-  const float margin_b = margin_of(b);
-  const float margins = margin_of(a) + margin_b;
-  const HullDistance found = distance_between(corners_of(a), corners_of(b), {off.x(), off.y(), off.z()},
-                                              margins + limits::contact_slack_m, nearest_);
-  const bool touching = found.kind != HullDistance::Kind::apart;
-  if (manifold_ == nullptr && !touching) return;
-  if (manifold_ == nullptr)
-    manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
+  const glm::vec3 a_from_b =
+      from_bullet(a->getWorldTransform().getOrigin() - b->getWorldTransform().getOrigin());
+  const auto &parts_a = hulls_of(a).parts(), &parts_b = hulls_of(b).parts();
+  const size_t pairs = parts_a.size() * parts_b.size();
+  if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
   result->setPersistentManifold(manifold_);
-  if (found.kind == HullDistance::Kind::near) {
-    const btVector3 normal(found.normal.x, found.normal.y, found.normal.z);
-    const btVector3 on_b(found.on_b.x, found.on_b.y, found.on_b.z);
-    result->addContactPoint(normal, centre_b + on_b + normal * margin_b, found.distance_m - margins);
-  } else if (touching) {
-    find_depth(a, b, *result);
-  }
+  size_t pair = 0;
+  for (const CollisionHulls::Part& part_a : parts_a)
+    for (const CollisionHulls::Part& part_b : parts_b) {
+      NearestCorners& nearest = pair == 0 ? nearest_ : of_others_[pair - 1];
+      ++pair;
+      const Meeting meeting{a, b, part_a, part_b, a_from_b};
+      // A pair that comes back starts afresh, whatever the broadphase kept of it meanwhile.
+      if (meeting.is_far())
+        nearest.count = 0;
+      else
+        meet(meeting, nearest, *result);
+    }
+  if (manifold_ == nullptr) return;
   result->refreshContactPoints();
   if (manifold_->getNumContacts() > 0) return;
   m_dispatcher->releaseManifold(manifold_);
   manifold_ = nullptr;
 }
 
-void HullAlgorithm::find_depth(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                               btManifoldResult& result) {
-  btVoronoiSimplexSolver simplex;
-  btGjkEpaPenetrationDepthSolver depth;
-  btGjkPairDetector detector(static_cast<const btConvexShape*>(a->getCollisionShape()),
-                             static_cast<const btConvexShape*>(b->getCollisionShape()), &simplex, &depth);
-  btGjkPairDetector::ClosestPointInput input;
-  input.m_transformA = a->getWorldTransform();
-  input.m_transformB = b->getWorldTransform();
-  detector.getClosestPoints(input, result, nullptr);
+void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, btManifoldResult& result) {
+  const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
+  const float margin_b = b.shape->getMargin();
+  const float margins = a.shape->getMargin() + margin_b;
+  const HullDistance found =
+      distance_between(a.corners, b.corners, meeting.a_from_b, margins + limits::contact_slack_m, nearest);
+  if (found.kind == HullDistance::Kind::apart) return;
+  if (manifold_ == nullptr)
+    manifold_ = m_dispatcher->getNewManifold(meeting.object_a->getCollisionObject(),
+                                             meeting.object_b->getCollisionObject());
+  result.setPersistentManifold(manifold_);
+  const btTransform& at_b = meeting.object_b->getWorldTransform();
+  if (found.kind == HullDistance::Kind::overlapping) {
+    find_depth(*a.shape, meeting.object_a->getWorldTransform(), *b.shape, at_b, result);
+    return;
+  }
+  const btVector3 normal(found.normal.x, found.normal.y, found.normal.z);
+  const btVector3 on_b(found.on_b.x, found.on_b.y, found.on_b.z);
+  result.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
 }
 
 /// No continuous collision: speeds are limited instead.

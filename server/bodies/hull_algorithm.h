@@ -6,13 +6,36 @@
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <glm/mat3x3.hpp>
+#include <vector>
 
 #include "server/bodies/hull_distance.h"
 
 namespace scree {
 
-/// Both objects' user pointers must be their HullCorners, turned to their present pose.
+/// What of a body touches other bodies: one hull, or several of a concave piece.
+class CollisionHulls {
+ public:
+  struct Part {
+    const btConvexHullShape* shape;  ///< in the body's frame
+    HullCorners corners;             ///< of it, turned
+    glm::vec3 middle_m;              ///< of a sphere about it, in the body's axes
+    glm::vec3 turned_m;              ///< the same, turned
+    float reach_m;                   ///< that sphere's radius, with the margin
+  };
+
+  /// The shape must outlive this.
+  void add(const btConvexHullShape& shape);
+  void turn(const glm::mat3& rotation);
+  const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  std::vector<Part> parts_;
+};
+
+/// Both objects' user pointers must be their CollisionHulls, turned to their present pose.
 class HullAlgorithm final : public btCollisionAlgorithm {
  public:
   using btCollisionAlgorithm::btCollisionAlgorithm;
@@ -25,11 +48,12 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
  private:
-  void find_depth(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                  btManifoldResult& result);
+  struct Meeting;
+  void meet(const Meeting& meeting, NearestCorners& nearest, btManifoldResult& result);
 
   btPersistentManifold* manifold_ = nullptr;  ///< only while there are contacts
-  NearestCorners nearest_;
+  NearestCorners nearest_;                    ///< of the first parts
+  std::vector<NearestCorners> of_others_;     ///< of all other pairs of parts, if there are any
 };
 
 struct HullAlgorithmCreator final : btCollisionAlgorithmCreateFunc {

@@ -212,6 +212,16 @@ std::vector<glm::vec3> simplified(const std::vector<glm::vec3>& surface, Simplif
   return choose_corners(surface);
 }
 
+/// The block with air about it. A voxel of rock at its edge reaches half a voxel beyond.
+Window alone(const Window& window, const VoxelBox& block) {
+  Window part(block.grown(1));
+  std::ranges::fill(part.codes, code_air);
+  for (int x = block.lo.x; x < block.hi.x; ++x)
+    for (int y = block.lo.y; y < block.hi.y; ++y)
+      for (int z = block.lo.z; z < block.hi.z; ++z) part.codes[part.index(x, y, z)] = window.at(x, y, z);
+  return part;
+}
+
 /// A cube of that mass: what a volume that is all edge collides as. Half its side, voxels.
 std::vector<glm::vec3> cube_of(MassUnits mass) {
   const float half = 0.5F * std::cbrt(static_cast<float>(mass) / units_per_voxel);
@@ -272,6 +282,31 @@ glm::vec3 inertia_of(const Volume& volume) {
 }
 
 }  // namespace
+
+std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float voxel_size_m, size_t count_max) {
+  const VoxelBox& all = volume.window.box;
+  const VoxelCoord size = all.size();
+  int side = 4;
+  const auto blocks = [&] {
+    const auto along = [&](int length) { return static_cast<size_t>((length + side - 1) / side); };
+    return along(size.x) * along(size.y) * along(size.z);
+  };
+  while (blocks() > count_max) ++side;
+  std::vector<std::vector<glm::vec3>> parts;
+  for (int x = all.lo.x; x < all.hi.x; x += side)
+    for (int y = all.lo.y; y < all.hi.y; y += side)
+      for (int z = all.lo.z; z < all.hi.z; z += side) {
+        const VoxelBox block{
+            {x, y, z},
+            {std::min(x + side, all.hi.x), std::min(y + side, all.hi.y), std::min(z + side, all.hi.z)}};
+        std::vector<glm::vec3> corners = surface_of(alone(volume.window, block));
+        for (glm::vec3& p : corners) p -= volume.centre_voxels;
+        corners = choose_corners(corners);
+        for (glm::vec3& p : corners) p *= voxel_size_m;
+        if (!corners.empty()) parts.push_back(std::move(corners));
+      }
+  return parts;
+}
 
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m,
                                   Simplifier simplifier) {

@@ -28,6 +28,10 @@ inline constexpr int hull_corners_max = 20;
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m,
                                   Simplifier simplifier = Simplifier::hull);
 
+/// Convex parts of a volume that is concave, block by block of one side: at most `count_max`, each with
+/// corners as PieceHull's. Blocks that hold next to nothing are left out.
+std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float voxel_size_m, size_t count_max);
+
 /// Points of the volume's own surface, at most `count_max`, spread over all of it: with these a concave piece
 /// touches the ground. Metres, relative to the centre of mass.
 std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max);

@@ -17,6 +17,11 @@ inline constexpr size_t island_cut_bricks_max = 4096;
 /// they are spread more thinly.
 inline constexpr size_t concave_samples_max = 128;
 
+/// Longest side of an island's volume, voxels, from which on it is a compound of convex parts to other
+/// pieces, and how many there may be. Smaller ones collide as one hull; above, parts are larger.
+inline constexpr int compound_side_min_voxels = 16;
+inline constexpr size_t compound_parts_max = 64;
+
 /// Times that a search's budget doubles, once for each time that what it has seen changed under it: the
 /// largest island (limits::island_side_max_bricks) is then searched in one tick, and nothing can interrupt it
 /// any more.

@@ -1,5 +1,7 @@
 #include "server/world/spawn.h"
 
+#include <algorithm>
+
 #include "server/fracture/hull.h"
 #include "server/world/limits.h"
 
@@ -14,11 +16,14 @@ void spawn(World::State& state, const Applied& applied,
     newborn.body.id = hull.id;
     const MaterialTraits& material = traits_of(newborn.traits.material);
     const float mass_kg = hull.size_m3 * material.density_kg_m3;
-    BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}};
+    BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}, {}};
     if (newborn.may_be_concave) {
       const float dx = state.config.terrain.voxel_size_m;
       shape.surface_m = surface_samples(*volume, dx, limits::concave_samples_max);
       shape.surface_m.insert(shape.surface_m.end(), hull.corners_m.begin(), hull.corners_m.end());
+      const VoxelCoord size = volume->window.box.size();
+      if (std::max({size.x, size.y, size.z}) >= limits::compound_side_min_voxels)
+        shape.parts_m = convex_parts(*volume, dx, limits::compound_parts_max);
     }
     state.bodies.add(shape, newborn.body);
     state.traits[hull.id] = newborn.traits;
