@@ -15,6 +15,8 @@ const std::vector<Bench>& all_benches() {
        run_colliders_bench},
       {"cutters", "a 2 m carve into 64 pieces by every cutter, with bodies by every simplifier",
        run_cutters_bench},
+      {"draw", "every way to draw at every resolution: a frame, an edit until it is shown, memory",
+       run_draw_bench},
       {"islands", "what a cut loosened: towers and arches, in 64 m and 1,024 m of edited terrain",
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",

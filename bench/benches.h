@@ -8,6 +8,7 @@ namespace scree {
 BenchReport run_carve_bench(const BenchOptions& options);
 BenchReport run_colliders_bench(const BenchOptions& options);
 BenchReport run_cutters_bench(const BenchOptions& options);
+BenchReport run_draw_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);

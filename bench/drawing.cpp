@@ -52,6 +52,12 @@ double Drawing::finish() {
   return first_ms;
 }
 
+double Drawing::shown_after_ms() {
+  Stopwatch watch;
+  finish();
+  return watch.lap_ms();
+}
+
 Result<double> Drawing::frame_ms(int width, int height, int frames) {
   std::vector<double> times_ms;
   // The first one warms up.

@@ -31,6 +31,8 @@ class Drawing {
   void carve(int carves, float half_width_m, float radius_m, uint64_t random_seed);
   /// Updates until all is shown; returns what the first update took, milliseconds.
   double finish();
+  /// What it takes until all that changed is shown, milliseconds.
+  double shown_after_ms();
   /// What one frame takes until the GPU has finished, milliseconds; the median over some.
   Result<double> frame_ms(int width, int height, int frames);
   Result<Image> picture(int width, int height);

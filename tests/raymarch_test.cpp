@@ -68,6 +68,70 @@ TEST_F(Raymarch, pixels_are_those_of_a_fresh_atlas_after_a_flight) {
   EXPECT_EQ(differing_pixels(draw(), draw_afresh(), 0), 0U);
 }
 
+/// One ball, cut out whole and lying where it was cut.
+class RaymarchPiece : public Raymarch {
+ protected:
+  void cut() {
+    const glm::vec3 at_m(0.0F, ground_m_, 0.0F);
+    const Applied applied =
+        apply(CarveOperation{sphere(at_m, 1.5F), SeedPattern::uniform, 1, 5, at_m, piece}, field_, table_);
+    const Volume& volume = *table_.at(piece);
+    home_ = {volume.centre_voxels * field_.source().voxel_size_m, {}};
+    pieces_[piece] = {table_.at(piece), home_};
+    method_->changed({applied.changed, {piece}, {}});
+    method_->update(Scene{field_, pieces_}, camera_);
+  }
+  void merge() {
+    const Applied applied = apply(StampOperation{piece, quantise(home_), 0}, field_, table_);
+    pieces_.clear();
+    method_->changed({applied.changed, {}, {piece}});
+    method_->update(Scene{field_, pieces_}, camera_);
+  }
+  static constexpr PieceId piece = 9;
+  /// In thousandths of all pixels.
+  static size_t visibly_differing(const Image& a, const Image& b) {
+    return differing_pixels(a, b, 40) * 1000 / static_cast<size_t>(width * height);
+  }
+  PieceTable table_;
+  Pose home_;
+};
+
+TEST_F(RaymarchPiece, where_it_was_cut_it_looks_like_the_rock_that_it_was) {
+  finish();
+  const Image whole = draw();
+  cut();
+  EXPECT_EQ(method_->stats().pieces, 1U);
+  EXPECT_LE(visibly_differing(whole, draw()), 15U);
+  pieces_.clear();
+  method_->update(Scene{field_, pieces_}, camera_);
+  EXPECT_GT(visibly_differing(whole, draw()), 30U) << "the hole that it left should be seen";
+}
+
+TEST_F(RaymarchPiece, a_merge_takes_one_frame_and_changes_hardly_a_pixel) {
+  finish();
+  cut();
+  const Image before = draw();
+  merge();
+  EXPECT_EQ(method_->stats().pieces, 0U);
+  EXPECT_TRUE(method_->complete());
+  const Image after = draw();
+  EXPECT_LE(visibly_differing(before, after), 15U);
+  EXPECT_EQ(differing_pixels(after, draw_afresh(), 0), 0U);
+}
+
+TEST_F(RaymarchPiece, its_room_in_the_atlas_is_used_again) {
+  finish();
+  cut();
+  // Often enough to fill it many times over.
+  for (int i = 0; i < 2000; ++i) {
+    pieces_.clear();
+    method_->update(Scene{field_, pieces_}, camera_);
+    pieces_[piece] = {table_.at(piece), home_};
+    method_->update(Scene{field_, pieces_}, camera_);
+  }
+  EXPECT_EQ(differing_pixels(draw(), draw_afresh(), 0), 0U);
+}
+
 TEST_F(Raymarch, camera_inside_rock_and_tiny_images_are_harmless) {
   camera_.eye_m.y = ground_m_ - 6.0F;
   finish();

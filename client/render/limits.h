@@ -46,6 +46,11 @@ inline constexpr size_t bricks_per_column = 6;
 /// Chunks that the raymarcher reads in one frame, on the main thread: bounds its part to some milliseconds.
 inline constexpr size_t chunks_read_max = 64;
 
+/// Pixels marched for one that is shown, along a side. Below, pictures are mush; above, four samples a pixel
+/// are averaged and more would not be.
+inline constexpr float render_scale_min = 0.25F;
+inline constexpr float render_scale_max = 2.0F;
+
 /// How far the far terrain is drawn, in view radii.
 inline constexpr float horizon_per_view_radius = 8.0F;
 

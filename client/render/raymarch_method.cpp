@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <initializer_list>
@@ -132,7 +133,8 @@ void RaymarchMethod::draw(const DrawPass& pass) {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
   glGetIntegerv(GL_VIEWPORT, viewport.data());
   const glm::ivec2 size(viewport[2], viewport[3]);
-  targets_.resize(size);
+  const glm::vec2 marched = glm::vec2(size) * pass.render_scale + 0.5F;
+  targets_.resize(glm::max(glm::ivec2(marched), glm::ivec2(1)));
   const glm::mat4 inverse = glm::inverse(pass.view_projection);
   const float pixel = pixel_at_one_metre(inverse, targets_.size().y);
   glBindVertexArray(nothing_.name());

@@ -98,6 +98,7 @@ struct Renderer::Parts {
   gl::ErrorLog errors;
   GpuTimers timers;
   Trace* trace = nullptr;
+  float render_scale = 1.0F;
   std::optional<Canvases> canvases;  ///< of the last image
 
   Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, float radius_m)
@@ -157,6 +158,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   const float reach_m = method == nullptr ? parts_->view_radius_m : method->reach_m();
   DrawPass pass;
   pass.timers = &parts_->timers;
+  pass.render_scale = parts_->render_scale;
   pass.eye_m = camera.eye_m;
   pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture()};
   if (method != nullptr) parts_->draw_shadows(*method, camera, pass);
@@ -227,6 +229,10 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
 
 const std::vector<GpuTime>& Renderer::gpu_times() const {
   return parts_->timers.latest();
+}
+
+void Renderer::set_render_scale(float scale) {
+  parts_->render_scale = std::clamp(scale, limits::render_scale_min, limits::render_scale_max);
 }
 
 void Renderer::set_trace(Trace* trace) {

@@ -39,6 +39,9 @@ class Renderer {
   const std::string& description() const;
   /// What the GPU took for the parts of a frame, some frames ago; empty where it cannot say.
   const std::vector<GpuTime>& gpu_times() const;
+  /// For methods that draw pixel by pixel: below 1 they draw fewer, above 1 more, limits::render_scale_min …
+  /// max.
+  void set_render_scale(float scale);
   /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.
   void set_trace(Trace* trace);
   /// Errors that GL reported since the start (by its debug output, where the context has one), and the first.

@@ -66,6 +66,10 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres")
       ->envname("SCREE_VIEW_RADIUS")
       ->check(CLI::Range(limits::view_radius_min_m, limits::view_radius_max_m));
+  app.add_option("--render-scale", options.render_scale,
+                 "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast")
+      ->envname("SCREE_RENDER_SCALE")
+      ->check(CLI::Range(limits::render_scale_min, limits::render_scale_max));
   app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
   app.add_option(

@@ -28,6 +28,7 @@ struct ViewerOptions {
   } given;
   const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
+  float render_scale = 1.0F;  ///< of methods that draw pixel by pixel
   bool offscreen = false;
   bool gl_debug = false;
   double timeout_s = 0.0;

@@ -23,6 +23,7 @@ Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
       camera(given.camera),
       screenshots(given.screenshots) {
   view->renderer().set_trace(trace.get());
+  view->renderer().set_render_scale(options.render_scale);
 }
 
 Result<void> Viewing::step(double now_s) {

@@ -1,0 +1,100 @@
+// Every way to draw at every resolution: a frame, what an edit takes until it is shown, memory. The paper's
+// figures 16, 18, 21 and 23, in percent of its 1280 × 720, and full HD.
+#include <array>
+#include <fmt/format.h>
+
+#include "bench/benches.h"
+#include "bench/drawing.h"
+
+namespace scree {
+
+namespace {
+
+constexpr float view_radius_m = 96.0F;
+constexpr int full_width = 1280;
+constexpr int full_height = 720;
+constexpr std::array shares_percent{25, 50, 75, 100, 150};
+/// Where the blows fall: on the canyon's floor, between the cliff and the arch.
+constexpr float carved_half_width_m = 12.0F;
+constexpr float carve_radius_m = 2.0F;
+constexpr int carves = 40;
+
+/// The target on a datacentre GPU, milliseconds of a frame in full HD.
+struct Target {
+  std::string_view method;
+  double frame_ms;
+};
+constexpr std::array targets{Target{"raymarch", 1.0}, Target{"mesh", 0.5}};
+
+bool is_software(const std::string& driver) {
+  return driver.find("llvmpipe") != std::string::npos || driver.find("softpipe") != std::string::npos;
+}
+
+void check_target(const MethodEntry& entry, double full_hd_ms, const std::string& driver,
+                  BenchReport& report) {
+  if (is_software(driver)) return;
+  for (const Target& target : targets)
+    if (target.method == entry.name)
+      report.check(fmt::format("{}_full_hd", entry.name), full_hd_ms <= target.frame_ms,
+                   fmt::format("{:.2f} ms a frame, wanted at most {:.1f}", full_hd_ms, target.frame_ms));
+}
+
+double mebibytes(size_t bytes) {
+  return static_cast<double>(bytes) / (1024.0 * 1024.0);
+}
+
+void report_memory(const MethodEntry& entry, const MemoryCounts& counts, BenchReport& report) {
+  size_t cpu_bytes = 0;
+  for (const MemoryCount& count : counts) cpu_bytes += count.cpu_bytes;
+  report.metric(fmt::format("{}_gpu_mib", entry.name), mebibytes(gpu_bytes_of(counts)));
+  report.metric(fmt::format("{}_cpu_mib", entry.name), mebibytes(cpu_bytes));
+}
+
+Result<void> measure(Stage& stage, const MethodEntry& entry, bool quick, BenchReport& report) {
+  Result<std::unique_ptr<DrawMethod>> method = entry.make(stage.pool, view_radius_m);
+  if (!method) return fail(method.error().message);
+  Drawing drawing(stage, {TerrainKind::canyon, 1, 0.25F}, std::move(*method));
+  drawing.camera.eye_m = {30.0F, 9.0F, 19.0F};
+  drawing.camera.yaw = 1.1F;
+  drawing.camera.pitch = -0.12F;
+  drawing.finish();
+  std::vector<double> update_ms;
+  for (int i = 0; i < (quick ? 4 : carves); ++i) {
+    drawing.carve(1, carved_half_width_m, carve_radius_m, 30 + static_cast<uint64_t>(i));
+    update_ms.push_back(drawing.shown_after_ms());
+  }
+  report.metric(fmt::format("{}_update_ms", entry.name), quantile(update_ms, 0.5));
+  for (const int percent : shares_percent) {
+    if (quick && percent > 50) break;
+    const int width = full_width * percent / 100, height = full_height * percent / 100;
+    const Result<double> frame = drawing.frame_ms(width, height, quick ? 1 : 5);
+    if (!frame) return fail(frame.error().message);
+    report.metric(fmt::format("{}_{}_percent_frame_ms", entry.name, percent), *frame);
+    if (percent == shares_percent.back()) check_target(entry, *frame, stage.renderer->description(), report);
+  }
+  report_memory(entry, drawing.method().stats().memory, report);
+  return {};
+}
+
+}  // namespace
+
+BenchReport run_draw_bench(const BenchOptions& options) {
+  BenchReport report;
+  const Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
+  report.check("draws", stage.has_value(), stage ? (*stage)->renderer->description() : stage.error().message);
+  if (!stage) return report;
+  double done = 0.0;
+  for (const MethodEntry& entry : all_methods()) {
+    const std::optional<std::string> missing = entry.missing();
+    Result<void> measured;
+    if (!missing) measured = measure(**stage, entry, options.quick, report);
+    report.check(fmt::format("{}_draws", entry.name), !missing && measured,
+                 missing    ? "needs " + *missing
+                 : measured ? ""
+                            : measured.error().message);
+    options.progress(++done / static_cast<double>(all_methods().size()));
+  }
+  return report;
+}
+
+}  // namespace scree
