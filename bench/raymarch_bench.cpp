@@ -14,7 +14,8 @@ const TerrainSource terrain{TerrainKind::noise, 1, 0.25F};
 constexpr float view_radius_m = 96.0F;
 constexpr int width = 640;
 constexpr int height = 360;
-constexpr float half_width_m = 40.0F;
+/// All over the finest level.
+constexpr float half_width_m = 64.0F;
 constexpr float radius_m = 1.5F;
 
 /// From over the carved ground, across it.

@@ -40,6 +40,13 @@ vec3 brick_gradient(uint entry, vec3 local) {
               brick_value(entry, local + h.yyx) - brick_value(entry, local - h.yyx));
 }
 
+// The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
+float generated_in(uvec2 entry, vec3 local, float same) {
+  uint kind = entry.y >> 24u;
+  if (kind == 1u) return brick_value(entry.y, local) / band;
+  return kind == 2u ? 1.0 : kind == 3u ? -1.0 : same;
+}
+
 vec3 in_level(vec3 from_eye, int level) { return u_eye_in[level] + from_eye * u_voxels_per_m[level]; }
 
 // Distance at a point, as far as the band; what is not there counts as air.

@@ -5,9 +5,7 @@ float generated_at(vec3 from_eye) {
   vec3 p = in_level(from_eye, 0);
   ivec3 at = ivec3(floor(p / brick));
   if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, u_window))) return 1.0;
-  uvec2 entry = entry_at(at, 0);
-  if (entry.y != 0u) return brick_value(entry.y, p - vec3(at) * brick) / band;
-  return field_at(from_eye, 0) / band;
+  return generated_in(entry_at(at, 0), p - vec3(at) * brick, field_at(from_eye, 0) / band);
 }
 
 void main() {
@@ -22,7 +20,7 @@ void main() {
   if (hit.entry.x != 0u) {
     vec3 slope = brick_gradient(hit.entry.x, hit.in_brick);
     if (dot(slope, slope) > 0.0) local_normal = normalize(slope);
-    if (hit.entry.y != 0u) before = brick_value(hit.entry.y, hit.in_brick) / band;
+    before = generated_in(hit.entry, hit.in_brick, 0.0);
   }
   vec3 normal = rotated(v_rotation, local_normal);
   // On the ground it takes on the looks of what it is about to become.

@@ -27,7 +27,7 @@ void main() {
   if (hit.there.kind == kind_stored) {
     vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
-    if (hit.there.entry.y != 0u) before = brick_value(hit.there.entry.y, hit.there.local) / band;
+    before = generated_in(hit.there.entry, hit.there.local, 0.0);
   }
   Rock rock = rock_at(world, normal, cut_of(before), heap_of(before), hit.along);
   float open = openness_at(from_eye, normal, hit.level, band);

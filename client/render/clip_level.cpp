@@ -4,11 +4,27 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "client/render/limits.h"
 
 namespace scree {
+
+uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas) {
+  switch (kind) {
+    case LevelBrick::Before::same:
+      return 0;
+    case LevelBrick::Before::air:
+      return ClipEntry::air << 24U;
+    case LevelBrick::Before::rock:
+      return ClipEntry::rock << 24U;
+    case LevelBrick::Before::mixed:
+      break;
+  }
+  const std::optional<AtlasSlot> slot = atlas.add(brick);
+  return slot ? ClipEntry::packed(ClipEntry::mixed, *slot) : 0;
+}
 
 struct ClipLevel::Inbox {
   struct Generated {
@@ -26,7 +42,7 @@ ClipLevel::~ClipLevel() = default;
 
 void ClipLevel::release(const ClipEntry& entry, BrickAtlas& atlas) {
   if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
-  if (entry.before != 0) atlas.remove(ClipEntry::slot_of(entry.before));
+  if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
 }
 
 void ClipLevel::follow(glm::vec3 eye_m, BrickAtlas& atlas) {
@@ -128,17 +144,15 @@ void ClipLevel::read(Field& field, BrickCoord brick, BrickAtlas& atlas) {
     } else {
       ++without_room_;
     }
-    if (now.before && old.before != 0) {
-      entry.before = old.before;  // what was generated never changes
-    } else if (now.before && entry.field != 0) {
-      if (const auto slot = atlas.add(*now.before)) entry.before = ClipEntry::packed(1, *slot);
-    }
   } else {
     entry.field = now.kind == LevelBrick::Kind::empty ? clip_empty : ClipEntry::solid << 24U;
   }
+  // What was generated never changes: a brick of it stays where it is.
+  const bool keeps = now.before_kind == LevelBrick::Before::mixed && old.has_before_slot();
+  entry.before = keeps ? old.before : store_before(now.before_kind, now.before, atlas);
   if (old.kind() == ClipEntry::stored && entry.kind() != ClipEntry::stored)
     atlas.remove(ClipEntry::slot_of(old.field));
-  if (old.before != 0 && entry.before == 0) atlas.remove(ClipEntry::slot_of(old.before));
+  if (old.has_before_slot() && !keeps) atlas.remove(ClipEntry::slot_of(old.before));
   window_.set(brick, entry);
 }
 

@@ -16,6 +16,9 @@
 
 namespace scree {
 
+/// An entry's word for the field as generated. A brick of it goes into the atlas, if there is room.
+uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas);
+
 class ClipLevel {
  public:
   /// `side`: bricks along the window. `pool` must outlive it.

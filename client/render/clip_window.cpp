@@ -105,7 +105,8 @@ std::vector<uint64_t> ClipWindow::dilated(const std::vector<uint64_t>& rows, con
 void ClipWindow::write_distances(uint64_t bits, int x, int y, uint32_t distance) {
   for (; bits != 0; bits &= bits - 1) {
     const BrickCoord brick = origin_ + BrickCoord{x, y, std::countr_zero(bits)};
-    write(index(brick), {distance << 24U, 0});
+    const size_t at = index(brick);
+    write(at, {distance << 24U, entries_[at].before});
   }
 }
 

@@ -11,6 +11,9 @@ namespace {
 /// beside the surface (shadows, occlusion).
 constexpr float air_kept_voxels = 1.5F;
 
+/// Beyond this code either way, all looks the same (shaders/rock.glsl, cut_of and heap_of).
+constexpr Code code_far = 58;
+
 TerrainSource spaced(TerrainSource source, int level) {
   source.voxel_size_m *= static_cast<float>(1 << level);
   return source;
@@ -45,6 +48,12 @@ LevelBrick::Kind kind_of(const AtlasBrick& brick) {
     }
   if (most < 0) return LevelBrick::Kind::solid;
   return least > encode(air_kept_voxels) ? LevelBrick::Kind::empty : LevelBrick::Kind::stored;
+}
+
+LevelBrick::Before before_kind_of(const AtlasBrick& brick) {
+  const auto [least, most] = std::ranges::minmax(brick);
+  if (least >= code_far) return LevelBrick::Before::air;
+  return most <= -code_far ? LevelBrick::Before::rock : LevelBrick::Before::mixed;
 }
 
 LevelBricks::LevelBricks(const TerrainSource& source, int level)
@@ -100,18 +109,19 @@ void LevelBricks::take_edits(Field& field, Window& window) const {
 
 LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
-  if (level_ == 0 || !edited) {
+  if (!edited) {
     if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)
-      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}};
+      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}};
   }
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
   if (level_ > 0 && edited) take_edits(field, window);
-  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}};
+  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}};
   read.kind = kind_of(read.field);
-  if (before && before->codes == window.codes) before.reset();
-  if (read.kind == LevelBrick::Kind::stored && before) read.before = as_brick(*before);
+  if (!before || before->codes == window.codes) return read;
+  read.before = as_brick(*before);
+  read.before_kind = before_kind_of(read.before);
   return read;
 }
 

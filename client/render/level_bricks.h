@@ -6,7 +6,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "client/render/atlas_brick.h"
 #include "shared/field/field.h"
@@ -15,14 +14,17 @@ namespace scree {
 
 struct LevelBrick {
   enum class Kind { empty, solid, stored } kind = Kind::empty;
-  /// When stored.
-  AtlasBrick field;
-  /// As generated; only where it differs.
-  std::optional<AtlasBrick> before;
+  AtlasBrick field;  ///< when stored
+
+  /// As generated: the same where nothing was edited; else what fresh rock and rubble are told by.
+  enum class Before { same, mixed, air, rock } before_kind = Before::same;
+  AtlasBrick before;  ///< when mixed
 };
 
 /// By the samples of its own cells, not the rest of its apron.
 LevelBrick::Kind kind_of(const AtlasBrick& brick);
+/// Air or rock where all is so far from the surface that its looks do not change any more.
+LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 
 class LevelBricks {
  public:

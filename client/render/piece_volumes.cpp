@@ -5,8 +5,7 @@
 #include <cstddef>
 
 #include "client/render/block_windows.h"
-#include "client/render/clip_window.h"
-#include "client/render/level_bricks.h"
+#include "client/render/clip_level.h"
 #include "client/render/piece_tint.h"
 
 namespace scree {
@@ -116,7 +115,7 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
   const Window before = gather_generated(field, window.box);
   stored.count = static_cast<uint32_t>(bricks.x * bricks.y * bricks.z);
   stored.first = take_run(stored.count);
-  Entry* entry = &entries_[stored.first];
+  ClipEntry* entry = &entries_[stored.first];
   for (int x = 0; x < bricks.x; ++x)
     for (int y = 0; y < bricks.y; ++y)
       for (int z = 0; z < bricks.z; ++z, ++entry) {
@@ -126,7 +125,8 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
         *entry = {kind == LevelBrick::Kind::solid ? ClipEntry::solid << 24U : clip_empty, 0};
         if (kind != LevelBrick::Kind::stored) continue;
         if (const auto slot = atlas.add(codes)) entry->field = ClipEntry::packed(ClipEntry::stored, *slot);
-        if (const auto slot = atlas.add(brick_from(before, at))) entry->before = ClipEntry::packed(1, *slot);
+        const AtlasBrick generated = brick_from(before, at);
+        entry->before = store_before(before_kind_of(generated), generated, atlas);
       }
   upload_entries(stored.first, stored.count);
   const glm::vec3 centre = piece.volume->centre_voxels - glm::vec3(first.x, first.y, first.z);
@@ -140,9 +140,9 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
 void PieceVolumes::drop(const Stored& stored, BrickAtlas& atlas) {
   if (stored.count == 0) return;
   for (uint32_t i = stored.first; i < stored.first + stored.count; ++i) {
-    const Entry& entry = entries_[i];
-    if (entry.field >> 24U == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
-    if (entry.before != 0) atlas.remove(ClipEntry::slot_of(entry.before));
+    const ClipEntry& entry = entries_[i];
+    if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
+    if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
   }
   free_runs_[static_cast<size_t>(std::bit_width(stored.count - 1))].push_back(stored.first);
 }
@@ -187,11 +187,11 @@ void PieceVolumes::draw() const {
 }
 
 size_t PieceVolumes::gpu_bytes() const {
-  return entries_.size() * sizeof(Entry) + instances_.size() * sizeof(Instance);
+  return entries_.size() * sizeof(ClipEntry) + instances_.size() * sizeof(Instance);
 }
 
 size_t PieceVolumes::cpu_bytes() const {
-  return entries_.size() * sizeof(Entry) +
+  return entries_.size() * sizeof(ClipEntry) +
          stored_.size() * (sizeof(Stored) + sizeof(PieceId) + 2 * sizeof(void*));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/render/brick_atlas.h"
+#include "client/render/clip_window.h"
 #include "client/render/draw_method.h"
 
 namespace scree {
@@ -40,10 +41,6 @@ class PieceVolumes {
     std::array<float, 3> origin;
     std::array<int32_t, 4> bricks;
   };
-  struct Entry {
-    uint32_t field = 0;
-    uint32_t before = 0;
-  };
   struct Stored {
     std::shared_ptr<const Volume> volume;
     Instance instance;
@@ -60,7 +57,7 @@ class PieceVolumes {
   gl::Texture entries_texture_;
   gl::Buffer instance_buffer_;
   gl::VertexArray array_;
-  std::vector<Entry> entries_;
+  std::vector<ClipEntry> entries_;
   std::array<std::vector<uint32_t>, 32> free_runs_;  ///< by the logarithm of their length
   uint32_t used_ = 0;                                ///< entries beyond were never handed out
   std::unordered_map<PieceId, Stored> stored_;
