@@ -24,18 +24,20 @@ Drawing::Drawing(Stage& stage, const TerrainSource& terrain, std::unique_ptr<Dra
 
 void Drawing::carve(int carves, float half_width_m, float radius_m, uint64_t random_seed) {
   MirrorChanges changes;
-  Random random(random_seed);
   PieceTable pieces;
+  const auto note = [&](const Applied& applied) {
+    changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());
+  };
   for (int i = 0; i < carves; ++i) {
+    Random random(random_seed + static_cast<uint64_t>(i % carved_places));
     const auto place = [&] { return (random.unit() * 2.0F - 1.0F) * half_width_m; };
     const float x_m = place(), z_m = place();
     const glm::vec3 centre(x_m, ground_height_m(field_.source(), x_m, z_m), z_m);
     const Shape ball = sphere(centre, radius_m);
-    const Applied applied =
-        apply(CarveOperation{ball, SeedPattern::uniform, 1, 1, centre, 1}, field_, pieces);
+    if (i >= carved_places) note(apply(FillOperation{ball}, field_, pieces));
+    note(apply(CarveOperation{ball, SeedPattern::uniform, 1, 1, centre, 1}, field_, pieces));
     pieces.clear();
-    changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());
-    balls_.emplace_back(centre, radius_m);
+    if (i < carved_places) balls_.emplace_back(centre, radius_m);
   }
   method_->changed(changes);
 }

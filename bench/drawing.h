@@ -27,6 +27,10 @@ class Drawing {
  public:
   Drawing(Stage& stage, const TerrainSource& terrain, std::unique_ptr<DrawMethod> method);
 
+  /// Places that are carved. More carves fill one of them and carve it again, so that the picture stays the
+  /// same while the edits go on.
+  static constexpr int carved_places = 100;
+
   /// Carves balls scattered about the origin, each a carve of the world's; the method hears of all as one.
   void carve(int carves, float half_width_m, float radius_m, uint64_t random_seed);
   /// Updates until all is shown; returns what the first update took, milliseconds.
@@ -43,7 +47,7 @@ class Drawing {
   void take(std::unique_ptr<DrawMethod> method) { method_ = std::move(method); }
   const std::vector<glm::vec4>& balls() const {
     return balls_;
-  }  ///< carved so far: centre and radius, metres
+  }  ///< carved out now: centre and radius, metres
 
   Camera camera;
 

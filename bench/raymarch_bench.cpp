@@ -14,8 +14,7 @@ const TerrainSource terrain{TerrainKind::noise, 1, 0.25F};
 constexpr float view_radius_m = 96.0F;
 constexpr int width = 640;
 constexpr int height = 360;
-/// All over the finest level.
-constexpr float half_width_m = 64.0F;
+constexpr float half_width_m = 40.0F;
 constexpr float radius_m = 1.5F;
 
 /// From over the carved ground, across it.
@@ -45,7 +44,8 @@ Result<void> compare_with_fresh(Stage& stage, Drawing& drawing, BenchReport& rep
   return {};
 }
 
-/// One world for each number of carves; their frames take turns, so that all see the same machine.
+/// One world for each number of carves, all of the same hundred places: pictures that differ only in how
+/// many edits made them. Frames take turns, so that all see the same machine.
 Result<void> measure_atlas(Stage& stage, const BenchOptions& options, BenchReport& report) {
   std::vector<int> carves{0, 100, 1000};
   if (!options.quick) carves.push_back(10000);

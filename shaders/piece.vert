@@ -35,6 +35,6 @@ void main() {
   int level = min(2, u_levels - 1);
   float radius_m = 0.5 * max(a_size.x, max(a_size.y, a_size.z)) * voxel_m;
   float above_m = field_at(a_place.xyz - u_eye, level) / u_voxels_per_m[level];
-  v_dust = 1.0 - smoothstep(radius_m, radius_m + 0.8, above_m);
+  v_dust = 1.0 - smoothstep(radius_m + 0.4, radius_m + 1.2, above_m);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
 }
