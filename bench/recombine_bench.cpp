@@ -12,6 +12,7 @@
 #include "shared/field/edit.h"
 #include "shared/field/operation.h"
 #include "shared/field/posed_piece.h"
+#include "shared/field/prepared_stamp.h"
 #include "shared/field/stamp_method.h"
 
 namespace scree {
@@ -126,10 +127,9 @@ void merge_all(StampMethod method, Field& field, PieceTable pieces, const std::v
     const QuantisedPose pose = quantise(poses[i++]);
     const Window exact = exact_union(field, *volume, pose);
     Stopwatch watch;
-    const Window window = gather(field, stamp_box(method, *volume, pose, voxel_size_m));
-    const StampPlan plan = plan_stamp(method, window, *volume, pose, voxel_size_m, volume->mass);
+    const PreparedStamp prepared = prepare_stamp(field, pieces, id, pose, method, volume->mass);
     plan_us += 1000.0 * watch.lap_ms();
-    const Applied applied = apply(StampOperation{id, pose, plan.shift, method}, field, pieces);
+    const Applied applied = apply(prepared.operation, field, pieces, &prepared);
     apply_us += 1000.0 * watch.lap_ms();
     add_error(figures, applied.terrain_gain, volume->mass);
     add_distances(gather(field, exact.box), exact, distance);

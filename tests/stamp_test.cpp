@@ -5,6 +5,7 @@
 
 #include "shared/field/merge_patch.h"
 #include "shared/field/operation.h"
+#include "shared/field/prepared_stamp.h"
 #include "shared/field/redistance.h"
 
 namespace scree {
@@ -87,6 +88,42 @@ TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
         for (int z = inner.box.lo.z; z < inner.box.hi.z; ++z) framed.at(x, y, z) = inner.at(x, y, z);
     EXPECT_EQ(framed.codes, after.codes) << "piece " << id;
   }
+}
+
+TEST(stamp, what_was_prepared_changes_nothing_but_the_time_it_takes) {
+  for (const StampMethod method : {StampMethod::stamp, StampMethod::slices, StampMethod::sphere}) {
+    Rubble with, without;
+    for (const auto& [id, pose] : with.places) {
+      const MassUnits mass = with.pieces.at(id)->mass;
+      const PreparedStamp prepared = prepare_stamp(with.field, with.pieces, id, pose, method, mass);
+      const Applied a = apply(prepared.operation, with.field, with.pieces, &prepared);
+      const Applied b = apply(prepared.operation, without.field, without.pieces);
+      EXPECT_EQ(a.terrain_gain, b.terrain_gain);
+      EXPECT_EQ(a.terrain_gain, prepared.gain);
+      EXPECT_EQ(a.changed, b.changed);
+      ASSERT_EQ(with.field.hash(), without.field.hash()) << "piece " << id;
+    }
+  }
+}
+
+TEST(stamp, what_was_prepared_for_another_field_or_operation_is_not_taken) {
+  Rubble rubble, other;
+  const auto& [id, pose] = rubble.places.front();
+  const MassUnits mass = rubble.pieces.at(id)->mass;
+  const PreparedStamp prepared =
+      prepare_stamp(rubble.field, rubble.pieces, id, pose, StampMethod::stamp, mass);
+  EXPECT_TRUE(prepared.holds(prepared.operation, rubble.field, rubble.pieces.at(id)));
+  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, other.pieces.at(id)));
+  StampOperation moved = prepared.operation;
+  moved.pose.x += 1;
+  EXPECT_FALSE(prepared.holds(moved, rubble.field, rubble.pieces.at(id)));
+  const glm::vec3 ground = dequantise(pose).position_m;
+  apply(FillOperation{sphere(ground, 1.0F)}, rubble.field, rubble.pieces);
+  apply(FillOperation{sphere(ground, 1.0F)}, other.field, other.pieces);
+  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, rubble.pieces.at(id)));
+  apply(prepared.operation, rubble.field, rubble.pieces, &prepared);
+  apply(prepared.operation, other.field, other.pieces);
+  EXPECT_EQ(rubble.field.hash(), other.field.hash());
 }
 
 TEST(stamp, every_shift_there_is_can_be_applied) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "server/world/limits.h"
-#include "shared/field/stamp_method.h"
+#include "shared/field/prepared_stamp.h"
 
 namespace scree {
 
@@ -61,17 +61,14 @@ StampMethod method_of(Recombination recombination) {
 
 /// The field gains what the piece weighed, and with it the dust that earlier merges could not place.
 void merge(World::State& state, PieceId id, TickDelta& delta) {
-  const float dx = state.config.terrain.voxel_size_m;
-  const std::shared_ptr<const Volume> volume = state.pieces.at(id);
-  const StampMethod method = method_of(state.methods.recombine);
-  StampOperation operation{id, quantise(state.bodies.state(id).pose), 0, method};
-  const Window window = gather(state.field, stamp_box(method, *volume, operation.pose, dx));
-  const MassUnits budget = stamp_budget(volume->mass, state.ledger.dust);
-  operation.shift = plan_stamp(method, window, *volume, operation.pose, dx, budget).shift;
+  const MassUnits mass = state.pieces.at(id)->mass;
+  const PreparedStamp prepared =
+      prepare_stamp(state.field, state.pieces, id, quantise(state.bodies.state(id).pose),
+                    method_of(state.methods.recombine), stamp_budget(mass, state.ledger.dust));
   state.bodies.remove(id);
-  const Applied applied = state.apply_and_record(operation, delta);
-  state.ledger.pieces -= volume->mass;
-  state.ledger.dust += volume->mass - applied.terrain_gain;
+  const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
+  state.ledger.pieces -= mass;
+  state.ledger.dust += mass - applied.terrain_gain;
 }
 
 }  // namespace scree

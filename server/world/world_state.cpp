@@ -43,9 +43,10 @@ World::State::State(const WorldConfig& world_config)
       rest(RestConfig{}, config.tick_rate_hz),
       work(config.tick_rate_hz) {}
 
-Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta) {
+Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,
+                                       const PreparedStamp* prepared) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
-  Applied applied = apply(operation, field, pieces);
+  Applied applied = apply(operation, field, pieces, prepared);
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());

@@ -30,7 +30,8 @@ struct World::State {
   explicit State(const WorldConfig& world_config);
 
   /// Applies a valid operation; whoever calls it enters in the ledger where the mass came from or went to.
-  Applied apply_and_record(const Operation& operation, TickDelta& delta);
+  Applied apply_and_record(const Operation& operation, TickDelta& delta,
+                           const PreparedStamp* prepared = nullptr);
   PieceTraits traits_of(PieceId id) const;
 
   WorldConfig config;

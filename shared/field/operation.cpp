@@ -9,6 +9,7 @@
 #include "shared/field/edit.h"
 #include "shared/field/island.h"
 #include "shared/field/polygon_cut.h"
+#include "shared/field/prepared_stamp.h"
 #include "shared/field/shatter.h"
 #include "shared/field/stamp_method.h"
 
@@ -89,15 +90,31 @@ std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
   return volume;
 }
 
-Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces) {
-  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+/// The terrain with the piece, as far as it reaches; and what it gained.
+Window stamped(const StampOperation& op, Field& field, const Volume& volume, MassUnits& gain) {
   const float dx = field.source().voxel_size_m;
-  Window window = gather(field, stamp_box(op.method, *volume, op.pose, dx));
+  const bool whole = op.method != StampMethod::stamp;
+  const Window laid = whole ? Window() : lay(volume, op.pose, dx);
+  Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : reach_of(laid));
+  const MassUnits before = mass_of(window);
+  if (whole)
+    stamp(op.method, window, volume, op.pose, dx, op.shift);
+  else
+    stamp_laid(window, laid, volume.mass, op.shift);
+  gain = mass_of(window) - before;
+  return window;
+}
+
+Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
+                    const PreparedStamp* prepared) {
+  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
   Applied applied;
-  applied.terrain_gain = -mass_of(window);
-  stamp(op.method, window, *volume, op.pose, dx, op.shift);
-  applied.terrain_gain += mass_of(window);
-  applied.changed = scatter(field, window);
+  if (prepared != nullptr && prepared->holds(op, field, volume)) {
+    applied.terrain_gain = prepared->gain;
+    applied.changed = scatter(field, prepared->after);
+    return applied;
+  }
+  applied.changed = scatter(field, stamped(op, field, *volume, applied.terrain_gain));
   return applied;
 }
 
@@ -234,10 +251,11 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
   return stamp_box(op->method, *found->second, op->pose, voxel_size_m);
 }
 
-Applied apply(const Operation& operation, Field& field, PieceTable& pieces) {
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {
   if (const auto* op = std::get_if<CarveOperation>(&operation)) return apply_carve(*op, field, pieces);
   if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
-  if (const auto* op = std::get_if<StampOperation>(&operation)) return apply_stamp(*op, field, pieces);
+  if (const auto* op = std::get_if<StampOperation>(&operation))
+    return apply_stamp(*op, field, pieces, prepared);
   if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
   if (const auto* op = std::get_if<IslandOperation>(&operation)) return apply_island(*op, field, pieces);
   Applied applied;

@@ -112,8 +112,12 @@ struct Applied {
 /// Empty for a discard and a shatter. `pieces` must hold the piece of a stamp.
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
+struct PreparedStamp;
+
 /// Applies a valid operation. A stamp, discard or shatter takes its piece out of the table; it must be there.
-Applied apply(const Operation& operation, Field& field, PieceTable& pieces);
+/// The result of a stamp may be at hand already (prepared_stamp.h); it is checked whether it is this one's.
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
+              const PreparedStamp* prepared = nullptr);
 
 /// Whether `apply` can be called at all: shape valid, counts within limits, piece known. For what comes off a
 /// wire.

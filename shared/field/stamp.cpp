@@ -25,7 +25,8 @@ int dust_steps(int shift) {
 /// the secant, for the gain is nearly linear in it, and by false position once it lies between two.
 /// Leaves the patch in that shape; returns what it gains there.
 StampPlan search_roundness(MergePatch& patch, MassUnits mass) {
-  constexpr int evaluations_max = 8, first_step = 8;
+  constexpr int evaluations_max = 8;
+  constexpr int first_up = 24, first_down = 8;  // most pieces are light: sampling takes their edges
   struct End {
     int shift;
     MassUnits off;
@@ -43,7 +44,7 @@ StampPlan search_roundness(MergePatch& patch, MassUnits mass) {
     if (high.shift - low.shift <= 1) break;
     last = {shift, off};
     const MassUnits rise = off - other.off;
-    const int step = off < 0 ? first_step : -first_step;
+    const int step = off < 0 ? first_up : -first_down;
     const MassUnits guess = i == 0 || rise == 0 ? shift + step : shift - off * (shift - other.shift) / rise;
     shift = static_cast<int>(std::clamp<MassUnits>(guess, low.shift + 1, high.shift - 1));
   }
@@ -68,28 +69,39 @@ VoxelBox reach_of(const Window& laid) {
   return laid.box.grown(MergePatch::margin);
 }
 
+void stamp_laid(Window& window, const Window& laid, MassUnits piece_mass, int shift) {
+  MergePatch patch(window, laid);
+  const MassUnits mass = piece_mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
+  patch.place(mass - patch.shape(roundness(shift)));
+  window.codes = patch.codes();
+  redistance(window);
+}
+
+StampPlan plan_laid(Window& window, const Window& laid, MassUnits piece_mass, MassUnits budget) {
+  MergePatch patch(window, laid);
+  const int dust = static_cast<int>(
+      std::clamp<MassUnits>((budget - piece_mass) / stamp_dust_step, 0, (1 << stamp_dust_bits) - 1));
+  const MassUnits mass = piece_mass + MassUnits{dust} * stamp_dust_step;
+  StampPlan plan = search_roundness(patch, mass);
+  plan.gain += patch.place(mass - plan.gain);
+  plan.shift = plan.shift * (1 << stamp_dust_bits) + dust;
+  window.codes = patch.codes();
+  redistance(window);
+  return plan;
+}
+
 void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift) {
   const Window laid = lay(volume, pose, voxel_size_m);
   Window part = part_of(window, reach_of(laid));
-  MergePatch patch(part, laid);
-  const MassUnits mass = volume.mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
-  patch.place(mass - patch.shape(roundness(shift)));
-  part.codes = patch.codes();
-  redistance(part);
+  stamp_laid(part, laid, volume.mass, shift);
   put(part, window);
 }
 
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget) {
   const Window laid = lay(volume, pose, voxel_size_m);
-  MergePatch patch(part_of(window, reach_of(laid)), laid);
-  const int dust = static_cast<int>(
-      std::clamp<MassUnits>((budget - volume.mass) / stamp_dust_step, 0, (1 << stamp_dust_bits) - 1));
-  const MassUnits mass = volume.mass + MassUnits{dust} * stamp_dust_step;
-  StampPlan plan = search_roundness(patch, mass);
-  plan.gain += patch.place(mass - plan.gain);
-  plan.shift = plan.shift * (1 << stamp_dust_bits) + dust;
-  return plan;
+  Window part = part_of(window, reach_of(laid));
+  return plan_laid(part, laid, volume.mass, budget);
 }
 
 }  // namespace scree

@@ -36,6 +36,17 @@ Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 /// inside.
 VoxelBox reach_of(const Window& laid);
 
+/// `window` is the terrain in reach_of(laid), united with the piece as that shift says.
+void stamp_laid(Window& window, const Window& laid, MassUnits piece_mass, int shift);
+
+struct StampPlan {
+  int shift = 0;
+  MassUnits gain = 0;  ///< what the window gains with that shift
+};
+
+/// As plan_stamp, and does it.
+StampPlan plan_laid(Window& window, const Window& laid, MassUnits piece_mass, MassUnits budget);
+
 /// `window` must cover stamp_box. It gains the piece's mass and the dust, as near as single codes come from
 /// that roundness.
 void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift);
@@ -46,11 +57,6 @@ inline MassUnits stamp_budget(MassUnits piece_mass, MassUnits dust) {
   const MassUnits most = piece_mass / 32;
   return piece_mass + (dust < most ? dust : most);
 }
-
-struct StampPlan {
-  int shift = 0;
-  MassUnits gain = 0;  ///< what the window gains with that shift
-};
 
 /// The shift with which the gain is the piece's mass and of what the budget holds beyond it all but the last
 /// few units, or as near to that as can be; and the exact gain of stamp() with it. Only where old seams in
