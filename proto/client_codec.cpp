@@ -16,6 +16,7 @@ struct Writing {
     hello.set_client(clean_text(from.client, limits::client_name_bytes_max));
     write(*hello.mutable_eye(), from.eye_m);
     hello.set_interest_radius_m(from.interest_radius_m);
+    hello.set_name(clean_text(from.name, limits::person_name_bytes_max));
   }
   void operator()(const InterestMessage& from) const {
     wire::Interest& interest = *to.mutable_interest();
@@ -44,6 +45,11 @@ struct Writing {
     repair.set_chunks(pack_chunks(from.chunks));
     repair.mutable_hashes()->Add(from.hashes.begin(), from.hashes.end());
   }
+  void operator()(const CursorMessage& from) const {
+    write(*to.mutable_cursor()->mutable_eye(), from.eye_m);
+    write(*to.mutable_cursor()->mutable_aim(), from.aim_m);
+  }
+  void operator()(const WatchMessage& from) const { to.mutable_watch()->set_physics(from.physics); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const {
     wire::Admin& admin = *to.mutable_admin();
@@ -61,6 +67,7 @@ HelloMessage read(const wire::Hello& from, FieldChecker& check) {
   hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
   hello.eye_m = check.vec3(from.eye(), "eye");
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
+  hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
   return hello;
 }
 
@@ -129,6 +136,11 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(FillMessage{from.fill().request(), check.shape(from.fill().shape())});
     case wire::ClientMessage::kRepair:
       return checked(read(from.repair(), check));
+    case wire::ClientMessage::kCursor:
+      return checked(
+          CursorMessage{check.vec3(from.cursor().eye(), "eye"), check.vec3(from.cursor().aim(), "aim")});
+    case wire::ClientMessage::kWatch:
+      return WatchMessage{from.watch().physics()};
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

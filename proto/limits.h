@@ -25,6 +25,19 @@ inline constexpr size_t repair_chunks_max = 1024;
 /// Length of a client's name, bytes.
 inline constexpr size_t client_name_bytes_max = 64;
 
+/// Length of a person's name, bytes; an encoder cuts what is longer.
+inline constexpr size_t person_name_bytes_max = 32;
+
+/// Cursors in one message; of more persons in one place the others are not shown.
+inline constexpr size_t cursors_max = 64;
+
+/// Bodies, corners of one body, contacts and bricks in one Physics message: about 150 KiB at most. The rest
+/// is left out.
+inline constexpr size_t watched_bodies_max = 1024;
+inline constexpr size_t watched_corners_max = 64;
+inline constexpr size_t watched_contacts_max = 4096;
+inline constexpr size_t watched_bricks_max = 1024;
+
 /// Length of a refusal or a reply's reason, bytes; an encoder cuts what is longer.
 inline constexpr size_t reason_bytes_max = 1024;
 

@@ -26,6 +26,7 @@ struct HelloMessage {
   std::string client;  ///< name of the program, for the server's log; at most 64 bytes
   glm::vec3 eye_m{0.0F};
   float interest_radius_m = 0.0F;
+  std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
 };
 
 /// Where the client looks from; it follows the chunks and pieces within the radius.
@@ -73,8 +74,19 @@ struct AdminMessage {
   SettingValues settings;
 };
 
+/// Where a person looks from and what they aim at, for others to see.
+struct CursorMessage {
+  glm::vec3 eye_m{0.0F};
+  glm::vec3 aim_m{0.0F};
+};
+
+/// Asks for PhysicsMessages, or for no more of them.
+struct WatchMessage {
+  bool physics = false;
+};
+
 using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, RepairRequest,
-                                   AckMessage, AdminMessage>;
+                                   AckMessage, AdminMessage, CursorMessage, WatchMessage>;
 
 // ---- server to client
 
@@ -162,7 +174,43 @@ struct StatusMessage {
   std::array<float, stage_names.size()> stage_ms{};  ///< mean over the last second
 };
 
+struct PlayerCursor {
+  uint64_t session = 0;
+  std::string name;
+  glm::vec3 eye_m{0.0F};
+  glm::vec3 aim_m{0.0F};
+
+  bool operator==(const PlayerCursor&) const = default;
+};
+
+/// The other persons within interest, all of them.
+struct CursorsMessage {
+  std::vector<PlayerCursor> cursors;
+};
+
+/// A rigid body, beyond its pose.
+struct WatchedBody {
+  PieceId id = 0;
+  bool awake = false;
+  bool island = false;            ///< touches terrain by points of its own surface
+  std::vector<glm::vec3> hull_m;  ///< corners that collide, from the centre of mass, in the volume's axes
+};
+
+struct WatchedContact {
+  glm::vec3 point_m{0.0F};
+  glm::vec3 normal{0.0F};
+  float impulse_n_s = 0.0F;
+};
+
+/// What the bodies do, for people who want to see it. Lengths are rounded to 1/256 m on the wire.
+struct PhysicsMessage {
+  Tick tick = 0;
+  std::vector<WatchedBody> bodies;  ///< ordered by id
+  std::vector<WatchedContact> contacts;
+  std::vector<BrickCoord> searched;  ///< bricks around which islands are looked for
+};
+
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
-                                   ResetMessage, ReplyMessage, StatusMessage>;
+                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage>;
 
 }  // namespace scree

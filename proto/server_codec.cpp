@@ -5,6 +5,7 @@
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
+#include "proto/watch_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
 
@@ -131,6 +132,8 @@ struct Writing {
     reply.set_refusal(clean_text(from.refusal, limits::reason_bytes_max));
     reply.set_pieces(from.pieces);
   }
+  void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
+  void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
   void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
 };
 
@@ -243,6 +246,10 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kReply:
       return checked(
           ReplyMessage{from.reply().request(), reason(from.reply().refusal()), from.reply().pieces()});
+    case wire::ServerMessage::kCursors:
+      return checked(read(from.cursors(), check));
+    case wire::ServerMessage::kPhysics:
+      return checked(read(from.physics(), check));
     case wire::ServerMessage::kStatus:
       return checked(read(from.status(), check));
     case wire::ServerMessage::KIND_NOT_SET:

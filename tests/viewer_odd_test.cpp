@@ -1,41 +1,24 @@
 // Situations that a viewer meets sooner or later, and what it says then: no display, an OpenGL that is too
 // old, a picture larger than the driver can make, a server that goes and comes back.
-#include <array>
-#include <cstdio>
-#include <filesystem>
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <thread>
 
 #include "client/viewer/egl_context.h"
 #include "client/viewer/hud_facts.h"
 #include "client/viewer/picture_difference.h"
 #include "server/app/live_server.h"
 #include "tests/loaded_libraries.h"
+#include "tests/run_viewer.h"
 
 namespace scree {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto patience = 60s;
 
-/// Runs the viewer's program: its exit status, and all that it said.
-std::pair<int, std::string> run_viewer(const std::string& environment, const std::string& arguments) {
-  const std::string command = "env " + environment + " " SCREE_VIEWER_PROGRAM " " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "cannot be run"};
-  std::string said;
-  std::array<char, 512> buffer{};
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) said += buffer.data();
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said};
-}
-
-const std::string settings_elsewhere = "XDG_CONFIG_HOME=" + testing::TempDir() + "scree_nobody";
-
 TEST(ViewerOdd, no_display_is_said_with_the_way_out) {
-  const auto [status, said] = run_viewer("-u DISPLAY -u WAYLAND_DISPLAY " + settings_elsewhere, "--port 1");
+  const auto [status, said] = run_viewer("-u DISPLAY -u WAYLAND_DISPLAY", "--port 1");
   EXPECT_EQ(status, 1);
   EXPECT_NE(said.find("no window can be opened"), std::string::npos) << said;
   EXPECT_NE(said.find("--offscreen"), std::string::npos) << said;
@@ -128,7 +111,7 @@ class ViewerSession : public testing::Test {
 
 TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes_back_with_it) {
   step_until_joined();
-  const Result<Image> before = viewing_->picture();
+  const Result<Image> before = viewing_->picture(steady_now_s());
   ASSERT_TRUE(before) << before.error().message;
   FactFinder facts;
   EXPECT_FALSE(facts.find(*viewing_, steady_now_s()).lost);
@@ -138,7 +121,7 @@ TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes
   const HudFacts lost = facts.find(*viewing_, steady_now_s());
   EXPECT_TRUE(lost.lost) << "the banner is shown";
   EXPECT_NE(lost.connection.find("trying again"), std::string::npos) << lost.connection;
-  const Result<Image> without = viewing_->picture();
+  const Result<Image> without = viewing_->picture(steady_now_s());
   ASSERT_TRUE(without);
   EXPECT_EQ(*picture_difference(*before, *without), 0.0);
 
@@ -146,7 +129,7 @@ TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes
   step_until([&] { return viewing_->session.connected(); }, "the server");
   step_until_joined();
   EXPECT_FALSE(facts.find(*viewing_, steady_now_s()).lost);
-  const Result<Image> again = viewing_->picture();
+  const Result<Image> again = viewing_->picture(steady_now_s());
   ASSERT_TRUE(again);
   EXPECT_EQ(*picture_difference(*before, *again), 0.0);
 }
@@ -179,7 +162,7 @@ TEST_F(ViewerSession, a_minimised_window_draws_nothing_and_the_world_goes_on) {
 TEST_F(ViewerSession, camera_inside_rock_strikes_where_it_is) {
   step_until_joined();
   viewing_->camera.eye_m = {0.0F, -5.0F, 0.0F};
-  EXPECT_TRUE(viewing_->picture());
+  EXPECT_TRUE(viewing_->picture(steady_now_s()));
   const auto hit_m = viewing_->session.aim(viewing_->camera.eye_m, viewing_->camera.forward());
   ASSERT_TRUE(hit_m);
   EXPECT_EQ(*hit_m, viewing_->camera.eye_m);
@@ -187,7 +170,7 @@ TEST_F(ViewerSession, camera_inside_rock_strikes_where_it_is) {
 
 TEST_F(ViewerSession, lines_are_drawn_over_the_world_and_faintly_through_it) {
   step_until_joined();
-  const Result<Image> before = viewing_->picture();
+  const Result<Image> before = viewing_->picture(steady_now_s());
   LineList lines;
   lines.box({-1.0F, -0.5F, -1.0F}, {1.0F, 1.0F, 1.0F}, {255, 0, 0, 255});
   const Result<Image> after = viewing_->view->renderer().draw_image(

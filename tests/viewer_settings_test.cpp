@@ -89,6 +89,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.method = all_methods().front().name;
   settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {false, true, false};
+  settings.overlay = {true, false, true, false, true};
   const Result<Settings> again = parse_settings(to_text(settings));
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(*again, settings);

@@ -9,6 +9,7 @@
 #include "client/viewer/window_app.h"
 #include "server/app/live_server.h"
 #include "tests/loaded_libraries.h"
+#include "tests/run_viewer.h"
 
 namespace scree {
 namespace {
@@ -79,6 +80,7 @@ class ViewerWindow : public testing::Test {
     viewing_ = std::move(*viewing);
     Settings settings;
     settings.hud = {true, true, true};
+    settings.overlay.shown = true;
     app_ = std::make_unique<WindowApp>(*window_, *viewing_, settings);
   }
   void TearDown() override {
@@ -114,6 +116,30 @@ TEST_F(ViewerWindow, draws_with_all_of_the_hud_and_goes_on_without_a_server) {
   run_until([&] { return !viewing_->session.connected(); }, "the loss");
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(app_->frame());
   EXPECT_NE(viewing_->view->methods().shown(), nullptr) << "the last field stays";
+}
+
+TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward());
+  run_until(
+      [&] {
+        const PhysicsMessage* physics = viewing_->session.physics();
+        return physics != nullptr && !physics->bodies.empty();
+      },
+      "what the bodies do");
+  LineList lines;
+  OverlayChoice choice;
+  viewing_->add_overlay(lines, choice, steady_now_s());
+  EXPECT_TRUE(lines.vertices().empty()) << "nothing is shown that was not asked for";
+}
+
+TEST_F(ViewerWindow, opengl_that_is_too_old_is_said_with_the_way_out) {
+  const auto [status, said] =
+      run_viewer("MESA_GL_VERSION_OVERRIDE=2.1 MESA_GLES_VERSION_OVERRIDE=2.0", "--port 1");
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(said.find("OpenGL 3.3"), std::string::npos) << said;
+  EXPECT_NE(said.find("libgl1-mesa-dri"), std::string::npos) << said;
 }
 
 TEST_F(ViewerWindow, may_be_one_pixel) {

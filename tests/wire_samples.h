@@ -69,6 +69,15 @@ inline FrameMessage frame() {
   return frame;
 }
 
+inline PhysicsMessage physics() {
+  PhysicsMessage physics;
+  physics.tick = 66;
+  physics.bodies = {{3, true, false, {{0.5F, -0.25F, 1.0F}, {-0.5F, 0.0F, 0.125F}}}, {300, false, true, {}}};
+  physics.contacts = {{{10.5F, -2.0F, 0.25F}, {0.0F, 1.0F, 0.0F}, 12.5F}};
+  physics.searched = {{-4, 8, 0}, {5, 5, 5}};
+  return physics;
+}
+
 inline std::vector<ServerMessage> server_messages() {
   WelcomeMessage welcome;
   welcome.session = 0x1234567890ABCDEFULL;
@@ -93,11 +102,13 @@ inline std::vector<ServerMessage> server_messages() {
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
-  return {welcome,        RefusalMessage{"protocol 9 is not 1"},
-          frame(),        FrameMessage{},
-          chunk,          PieceMessage{31, volume(), {1, -2, 3, 4}},
-          ResetMessage{}, ReplyMessage{7, "radius 12 m is over 8 m", 0},
-          status};
+  return {
+      welcome,        RefusalMessage{"protocol 9 is not 1"},
+      frame(),        FrameMessage{},
+      chunk,          PieceMessage{31, volume(), {1, -2, 3, 4}},
+      ResetMessage{}, ReplyMessage{7, "radius 12 m is over 8 m", 0},
+      status,         CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
+      physics()};
 }
 
 inline std::vector<ClientMessage> client_messages() {
@@ -111,14 +122,16 @@ inline std::vector<ClientMessage> client_messages() {
   authored.pattern = SeedPattern::authored;
   authored.seeds = 2;
   authored.authored_m = {{1.0F, 2.0F, 3.0F}, {-4.0F, 0.25F, 4095.0F}};
-  return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F},
+  return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F, "Ann"},
           InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
           carve,
           authored,
           FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
           RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},
-          AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}}};
+          AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}},
+          CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
+          WatchMessage{true}};
 }
 
 /// What is inside the length prefix.

@@ -33,6 +33,11 @@ size_t memory_of(const ServerMessage& message) {
     bytes += chunk->bricks.size() * sizeof(BrickPatch);
   } else if (const auto* piece = std::get_if<PieceMessage>(&message)) {
     bytes += piece->volume.window.codes.size();
+  } else if (const auto* physics = std::get_if<PhysicsMessage>(&message)) {
+    bytes +=
+        physics->contacts.size() * sizeof(WatchedContact) + physics->searched.size() * sizeof(BrickCoord);
+    for (const WatchedBody& body : physics->bodies)
+      bytes += sizeof(WatchedBody) + body.hull_m.size() * sizeof(glm::vec3);
   }
   return bytes;
 }

@@ -23,6 +23,7 @@ constexpr std::array table{
     Binding{Action::fewer_seeds, GLFW_KEY_LEFT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "[  pad left",
             "fewer pieces"},
     Binding{Action::next_method, GLFW_KEY_M, GLFW_GAMEPAD_BUTTON_Y, "M  pad Y", "draw by the next method"},
+    Binding{Action::overlay, GLFW_KEY_O, unbound, "O", "borders, interest, bodies and contacts"},
     Binding{Action::graphs, GLFW_KEY_G, unbound, "G", "graphs"},
     Binding{Action::panel, GLFW_KEY_P, GLFW_GAMEPAD_BUTTON_START, "P  pad start",
             "panel of methods and tools (free the mouse to use it)"},

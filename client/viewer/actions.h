@@ -21,6 +21,7 @@ enum class Action : uint8_t {
   next_pattern,
   more_seeds,
   fewer_seeds,
+  overlay,
   graphs,
   panel,
   help,

@@ -9,10 +9,10 @@
 namespace scree {
 namespace {
 
-Result<void> write_frame(Viewing& viewing, size_t frame) {
+Result<void> write_frame(Viewing& viewing, size_t frame, double now_s) {
   char name[32];
   std::snprintf(name, sizeof name, "%06zu.png", frame);
-  const Result<Image> image = viewing.picture();
+  const Result<Image> image = viewing.picture(now_s);
   if (!image) return fail(image.error().message);
   return write_png((std::filesystem::path(viewing.options.frames) / name).string(), *image);
 }
@@ -41,7 +41,8 @@ Result<bool> Flight::turn(Viewing& viewing, double now_s) {
     return false;
   }
   if (!options.frames.empty())
-    if (Result<void> written = write_frame(viewing, frame_); !written) return fail(written.error().message);
+    if (Result<void> written = write_frame(viewing, frame_, now_s); !written)
+      return fail(written.error().message);
   ++frame_;
   return true;
 }

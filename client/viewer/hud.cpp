@@ -56,6 +56,18 @@ void Hud::help() {
   ImGui::End();
 }
 
+void Hud::names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  for (const PlayerCursor& cursor : cursors) {
+    const glm::vec4 place = view_projection * glm::vec4(cursor.aim_m, 1.0F);
+    if (place.w <= 0.0F) continue;
+    const ImVec2 at((place.x / place.w * 0.5F + 0.5F) * size.x + 8.0F,
+                    (0.5F - place.y / place.w * 0.5F) * size.y - 8.0F);
+    const std::string name = cursor.name.empty() ? "client " + std::to_string(cursor.session) : cursor.name;
+    ImGui::GetBackgroundDrawList()->AddText(at, IM_COL32(120, 240, 255, 255), name.c_str());
+  }
+}
+
 void Hud::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

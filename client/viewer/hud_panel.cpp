@@ -34,21 +34,31 @@ const MethodEntry* choose_method(const MethodEntry& chosen) {
 
 }  // namespace
 
-const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool) {
+const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay) {
   begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
                 mouse_is_free_);
   ImGui::PushItemWidth(150.0F);
   const MethodEntry* picked = choose_method(chosen);
   ImGui::Separator();
-  choose(tool.kind, std::array{ToolKind::sphere, ToolKind::box, ToolKind::tunnel});
+  choose(tool.kind, tool_kinds);
   ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
-  choose(tool.pattern, std::array{SeedPattern::uniform, SeedPattern::radial});
+  choose(tool.pattern, tool_patterns);
   auto seeds = static_cast<int>(tool.seeds);
   const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
   if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
   ImGui::PopItemWidth();
+  ImGui::Separator();
+  ImGui::Checkbox("overlay", &overlay.shown);
+  ImGui::BeginDisabled(!overlay.shown);
+  ImGui::Checkbox("interest", &overlay.interest);
+  ImGui::SameLine();
+  ImGui::Checkbox("chunks", &overlay.chunks);
+  ImGui::SameLine();
+  ImGui::Checkbox("pieces", &overlay.pieces);
+  ImGui::Checkbox("bodies, contacts, islands (by the server)", &overlay.physics);
+  ImGui::EndDisabled();
   ImGui::End();
   return picked;
 }

@@ -30,6 +30,11 @@ inline constexpr double report_interval_s = 0.25;
 /// The camera must have moved so far to be reported again, metres.
 inline constexpr float report_distance_m = 1.0F;
 
+/// Seconds between two reports of the cursor, as often as a server passes it on; and how far it must have
+/// moved, metres.
+inline constexpr double cursor_interval_s = 0.1;
+inline constexpr float cursor_distance_m = 0.05F;
+
 /// How far a click reaches, metres.
 inline constexpr float carve_reach_m = 200.0F;
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 
 #include "client/viewer/actions.h"
@@ -57,6 +58,7 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--port", options.port, "Server's TCP port")
       ->envname("SCREE_PORT")
       ->check(CLI::Range(1, 65535));
+  app.add_option("--name", options.name, "Your name, as others see it at your cursor")->envname("SCREE_NAME");
   app.add_option("--size", texts.size, "Window or image, WIDTHxHEIGHT")->envname("SCREE_SIZE");
   app.add_option("--camera", texts.camera,
                  "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left")
@@ -96,6 +98,9 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Root mean square of the difference of all colour values, 0 (equal) to 1")
       ->envname("SCREE_THRESHOLD")
       ->check(CLI::Range(0.0, 1.0));
+  app.add_flag("--overlay", options.overlay.shown,
+               "Show borders, interest, bodies, contacts and other persons' cursors over the picture")
+      ->envname("SCREE_OVERLAY");
   app.add_option("--timeout", options.timeout_s,
                  "Offscreen: seconds to wait for the next picture or frame before giving up")
       ->envname("SCREE_TIMEOUT")
@@ -144,6 +149,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   ViewerOptions options;
   options.port = default_port;
   options.view_radius_m = 96.0F;
+  if (const char* user = std::getenv("USER")) options.name = user;
   options.timeout_s = 120.0;
   options.frames_per_s = 30.0;
   options.threshold = 0.01;

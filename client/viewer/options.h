@@ -10,6 +10,7 @@
 #include "client/render/camera.h"
 #include "client/render/methods.h"
 #include "client/viewer/camera_path.h"
+#include "client/viewer/overlay.h"
 #include "client/viewer/screenshots.h"
 
 namespace scree {
@@ -17,6 +18,7 @@ namespace scree {
 struct ViewerOptions {
   std::string host = "127.0.0.1";
   uint16_t port = 0;
+  std::string name;  ///< the person's
   int width = 1280;
   int height = 720;
   Camera camera;
@@ -26,6 +28,7 @@ struct ViewerOptions {
     bool method = false;
     bool view_radius = false;
   } given;
+  OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
   float render_scale = 1.0F;  ///< of methods that draw pixel by pixel

@@ -30,10 +30,11 @@ double steady_now_s() {
   return seconds_of(std::chrono::steady_clock::now());
 }
 
-Session::Session(std::string host, uint16_t port, float interest_radius_m)
-    : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m) {}
+Session::Session(std::string host, uint16_t port, float interest_radius_m, std::string name)
+    : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
 
-SessionStep Session::step(double now_s, glm::vec3 eye_m) {
+SessionStep Session::step(double now_s, const Camera& camera) {
+  const glm::vec3 eye_m = camera.eye_m;
   SessionStep step;
   if (!connection_) {
     if (!connecting_.valid() && now_s >= next_try_s_) begin_connecting(now_s, eye_m);
@@ -41,6 +42,7 @@ SessionStep Session::step(double now_s, glm::vec3 eye_m) {
   }
   if (connection_) receive(now_s, step);
   if (connection_) report(now_s, eye_m);
+  if (connection_) report_cursor(now_s, camera);
   return step;
 }
 
@@ -51,6 +53,7 @@ void Session::begin_connecting(double now_s, glm::vec3 eye_m) {
   hello.client = "scree-viewer";
   hello.eye_m = eye_m;
   hello.interest_radius_m = interest_radius_m_;
+  hello.name = name_;
   connecting_ = std::async(std::launch::async, [host = host_, port = port_, hello] {
     Result<std::unique_ptr<Connection>> made = Connection::connect(host, port, hello, connect_within);
     Attempt attempt;
@@ -77,6 +80,8 @@ bool Session::finish_connecting(double now_s) {
   pieces_.clear();
   trouble_.clear();
   acknowledged_ = 0;
+  reported_cursor_ = {};
+  watching_ = false;
   last_chunk_s_ = now_s;
   saw_pieces_ = false;
   rate_since_s_ = now_s;
@@ -86,6 +91,8 @@ bool Session::finish_connecting(double now_s) {
 
 void Session::lose(double now_s, const std::string& reason) {
   connection_.reset();
+  cursors_.clear();
+  physics_.reset();
   trouble_ = reason;
   next_try_s_ = now_s + limits::reconnect_interval_s;
   bytes_per_s_ = 0.0;
@@ -119,6 +126,8 @@ void Session::apply(const ServerMessage& message, double now_s, SessionStep& ste
     notice_ = reply->refusal;
     notice_until_s_ = now_s + notice_s;
   }
+  if (const auto* cursors = std::get_if<CursorsMessage>(&message)) cursors_ = cursors->cursors;
+  if (const auto* physics = std::get_if<PhysicsMessage>(&message)) physics_ = *physics;
   const Result<MirrorChanges> changes = mirror_->apply(message);
   if (!changes) {
     lose(now_s, "what the server sent cannot be applied: " + changes.error().message);
@@ -138,6 +147,23 @@ void Session::report(double now_s, glm::vec3 eye_m) {
   if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m) return;
   reported_eye_m_ = eye_m;
   connection_->send(InterestMessage{eye_m, interest_radius_m_});
+}
+
+void Session::report_cursor(double now_s, const Camera& camera) {
+  if (watch_ != watching_) {
+    watching_ = watch_;
+    if (!watch_) physics_.reset();
+    connection_->send(WatchMessage{watch_});
+  }
+  if (now_s < next_cursor_s_) return;
+  next_cursor_s_ = now_s + limits::cursor_interval_s;
+  const glm::vec3 ahead_m = camera.eye_m + camera.forward() * limits::carve_reach_m;
+  const CursorMessage cursor{camera.eye_m, aim(camera.eye_m, camera.forward()).value_or(ahead_m)};
+  const float moved_m = glm::distance(cursor.eye_m, reported_cursor_.eye_m) +
+                        glm::distance(cursor.aim_m, reported_cursor_.aim_m);
+  if (moved_m < limits::cursor_distance_m) return;
+  reported_cursor_ = cursor;
+  connection_->send(cursor);
 }
 
 const ScenePieces& Session::pieces(double now_s) {

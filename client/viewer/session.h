@@ -28,9 +28,10 @@ struct SessionStep {
 
 class Session {
  public:
-  Session(std::string host, uint16_t port, float interest_radius_m);
+  /// `name`: the person's, for others to see.
+  Session(std::string host, uint16_t port, float interest_radius_m, std::string name);
 
-  SessionStep step(double now_s, glm::vec3 eye_m);
+  SessionStep step(double now_s, const Camera& camera);
 
   /// Null until the first welcome.
   Mirror* mirror() { return mirror_.get(); }
@@ -46,6 +47,15 @@ class Session {
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
   /// Asks for what the tool takes out where the ray meets rock; nothing happens if it meets none.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction);
+
+  /// The other persons within interest.
+  const std::vector<PlayerCursor>& cursors() const { return cursors_; }
+  /// Whether the server is to tell what the bodies do; and what it told last, null while it has not.
+  void watch(bool physics) { watch_ = physics; }
+  const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
+  /// Where interest was last reported, and its radius.
+  glm::vec3 interest_m() const { return reported_eye_m_; }
+  float interest_radius_m() const { return interest_radius_m_; }
 
   /// For people: the state of the connection, in one line; the server's last refusal, for a while.
   std::string description() const;
@@ -66,11 +76,13 @@ class Session {
   void receive(double now_s, SessionStep& step);
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
   void report(double now_s, glm::vec3 eye_m);
+  void report_cursor(double now_s, const Camera& camera);
   void lose(double now_s, const std::string& reason);
 
   std::string host_;
   uint16_t port_;
   float interest_radius_m_;
+  std::string name_;
   std::future<Attempt> connecting_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;
@@ -81,6 +93,12 @@ class Session {
   double next_report_s_ = 0.0;
   glm::vec3 reported_eye_m_{0.0F};
   Tick acknowledged_ = 0;
+  double next_cursor_s_ = 0.0;
+  CursorMessage reported_cursor_;
+  std::vector<PlayerCursor> cursors_;
+  bool watch_ = false;
+  bool watching_ = false;  ///< as the server was told
+  std::optional<PhysicsMessage> physics_;
   double last_chunk_s_ = 0.0;
   bool saw_pieces_ = false;
   uint32_t requests_ = 0;

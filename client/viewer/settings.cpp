@@ -99,10 +99,15 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("help", settings.hud.help);
   reader.flag("graphs", settings.hud.graphs);
   reader.flag("panel", settings.hud.panel);
-  reader.choice("tool", settings.tool.kind, std::array{ToolKind::sphere, ToolKind::box, ToolKind::tunnel});
+  reader.flag("overlay", settings.overlay.shown);
+  reader.flag("overlay_interest", settings.overlay.interest);
+  reader.flag("overlay_chunks", settings.overlay.chunks);
+  reader.flag("overlay_pieces", settings.overlay.pieces);
+  reader.flag("overlay_physics", settings.overlay.physics);
+  reader.choice("tool", settings.tool.kind, tool_kinds);
   reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
   reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
-  reader.choice("pattern", settings.tool.pattern, std::array{SeedPattern::uniform, SeedPattern::radial});
+  reader.choice("pattern", settings.tool.pattern, tool_patterns);
   reader.number("seeds", settings.tool.seeds, 0U, tool_seeds_max);
   if (!reader.error().empty()) return fail(reader.error());
   return settings;
@@ -116,6 +121,11 @@ std::string to_text(const Settings& settings) {
                   {"help", settings.hud.help},
                   {"graphs", settings.hud.graphs},
                   {"panel", settings.hud.panel},
+                  {"overlay", settings.overlay.shown},
+                  {"overlay_interest", settings.overlay.interest},
+                  {"overlay_chunks", settings.overlay.chunks},
+                  {"overlay_pieces", settings.overlay.pieces},
+                  {"overlay_physics", settings.overlay.physics},
                   {"tool", name_of(settings.tool.kind)},
                   {"radius_m", settings.tool.radius_m},
                   {"blast_speed_m_s", settings.tool.blast_speed_m_s},
@@ -155,6 +165,7 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.method = merged(loaded_.method, start.method, end.method);
   kept.view_radius_m = merged(loaded_.view_radius_m, start.view_radius_m, end.view_radius_m);
   kept.hud = end.hud;
+  kept.overlay = end.overlay;
   kept.tool = end.tool;
   if (const Result<void> written = write_text(file_, to_text(kept)); !written)
     std::fprintf(stderr, "scree-viewer: warning: %s\n", written.error().message.c_str());

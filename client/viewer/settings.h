@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/viewer/options.h"
+#include "client/viewer/overlay.h"
 #include "client/viewer/tool.h"
 
 namespace scree {
@@ -23,6 +24,7 @@ struct Settings {
   std::string method;  ///< empty: the first
   float view_radius_m = 96.0F;
   HudChoice hud;
+  OverlayChoice overlay;
   Tool tool;
 
   bool operator==(const Settings&) const = default;

@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 constexpr std::array<std::string_view, 3> kinds{"sphere", "box", "tunnel"};
-constexpr std::array<std::string_view, 2> patterns{"uniform", "radial"};
+constexpr std::array<std::string_view, 4> patterns{"uniform", "radial", "clustered", "authored"};
 constexpr float growth = 1.12F;  ///< a notch
 constexpr float speed_step_m_s = 2.0F;
 constexpr float seeds_growth = 1.5F;
@@ -101,10 +101,10 @@ void change(Tool& tool, Action action) {
       tool.kind = ToolKind::tunnel;
       break;
     case Action::next_tool:
-      tool.kind = static_cast<ToolKind>((static_cast<size_t>(tool.kind) + 1) % kinds.size());
+      tool.kind = static_cast<ToolKind>((static_cast<size_t>(tool.kind) + 1) % tool_kinds.size());
       break;
     case Action::next_pattern:
-      tool.pattern = static_cast<SeedPattern>((static_cast<size_t>(tool.pattern) + 1) % patterns.size());
+      tool.pattern = static_cast<SeedPattern>((static_cast<size_t>(tool.pattern) + 1) % tool_patterns.size());
       break;
     case Action::larger:
       grow(tool, 1.0F);

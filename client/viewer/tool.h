@@ -1,6 +1,7 @@
 // What a strike takes out, and how it breaks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string_view>
@@ -26,6 +27,10 @@ struct Tool {
 inline constexpr float tool_radius_min_m = 0.5F;
 inline constexpr float tool_radius_max_m = 4.0F;
 inline constexpr uint32_t tool_seeds_max = 256;
+
+inline constexpr std::array tool_kinds{ToolKind::sphere, ToolKind::box, ToolKind::tunnel};
+/// A hand authors no seeds one by one.
+inline constexpr std::array tool_patterns{SeedPattern::uniform, SeedPattern::radial, SeedPattern::clustered};
 
 std::string_view name_of(ToolKind kind);
 std::string_view name_of(SeedPattern pattern);

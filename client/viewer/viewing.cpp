@@ -18,18 +18,19 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
 Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
     : options(given),
       trace(given.trace_file.empty() ? nullptr : std::make_unique<Trace>()),
-      session(given.host, given.port, given.view_radius_m),
+      session(given.host, given.port, given.view_radius_m, given.name),
       view(std::move(drawn)),
       camera(given.camera),
       screenshots(given.screenshots) {
   view->renderer().set_trace(trace.get());
   view->renderer().set_render_scale(options.render_scale);
+  session.watch(given.overlay.shown && given.overlay.physics);
 }
 
 Result<void> Viewing::step(double now_s) {
   const SessionStep step = [&] {
     const TraceSpan span(trace.get(), "viewer", "messages");
-    return session.step(now_s, camera.eye_m);
+    return session.step(now_s, camera);
   }();
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
@@ -66,12 +67,25 @@ Moment Viewing::moment(double now_s) {
   return moment;
 }
 
-Result<Image> Viewing::picture() {
-  return view->renderer().draw_image(*view->methods().shown(), camera, options.width, options.height);
+Result<Image> Viewing::picture(double now_s) {
+  LineList lines;
+  if (options.overlay.shown) {
+    add_overlay(lines, options.overlay, now_s);
+    add_cursors(lines, session.cursors());
+  }
+  return view->renderer().draw_image(*view->methods().shown(), camera, options.width, options.height, lines);
 }
 
-Result<void> Viewing::take(const ScreenshotOrder& order) {
-  const Result<Image> image = picture();
+void Viewing::add_overlay(LineList& lines, const OverlayChoice& choice, double now_s) {
+  session.watch(choice.shown && choice.physics);
+  if (!choice.shown || session.mirror() == nullptr) return;
+  add_borders(lines, session, choice, camera.eye_m, now_s);
+  if (const PhysicsMessage* physics = session.physics())
+    add_physics(lines, *physics, session.pieces(now_s), session.mirror()->terrain().voxel_size_m);
+}
+
+Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
+  const Result<Image> image = picture(now_s);
   if (!image) return fail(image.error().message);
   if (Result<void> written = write_png(order.file, *image); !written) return written;
   // Standard output is for figures alone.
@@ -88,7 +102,7 @@ Result<void> Viewing::take(const ScreenshotOrder& order) {
 Result<void> Viewing::take_due(double now_s) {
   if (screenshots.empty()) return {};
   for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s)))
-    if (Result<void> taken = take(order); !taken) return taken;
+    if (Result<void> taken = take(order, now_s); !taken) return taken;
   return {};
 }
 

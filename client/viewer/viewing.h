@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "client/viewer/options.h"
+#include "client/viewer/overlay.h"
 #include "client/viewer/session.h"
 #include "client/viewer/view.h"
 #include "shared/base/trace.h"
@@ -21,8 +22,10 @@ class Viewing {
   Result<void> step(double now_s);
   /// Takes the screenshots whose moment has come.
   Result<void> take_due(double now_s);
-  /// The picture of this moment.
-  Result<Image> picture();
+  /// The picture of this moment; with --overlay, all of the overlay in it.
+  Result<Image> picture(double now_s);
+  /// What the choice shows; asks the server for it, or no more.
+  void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
   /// Writes the trace, if one was asked for.
   Result<void> finish();
   /// All around the camera has arrived and is shown.
@@ -40,7 +43,7 @@ class Viewing {
  private:
   Viewing(const ViewerOptions& options, std::unique_ptr<View> view);
   Moment moment(double now_s);
-  Result<void> take(const ScreenshotOrder& order);
+  Result<void> take(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
 };
 

@@ -14,7 +14,14 @@ constexpr LineColour preview_colour{255, 236, 170, 150};
 }  // namespace
 
 WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
-    : window_(window), viewing_(viewing), hud_(window), choice_(kept.hud), tool_(kept.tool) {}
+    : window_(window),
+      viewing_(viewing),
+      hud_(window),
+      choice_(kept.hud),
+      overlay_(kept.overlay),
+      tool_(kept.tool) {
+  overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
+}
 
 /// Flies along the path by the clock, once the world is there; afterwards the person has the camera.
 void WindowApp::follow_path(double now_s) {
@@ -33,6 +40,7 @@ Result<void> WindowApp::act(const AppInput& input) {
   for (const Action action : input.actions) {
     change(tool_, action);
     if (action == Action::help) choice_.help = !choice_.help;
+    if (action == Action::overlay) overlay_.shown = !overlay_.shown;
     if (action == Action::graphs) choice_.graphs = !choice_.graphs;
     if (action == Action::panel) choice_.panel = !choice_.panel;
     if (action == Action::next_method)
@@ -43,11 +51,13 @@ Result<void> WindowApp::act(const AppInput& input) {
   return {};
 }
 
-LineList WindowApp::lines() {
+LineList WindowApp::lines(double now_s) {
   LineList lines;
   const glm::vec3 direction = viewing_.camera.forward();
   if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
     lines.shape(shape_of(tool_, *hit_m, direction), preview_colour);
+  add_cursors(lines, viewing_.session.cursors());
+  viewing_.add_overlay(lines, overlay_, now_s);
   return lines;
 }
 
@@ -58,8 +68,13 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   hud_.note(facts, parts);
   hud_.figures(facts);
   if (choice_.graphs) hud_.graphs(facts);
-  const MethodEntry* picked = choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_) : nullptr;
+  const MethodEntry* picked =
+      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_) : nullptr;
   if (choice_.help) hud_.help();
+  const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
+  const Camera& camera = viewing_.camera;
+  hud_.names(viewing_.session.cursors(),
+             camera.projection(aspect, viewing_.options.view_radius_m) * camera.view());
   if (facts.lost) hud_.banner(facts.connection);
   hud_.end();
   return picked == nullptr ? Result<void>() : choose(*picked);
@@ -78,7 +93,7 @@ Result<void> WindowApp::frame() {
   if (!window_.minimised()) {
     View& view = *viewing_.view;
     view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
-                         lines());
+                         lines(now_s));
     parts.draw_ms = static_cast<float>(watch.lap_ms());
     if (Result<void> drawn = draw_hud(parts, now_s); !drawn) return drawn;
   }
@@ -92,6 +107,7 @@ Settings WindowApp::settings() const {
   settings.method = viewing_.view->methods().chosen().name;
   settings.view_radius_m = viewing_.options.view_radius_m;
   settings.hud = choice_;
+  settings.overlay = overlay_;
   settings.tool = tool_;
   return settings;
 }

@@ -25,14 +25,15 @@ class WindowApp {
   void follow_path(double now_s);
   Result<void> act(const AppInput& input);
   Result<void> choose(const MethodEntry& method);
-  /// Over the world: what a strike would take out.
-  LineList lines();
+  /// Over the world: what a strike would take out, other persons, the overlay.
+  LineList lines(double now_s);
   Result<void> draw_hud(const FrameParts& parts, double now_s);
 
   AppWindow& window_;
   Viewing& viewing_;
   Hud hud_;
   HudChoice choice_;
+  OverlayChoice overlay_;
   Tool tool_;
   FactFinder facts_;
   std::optional<double> path_begun_s_;

@@ -109,6 +109,7 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
 /// One tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
+  if (World* world = feed->world()) world->watch(net->is_watched());
   std::vector<Command> waiting = commands.drain();
   const auto next = feed->next(waiting);
   if (!next) {

@@ -8,6 +8,7 @@
 
 #include "server/bodies/bodies_state.h"
 #include "server/bodies/body_shape.h"
+#include "server/bodies/contact_list.h"
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/to_bullet.h"
@@ -99,6 +100,7 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
+  body.touches_by_surface = !shape.surface_m.empty();
   body.points_m = shape.surface_m.empty()
                       ? surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m)
                       : shape.surface_m;
@@ -244,6 +246,19 @@ size_t Bodies::contact_points() const {
   for (int i = 0; i < s.dispatcher.getNumManifolds(); ++i)
     points += static_cast<size_t>(manifolds[i]->getNumContacts());
   return points;
+}
+
+void Bodies::describe(PhysicsMessage& to) const {
+  for (const auto& [id, body] : state_->bodies) {
+    WatchedBody watched{id, !body.frozen && body.rigid->isActive(), body.touches_by_surface, {}};
+    if (body.parts.empty()) watched.hull_m = corners_of(*body.shape);
+    for (const auto& part : body.parts) {
+      const std::vector<glm::vec3> corners = corners_of(*part);
+      watched.hull_m.insert(watched.hull_m.end(), corners.begin(), corners.end());
+    }
+    to.bodies.push_back(std::move(watched));
+  }
+  list_contacts(state_->dispatcher, to.contacts);
 }
 
 uint64_t Bodies::state_hash() const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "proto/messages.h"
 #include "server/bodies/terrain_collider_kind.h"
 #include "shared/base/ids.h"
 #include "shared/field/field.h"
@@ -121,6 +122,9 @@ class Bodies {
   size_t awake() const;
   /// Points at which bodies touched terrain or each other in the last step.
   size_t contact_points() const;
+  /// Every body, and every point where two of them or one and the terrain touched in the last step. For
+  /// people to look at.
+  void describe(PhysicsMessage& to) const;
 
   /// XXH3 of the exact transforms and velocities, in order of id.
   uint64_t state_hash() const;

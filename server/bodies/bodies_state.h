@@ -30,6 +30,7 @@ struct Body {
   std::unique_ptr<CollisionHulls> hulls;                  ///< of those; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
   std::vector<glm::vec3> points_m;  ///< what touches the terrain
+  bool touches_by_surface = false;  ///< the points are those of its own surface, not of the hull
   std::unique_ptr<TerrainProbe> probe;
   btPersistentManifold* ground = nullptr;  ///< the dispatcher's; body 0 is `rigid`; null when frozen
   float mass_kg = 0.0F;

@@ -50,6 +50,8 @@ class ClientView {
  public:
   ClientView(glm::vec3 eye_m, float radius_m);
 
+  glm::vec3 eye_m() const { return next_eye_m_; }
+  float radius_m() const { return next_radius_m_; }
   /// Takes effect within limits::rescan_ticks_min ticks.
   void set_interest(glm::vec3 eye_m, float radius_m);
 

@@ -98,7 +98,7 @@ void NetHost::accepted(asio::ip::tcp::socket socket) {
   const size_t pending = sessions_.size() - joined_count();
   const double burst = std::max(
       1.0, config_.requests_per_second * limits::requests_burst_max / limits::requests_per_second_max);
-  sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst)});
+  sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst), {}});
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (pending >= limits::pending_sessions_max)
     session->refuse("too many connections that have not said hello (limits.pending_sessions_max); try again");
@@ -138,6 +138,7 @@ Result<WelcomeMessage> NetHost::admit(Session& session, const HelloMessage& hell
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
   if (!radius_m) return tl::unexpected(radius_m.error());
   publisher_.join(session.id(), hello.eye_m, *radius_m);
+  sessions_.at(session.id()).name = hello.name;
   ++counts_.sessions_joined;
   update_stats();
   spdlog::info("session {}: {} joined from {}, interest {} m", session.id(), hello.client, session.peer(),
@@ -169,6 +170,9 @@ Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
                  repair->tick);
     publisher_.repair(session.id(), *repair);
   }
+  if (const auto* cursor = std::get_if<CursorMessage>(&message))
+    publisher_.set_cursor({session.id(), sessions_.at(session.id()).name, cursor->eye_m, cursor->aim_m});
+  if (const auto* watch = std::get_if<WatchMessage>(&message)) publisher_.watch(session.id(), watch->physics);
   // An Ack needs no answer: on TCP the bytes that wait for a client say how far behind it is.
   return {};
 }
@@ -256,6 +260,7 @@ void NetHost::shut_down() {
 }
 
 void NetHost::update_stats() {
+  watched_ = publisher_.is_watched();
   counts_.published = publisher_.stats();
   counts_.sessions = joined_count();
   const std::scoped_lock lock(stats_mutex_);

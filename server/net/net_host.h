@@ -5,6 +5,7 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -30,6 +31,7 @@ class NetHost final : public SessionHost {
 
   asio::io_context& context() { return context_; }
   NetStats stats() const;
+  bool is_watched() const { return watched_; }
 
  private:
   Result<WelcomeMessage> admit(Session& session, const HelloMessage& hello) override;
@@ -49,6 +51,7 @@ class NetHost final : public SessionHost {
   struct Entry {
     std::shared_ptr<Session> session;
     RateLimit requests;
+    std::string name;  ///< the person's
   };
   const NetConfig config_;
   CommandQueue& commands_;
@@ -61,6 +64,7 @@ class NetHost final : public SessionHost {
   uint64_t next_session_ = 1;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
   Publisher publisher_;
+  std::atomic<bool> watched_{false};
   NetStats counts_;
   mutable std::mutex stats_mutex_;
   NetStats stats_;  ///< guarded by stats_mutex_

@@ -69,6 +69,10 @@ NetStats NetServer::stats() const {
   return stats;
 }
 
+bool NetServer::is_watched() const {
+  return impl_->host.is_watched();
+}
+
 void NetServer::stop() {
   if (impl_->thread.joinable()) {
     asio::post(impl_->host.context(), [host = &impl_->host] { host->shut_down(); });

@@ -62,6 +62,8 @@ class NetServer {
 
   /// As of the last tick that was sent. From any thread.
   NetStats stats() const;
+  /// Whether any client wants to see what the bodies do. From any thread.
+  bool is_watched() const;
 
   /// Tells every client that the server stops, closes, and joins the thread. Harmless when repeated.
   void stop();

@@ -6,6 +6,8 @@
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
 #include "server/net/limits.h"
+#include "server/net/watching.h"
+#include "server/world/world.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -34,11 +36,25 @@ void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m) {
 
 void Publisher::leave(uint64_t session) {
   clients_.erase(session);
+  cursors_.erase(session);
 }
 
 void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) {
   const auto client = clients_.find(session);
   if (client != clients_.end()) client->second.view.set_interest(eye_m, radius_m);
+}
+
+void Publisher::set_cursor(PlayerCursor cursor) {
+  if (clients_.contains(cursor.session)) cursors_.insert_or_assign(cursor.session, std::move(cursor));
+}
+
+void Publisher::watch(uint64_t session, bool physics) {
+  const auto client = clients_.find(session);
+  if (client != clients_.end()) client->second.watches = physics;
+}
+
+bool Publisher::is_watched() const {
+  return std::ranges::any_of(clients_, [](const auto& entry) { return entry.second.watches; });
 }
 
 void Publisher::repair(uint64_t session, const RepairRequest& request) {
@@ -119,6 +135,9 @@ void Publisher::serve(uint64_t session, Client& client, const TickChanges& chang
   if (reads_along) stream_chunks(session, client, changes);
   if (with_poses) stream_pieces(session, client);
   if (tick % config_.tick_rate_hz == 0) send_status(session, client);
+  if (!reads_along) return;
+  if (tick % ticks_per_watch == 0) send_cursors(session, client);
+  if (client.watches && changes.delta.physics) send_physics(session, client, *changes.delta.physics);
 }
 
 bool Publisher::send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses) {
@@ -162,6 +181,19 @@ void Publisher::stream_pieces(uint64_t session, Client& client) {
     client.view.sent_piece(id, piece.pose);
     send(session, client, bytes);
   }
+}
+
+void Publisher::send_cursors(uint64_t session, Client& client) {
+  std::vector<PlayerCursor> now = cursors_for(session, cursors_, client.view.eye_m(), client.view.radius_m());
+  if (now == client.cursors) return;
+  client.cursors = now;
+  send(session, client, bytes_of(CursorsMessage{std::move(now)}));
+}
+
+void Publisher::send_physics(uint64_t session, Client& client, const PhysicsMessage& physics) {
+  const PhysicsMessage part =
+      physics_for(physics, state_, config_.voxel_size_m, client.view.eye_m(), client.view.radius_m());
+  send(session, client, bytes_of(part));
 }
 
 void Publisher::send_replies(const TickDelta& delta) {

@@ -58,6 +58,12 @@ class Publisher {
   /// Chunks whose hash the client got wrong are sent again, and no others.
   void repair(uint64_t session, const RepairRequest& request);
 
+  /// What the session's person looks at, for others to see.
+  void set_cursor(PlayerCursor cursor);
+  /// Whether the client is told what the bodies do, where the ticks say so.
+  void watch(uint64_t session, bool physics);
+  bool is_watched() const;
+
   /// Takes the next tick and says what each client gets. `backlog_bytes(session)` is what still waits for it.
   /// A tick out of sequence is a keyframe: the world starts anew with it, and so does every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<size_t(uint64_t)>& backlog_bytes);
@@ -77,6 +83,8 @@ class Publisher {
     bool reset_due = false;
     uint64_t sent_bytes = 0;
     uint32_t repairs = 0;
+    bool watches = false;
+    std::vector<PlayerCursor> cursors{};  ///< as the client knows them
   };
   void count_operations(const TickDelta& delta);
   void serve(uint64_t session, Client& client, const TickChanges& changes, size_t backlog_bytes);
@@ -84,6 +92,8 @@ class Publisher {
   bool send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses);
   void stream_chunks(uint64_t session, Client& client, const TickChanges& changes);
   void stream_pieces(uint64_t session, Client& client);
+  void send_cursors(uint64_t session, Client& client);
+  void send_physics(uint64_t session, Client& client, const PhysicsMessage& physics);
   void send_replies(const TickDelta& delta);
   void send_status(uint64_t session, Client& client);
   void send(uint64_t session, Client& client, SharedBytes bytes);
@@ -91,6 +101,7 @@ class Publisher {
   PublisherConfig config_;
   PublishedState state_;
   std::map<uint64_t, Client> clients_;
+  std::map<uint64_t, PlayerCursor> cursors_;
   EncodeCache cache_;
   TickClock clock_;
   PublisherStats stats_;

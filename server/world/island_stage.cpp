@@ -54,6 +54,12 @@ void IslandQueue::push(std::vector<BrickCoord> cut) {
   if (!cut.empty()) waiting_.push_back({std::move(cut), nullptr, 0});
 }
 
+std::vector<BrickCoord> IslandQueue::waiting() const {
+  std::vector<BrickCoord> bricks;
+  for (const Waiting& waiting : waiting_) bricks.insert(bricks.end(), waiting.cut.begin(), waiting.cut.end());
+  return bricks;
+}
+
 void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   for (Waiting& waiting : waiting_) {
     if (waiting.search == nullptr) continue;

@@ -30,6 +30,8 @@ class IslandQueue {
   /// the queue is empty.
   std::optional<std::vector<Island>> next(Field& field, size_t& bricks);
   bool empty() const { return waiting_.empty(); }
+  /// Bricks whose searches are not finished, for people to look at.
+  std::vector<BrickCoord> waiting() const;
 
  private:
   struct Waiting {

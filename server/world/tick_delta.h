@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/messages.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
 #include "shared/field/operation.h"
@@ -91,8 +92,9 @@ struct TickDelta {
   Ledger ledger;
   StageTimes times;
   TickWork work;
-  uint64_t field_hash = 0;  ///< Field::hash()
-  uint64_t state_hash = 0;  ///< of the field, the ledger and every body's exact state
+  std::shared_ptr<const PhysicsMessage> physics;  ///< null unless watched (World::watch)
+  uint64_t field_hash = 0;                        ///< Field::hash()
+  uint64_t state_hash = 0;                        ///< of the field, the ledger and every body's exact state
 };
 
 }  // namespace scree

@@ -47,6 +47,15 @@ void publish(World::State& state, TickDelta& delta) {
       state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});
 }
 
+/// What people who look at the bodies get to see.
+void describe_physics(World::State& state, TickDelta& delta) {
+  auto physics = std::make_shared<PhysicsMessage>();
+  physics->tick = state.tick;
+  state.bodies.describe(*physics);
+  physics->searched = state.islands.waiting();
+  delta.physics = std::move(physics);
+}
+
 }  // namespace
 
 World::World(const WorldConfig& config) : state_(std::make_unique<State>(config)) {}
@@ -74,6 +83,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   drop_islands(s, *delta);
   delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);
+  if (s.watched && s.tick % ticks_per_watch == 0) describe_physics(s, *delta);
   CHECK(s.ledger.error() == 0);
   delta->times.publish_ms = watch.lap_ms();
   delta->times.total_ms = whole.lap_ms();
@@ -85,6 +95,9 @@ const WorldConfig& World::config() const {
 }
 const Methods& World::methods() const {
   return state_->methods;
+}
+void World::watch(bool wanted) {
+  state_->watched = wanted;
 }
 Tick World::tick() const {
   return state_->tick;

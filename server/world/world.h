@@ -24,6 +24,9 @@ struct WorldConfig {
   bool operator==(const WorldConfig&) const = default;
 };
 
+/// Ten times a second at 60 Hz: enough to look at, a small part of the tick.
+inline constexpr Tick ticks_per_watch = 6;
+
 class World {
  public:
   explicit World(const WorldConfig& config);
@@ -40,6 +43,8 @@ class World {
   Tick tick() const;
   /// The terrain's gain since the start, measured afresh from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
+  /// From now on, or no more: every ticks_per_watch-th delta tells what the bodies do. Changes nothing else.
+  void watch(bool wanted);
   /// For tests and benches, between steps.
   Field& field();
 

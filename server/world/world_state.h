@@ -49,6 +49,7 @@ struct World::State {
   IslandQueue islands;
   WorkBudget work;
   std::deque<Command> waiting;  ///< requests that no tick had room for yet, in order
+  bool watched = false;         ///< somebody wants to see the bodies
 };
 
 }  // namespace scree
