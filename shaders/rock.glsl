@@ -2,6 +2,7 @@
 
 uniform vec3 u_eye;
 uniform float u_fog_m;  // distance at which fog hides nearly all
+uniform float u_ice_above_m;
 
 struct Rock {
   vec3 albedo;
@@ -20,7 +21,12 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   vec3 scrub = vec3(0.165, 0.172, 0.075) * (0.70 + 0.60 * fine);
   float flatness = smoothstep(0.72, 0.90, n.y + 0.12 * (fine - 0.5));
   float green = smoothstep(0.42, 0.66, coarse.x + 0.22 * (fine - 0.5) + 0.006 * p.y);
-  return mix(rock, mix(sand, scrub, green), flatness);
+  vec3 ground = mix(rock, mix(sand, scrub, green), flatness);
+  // Ice and old snow on the heights: where it is not too steep to lie, and in the cracks of the beds.
+  float high = smoothstep(-0.9, 1.3, p.y - u_ice_above_m + 1.6 * (coarse.x - 0.5) + 0.5 * (fine - 0.5));
+  float lies = smoothstep(0.30, 0.62, n.y + 0.20 * (fine - 0.5) + 0.10 * seam);
+  vec3 ice = mix(vec3(0.50, 0.60, 0.68), vec3(0.80, 0.83, 0.86), smoothstep(0.35, 0.75, fine + 0.3 * n.y));
+  return mix(ground, ice, high * lies);
 }
 
 // How much of broken rock, which is paler and warmer than what the weather has had, and of rubble, which lies dusty,

@@ -157,6 +157,7 @@ void MeshMethod::draw(const DrawPass& pass) {
     program.program.set("u_eye", pass.eye_m);
     program.program.set("u_sun", pass.lighting.sun);
     program.program.set("u_fog_m", pass.lighting.fog_m);
+    program.program.set("u_ice_above_m", pass.lighting.ice_above_m);
     program.program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
     program.program.set("u_shadow_map", 0);
     glActiveTexture(GL_TEXTURE0);

@@ -79,6 +79,7 @@ void set_light(const gl::Program& program, const DrawPass& pass) {
   program.set("u_eye", pass.eye_m);
   program.set("u_sun", pass.lighting.sun);
   program.set("u_fog_m", pass.lighting.fog_m);
+  program.set("u_ice_above_m", pass.lighting.ice_above_m);
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
   program.set("u_shadow_map", shadow_unit);
   glActiveTexture(GL_TEXTURE0 + shadow_unit);

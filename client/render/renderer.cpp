@@ -12,6 +12,7 @@
 #include "client/render/line_drawer.h"
 #include "client/render/shader_sources.h"
 #include "client/render/shadow_map.h"
+#include "shared/field/material.h"
 
 namespace scree {
 namespace {
@@ -92,6 +93,7 @@ struct Renderer::Parts {
   gl::Program sky;
   LineDrawer lines;
   float view_radius_m;
+  float ice_above_m = limits::world_half_height_m;
   ShadowMap shadows;
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
@@ -161,6 +163,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   pass.render_scale = parts_->render_scale;
   pass.eye_m = camera.eye_m;
   pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture()};
+  pass.lighting.ice_above_m = parts_->ice_above_m;
   if (method != nullptr) parts_->draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -237,6 +240,10 @@ void Renderer::set_render_scale(float scale) {
 
 void Renderer::set_trace(Trace* trace) {
   parts_->trace = trace;
+}
+
+void Renderer::set_terrain(const TerrainSource& terrain) {
+  parts_->ice_above_m = heights_of(terrain.kind).ice_above_m;
 }
 
 const std::string& Renderer::description() const {

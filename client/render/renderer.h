@@ -24,6 +24,9 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create(float view_radius_m);
   ~Renderer();
 
+  /// What the ground is covered with depends on the terrain. Of none, it is rock.
+  void set_terrain(const TerrainSource& terrain);
+
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
   /// method there is only sky. `lines` come last.
   void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,

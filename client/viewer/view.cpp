@@ -20,7 +20,10 @@ View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float 
 View::~View() = default;
 
 Result<void> View::follow(const SessionStep& step, Session& session, const Camera& camera, double now_s) {
-  if (step.new_world) methods_.begin_world();
+  if (step.new_world) {
+    methods_.begin_world();
+    renderer_->set_terrain(session.mirror()->terrain());
+  }
   if (session.mirror() == nullptr) return {};
   return methods_.follow(step.changes, Scene{session.mirror()->field(), session.pieces(now_s)}, camera);
 }

@@ -15,13 +15,13 @@ constexpr std::array<MaterialTraits, 3> traits = {{
 constexpr float soil_depth_m = 1.0F;
 constexpr float ice_depth_m = 1.5F;
 
-/// Soil lies below the one height, ice above the other.
-struct Bands {
-  float soil_below_m;
-  float ice_above_m;
-};
+}  // namespace
 
-Bands bands(TerrainKind kind) {
+const MaterialTraits& traits_of(Material material) {
+  return traits[static_cast<size_t>(material)];
+}
+
+MaterialHeights heights_of(TerrainKind kind) {
   switch (kind) {
     case TerrainKind::flat:
       return {1.0F, 1000.0F};
@@ -33,14 +33,8 @@ Bands bands(TerrainKind kind) {
   return {8.0F, 19.0F};
 }
 
-}  // namespace
-
-const MaterialTraits& traits_of(Material material) {
-  return traits[static_cast<size_t>(material)];
-}
-
 Material material_at(const TerrainSource& source, glm::vec3 p_m) {
-  const Bands at = bands(source.kind);
+  const MaterialHeights at = heights_of(source.kind);
   const bool soil = p_m.y < at.soil_below_m;
   if (!soil && p_m.y <= at.ice_above_m) return Material::rock;
   if (ground_density(source, p_m) >= 0.0F) return Material::rock;

@@ -28,6 +28,13 @@ struct MaterialTraits {
 
 const MaterialTraits& traits_of(Material material);
 
+/// Soil covers ground below the one height, ice above the other.
+struct MaterialHeights {
+  float soil_below_m = 0.0F;
+  float ice_above_m = 0.0F;
+};
+MaterialHeights heights_of(TerrainKind kind);
+
 /// The undisturbed terrain's material at a place. Places above the undisturbed ground count as rock.
 Material material_at(const TerrainSource& source, glm::vec3 p_m);
 
