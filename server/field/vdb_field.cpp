@@ -26,6 +26,12 @@ openvdb::Coord origin(BrickCoord coord) {
 struct VdbField::Tree {
   CodeTree tree{code_air};
   mutable openvdb::tree::ValueAccessor<CodeTree> accessor{tree};
+
+  /// A tile that takes a leaf's place deletes it, but the accessor would go on finding it.
+  void set_tile(const openvdb::Coord& at, Code code, bool active) {
+    accessor.addTile(brick_tile_level, at, code, active);
+    accessor.clear();
+  }
 };
 
 VdbField::VdbField(const TerrainSource& source) : Field(source), tree_(std::make_unique<Tree>()) {}
@@ -48,7 +54,7 @@ const Brick* VdbField::find_edited(BrickCoord coord) const {
 void VdbField::store_edited(BrickCoord coord, const Brick& brick) {
   const openvdb::Coord at = origin(coord);
   if (uniform_equivalent(brick) != nullptr) {
-    tree_->accessor.addTile(brick_tile_level, at, brick.codes.front(), true);
+    tree_->set_tile(at, brick.codes.front(), true);
     return;
   }
   Leaf* leaf = tree_->accessor.touchLeaf(at);
@@ -57,7 +63,7 @@ void VdbField::store_edited(BrickCoord coord, const Brick& brick) {
 }
 
 void VdbField::erase_edited(BrickCoord coord) {
-  tree_->accessor.addTile(brick_tile_level, origin(coord), code_air, false);
+  tree_->set_tile(origin(coord), code_air, false);
 }
 
 }  // namespace scree
