@@ -28,14 +28,6 @@ Window window_of(const VoxelBox& box, const std::function<float(glm::vec3)>& dis
   return window;
 }
 
-Window part_of(const Window& whole, const VoxelBox& box) {
-  Window part(box);
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z) part.at(x, y, z) = whole.at(x, y, z);
-  return part;
-}
-
 /// A vertex of a mesh made of several: its place in the world in 1/256 voxel, and which of a cell's sheets it
 /// is on (two sheets may meet in a point without being joined).
 struct Corner {
