@@ -86,6 +86,8 @@ class Follower {
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
   void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
+  void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
+  void apply(const PhysicsMessage&) { ADD_FAILURE() << "what bodies do is not the publisher's"; }
 };
 
 class PublisherTest : public ::testing::Test {
