@@ -16,25 +16,16 @@ namespace {
 
 constexpr float view_radius_m = 14.0F;
 
-VoxelBox box_of(BlockCoord block) {
-  const VoxelCoord lo{block.x * block_size, block.y * block_size, block.z * block_size};
-  return {lo, lo + VoxelCoord{block_size, block_size, block_size}};
-}
-
 /// A world of one field, and what a scheduler shows of it.
 class Watched : public testing::Test {
  protected:
   /// One update; keeps what is shown.
   MeshUpdate update() {
     MeshUpdate update = scheduler_.update(Scene{field_, pieces_}, eye_m_);
-    for (const ChunkCoord chunk : update.dropped_chunks)
-      std::erase_if(blocks_, [&](const auto& entry) {
-        const BlockCoord b = entry.first;
-        return ChunkCoord{b.x >> 1, b.y >> 1, b.z >> 1} == chunk;
-      });
-    for (const BlockMesh& block : update.blocks) {
-      blocks_.erase(block.block);
-      if (!block.mesh.empty()) blocks_[block.block] = block.mesh;
+    for (const SurfaceNode& node : update.gone) nodes_.erase(node);
+    for (const NodeMesh& node : update.nodes) {
+      nodes_.erase(node.node);
+      if (!node.mesh.empty()) nodes_[node.node] = node.mesh;
     }
     for (const PieceId id : update.removed_pieces) shown_pieces_.erase(id);
     for (const PieceMesh& piece : update.pieces) shown_pieces_.insert(piece.id);
@@ -72,11 +63,11 @@ class Watched : public testing::Test {
     for (int x = -2; x < 2; ++x)
       for (int y = -2; y < 2; ++y)
         for (int z = -2; z < 2; ++z) {
-          const BlockCoord block{x, y, z};
-          const VoxelBox owned = box_of(block);
+          const SurfaceNode node{0, {x, y, z}};
+          const VoxelBox owned = samples_of(node);
           const SurfaceMesh now = surface_nets(gather(field_, owned.grown(surface_nets_apron)), owned);
-          const auto shown = blocks_.find(block);
-          ASSERT_EQ(now.empty(), shown == blocks_.end());
+          const auto shown = nodes_.find(node);
+          ASSERT_EQ(now.empty(), shown == nodes_.end());
           if (now.empty()) continue;
           ++surfaces;
           ASSERT_EQ(now.indices, shown->second.indices);
@@ -91,10 +82,10 @@ class Watched : public testing::Test {
   PieceTable table_;
   ScenePieces pieces_;
   glm::vec3 eye_m_{0.0F, 2.0F, 0.0F};
-  std::map<BlockCoord, SurfaceMesh> blocks_;
+  std::map<SurfaceNode, SurfaceMesh> nodes_;
   std::set<PieceId> shown_pieces_;
   WorkPool pool_{2};
-  MeshScheduler scheduler_{pool_, view_radius_m};
+  MeshScheduler scheduler_{pool_, view_radius_m, Polygoniser::nets};
 };
 
 TEST_F(Watched, everything_around_the_eye_is_loaded) {
@@ -126,7 +117,7 @@ TEST_F(Watched, a_piece_and_its_hole_appear_together) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!scheduler_.complete() && std::chrono::steady_clock::now() < deadline) {
     const MeshUpdate step = update();
-    EXPECT_EQ(step.blocks.empty(), step.pieces.empty()) << "one without the other";
+    EXPECT_EQ(step.nodes.empty(), step.pieces.empty()) << "one without the other";
   }
   expect_current();
   EXPECT_EQ(shown_pieces_.size(), pieces_.size());
@@ -146,7 +137,7 @@ TEST_F(Watched, a_merge_and_the_pieces_vanishing_appear_together) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!scheduler_.complete() && std::chrono::steady_clock::now() < deadline) {
     const MeshUpdate step = update();
-    EXPECT_EQ(step.blocks.empty(), step.removed_pieces.empty()) << "one without the other";
+    EXPECT_EQ(step.nodes.empty(), step.removed_pieces.empty()) << "one without the other";
   }
   EXPECT_FALSE(shown_pieces_.contains(id));
   expect_current();
@@ -156,7 +147,7 @@ TEST_F(Watched, what_is_left_behind_is_dropped_and_loaded_again) {
   finish();
   eye_m_.x = 200.0F;
   finish();
-  for (const auto& [block, mesh] : blocks_) EXPECT_GT(block.x, 30);
+  for (const auto& [node, mesh] : nodes_) EXPECT_TRUE(node.level > 0 || node.at.x > 30);
   eye_m_.x = 0.0F;
   finish();
   expect_current();

@@ -14,11 +14,6 @@ constexpr float air_kept_voxels = 1.5F;
 /// Beyond this code either way, all looks the same (shaders/rock.glsl, cut_of and heap_of).
 constexpr Code code_far = 58;
 
-TerrainSource spaced(TerrainSource source, int level) {
-  source.voxel_size_m *= static_cast<float>(1 << level);
-  return source;
-}
-
 VoxelBox samples_of(BrickCoord brick) {
   const VoxelCoord first = first_voxel(brick);
   const VoxelCoord lo = first - VoxelCoord{atlas_apron_low, atlas_apron_low, atlas_apron_low};
@@ -32,6 +27,27 @@ AtlasBrick as_brick(const Window& window) {
 }
 
 }  // namespace
+
+TerrainSource spaced(TerrainSource source, int level) {
+  source.voxel_size_m *= static_cast<float>(1 << level);
+  return source;
+}
+
+void take_edits(Field& field, int level, Window& window) {
+  const int step = 1 << level;
+  const VoxelBox& box = window.box;
+  const float scale = 1.0F / static_cast<float>(step);
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z) {
+        const VoxelCoord fine{x * step, y * step, z * step};
+        const BrickCoord home = brick_of(fine);
+        if (!field.has_edits(chunk_of(home)) || !field.is_edited(home)) continue;
+        const Code code =
+            field.brick(home).codes[static_cast<size_t>(Brick::index(fine.x & 7, fine.y & 7, fine.z & 7))];
+        window.at(x, y, z) = encode(decode(code) * scale);
+      }
+}
 
 LevelBrick::Kind kind_of(const AtlasBrick& brick) {
   constexpr int lo = atlas_apron_low;
@@ -92,21 +108,6 @@ bool LevelBricks::edited_around(const Field& field, BrickCoord brick) const {
   return edited;
 }
 
-void LevelBricks::take_edits(Field& field, Window& window) const {
-  const VoxelBox& box = window.box;
-  const float scale = 1.0F / static_cast<float>(step());
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z) {
-        const VoxelCoord fine{x * step(), y * step(), z * step()};
-        const BrickCoord home = brick_of(fine);
-        if (!field.has_edits(chunk_of(home)) || !field.is_edited(home)) continue;
-        const Code code =
-            field.brick(home).codes[static_cast<size_t>(Brick::index(fine.x & 7, fine.y & 7, fine.z & 7))];
-        window.at(x, y, z) = encode(decode(code) * scale);
-      }
-}
-
 LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
@@ -116,7 +117,7 @@ LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
-  if (level_ > 0 && edited) take_edits(field, window);
+  if (level_ > 0 && edited) take_edits(field, level_, window);
   LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}};
   read.kind = kind_of(read.field);
   if (!before || before->codes == window.codes) return read;

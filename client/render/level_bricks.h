@@ -26,6 +26,12 @@ LevelBrick::Kind kind_of(const AtlasBrick& brick);
 /// Air or rock where all is so far from the surface that its looks do not change any more.
 LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 
+/// The same terrain with a sample every 2^level voxels.
+TerrainSource spaced(TerrainSource source, int level);
+
+/// Puts what was edited of the field, of level 0, into a window of that level.
+void take_edits(Field& field, int level, Window& window);
+
 class LevelBricks {
  public:
   LevelBricks(const TerrainSource& source, int level);
@@ -51,7 +57,6 @@ class LevelBricks {
   Field& generator(Field& field) const { return coarse_ ? *coarse_ : field; }
   const Brick* uniform_around(Field& field, BrickCoord brick) const;
   bool edited_around(const Field& field, BrickCoord brick) const;
-  void take_edits(Field& field, Window& window) const;
 
   int level_;
   TerrainSource source_;

@@ -12,18 +12,26 @@ namespace scree::limits {
 inline constexpr float view_radius_min_m = 8.0F;
 inline constexpr float view_radius_max_m = interest_radius_max_m;
 
-/// Beyond the view radius times this, meshes are dropped; between the two they stay, so that pacing about a
-/// border builds nothing.
+/// What is drawn may reach this much farther than it has to: what is left behind goes later than it came.
 inline constexpr float view_radius_keep = 1.15F;
 
-/// Chunks being generated, and chunks being meshed for the first time, at any moment: work for the threads
-/// through a slow frame. Edits overtake them. The rest waits, nearest first, and is chosen anew when the
-/// camera has moved.
+/// Chunks being generated at any moment: work for the threads through a slow frame. Edits overtake them. The
+/// rest waits, nearest first, and is chosen anew when the camera has moved.
 inline constexpr size_t chunks_generating_max = 96;
-inline constexpr size_t chunks_loading_max = 48;
 
 /// Waiting chunks looked at in one frame: bounds the main thread's part (about 0.3 ms).
 inline constexpr size_t chunks_examined_max = 192;
+
+/// Levels of detail of the meshes: cells of 8 m at voxels of 25 cm.
+inline constexpr int mesh_levels_max = 6;
+
+/// Nodes that are split or joined in one batch. In many small batches the same borders between levels would
+/// be meshed again and again; as it is, one batch takes in all that a moving eye asks for, and a new world a
+/// batch a level. The rest waits for the next batch.
+inline constexpr size_t forest_steps_max = 4096;
+
+/// No terrain is generated higher than this, metres: meshes look no higher, but for what lies about the eye.
+inline constexpr float terrain_top_m = 64.0F;
 
 /// Threads that generate and mesh. Two keep a viewer fluent beside a server on a small machine; more than
 /// four find nothing to do.

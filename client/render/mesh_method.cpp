@@ -25,10 +25,11 @@ glm::vec3 as_vector(VoxelCoord v) {
 /// The uniforms of surface.vert that differ from mesh to mesh, looked up once.
 struct SurfaceProgram {
   gl::Program program;
-  GLint origin_m, centre_m, place_m, rotation, loose, tint;
+  GLint step_m, origin_m, centre_m, place_m, rotation, loose, tint;
 
   explicit SurfaceProgram(gl::Program&& linked)
       : program(std::move(linked)),
+        step_m(program.uniform("u_step_m")),
         origin_m(program.uniform("u_origin_m")),
         centre_m(program.uniform("u_centre_m")),
         place_m(program.uniform("u_place_m")),
@@ -64,36 +65,43 @@ struct PieceView {
 
 class MeshMethod final : public DrawMethod {
  public:
-  MeshMethod(WorkPool& pool, float view_radius_m, SurfaceProgram&& surface, SurfaceProgram&& shadow)
-      : view_radius_m_(view_radius_m),
-        scheduler_(pool, view_radius_m),
+  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, SurfaceProgram&& surface,
+             SurfaceProgram&& shadow)
+      : polygoniser_(polygoniser),
+        scheduler_(pool, view_radius_m, polygoniser),
         surface_(std::move(surface)),
         shadow_(std::move(shadow)) {}
 
-  std::string_view name() const override { return "mesh"; }
+  std::string_view name() const override { return polygoniser_ == Polygoniser::nets ? "mesh" : "dual"; }
   void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
   bool loaded() const override { return scheduler_.loaded(); }
   bool complete() const override { return scheduler_.complete(); }
   void update(const Scene& scene, const Camera& camera) override;
-  float reach_m() const override { return view_radius_m_; }
+  float reach_m() const override { return scheduler_.reach_m(); }
   void draw(const DrawPass& pass) override;
   DrawStats stats() const override;
 
  private:
   void show(MeshUpdate&& update);
+  void erase(const SurfaceNode& node);
   void show_piece(const PieceMesh& piece);
   void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
   void draw_pieces(const SurfaceProgram& program, const Frustum& frustum);
   void count(const GpuMesh& mesh);
 
-  float view_radius_m_;
+  Polygoniser polygoniser_;
   MeshScheduler scheduler_;
   SurfaceProgram surface_;
   SurfaceProgram shadow_;
   float voxel_m_ = 0.0F;
-  std::unordered_map<BlockCoord, GpuMesh, CoordHash> blocks_;
+  /// A node's mesh, in voxels of its own level.
+  struct Block {
+    GpuMesh mesh;
+    float voxel_m;
+  };
+  std::unordered_map<SurfaceNode, Block, SurfaceNodeHash> blocks_;
   std::unordered_map<PieceId, PieceView> pieces_;
-  std::vector<std::pair<float, const GpuMesh*>> visible_;  ///< squared distance; kept for its memory
+  std::vector<std::pair<float, const Block*>> visible_;  ///< squared distance; kept for its memory
   size_t gpu_bytes_ = 0;
   DrawStats pass_;
 };
@@ -108,22 +116,12 @@ void MeshMethod::update(const Scene& scene, const Camera& camera) {
 }
 
 void MeshMethod::show(MeshUpdate&& update) {
-  for (const ChunkCoord chunk : update.dropped_chunks) {
-    for (int i = 0; i < 8; ++i) {
-      const BlockCoord block{chunk.x * 2 + (i >> 2), chunk.y * 2 + ((i >> 1) & 1), chunk.z * 2 + (i & 1)};
-      if (const auto found = blocks_.find(block); found != blocks_.end()) {
-        gpu_bytes_ -= found->second.bytes();
-        blocks_.erase(found);
-      }
-    }
-  }
-  for (const BlockMesh& mesh : update.blocks) {
-    if (const auto old = blocks_.find(mesh.block); old != blocks_.end()) {
-      gpu_bytes_ -= old->second.bytes();
-      blocks_.erase(old);
-    }
-    if (mesh.mesh.empty()) continue;
-    gpu_bytes_ += blocks_.emplace(mesh.block, GpuMesh(mesh.mesh)).first->second.bytes();
+  for (const SurfaceNode& node : update.gone) erase(node);
+  for (const NodeMesh& node : update.nodes) {
+    erase(node.node);
+    if (node.mesh.empty()) continue;
+    const float voxel_m = voxel_m_ * static_cast<float>(1 << node.level);
+    gpu_bytes_ += blocks_.emplace(node.node, Block{GpuMesh(node.mesh), voxel_m}).first->second.mesh.bytes();
   }
   for (const PieceId id : update.removed_pieces) {
     const auto found = pieces_.find(id);
@@ -132,6 +130,13 @@ void MeshMethod::show(MeshUpdate&& update) {
     pieces_.erase(found);
   }
   for (const PieceMesh& piece : update.pieces) show_piece(piece);
+}
+
+void MeshMethod::erase(const SurfaceNode& node) {
+  const auto found = blocks_.find(node);
+  if (found == blocks_.end()) return;
+  gpu_bytes_ -= found->second.mesh.bytes();
+  blocks_.erase(found);
 }
 
 void MeshMethod::show_piece(const PieceMesh& piece) {
@@ -152,7 +157,6 @@ void MeshMethod::draw(const DrawPass& pass) {
   const SurfaceProgram& program = shadow ? shadow_ : surface_;
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
-  program.program.set("u_step_m", voxel_m_ / surface_steps_per_voxel);
   if (!shadow) {
     program.program.set("u_eye", pass.eye_m);
     program.program.set("u_sun", pass.lighting.sun);
@@ -181,26 +185,31 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
   glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
-  constexpr float half = 0.5F * static_cast<float>(block_size + 1);
-  const float radius_m = half * 1.7321F * voxel_m_;
   // Near ones first: what they hide is not shaded.
   visible_.clear();
-  for (const auto& [block, mesh] : blocks_) {
-    const glm::vec3 centre_m = (as_vector(mesh.origin()) + half) * voxel_m_;
-    if (!frustum.touches(centre_m, radius_m)) continue;
+  for (const auto& [node, block] : blocks_) {
+    const float side_m = voxel_m_ * static_cast<float>(block_size << node.level);
+    const glm::vec3 centre_m = (glm::vec3(static_cast<float>(node.at.x), static_cast<float>(node.at.y),
+                                          static_cast<float>(node.at.z)) +
+                                0.5F) *
+                               side_m;
+    // Polygons reach into the cells about the node.
+    if (!frustum.touches(centre_m, side_m * (0.5F + 1.0F / block_size) * 1.7321F)) continue;
     const glm::vec3 away = centre_m - eye_m;
-    visible_.emplace_back(glm::dot(away, away), &mesh);
+    visible_.emplace_back(glm::dot(away, away), &block);
   }
   std::ranges::sort(visible_);
-  for (const auto& [distance, mesh] : visible_) {
-    const glm::vec3 origin_m = as_vector(mesh->origin()) * voxel_m_;
+  for (const auto& [distance, block] : visible_) {
+    const glm::vec3 origin_m = as_vector(block->mesh.origin()) * block->voxel_m;
     glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
-    count(*mesh);
+    glUniform1f(program.step_m, block->voxel_m / surface_steps_per_voxel);
+    count(block->mesh);
   }
 }
 
 void MeshMethod::draw_pieces(const SurfaceProgram& program, const Frustum& frustum) {
   glUniform1f(program.loose, 1.0F);
+  glUniform1f(program.step_m, voxel_m_ / surface_steps_per_voxel);
   for (const auto& [id, view] : pieces_) {
     if (!view.mesh || !frustum.touches(view.pose.position_m, view.radius_m)) continue;
     const glm::vec3 origin_m = as_vector(view.mesh->origin()) * voxel_m_;
@@ -223,14 +232,24 @@ DrawStats MeshMethod::stats() const {
   return stats;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m) {
+Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m,
+                                                Polygoniser polygoniser) {
   Result<SurfaceProgram> surface = link_surface();
   if (!surface) return fail(surface.error().message);
   Result<SurfaceProgram> shadow = link_shadow();
   if (!shadow) return fail(shadow.error().message);
-  return std::make_unique<MeshMethod>(pool, view_radius_m, std::move(*surface), std::move(*shadow));
+  return std::make_unique<MeshMethod>(pool, view_radius_m, polygoniser, std::move(*surface),
+                                      std::move(*shadow));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::nets);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::dual);
 }
 
 }  // namespace scree

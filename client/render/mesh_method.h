@@ -1,5 +1,5 @@
-// Drawing by cached polygons: surface nets of blocks of terrain and of pieces, rebuilt on worker threads when
-// they change (mesh_scheduler.h). Within OpenGL ES 3.0's subset.
+// Drawing by cached polygons of blocks of terrain, at levels of detail to the horizon, and of pieces, rebuilt
+// on worker threads when they change (mesh_scheduler.h). Within OpenGL ES 3.0's subset.
 #pragma once
 
 #include <memory>
@@ -11,5 +11,7 @@ namespace scree {
 
 /// `pool` must outlive the method. Needs the GL context current. Fails when a shader does.
 Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m);
+/// The same by dual contouring: sharp edges of the terrain stay sharp.
+Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m);
 
 }  // namespace scree

@@ -1,88 +1,63 @@
 #include "client/render/mesh_scheduler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
-#include <optional>
+#include <set>
 #include <utility>
 
-#include "client/render/block_windows.h"
 #include "client/render/limits.h"
 
 namespace scree {
 namespace {
 
-constexpr int blocks_per_chunk = chunk_size / block_size;
-
-ChunkCoord chunk_of(BlockCoord block) {
-  return {block.x >> 1, block.y >> 1, block.z >> 1};
-}
-static_assert(blocks_per_chunk == 2);
-
-/// Blocks whose windows reach into the brick.
-void add_blocks_around(BrickCoord brick, std::unordered_set<BlockCoord, CoordHash>& blocks) {
-  const VoxelCoord first = first_voxel(brick);
-  const auto low = [](int v) { return (v - surface_nets_apron) >> 4; };
-  const auto high = [](int v) { return (v + brick_size - 1 + surface_nets_apron) >> 4; };
-  for (int x = low(first.x); x <= high(first.x); ++x)
-    for (int y = low(first.y); y <= high(first.y); ++y)
-      for (int z = low(first.z); z <= high(first.z); ++z) blocks.insert({x, y, z});
-}
-static_assert(block_size == 16);
-
-/// Squared distance of a chunk's centre from a point, metres.
-float squared_distance(ChunkCoord chunk, glm::vec3 eye_m, float chunk_m) {
-  const glm::vec3 centre = (glm::vec3(chunk.x, chunk.y, chunk.z) + 0.5F) * chunk_m;
-  const glm::vec3 d = centre - eye_m;
-  return d.x * d.x + d.y * d.y + d.z * d.z;
+/// Side of a node of level 0, metres.
+float block_m(const TerrainSource& source) {
+  return source.voxel_size_m * static_cast<float>(block_size);
 }
 
-/// Calls f(ChunkCoord) for the chunk and the 26 around it, into which its blocks' windows reach.
-template <typename F>
-void for_each_around(ChunkCoord chunk, F&& f) {
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) f(chunk + ChunkCoord{x, y, z});
+/// All of the finest level within half the view radius, or within four blocks if that is more.
+float fine_m(const TerrainSource& source, float view_radius_m) {
+  return std::max(0.5F * view_radius_m, 4.0F * block_m(source));
 }
 
 }  // namespace
 
-/// What a worker needs to mesh one block.
-struct MeshScheduler::BlockJob {
-  BlockCoord block;
-  uint64_t gathered = 0;
-  std::optional<BlockWindows> windows;  ///< nothing: the block has no surface
-};
-
 struct MeshScheduler::Inbox {
-  struct Blocks {
-    std::vector<BlockMesh> meshes;
-    std::optional<ChunkCoord> loaded;  ///< of a batch, if none
-  };
   struct Generated {
-    ChunkCoord coord;
+    LevelChunk at;
     GeneratedChunk chunk;
   };
 
   std::mutex mutex;
   std::vector<Generated> generated;
-  std::vector<Blocks> blocks;
+  std::vector<NodeMesh> nodes;
   std::vector<PieceMesh> pieces;
 };
 
 struct MeshScheduler::Batch {
+  std::vector<SurfaceNode> nodes;       ///< to be meshed
+  std::set<LevelChunk> terrain_needed;  ///< before they can be
+  bool begun = false;                   ///< the meshes
   size_t jobs_left = 0;
+  bool of_changes = false;
   MeshUpdate update;
 };
 
-MeshScheduler::MeshScheduler(WorkPool& pool, float view_radius_m)
-    : pool_(pool), view_radius_m_(view_radius_m), inbox_(std::make_shared<Inbox>()) {}
+MeshScheduler::MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser)
+    : pool_(pool),
+      view_radius_m_(view_radius_m),
+      polygoniser_(polygoniser),
+      inbox_(std::make_shared<Inbox>()) {}
 
 MeshScheduler::~MeshScheduler() = default;
 
+float MeshScheduler::reach_m() const {
+  return view_radius_m_ * limits::horizon_per_view_radius;
+}
+
 size_t MeshScheduler::waiting() const {
-  return pending_.size() + loading_ + collected_.bricks.size() + collected_.pieces_added.size() +
-         collected_.pieces_removed.size() + (batch_ ? 1 : 0);
+  return collected_.bricks.size() + collected_.pieces_added.size() + collected_.pieces_removed.size() +
+         (batch_ ? batch_->nodes.size() + 1 : 0) + (grown_ ? 0 : 1);
 }
 
 void MeshScheduler::changed(const MirrorChanges& changes) {
@@ -92,207 +67,125 @@ void MeshScheduler::changed(const MirrorChanges& changes) {
   append(collected_.pieces_removed, changes.pieces_removed);
 }
 
+void MeshScheduler::start(const TerrainSource& source) {
+  // As many levels as reach the horizon with nodes no wider than a quarter of the way.
+  int levels = 1;
+  while (levels < limits::mesh_levels_max &&
+         fine_m(source, view_radius_m_) * static_cast<float>(1 << (levels - 1)) < reach_m())
+    ++levels;
+  levels_.emplace(source, levels);
+  forest_.emplace(ForestShape{levels, block_m(source), fine_m(source, view_radius_m_), reach_m(),
+                              floor_m(source), limits::terrain_top_m});
+}
+
 MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
+  if (!forest_) start(scene.field.source());
+  take_results(scene.field);
   MeshUpdate update;
-  follow(scene.field.source(), eye_m, update);
-  take_results(scene.field, update);
-  if (!batch_) begin_batch(scene);
-  if (!batch_) caught_up_ = true;
-  begin_loads(scene.field);
+  if (batch_ && batch_->begun && batch_->jobs_left == 0) {
+    caught_up_ = caught_up_ || batch_->of_changes;
+    update = std::move(batch_->update);
+    batch_.reset();
+  }
+  if (!batch_) begin_batch(scene, eye_m);
+  if (batch_ && !batch_->begun && batch_->terrain_needed.empty()) begin_meshes(scene.field);
   return update;
 }
 
-void MeshScheduler::show(BlockMesh&& mesh, MeshUpdate& update) {
-  if (!chunks_.contains(chunk_of(mesh.block))) return;
-  uint64_t& shown = shown_[mesh.block];
-  if (mesh.gathered < shown) return;
-  shown = mesh.gathered;
-  update.blocks.push_back(std::move(mesh));
-}
-
-void MeshScheduler::take_results(Field& field, MeshUpdate& update) {
+void MeshScheduler::take_results(Field& field) {
   Inbox done;
   {
     const std::lock_guard lock(inbox_->mutex);
     std::swap(done.generated, inbox_->generated);
-    std::swap(done.blocks, inbox_->blocks);
+    std::swap(done.nodes, inbox_->nodes);
     std::swap(done.pieces, inbox_->pieces);
   }
-  for (Inbox::Generated& generated : done.generated)
-    take_generated(field, generated.coord, std::move(generated.chunk));
-  for (Inbox::Blocks& blocks : done.blocks) {
-    if (blocks.loaded) {
-      --loading_;
-      const auto chunk = chunks_.find(*blocks.loaded);
-      if (chunk == chunks_.end()) continue;
-      chunk->second = ChunkState::loaded;
-      for (BlockMesh& mesh : blocks.meshes) show(std::move(mesh), update);
-      continue;
-    }
-    --batch_->jobs_left;
-    for (BlockMesh& mesh : blocks.meshes) batch_->update.blocks.push_back(std::move(mesh));
+  for (Inbox::Generated& generated : done.generated) {
+    levels_->adopt_generated(field, generated.at.level, generated.at.chunk, std::move(generated.chunk));
+    if (batch_) batch_->terrain_needed.erase(generated.at);
   }
-  for (PieceMesh& piece : done.pieces) {
-    --batch_->jobs_left;
-    batch_->update.pieces.push_back(std::move(piece));
-  }
-  if (!batch_ || batch_->jobs_left > 0) return;
-  for (BlockMesh& mesh : batch_->update.blocks) show(std::move(mesh), update);
-  update.pieces = std::move(batch_->update.pieces);
-  update.removed_pieces = std::move(batch_->update.removed_pieces);
-  batch_.reset();
+  if (!batch_) return;
+  batch_->jobs_left -= done.nodes.size() + done.pieces.size();
+  std::ranges::move(done.nodes, std::back_inserter(batch_->update.nodes));
+  std::ranges::move(done.pieces, std::back_inserter(batch_->update.pieces));
 }
 
-void MeshScheduler::follow(const TerrainSource& source, glm::vec3 eye_m, MeshUpdate& update) {
-  const float chunk_m = source.voxel_size_m * static_cast<float>(chunk_size);
-  const auto whole = [chunk_m](float v) { return static_cast<int>(std::floor(v / chunk_m)); };
-  const ChunkCoord centre{whole(eye_m.x), whole(eye_m.y), whole(eye_m.z)};
-  if (started_ && centre == centre_) return;
-  started_ = true;
-  centre_ = centre;
-  const float keep_m = view_radius_m_ * limits::view_radius_keep + chunk_m;
-  std::erase_if(chunks_, [&](const auto& entry) {
-    const bool far = squared_distance(entry.first, eye_m, chunk_m) > keep_m * keep_m;
-    if (far) update.dropped_chunks.push_back(entry.first);
-    return far;
-  });
-  std::erase_if(uniform_, [&](const auto& entry) {
-    return squared_distance(entry.first, eye_m, chunk_m) > (keep_m + 2 * chunk_m) * (keep_m + 2 * chunk_m);
-  });
-  std::erase_if(shown_, [&](const auto& entry) { return !chunks_.contains(chunk_of(entry.first)); });
-
-  pending_.clear();
-  const int reach = static_cast<int>(std::ceil(view_radius_m_ / chunk_m));
-  for (int x = -reach; x <= reach; ++x)
-    for (int y = -reach; y <= reach; ++y)
-      for (int z = -reach; z <= reach; ++z) {
-        const ChunkCoord chunk = centre + ChunkCoord{x, y, z};
-        const bool near = squared_distance(chunk, eye_m, chunk_m) <= view_radius_m_ * view_radius_m_;
-        if (near && !chunks_.contains(chunk)) pending_.push_back(chunk);
-      }
-  std::ranges::sort(pending_, std::greater<>{},
-                    [&](ChunkCoord chunk) { return squared_distance(chunk, eye_m, chunk_m); });
-}
-
-void MeshScheduler::begin_batch(const Scene& scene) {
-  if (collected_.bricks.empty() && collected_.pieces_added.empty() && collected_.pieces_removed.empty())
-    return;
+void MeshScheduler::begin_batch(const Scene& scene, glm::vec3 eye_m) {
+  if (begin_changes(scene)) return;
+  caught_up_ = true;
+  ForestStep step = forest_->grow(eye_m, limits::forest_steps_max);
+  grown_ = step.empty();
+  if (grown_) return;
   batch_ = std::make_unique<Batch>();
-  std::unordered_set<BlockCoord, CoordHash> dirty;
-  for (const BrickCoord brick : collected_.bricks) add_blocks_around(brick, dirty);
-  for (const BlockCoord block : dirty) {
-    if (!chunks_.contains(chunk_of(block))) continue;
-    std::vector<BlockJob> jobs;
-    jobs.push_back(gather_block(scene.field, block));
-    ++batch_->jobs_left;
-    submit_blocks(WorkPool::Urgency::edit, std::move(jobs), {});
+  batch_->nodes = std::move(step.changed);
+  batch_->update.gone = std::move(step.gone);
+  ask_for_terrain(scene.field);
+}
+
+/// What the mirror changed, if it changed anything.
+bool MeshScheduler::begin_changes(const Scene& scene) {
+  if (collected_.bricks.empty() && collected_.pieces_added.empty() && collected_.pieces_removed.empty())
+    return false;
+  batch_ = std::make_unique<Batch>();
+  batch_->of_changes = true;
+  std::unordered_set<SurfaceNode, SurfaceNodeHash> dirty;
+  for (const BrickCoord brick : collected_.bricks) {
+    const VoxelCoord first = first_voxel(brick);
+    for (const SurfaceNode& node : forest_->leaves_around(
+             {first, first + VoxelCoord{brick_size, brick_size, brick_size}}, surface_nets_apron + 1))
+      dirty.insert(node);
   }
+  batch_->nodes.assign(dirty.begin(), dirty.end());
+  batch_->update.removed_pieces = std::move(collected_.pieces_removed);
   for (const PieceId id : collected_.pieces_added) {
     const auto piece = scene.pieces.find(id);
     if (piece == scene.pieces.end()) continue;  // gone again before it was ever shown
     ++batch_->jobs_left;
     submit_piece(scene.field, id, piece->second);
   }
-  batch_->update.removed_pieces = std::move(collected_.pieces_removed);
   collected_ = {};
+  ask_for_terrain(scene.field);
+  return true;
 }
 
-void MeshScheduler::take_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated) {
-  generating_.erase(chunk);
-  const Brick* first = generated.bricks.front();
-  const bool uniform = (first == &air_brick() || first == &solid_brick()) &&
-                       std::ranges::all_of(generated.bricks, [first](const Brick* b) { return b == first; });
-  if (uniform) {
-    uniform_[chunk] = first;
-  } else {
-    field.adopt_generated(chunk, std::move(generated));
-  }
-}
-
-bool MeshScheduler::generated_around(Field& field, ChunkCoord chunk) {
-  bool all = true;
-  for_each_around(chunk, [&](ChunkCoord coord) {
-    if (uniform_.contains(coord) || field.has_generated(coord)) return;
-    all = false;
-    if (generating_.size() >= limits::chunks_generating_max || !generating_.insert(coord).second) return;
-    pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = field.source(), coord] {
-      GeneratedChunk generated = generate_chunk(source, coord);
-      const std::lock_guard lock(inbox->mutex);
-      inbox->generated.push_back({coord, std::move(generated)});
+/// The chunks into which the nodes' windows reach are generated first, on the pool.
+void MeshScheduler::ask_for_terrain(Field& field) {
+  const auto need = [&](int level, const VoxelBox& box) {
+    for_each_chunk(box.grown(surface_nets_apron), [&](ChunkCoord chunk) {
+      if (!levels_->has_generated(field, level, chunk)) batch_->terrain_needed.insert({level, chunk});
     });
-  });
-  return all;
-}
-
-bool MeshScheduler::is_plainly_empty(const Field& field, ChunkCoord chunk) const {
-  const auto own = uniform_.find(chunk);
-  if (own == uniform_.end()) return false;
-  bool empty = true;
-  for_each_around(chunk, [&](ChunkCoord coord) {
-    const auto found = uniform_.find(coord);
-    empty = empty && found != uniform_.end() && found->second == own->second && field.chunk_hash(coord) == 0;
-  });
-  return empty;
-}
-
-void MeshScheduler::adopt_uniform_around(Field& field, ChunkCoord chunk) {
-  for_each_around(chunk, [&](ChunkCoord coord) {
-    const auto found = uniform_.find(coord);
-    if (found == uniform_.end() || field.has_generated(coord)) return;
-    GeneratedChunk generated;
-    generated.bricks.fill(found->second);
-    field.adopt_generated(coord, std::move(generated));
-  });
-}
-
-void MeshScheduler::begin_loads(Field& field) {
-  size_t examined = 0;
-  for (size_t i = pending_.size(); i-- > 0;) {
-    if (loading_ >= limits::chunks_loading_max || examined++ >= limits::chunks_examined_max) return;
-    if (!generated_around(field, pending_[i])) continue;
-    load(field, pending_[i]);
-    pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  for (const SurfaceNode& node : batch_->nodes) {
+    need(node.level, samples_of(node));
+    const Neighbours& around = forest_->neighbours(node);
+    if (std::ranges::find(around, Neighbour::finer) == around.end()) continue;
+    const VoxelBox box = samples_of(node);
+    const auto twice = [](VoxelCoord v) { return VoxelCoord{v.x * 2, v.y * 2, v.z * 2}; };
+    need(node.level - 1, VoxelBox{twice(box.lo), twice(box.hi)}.grown(surface_nets_apron));
   }
+  for (const LevelChunk& at : batch_->terrain_needed)
+    pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = levels_->source(at.level), at] {
+      GeneratedChunk generated = generate_chunk(source, at.chunk);
+      const std::lock_guard lock(inbox->mutex);
+      inbox->generated.push_back({at, std::move(generated)});
+    });
 }
 
-void MeshScheduler::load(Field& field, ChunkCoord chunk) {
-  if (is_plainly_empty(field, chunk)) {
-    chunks_[chunk] = ChunkState::loaded;
-    return;
-  }
-  adopt_uniform_around(field, chunk);
-  std::vector<BlockJob> jobs;
-  for (int i = 0; i < 8; ++i) {
-    const BlockCoord block{chunk.x * 2 + (i >> 2), chunk.y * 2 + ((i >> 1) & 1), chunk.z * 2 + (i & 1)};
-    BlockJob job = gather_block(field, block);
-    if (job.windows) jobs.push_back(std::move(job));
-  }
-  const bool nothing = jobs.empty();
-  chunks_[chunk] = nothing ? ChunkState::loaded : ChunkState::loading;
-  if (nothing) return;
-  ++loading_;
-  submit_blocks(WorkPool::Urgency::load, std::move(jobs), chunk);
-}
-
-MeshScheduler::BlockJob MeshScheduler::gather_block(Field& field, BlockCoord block) {
-  const VoxelCoord lo{block.x * block_size, block.y * block_size, block.z * block_size};
-  const VoxelBox owned{lo, lo + VoxelCoord{block_size, block_size, block_size}};
-  return {block, ++gatherings_, gather_windows(field, owned)};
-}
-
-void MeshScheduler::submit_blocks(WorkPool::Urgency urgency, std::vector<BlockJob> jobs,
-                                  std::optional<ChunkCoord> loaded) {
-  pool_.submit(urgency, [inbox = inbox_, jobs = std::move(jobs), loaded] {
-    Inbox::Blocks result;
-    result.loaded = loaded;
-    for (const BlockJob& job : jobs) {
-      BlockMesh mesh{job.block, job.gathered, {}};
-      if (job.windows) mesh.mesh = job.windows->mesh();
-      result.meshes.push_back(std::move(mesh));
+void MeshScheduler::begin_meshes(Field& field) {
+  batch_->begun = true;
+  for (const SurfaceNode& node : batch_->nodes) {
+    std::optional<NodeJob> job = gather_node(*levels_, field, node, forest_->neighbours(node), polygoniser_);
+    if (!job) {
+      batch_->update.nodes.push_back({node, node.level, {}});
+      continue;
     }
-    const std::lock_guard lock(inbox->mutex);
-    inbox->blocks.push_back(std::move(result));
-  });
+    ++batch_->jobs_left;
+    pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, job = std::move(*job)] {
+      NodeMesh done = mesh_node(job);
+      const std::lock_guard lock(inbox->mutex);
+      inbox->nodes.push_back(std::move(done));
+    });
+  }
 }
 
 void MeshScheduler::submit_piece(Field& field, PieceId id, const ScenePiece& piece) {

@@ -16,6 +16,8 @@ std::optional<std::string> nothing_missing() {
 constexpr std::array table{
     MethodEntry{"mesh", "cached surface nets of blocks of terrain, rebuilt where they change",
                 nothing_missing, make_mesh_method},
+    MethodEntry{"dual", "the same by dual contouring: sharp edges of the rock stay sharp", nothing_missing,
+                make_dual_method},
     MethodEntry{"raymarch", "rays through an atlas of bricks, whatever was edited", nothing_missing,
                 make_raymarch_method},
 };

@@ -22,7 +22,7 @@ VoxelCoord moved(VoxelCoord v, int axis, int by) {
 }
 
 bool is_rock(const LeafGrid& grid, VoxelCoord p) {
-  return grid.codes.at(p.x, p.y, p.z) < 0;
+  return grid.distance_at(p) < 0.0F;
 }
 
 bool is_finer(const LeafGrid& grid, const Leaf& leaf, VoxelCoord cell) {
@@ -87,11 +87,12 @@ LeafEdge edge_between(VoxelCoord a, VoxelCoord b) {
   return length > 0 ? LeafEdge{a, axis, length} : LeafEdge{b, axis, -length};
 }
 
-/// Calls f(edge, edge) for each run of rock along the cycle.
+/// Calls f(edge, edge) for each such run along the cycle.
 template <typename F>
-void for_each_link(const LeafGrid& grid, const Polygon& polygon, F&& f) {
+void for_each_link(const LeafGrid& grid, const Polygon& polygon, LeafRuns runs, F&& f) {
   std::array<bool, 8> rock{};
-  for (size_t i = 0; i < polygon.count; ++i) rock[i] = is_rock(grid, polygon.points[i]);
+  for (size_t i = 0; i < polygon.count; ++i)
+    rock[i] = is_rock(grid, polygon.points[i]) == (runs == LeafRuns::rock);
   const auto next = [&](size_t i) { return (i + 1) % polygon.count; };
   const auto edge = [&](size_t i) { return edge_between(polygon.points[i], polygon.points[next(i)]); };
   for (size_t i = 0; i < polygon.count; ++i) {
@@ -136,16 +137,28 @@ bool is_crossed(const LeafGrid& grid, const LeafEdge& edge) {
   return is_rock(grid, edge.from) != is_rock(grid, edge.to());
 }
 
-glm::vec3 crossing_of(const LeafGrid& grid, const LeafEdge& edge) {
-  const VoxelCoord to = edge.to();
-  const auto a = static_cast<float>(grid.codes.at(edge.from.x, edge.from.y, edge.from.z));
-  const auto b = static_cast<float>(grid.codes.at(to.x, to.y, to.z));
-  glm::vec3 p(edge.from.x, edge.from.y, edge.from.z);
-  p[edge.axis] += static_cast<float>(edge.length) * (a / (a - b));
-  return p;
+float crossing_of(const LeafGrid& grid, const LeafEdge& edge) {
+  const float a = grid.distance_at(edge.from), b = grid.distance_at(edge.to());
+  return a / (a - b);
 }
 
-LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf) {
+bool is_undivided(const LeafGrid& grid, const Leaf& leaf) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true})
+      for (const bool other : {false, true})
+        if (is_edge_divided(grid, leaf, axis, upper, (axis + 1) % 3, other)) return false;
+  return true;
+}
+
+int pinched_face(const LeafGrid& grid, const Leaf& leaf, const LeafLoops& loops) {
+  for (int face = 0; face < 6; ++face) {
+    const std::vector<LeafLink> links = links_of_face(grid, leaf, face);
+    if (links.size() > 1 && loops.sheet(leaf, links[0].a) == loops.sheet(leaf, links[1].a)) return face;
+  }
+  return -1;
+}
+
+LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs) {
   LeafLoops loops;
   loops.sheet_of.fill(no_sheet);
   std::array<uint8_t, leaf_edge_ids> root;
@@ -155,7 +168,7 @@ LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf) {
     return id;
   };
   for_each_polygon(grid, leaf, [&](const Polygon& polygon) {
-    for_each_link(grid, polygon, [&](const LeafEdge& a, const LeafEdge& b) {
+    for_each_link(grid, polygon, runs, [&](const LeafEdge& a, const LeafEdge& b) {
       for (const LeafEdge& edge : {a, b}) {
         uint8_t& seen = loops.sheet_of[id_in(leaf, edge)];
         if (seen == no_sheet) loops.crossed.push_back(edge);
@@ -164,6 +177,8 @@ LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf) {
       root[find(id_in(leaf, a))] = static_cast<uint8_t>(find(id_in(leaf, b)));
     });
   });
+  // In the order in which surface_nets sums: the same bits.
+  std::ranges::sort(loops.crossed, {}, [](const LeafEdge& e) { return std::pair(e.axis, e); });
   std::array<uint8_t, leaf_edge_ids> sheet_of_root;
   sheet_of_root.fill(no_sheet);
   for (const LeafEdge& edge : loops.crossed) {
@@ -176,7 +191,7 @@ LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf) {
 
 std::vector<LeafLink> links_of_face(const LeafGrid& grid, const Leaf& leaf, int face) {
   std::vector<LeafLink> links;
-  for_each_link(grid, whole_face(grid, leaf, face / 2, face % 2 == 1),
+  for_each_link(grid, whole_face(grid, leaf, face / 2, face % 2 == 1), LeafRuns::rock,
                 [&](const LeafEdge& a, const LeafEdge& b) {
                   links.push_back({a, b});
                 });

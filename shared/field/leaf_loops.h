@@ -37,13 +37,21 @@ struct LeafLoops {
   int sheet(const Leaf& leaf, const LeafEdge& edge) const { return sheet_of[id_in(leaf, edge)]; }
 };
 
-LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf);
+/// What is cut off on its own: runs of rock, or of air.
+enum class LeafRuns { rock, air };
+LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs);
+
+/// Whether no smaller leaf touches it by a face or an edge.
+bool is_undivided(const LeafGrid& grid, const Leaf& leaf);
+
+/// The first face across which two links join the same sheet; -1 if there is none.
+int pinched_face(const LeafGrid& grid, const Leaf& leaf, const LeafLoops& loops);
 
 /// The links across face 2·axis + side, which is not divided.
 std::vector<LeafLink> links_of_face(const LeafGrid& grid, const Leaf& leaf, int face);
 
-/// Where the codes change sign.
-glm::vec3 crossing_of(const LeafGrid& grid, const LeafEdge& edge);
+/// Where on the edge the sign changes, from its start, 0..1.
+float crossing_of(const LeafGrid& grid, const LeafEdge& edge);
 bool is_crossed(const LeafGrid& grid, const LeafEdge& edge);
 
 }  // namespace scree

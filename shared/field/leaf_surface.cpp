@@ -1,8 +1,6 @@
 #include "shared/field/leaf_surface.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,15 +9,26 @@
 
 #include "shared/base/check.h"
 #include "shared/field/leaf_loops.h"
+#include "shared/field/surface_mesh.h"
 
 namespace scree {
 namespace {
 
-/// Vertices keep that far from their leaf's faces: two leaves' vertices never coincide.
-constexpr float inset = 1.0F / 256.0F;
+constexpr int steps_per_side = static_cast<int>(surface_steps_per_voxel);
 
-glm::vec3 as_vector(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+using Steps = std::array<int32_t, 3>;
+
+Steps steps_of(VoxelCoord p) {
+  return {p.x * steps_per_side, p.y * steps_per_side, p.z * steps_per_side};
+}
+
+Steps steps_of(const LeafGrid& grid, const LeafEdge& edge) {
+  Steps steps = steps_of(edge.from);
+  // Off the ends, where other edges' crossings might be.
+  const int length = edge.length * steps_per_side;
+  const auto along = static_cast<int>(crossing_of(grid, edge) * static_cast<float>(length) + 0.5F);
+  steps[static_cast<size_t>(edge.axis)] += std::clamp(along, 1, length - 1);
+  return steps;
 }
 
 /// The leaves around an edge, counter-clockwise seen from where it points to, and the axis of the face that
@@ -49,39 +58,70 @@ class Mesher {
   };
 
   static bool is_mixed(const LeafGrid& grid, const Leaf& leaf) {
-    const bool first = grid.codes.at(leaf.at.x, leaf.at.y, leaf.at.z) < 0;
+    const auto rock = [&](int i) {
+      return grid.distance_at(leaf.at + VoxelCoord{(i >> 2) * leaf.side, ((i >> 1) & 1) * leaf.side,
+                                                   (i & 1) * leaf.side}) < 0.0F;
+    };
     for (int i = 1; i < 8; ++i)
-      if ((grid.codes.at(leaf.at.x + (i >> 2) * leaf.side, leaf.at.y + ((i >> 1) & 1) * leaf.side,
-                         leaf.at.z + (i & 1) * leaf.side) < 0) != first)
-        return true;
+      if (rock(i) != rock(0)) return true;
     return false;
   }
 
   const Known& known(const Leaf& leaf) {
     static const Known nothing{};
-    // A leaf of the smallest side has no points but its corners.
-    if (leaf.side == 1 && !is_mixed(grid_, leaf)) return nothing;
-    const auto [found, is_new] = known_.try_emplace(leaf.at);
-    if (is_new) {
-      Known& added = found->second;
-      added.loops = trace_loops(grid_, leaf);
-      std::vector<LeafCrossing> crossings;
-      for (int sheet = 0; sheet < added.loops.sheets; ++sheet) {
-        crossings.clear();
-        for (const LeafEdge& edge : added.loops.crossed)
-          if (added.loops.sheet(leaf, edge) == sheet)
-            crossings.push_back({crossing_of(grid_, edge), edge.axis});
-        const glm::vec3 low = as_vector(leaf.at);
-        const glm::vec3 at = glm::clamp(rules_.place(leaf, crossings), low + inset,
-                                        low + static_cast<float>(leaf.side) - inset);
-        added.vertices.push_back(add_point(leaf, at));
-      }
-    }
-    return found->second;
+    const auto found = known_.find(leaf.at);
+    if (found != known_.end()) return found->second;
+    const bool mixed = is_mixed(grid_, leaf);
+    if (!mixed && leaf.side == 1) return nothing;
+    const bool undivided = is_undivided(grid_, leaf);
+    if (undivided && !mixed) return nothing;
+    Known& added = known_[leaf.at];
+    added.loops = trace_loops(grid_, leaf, LeafRuns::rock);
+    if (undivided && is_pinched(leaf, added.loops)) added.loops = trace_loops(grid_, leaf, LeafRuns::air);
+    for (int sheet = 0; sheet < added.loops.sheets; ++sheet)
+      added.vertices.push_back(add_vertex(leaf, added, sheet));
+    return added;
   }
 
-  uint32_t add_point(const Leaf& leaf, glm::vec3 at) {
-    mesh_.points.push_back({leaf, at});
+  /// Whether the leaf and its neighbour, of the same size and undivided like it, are pinched at one face.
+  bool is_pinched(const Leaf& leaf, const LeafLoops& loops) const {
+    const int face = pinched_face(grid_, leaf, loops);
+    if (face < 0) return false;
+    const int by = face % 2 == 1 ? leaf.side : -leaf.side;
+    const VoxelCoord at =
+        leaf.at + VoxelCoord{face / 2 == 0 ? by : 0, face / 2 == 1 ? by : 0, face / 2 == 2 ? by : 0};
+    if (grid_.side_at(at) != leaf.side) return false;
+    const Leaf other{at, leaf.side};
+    return is_undivided(grid_, other) &&
+           pinched_face(grid_, other, trace_loops(grid_, other, LeafRuns::rock)) == (face ^ 1);
+  }
+
+  uint32_t add_vertex(const Leaf& leaf, const Known& there, int sheet) {
+    std::vector<LeafCrossing> crossings;
+    const auto side = static_cast<float>(leaf.side);
+    for (const LeafEdge& edge : there.loops.crossed) {
+      if (there.loops.sheet(leaf, edge) != sheet) continue;
+      const VoxelCoord off = edge.from - leaf.at;
+      glm::vec3 at(static_cast<float>(off.x), static_cast<float>(off.y), static_cast<float>(off.z));
+      at /= side;
+      at[edge.axis] += crossing_of(grid_, edge) * (static_cast<float>(edge.length) / side);
+      crossings.push_back({at, edge.axis});
+    }
+    const glm::vec3 at = rules_.place(leaf, crossings);
+    Steps steps = steps_of(leaf.at);
+    // Strictly inside the leaf: two leaves' vertices never coincide.
+    for (size_t i = 0; i < 3; ++i) {
+      const int inner = static_cast<int>(at[static_cast<int>(i)] * surface_steps_per_voxel + 0.5F);
+      steps[i] += std::clamp(inner, 1, steps_per_side - 1) * leaf.side;
+    }
+    // Nor do two sheets' vertices that were moved into the same corner of a leaf.
+    for (const uint32_t other : there.vertices)
+      if (mesh_.points[other].steps == steps) steps[0] += (at.x < 0.5F ? sheet : -sheet) * leaf.side;
+    return add_point(leaf, steps);
+  }
+
+  uint32_t add_point(const Leaf& leaf, const Steps& steps) {
+    mesh_.points.push_back({leaf, steps});
     return static_cast<uint32_t>(mesh_.points.size() - 1);
   }
 
@@ -125,7 +165,7 @@ class Mesher {
         plain = false;
       }
     }
-    if (grid_.codes.at(edge.from.x, edge.from.y, edge.from.z) >= 0) std::ranges::reverse(polygon_);
+    if (grid_.distance_at(edge.from) >= 0.0F) std::ranges::reverse(polygon_);
     add_polygon(edge, found.leaves[0], plain);
   }
 
@@ -158,8 +198,11 @@ class Mesher {
         std::ranges::count_if(links, [&](const LeafLink& l) { return sheets(l.a) == sheets(mine->a); });
     if (alike < 2) return std::nullopt;
     const auto [found, is_new] = apart_.try_emplace({small.at, face, mine->a});
-    if (is_new)
-      found->second = add_point(small, (crossing_of(grid_, mine->a) + crossing_of(grid_, mine->b)) * 0.5F);
+    if (is_new) {
+      const Steps one = steps_of(grid_, mine->a), other = steps_of(grid_, mine->b);
+      found->second =
+          add_point(small, {(one[0] + other[0]) / 2, (one[1] + other[1]) / 2, (one[2] + other[2]) / 2});
+    }
     return found->second;
   }
 
@@ -175,13 +218,17 @@ class Mesher {
       add_triangle(corner(0), corner(2), corner(3));
       return;
     }
-    const uint32_t middle = add_point(leaf, crossing_of(grid_, edge));
+    const uint32_t middle = add_point(leaf, steps_of(grid_, edge));
     for (size_t i = 0; i < count; ++i) add_triangle(middle, polygon_[i], polygon_[(i + 1) % count]);
   }
 
-  float squared_length(size_t a, size_t b) const {
-    const glm::vec3 d = mesh_.points[polygon_[a]].at - mesh_.points[polygon_[b]].at;
-    return glm::dot(d, d);
+  int64_t squared_length(size_t a, size_t b) const {
+    int64_t sum = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const int64_t d = mesh_.points[polygon_[a]].steps[i] - mesh_.points[polygon_[b]].steps[i];
+      sum += d * d;
+    }
+    return sum;
   }
 
   void add_triangle(uint32_t a, uint32_t b, uint32_t c) {
@@ -199,11 +246,16 @@ class Mesher {
 
 }  // namespace
 
-LeafGrid::LeafGrid(const VoxelBox& box, Window window)
-    : cells(box), sides(Window::count(box), leaf_unknown), codes(std::move(window)) {
-  const VoxelBox& have = codes.box;
-  CHECK(have.lo.x <= box.lo.x && have.lo.y <= box.lo.y && have.lo.z <= box.lo.z);
-  CHECK(have.hi.x > box.hi.x && have.hi.y > box.hi.y && have.hi.z > box.hi.z);
+LeafGrid::LeafGrid(const VoxelBox& box)
+    : cells(box),
+      sides(Window::count(box), leaf_unknown),
+      distances(Window::count({box.lo, box.hi + VoxelCoord{1, 1, 1}})) {}
+
+size_t LeafGrid::point_index(VoxelCoord p) const {
+  const VoxelCoord size = cells.size(), off = p - cells.lo;
+  return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y + 1) + static_cast<size_t>(off.y)) *
+             static_cast<size_t>(size.z + 1) +
+         static_cast<size_t>(off.z);
 }
 
 size_t LeafGrid::index(VoxelCoord cell) const {

@@ -6,10 +6,12 @@
 // where smaller leaves touch it; on each of the polygons that result, crossed edges are linked so that each
 // run of rock is cut off on its own. Both leaves at a polygon see the same, so the loops of links close up
 // from leaf to leaf, and the dual of that surface (a vertex a loop, a polygon a crossed edge) has two
-// polygons at every edge. Where two leaves share two links between the same two loops, a vertex on the face
-// keeps them apart. Pure, safe from any thread. Units: sides of the smallest leaf there can be.
+// polygons at every edge. Where two leaves share two links between the same two loops, undivided ones
+// of one size cut off runs of air instead, as surface_nets does; between others a vertex on the face keeps
+// the two apart. Pure, safe from any thread. Units: sides of the smallest leaf there can be.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -34,9 +36,13 @@ struct Leaf {
 struct LeafGrid {
   VoxelBox cells;              ///< of side 1
   std::vector<uint8_t> sides;  ///< of the leaf that holds the cell, a power of two, in a window's order
-  Window codes;                ///< at the leaves' corners; covers `cells` and one more at the upper ends
+  /// Distances, in any unit, at the points of `cells` and one more at the upper ends; negative in rock. Only
+  /// those where leaves have corners count.
+  std::vector<float> distances;
 
-  LeafGrid(const VoxelBox& box, Window window);
+  explicit LeafGrid(const VoxelBox& box);
+  float& distance_at(VoxelCoord p) { return distances[point_index(p)]; }
+  float distance_at(VoxelCoord p) const { return distances[point_index(p)]; }
   uint8_t& side_at(VoxelCoord cell) { return sides[index(cell)]; }
   uint8_t side_at(VoxelCoord cell) const { return cells.holds(cell) ? sides[index(cell)] : leaf_unknown; }
   /// The leaf that holds the cell, which must be known.
@@ -44,11 +50,12 @@ struct LeafGrid {
 
  private:
   size_t index(VoxelCoord cell) const;
+  size_t point_index(VoxelCoord p) const;
 };
 
-/// Where the surface crosses an edge.
+/// Where the surface crosses an edge of a leaf.
 struct LeafCrossing {
-  glm::vec3 at;  ///< from the grid's origin (0, 0, 0)
+  glm::vec3 at;  ///< 0..1, in sides of the leaf from its lowest corner
   int axis = 0;
 };
 
@@ -58,13 +65,14 @@ class LeafRules {
   virtual ~LeafRules() = default;
   /// Whether the polygon of the edge between these leaves, three or four, is to be made.
   virtual bool owns(std::span<const Leaf> around) const = 0;
-  /// The vertex of a sheet that crosses the leaf's edges there; it is moved into the leaf if it lies outside.
+  /// The vertex of a sheet that crosses the leaf's edges there, in sides of the leaf from its lowest corner;
+  /// it is moved into the leaf if it lies outside.
   virtual glm::vec3 place(const Leaf& leaf, std::span<const LeafCrossing> crossings) const = 0;
 };
 
 struct LeafPoint {
-  Leaf leaf;  ///< one that holds it
-  glm::vec3 at;
+  Leaf leaf;                       ///< one that holds it
+  std::array<int32_t, 3> steps{};  ///< surface_steps_per_voxel to a side of 1, from the grid's origin
 };
 
 struct LeafMesh {
@@ -75,7 +83,7 @@ struct LeafMesh {
 /// The polygons of all owned edges of these leaves, each once.
 LeafMesh leaf_surface(const LeafGrid& grid, std::span<const Leaf> leaves, const LeafRules& rules);
 
-/// The mean of the crossings: surface nets.
+/// The mean of the crossings: surface nets, and in an undivided leaf to the bit what surface_nets has.
 glm::vec3 mean_of(std::span<const LeafCrossing> crossings);
 
 }  // namespace scree
