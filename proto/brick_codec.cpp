@@ -28,6 +28,31 @@ void append_compressed(std::vector<uint8_t>& bytes, std::span<const Code> codes)
   bytes.resize(start + written);
 }
 
+/// Which of the bricks are painted, and what.
+void write_paint(ByteWriter& writer, std::span<const BrickView> bricks) {
+  const auto is_painted = [](const BrickView& view) { return view.paint.has_value(); };
+  writer.varint(static_cast<uint64_t>(std::ranges::count_if(bricks, is_painted)));
+  size_t next = 0;
+  for (size_t i = 0; i < bricks.size(); ++i) {
+    if (!bricks[i].paint) continue;
+    writer.varint(i - next);
+    writer.u8(static_cast<uint8_t>(*bricks[i].paint));
+    next = i + 1;
+  }
+}
+
+void read_paint(ByteReader& reader, std::span<BrickPatch> bricks) {
+  const uint64_t painted = reader.varint("number of painted bricks", bricks.size());
+  size_t next = 0;
+  for (uint64_t i = 0; i < painted && !reader.failed(); ++i) {
+    const uint64_t skipped = reader.varint("bricks that are not painted");
+    if (skipped >= bricks.size() - next) return reader.refuse("paint beyond the last brick");
+    BrickPatch& patch = bricks[next + skipped];
+    patch.paint = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
+    next += skipped + 1;
+  }
+}
+
 /// Exactly codes.size() codes; nothing after them.
 void decompress(ByteReader& reader, std::span<Code> codes) {
   const std::span<const uint8_t> packed = reader.rest();
@@ -61,6 +86,7 @@ std::vector<uint8_t> encode_bricks(std::span<const BrickView> bricks) {
   ByteWriter writer(bytes);
   writer.varint(bricks.size());
   write_coords<BrickTag>(writer, coords);
+  write_paint(writer, bricks);
   append_compressed(bytes, codes);
   return bytes;
 }
@@ -68,7 +94,7 @@ std::vector<uint8_t> encode_bricks(std::span<const BrickView> bricks) {
 std::vector<uint8_t> encode_bricks(std::span<const BrickPatch> bricks) {
   std::vector<BrickView> views;
   views.reserve(bricks.size());
-  for (const BrickPatch& patch : bricks) views.push_back({patch.coord, &patch.brick});
+  for (const BrickPatch& patch : bricks) views.push_back({patch.coord, &patch.brick, patch.paint});
   return encode_bricks(views);
 }
 
@@ -88,6 +114,7 @@ Result<std::vector<BrickPatch>> decode_bricks(std::span<const uint8_t> bytes, si
     before = patch.coord = read_coord(reader, before, brick_coordinate_max, "brick coordinate");
     if (!reader.failed() && !seen.insert(patch.coord).second) reader.refuse("a brick comes twice");
   }
+  read_paint(reader, bricks);
   std::vector<Code> codes(count * brick_voxels);
   decompress(reader, codes);
   if (reader.failed()) return tl::unexpected(reader.error());
@@ -105,6 +132,7 @@ std::vector<uint8_t> encode_volume(const Volume& volume) {
   for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
   writer.varint(static_cast<uint64_t>(volume.mass));
   writer.vec3(volume.centre_voxels);
+  writer.u8(static_cast<uint8_t>(volume.material));
   append_compressed(bytes, volume.window.codes);
   return bytes;
 }
@@ -129,6 +157,7 @@ Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(volume.centre_voxels[axis]) > static_cast<float>(limits::voxel_coordinate_max))
       reader.refuse("centre of mass is beyond ±2^24 voxels");
+  volume.material = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
   if (reader.failed()) return tl::unexpected(reader.error());
   volume.window = Window(VoxelBox{lo, lo + size});
   decompress(reader, volume.window.codes);

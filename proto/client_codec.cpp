@@ -39,6 +39,12 @@ struct Writing {
     fill.set_request(from.request);
     write(*fill.mutable_shape(), from.shape);
   }
+  void operator()(const PaintMessage& from) const {
+    wire::Paint& paint = *to.mutable_paint();
+    paint.set_request(from.request);
+    write(*paint.mutable_shape(), from.shape);
+    paint.set_material(static_cast<wire::Material>(from.material));
+  }
   void operator()(const RepairRequest& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -88,6 +94,11 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   return carve;
 }
 
+PaintMessage read(const wire::Paint& from, FieldChecker& check) {
+  return {from.request(), check.shape(from.shape()),
+          static_cast<Material>(check.choice(from.material(), wire::ICE, "material"))};
+}
+
 RepairRequest read(const wire::Repair& from, FieldChecker& check) {
   RepairRequest repair;
   repair.tick = from.tick();
@@ -134,6 +145,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.carve(), check));
     case wire::ClientMessage::kFill:
       return checked(FillMessage{from.fill().request(), check.shape(from.fill().shape())});
+    case wire::ClientMessage::kPaint:
+      return checked(read(from.paint(), check));
     case wire::ClientMessage::kRepair:
       return checked(read(from.repair(), check));
     case wire::ClientMessage::kCursor:

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,6 +56,13 @@ struct FillMessage {
   Shape shape;
 };
 
+/// The bricks of the shape (shared/field/paint.h) become this material.
+struct PaintMessage {
+  uint32_t request = 0;
+  Shape shape;
+  Material material = Material::rock;
+};
+
 /// Chunks whose hash at `tick` was not what the frame's check said.
 struct RepairRequest {
   Tick tick = 0;
@@ -85,8 +93,8 @@ struct WatchMessage {
   bool physics = false;
 };
 
-using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, RepairRequest,
-                                   AckMessage, AdminMessage, CursorMessage, WatchMessage>;
+using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
+                                   RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage>;
 
 // ---- server to client
 
@@ -106,10 +114,11 @@ struct RefusalMessage {
   std::string reason;
 };
 
-/// A brick's new codes.
+/// A brick's new codes, and what it is painted.
 struct BrickPatch {
   BrickCoord coord;
   Brick brick;
+  std::optional<Material> paint = std::nullopt;
 };
 
 /// One tick, as this client needs it. Apply: operations in order, then patches, then drops, then the pieces.

@@ -17,7 +17,8 @@ enum Kind : uint8_t {
   kind_stamp = 2,
   kind_discard = 3,
   kind_shatter = 4,
-  kind_island = 5
+  kind_island = 5,
+  kind_paint = 6
 };
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
@@ -86,6 +87,11 @@ struct Writing {
     writer.u32(shatter.random_seed);
     writer.vec3(shatter.impact_voxels);
   }
+  void operator()(const PaintOperation& paint) const {
+    write_head(writer, kind_paint, 0);
+    write_shape(writer, paint.shape);
+    writer.u8(static_cast<uint8_t>(paint.material));
+  }
   void operator()(const IslandOperation& island) const {
     write_head(writer, kind_island, island.piece);
     const VoxelCoord size = island.box.size(), seed = island.seed - island.box.lo;
@@ -94,6 +100,13 @@ struct Writing {
     for (const int32_t at : {seed.x, seed.y, seed.z}) writer.varint(static_cast<uint64_t>(at));
   }
 };
+
+PaintOperation read_paint(ByteReader& reader) {
+  PaintOperation paint;
+  paint.shape = read_shape(reader);
+  paint.material = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
+  return paint;
+}
 
 /// The part that whatever makes pieces has in common.
 template <typename Breaking>
@@ -178,6 +191,9 @@ Operation read_operation(ByteReader& reader) {
       return read_shatter(reader, id);
     case kind_island:
       return read_island(reader, id);
+    case kind_paint:
+      if (id != 0) reader.refuse("paint with a piece id");
+      return read_paint(reader);
     default:
       reader.refuse("kind " + std::to_string(head & 7U) + " is unknown");
       return DiscardOperation{};

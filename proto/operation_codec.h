@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,7 @@ size_t operation_bytes(const Operation& operation);
 struct BrickView {
   BrickCoord coord;
   const Brick* brick = nullptr;
+  std::optional<Material> paint = std::nullopt;
 };
 
 /// Coordinates, then all codes compressed as one. Any number of bricks; none gives no bytes.

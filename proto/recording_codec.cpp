@@ -63,8 +63,9 @@ RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldCh
   const ClientMessage message = check.take(decode_client(as_span(bytes)));
   if (const auto* carve = std::get_if<CarveMessage>(&message)) return {session, *carve};
   if (const auto* fill = std::get_if<FillMessage>(&message)) return {session, *fill};
+  if (const auto* paint = std::get_if<PaintMessage>(&message)) return {session, *paint};
   if (const auto* admin = std::get_if<AdminMessage>(&message)) return {session, *admin};
-  check.refuse("what should be a carve, a fill or new settings is another message");
+  check.refuse("what should be a carve, a fill, paint or new settings is another message");
   return {};
 }
 

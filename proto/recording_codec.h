@@ -16,7 +16,7 @@
 namespace scree {
 
 /// Of the blobs and the tables together. A reader refuses any other.
-inline constexpr uint32_t recording_format = 2;
+inline constexpr uint32_t recording_format = 3;
 
 struct RecordedHeader {
   uint32_t format = recording_format;
@@ -59,7 +59,7 @@ struct RecordedKeyframe {
 
 struct RecordedCommand {
   uint64_t session = 0;
-  std::variant<CarveMessage, FillMessage, AdminMessage> request;
+  std::variant<CarveMessage, FillMessage, PaintMessage, AdminMessage> request;
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

@@ -54,6 +54,15 @@ Rock rock_at(vec3 p, vec3 shape_normal, float cut, float heap, float away) {
   return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain));
 }
 
+// What bricks are painted (1 rock, 2 soil, 3 ice) lends its colour to the grain of what lies there; 0: not painted.
+vec3 painted(vec3 albedo, int paint) {
+  float grain = 0.55 + 1.1 * dot(albedo, vec3(0.3, 0.5, 0.2));
+  if (paint == 1) return vec3(0.33, 0.31, 0.30) * grain;
+  if (paint == 2) return vec3(0.20, 0.12, 0.06) * grain;
+  if (paint == 3) return vec3(0.62, 0.76, 0.86) * grain;
+  return albedo;
+}
+
 // `sunlight`: cosine of the sun's angle, 0 in shadow. `openness`: 1 under the open sky, less in a crevice.
 vec3 lit_rock(vec3 albedo, vec3 normal, float openness, float sunlight) {
   float open = mix(1.0, openness, 0.85);

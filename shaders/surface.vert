@@ -4,6 +4,7 @@ layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_openness;
 layout(location = 3) in float a_before;  // code / 127 of the field as generated
+layout(location = 4) in float a_paint;   // 0: as generated; else 1 + material
 
 uniform mat4 u_view_projection;
 uniform float u_step_m;       // metres a step of a_position
@@ -18,6 +19,7 @@ out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
 out float v_before;
+flat out int v_paint;
 
 void main() {
   v_rock = u_origin_m + a_position * u_step_m;
@@ -26,5 +28,6 @@ void main() {
   v_normal = rotated(u_rotation, a_normal);
   v_openness = a_openness;
   v_before = a_before;
+  v_paint = int(a_paint);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
 }

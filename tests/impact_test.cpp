@@ -99,10 +99,9 @@ TEST(impact, a_piece_weighs_what_its_material_weighs_and_its_children_do_too) {
   TickDelta delta;
   const Applied cut = state.apply_and_record(
       CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 0.8F), SeedPattern::uniform, 1, 1, {}, 1}, delta);
-  const auto born = [&](PieceId, const Volume& volume) {
+  const auto born = [](PieceId, const Volume&) {
     Newborn piece;
     piece.body.pose.position_m = {8.0F, 20.0F, 0.0F};  // not back into its hole
-    piece.traits.material = birth_material(state, volume);
     return piece;
   };
   spawn(state, cut, born, delta);

@@ -46,6 +46,7 @@ class Follower {
     for (const BrickPatch& patch : frame.patches) {
       ++patches;
       field.set_brick(patch.coord, patch.brick);
+      field.paint_brick(patch.coord, patch.paint);
       changed[chunk_of(patch.coord)] = true;
     }
     for (const ChunkCoord chunk : frame.dropped_chunks) {
@@ -68,7 +69,10 @@ class Follower {
   void apply(const ChunkMessage& message) {
     ++chunks;
     field.forget_chunk(message.chunk);
-    for (const BrickPatch& patch : message.bricks) field.set_brick(patch.coord, patch.brick);
+    for (const BrickPatch& patch : message.bricks) {
+      field.set_brick(patch.coord, patch.brick);
+      field.paint_brick(patch.coord, patch.paint);
+    }
     EXPECT_EQ(field.chunk_hash(message.chunk), message.hash);
   }
   void apply(const PieceMessage& message) {

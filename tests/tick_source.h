@@ -30,7 +30,8 @@ class TickSource {
     }
     for (const auto& [coord, yes] : changed) {
       const auto brick = std::make_shared<const Brick>(field_.brick(coord));
-      delta->bricks.push_back({coord, brick, brick_hash(coord, *brick)});
+      const auto paint = field_.painted(coord);
+      delta->bricks.push_back({coord, brick, brick_hash(coord, *brick, paint), paint});
     }
     for (const auto& [id, volume] : pieces_) delta->pieces.push_back({id, poses_.at(id)});
     delta->field_hash = field_.hash();

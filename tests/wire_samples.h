@@ -23,6 +23,7 @@ inline Volume volume() {
     volume.window.codes[i] = static_cast<Code>(static_cast<int>(i % 255) - 127);
   volume.mass = 12345;
   volume.centre_voxels = {1.5F, 12.0F, 9.25F};
+  volume.material = Material::soil;
   return volume;
 }
 
@@ -58,8 +59,9 @@ inline FrameMessage frame() {
       StampOperation{77788, {-1, 2, 3, 4}, 8000, StampMethod::sphere},
       DiscardOperation{77791},
       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
-      IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005}};
-  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2)}};
+      IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},
+      PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), Material::ice}};
+  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), Material::soil}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
   frame.transforms = pack_transforms(
@@ -88,7 +90,7 @@ inline std::vector<ServerMessage> server_messages() {
   ChunkMessage chunk;
   chunk.chunk = {-1, 2, 0};
   chunk.version = 17;
-  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3)}, {{-1, 11, 3}, noisy_brick(4)}};
+  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), Material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
   chunk.hash = 0xFEDCBA9876543210ULL;
   StatusMessage status;
   status.tick = 5;
@@ -127,6 +129,7 @@ inline std::vector<ClientMessage> client_messages() {
           carve,
           authored,
           FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
+          PaintMessage{8, box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice},
           RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},
           AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}},

@@ -168,6 +168,7 @@ void Bot::ask(Clock::time_point now) {
     const Clock::time_point sent = Clock::now();
     requests_[carve.request] = {sent, carve.random_seed};
     unseen_[carve.random_seed] = sent;
+    if (config_.paint) connection_->send(PaintMessage{0, carve.shape, *config_.paint});
     connection_->send(carve);
   }
 }

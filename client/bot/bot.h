@@ -26,6 +26,7 @@ struct BotConfig {
   uint64_t seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
+  std::optional<Material> paint;    ///< what the rock of each carve is painted before
   float interest_radius_m = 96.0F;  ///< around the carver's centre
   bool linger = false;              ///< stay until no piece is left and the field is at rest
   bool check_hash = false;          ///< fail unless the hash of all edits equals the server's in the end

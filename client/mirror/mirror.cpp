@@ -26,6 +26,7 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   discards += other.discards;
   shatters += other.shatters;
   islands += other.islands;
+  paints += other.paints;
   operation_bytes += other.operation_bytes;
   patched_bricks += other.patched_bricks;
   transforms += other.transforms;
@@ -149,6 +150,8 @@ void Mirror::count(const Operation& operation) {
     ++counters_.shatters;
   } else if (std::holds_alternative<IslandOperation>(operation)) {
     ++counters_.islands;
+  } else if (std::holds_alternative<PaintOperation>(operation)) {
+    ++counters_.paints;
   } else {
     ++counters_.discards;
   }
@@ -158,6 +161,7 @@ void Mirror::apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& cha
                            MirrorChanges& changes) {
   for (const BrickPatch& patch : patches) {
     field_.set_brick(patch.coord, patch.brick);
+    field_.paint_brick(patch.coord, patch.paint);
     changed.insert(chunk_of(patch.coord));
     changes.bricks.push_back(patch.coord);
   }
@@ -222,6 +226,7 @@ Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& cha
   forget_chunk(message.chunk, changes);
   for (const BrickPatch& patch : message.bricks) {
     field_.set_brick(patch.coord, patch.brick);
+    field_.paint_brick(patch.coord, patch.paint);
     changes.bricks.push_back(patch.coord);
   }
   if (field_.chunk_hash(message.chunk) != message.hash)

@@ -25,7 +25,8 @@ namespace scree {
 
 /// What a message changed, for those who keep meshes of it.
 struct MirrorChanges {
-  std::vector<BrickCoord> bricks;  ///< codes changed (or forgotten: generated again); some may come twice
+  std::vector<BrickCoord>
+      bricks;  ///< codes or paint changed (or forgotten: generated again); some may come twice
   std::vector<PieceId> pieces_added;
   std::vector<PieceId> pieces_removed;
 };
@@ -48,6 +49,7 @@ struct MirrorCounters {
   uint64_t discards = 0;
   uint64_t shatters = 0;
   uint64_t islands = 0;
+  uint64_t paints = 0;
   uint64_t operation_bytes = 0;
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace scree {
 namespace {
@@ -25,6 +26,7 @@ struct Survey {
   bool air = true;
   bool rock = true;
   bool edited = false;
+  std::map<BrickCoord, Material> paint;
 };
 
 Survey survey(Field& field, const VoxelBox& box) {
@@ -37,6 +39,7 @@ Survey survey(Field& field, const VoxelBox& box) {
       seen.air = seen.air && brick == &air_brick();
       seen.rock = seen.rock && brick == &solid_brick();
       seen.edited = seen.edited || edited;
+      if (const auto painted = edited ? field.painted(coord) : std::nullopt) seen.paint[coord] = *painted;
     });
   });
   return seen;
@@ -67,11 +70,30 @@ void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
 
 }  // namespace
 
+SurfaceMesh BlockWindows::mesh() const {
+  SurfaceMesh made = surface_nets(now, owned, before ? &*before : nullptr);
+  if (paint.empty()) return made;
+  constexpr int steps = static_cast<int>(surface_steps_per_voxel);
+  for (SurfaceVertex& vertex : made.vertices) {
+    const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
+    const auto found = paint.find(brick_of(made.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
+    if (found != paint.end()) vertex.paint = paint_number(found->second);
+  }
+  return made;
+}
+
+uint8_t paint_number(const Field& field, const Volume& piece) {
+  const glm::vec3 centre = piece.centre_voxels + 0.5F;
+  const BrickCoord birthplace =
+      brick_of(VoxelCoord{floor_to_int(centre.x), floor_to_int(centre.y), floor_to_int(centre.z)});
+  return field.painted(birthplace) ? paint_number(piece.material) : uint8_t{0};
+}
+
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) {
   const VoxelBox box = owned.grown(surface_nets_apron);
-  const Survey seen = survey(field, box);
+  Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
-  BlockWindows windows{owned, Window(box), std::nullopt};
+  BlockWindows windows{owned, Window(box), std::nullopt, std::move(seen.paint)};
   if (seen.edited) windows.before.emplace(box);
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);

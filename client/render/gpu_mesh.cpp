@@ -23,7 +23,8 @@ void describe_vertex() {
   glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, normal)));
   glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, openness)));
   glVertexAttribPointer(3, 1, GL_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, before)));
-  for (GLuint i = 0; i < 4; ++i) glEnableVertexAttribArray(i);
+  glVertexAttribPointer(4, 1, GL_UNSIGNED_BYTE, GL_FALSE, stride, offset(offsetof(SurfaceVertex, paint)));
+  for (GLuint i = 0; i < 5; ++i) glEnableVertexAttribArray(i);
 }
 
 }  // namespace

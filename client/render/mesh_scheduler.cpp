@@ -192,8 +192,10 @@ void MeshScheduler::submit_piece(Field& field, PieceId id, const ScenePiece& pie
   // A piece lies in the voxel frame of the rock that it was cut from: there it learns which of its faces are
   // fresh.
   Window before = gather_generated(field, piece.volume->window.box);
-  pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, id, piece, before = std::move(before)] {
+  const uint8_t paint = paint_number(field, *piece.volume);
+  pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, id, piece, paint, before = std::move(before)] {
     PieceMesh done{id, piece, surface_nets_closed(piece.volume->window, &before)};
+    for (SurfaceVertex& vertex : done.mesh.vertices) vertex.paint = paint;
     const std::lock_guard lock(inbox->mutex);
     inbox->pieces.push_back(std::move(done));
   });

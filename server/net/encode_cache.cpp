@@ -19,7 +19,7 @@ FrameMessage frame_of(const FrameSelection& selection, const TickChanges& change
     message.operations.push_back(changes.delta.operations[index].operation);
   for (const ChunkCoord chunk : selection.patched)
     for (const BrickState* state : changes.bricks.at(chunk))
-      message.patches.push_back({state->coord, *state->brick});
+      message.patches.push_back({state->coord, *state->brick, state->paint});
   message.dropped_chunks = selection.dropped;
   message.removed_pieces = selection.removed;
   message.transforms = pack_transforms(selection.moved);
@@ -56,7 +56,8 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
   message.version = chunk.version;
   message.hash = chunk.hash;
   message.bricks.reserve(chunk.bricks.size());
-  for (const auto& [brick, state] : chunk.bricks) message.bricks.push_back({brick, *state.brick});
+  for (const auto& [brick, state] : chunk.bricks)
+    message.bricks.push_back({brick, *state.brick, state.paint});
   encoded = {chunk.version, chunk.hash, share(encode(ServerMessage(std::move(message))))};
   return encoded.bytes;
 }

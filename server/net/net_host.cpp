@@ -159,6 +159,8 @@ Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
     request(session, command_of(session.id(), *carve));
   } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
     request(session, command_of(session.id(), *fill));
+  } else if (const auto* paint = std::get_if<PaintMessage>(&message)) {
+    request(session, {session.id(), paint->request, PaintRequest{paint->shape, paint->material}});
   } else if (const auto* admin = std::get_if<AdminMessage>(&message)) {
     return administer(session, *admin);
   } else if (const auto* interest = std::get_if<InterestMessage>(&message)) {

@@ -65,7 +65,10 @@ Result<void> ReplaySource::State::check_hash(uint64_t recorded) const {
 Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe) {
   restart();
   tick = keyframe.tick;
-  for (const BrickPatch& patch : keyframe.bricks) field->set_brick(patch.coord, patch.brick);
+  for (const BrickPatch& patch : keyframe.bricks) {
+    field->set_brick(patch.coord, patch.brick);
+    field->paint_brick(patch.coord, patch.paint);
+  }
   for (const PieceMessage& piece : keyframe.pieces) {
     pieces[piece.id] = std::make_shared<const Volume>(piece.volume);
     poses[piece.id] = piece.pose;
@@ -78,8 +81,9 @@ Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe) {
 
 BrickState ReplaySource::State::brick_state(BrickCoord coord) {
   auto brick = std::make_shared<const Brick>(field->brick(coord));
-  const uint64_t hash = brick_hash(coord, *brick);
-  return {coord, std::move(brick), hash};
+  const std::optional<Material> paint = field->painted(coord);
+  const uint64_t hash = brick_hash(coord, *brick, paint);
+  return {coord, std::move(brick), hash, paint};
 }
 
 Result<void> ReplaySource::State::apply_operation(const Operation& operation, TickDelta& delta,

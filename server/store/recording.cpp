@@ -46,6 +46,8 @@ std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
                                                    carve->blast_speed_m_s, carve->authored_m}});
     else if (const auto* fill = std::get_if<FillRequest>(&command.body))
       out.push_back({command.session, FillMessage{command.request, fill->shape}});
+    else if (const auto* paint = std::get_if<PaintRequest>(&command.body))
+      out.push_back({command.session, PaintMessage{command.request, paint->shape, paint->material}});
     else if (const auto* settings = std::get_if<SettingsRequest>(&command.body))
       out.push_back({command.session, AdminMessage{command.request, {}, settings->settings}});
   }
@@ -61,6 +63,8 @@ std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
                                   carve->impact_m, carve->blast_speed_m_s, carve->authored_m}});
     else if (const auto* fill = std::get_if<FillMessage>(&command.request))
       out.push_back({command.session, fill->request, FillRequest{fill->shape}});
+    else if (const auto* paint = std::get_if<PaintMessage>(&command.request))
+      out.push_back({command.session, paint->request, PaintRequest{paint->shape, paint->material}});
     else if (const auto* admin = std::get_if<AdminMessage>(&command.request))
       out.push_back({command.session, admin->request, SettingsRequest{admin->settings}});
   }
@@ -85,7 +89,8 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
 RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
   RecordedKeyframe keyframe;
   keyframe.tick = delta.tick;
-  for (const BrickState& state : delta.bricks) keyframe.bricks.push_back({state.coord, *state.brick});
+  for (const BrickState& state : delta.bricks)
+    keyframe.bricks.push_back({state.coord, *state.brick, state.paint});
   for (size_t i = 0; i < delta.spawned.size(); ++i)
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
   keyframe.ledger = to_recorded(delta.ledger);

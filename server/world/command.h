@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/base/setting_value.h"
+#include "shared/field/material.h"
 #include "shared/field/shape.h"
 #include "shared/field/voronoi.h"
 
@@ -29,6 +30,14 @@ struct FillRequest {
   bool operator==(const FillRequest&) const = default;
 };
 
+/// The bricks of the shape become this material.
+struct PaintRequest {
+  Shape shape;
+  Material material = Material::rock;
+
+  bool operator==(const PaintRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -39,7 +48,7 @@ struct SettingsRequest {
 struct Command {
   uint64_t session = 0;  ///< who asked; 0: the server itself
   uint32_t request = 0;  ///< the asker's number for it, returned in the reply
-  std::variant<CarveRequest, FillRequest, SettingsRequest> body;
+  std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest> body;
 
   bool operator==(const Command&) const = default;
 };

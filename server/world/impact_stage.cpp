@@ -10,6 +10,7 @@
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/roots.h"
+#include "shared/field/paint.h"
 
 namespace scree {
 
@@ -27,7 +28,7 @@ float strength_m_s(const World::State& state, PieceId id) {
   const float dx = state.config.terrain.voxel_size_m;
   const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel * dx * dx * dx;
   const float fourth_root = std::sqrt(std::sqrt(std::max(size_m3, 0.001F)));
-  return traits_of(state.traits_of(id).material).strength_m_s / fourth_root;
+  return traits_of(state.pieces.at(id)->material).strength_m_s / fourth_root;
 }
 
 std::vector<Blow> blows_of(const World::State& state) {
@@ -42,10 +43,12 @@ std::vector<Blow> blows_of(const World::State& state) {
 
 /// Seeds that a break of the piece may have; fewer than 2: it stays whole.
 uint32_t seeds_for(const World::State& state, const Blow& blow) {
-  const PieceTraits traits = state.traits_of(blow.impact.id);
-  const MassUnits mass = state.pieces.at(blow.impact.id)->mass;
-  if (traits.generation >= limits::break_generations_max || mass < limits::break_mass_min) return 0;
-  const float wanted = (1.0F + 2.0F * blow.excess) * traits_of(traits.material).seed_density;
+  const Volume& volume = *state.pieces.at(blow.impact.id);
+  const MassUnits mass = volume.mass;
+  if (state.traits_of(blow.impact.id).generation >= limits::break_generations_max ||
+      mass < limits::break_mass_min)
+    return 0;
+  const float wanted = (1.0F + 2.0F * blow.excess) * traits_of(volume.material).seed_density;
   const auto seeds = static_cast<uint32_t>(std::clamp(wanted, 2.0F, limits::break_seeds_max));
   const auto heavy_enough = static_cast<uint32_t>(mass / limits::break_child_mass_min);
   const size_t others = state.pieces.size() - 1;
@@ -145,7 +148,7 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   breakup.balance(applied, state.pieces);
-  const PieceTraits traits{parent.material, static_cast<uint8_t>(parent.generation + 1)};
+  const PieceTraits traits{static_cast<uint8_t>(parent.generation + 1)};
   const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
   spawn(state, applied, born, delta);
 }
@@ -158,9 +161,8 @@ float dent_radius_m(float volume_m3) {
 
 void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const BodyImpact& impact = blow.impact;
-  const TerrainSource& source = state.config.terrain;
-  const float dx = source.voxel_size_m;
-  const Material material = material_at(source, impact.point_m - impact.normal * dx);
+  const float dx = state.config.terrain.voxel_size_m;
+  const Material material = material_at(state.field, impact.point_m - impact.normal * dx);
   const float energy_j = 0.5F * impact.impulse_n_s * blow.speed_m_s;
   const float volume_m3 = energy_j / traits_of(material).dent_resistance_j_m3;
   const uint32_t seeds = limits::dent_seeds;
@@ -188,7 +190,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
     const float distance = std::max(std::sqrt(glm::dot(sideways, sideways)), 0.01F);
     const float speed = limits::dent_throw * blow.speed_m_s;
     piece.body.velocity_m_s = (sideways / distance + impact.normal) * speed;
-    piece.traits = {material, limits::break_generations_max};
+    piece.traits = {limits::break_generations_max};
     return piece;
   };
   spawn(state, applied, thrown, delta);

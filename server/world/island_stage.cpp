@@ -29,7 +29,6 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   const auto at_rest = [&](PieceId, const Volume& volume) {
     Newborn born;
     born.body.pose.position_m = volume.centre_voxels * dx;
-    born.traits.material = birth_material(state, volume);
     born.may_be_concave = true;
     return born;
   };

@@ -39,7 +39,7 @@ BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
 void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto born = [&](PieceId id, const Volume& volume) {
-    return Newborn{blast(id, volume.centre_voxels * dx, request), {birth_material(state, volume), 0}};
+    return Newborn{blast(id, volume.centre_voxels * dx, request), {}};
   };
   spawn(state, applied, born, delta);
 }
@@ -80,6 +80,14 @@ Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta
   return 0U;
 }
 
+Result<uint32_t> paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
+  const PaintOperation operation{request.shape, request.material};
+  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+    return tl::unexpected(valid.error());
+  state.apply_and_record(operation, delta);
+  return 0U;
+}
+
 Result<uint32_t> change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
   const Methods before = state.methods;
   if (Result<void> done = set_all(state.methods, request.settings); !done)
@@ -95,6 +103,7 @@ struct Executing {
 
   Result<uint32_t> operator()(const CarveRequest& request) const { return carve(state, request, delta); }
   Result<uint32_t> operator()(const FillRequest& request) const { return fill(state, request, delta); }
+  Result<uint32_t> operator()(const PaintRequest& request) const { return paint(state, request, delta); }
   Result<uint32_t> operator()(const SettingsRequest& request) const { return change(state, request, delta); }
 };
 

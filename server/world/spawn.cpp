@@ -14,7 +14,7 @@ void spawn(World::State& state, const Applied& applied,
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;
-    const MaterialTraits& material = traits_of(newborn.traits.material);
+    const MaterialTraits& material = traits_of(volume->material);
     const float mass_kg = hull.size_m3 * material.density_kg_m3;
     BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}, {}};
     if (newborn.may_be_concave) {
@@ -30,11 +30,6 @@ void spawn(World::State& state, const Applied& applied,
     delta.spawned.push_back({hull.id, volume});
     state.next_piece = hull.id + 1;
   }
-}
-
-Material birth_material(const World::State& state, const Volume& volume) {
-  const TerrainSource& source = state.config.terrain;
-  return material_at(source, volume.centre_voxels * source.voxel_size_m);
 }
 
 }  // namespace scree

@@ -19,7 +19,4 @@ struct Newborn {
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta);
 
-/// The material of the undisturbed terrain where the piece was cut.
-Material birth_material(const World::State& state, const Volume& volume);
-
 }  // namespace scree

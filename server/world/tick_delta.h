@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,7 @@ struct BrickState {
   BrickCoord coord;
   std::shared_ptr<const Brick> brick;
   uint64_t hash = 0;
+  std::optional<Material> paint = std::nullopt;
 };
 
 struct SpawnedPiece {

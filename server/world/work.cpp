@@ -26,6 +26,9 @@ struct Costing {
   float operator()(const FillRequest& request) const {
     return limits::edit_voxel_cost_us * voxels_of(request.shape, voxel_size_m);
   }
+  float operator()(const PaintRequest& request) const {
+    return limits::edit_voxel_cost_us * voxels_of(request.shape, voxel_size_m);
+  }
   float operator()(const SettingsRequest&) const { return 0.0F; }
 };
 

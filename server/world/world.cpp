@@ -35,8 +35,9 @@ void discard_lost(World::State& state, TickDelta& delta) {
 void publish(World::State& state, TickDelta& delta) {
   for (const BrickCoord coord : state.changed) {
     auto brick = std::make_shared<const Brick>(state.field.brick(coord));
-    const uint64_t hash = brick_hash(coord, *brick);
-    delta.bricks.push_back({coord, std::move(brick), hash});
+    const std::optional<Material> paint = state.field.painted(coord);
+    const uint64_t hash = brick_hash(coord, *brick, paint);
+    delta.bricks.push_back({coord, std::move(brick), hash, paint});
   }
   state.changed.clear();
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});

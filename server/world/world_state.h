@@ -22,7 +22,6 @@ namespace scree {
 
 /// What a piece keeps for life.
 struct PieceTraits {
-  Material material = Material::rock;
   uint8_t generation = 0;  ///< how often its ancestors broke
 };
 

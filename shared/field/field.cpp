@@ -40,6 +40,17 @@ void for_each_row(BrickCoord brick, const Window& window, F&& f) {
 
 }  // namespace
 
+uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint) {
+  uint64_t hash = brick_hash(coord, brick);
+  if (!paint) return hash;
+  // SplitMix64's finaliser, so that neighbours painted alike do not add up to something else painted alike.
+  uint64_t mixed = CoordHash{}(coord) + 0x9E3779B97F4A7C15ULL * (static_cast<uint64_t>(*paint) + 1);
+  mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
+  hash += mixed ^ (mixed >> 31U);
+  return hash;
+}
+
 Field::Field(const TerrainSource& source) : source_(source) {}
 
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
@@ -72,6 +83,29 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
   store_edited(coord, brick);
   chunk.bricks |= bit;
+  chunk.hash += change;
+  hash_ += change;
+}
+
+std::optional<Material> Field::painted(BrickCoord coord) const {
+  const auto chunk = edited_.find(chunk_of(coord));
+  if (chunk == edited_.end()) return std::nullopt;
+  const auto paint = chunk->second.paint.find(index_in_chunk(coord));
+  if (paint == chunk->second.paint.end()) return std::nullopt;
+  return paint->second;
+}
+
+void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
+  const std::optional<Material> before = painted(coord);
+  if (before == paint) return;
+  if (!is_edited(coord)) set_brick(coord, Brick(generated_brick(coord)));
+  EditedChunk& chunk = edited_[chunk_of(coord)];
+  const Brick& codes = *find_edited(coord);
+  const uint64_t change = brick_hash(coord, codes, paint) - brick_hash(coord, codes, before);
+  if (paint)
+    chunk.paint[index_in_chunk(coord)] = *paint;
+  else
+    chunk.paint.erase(index_in_chunk(coord));
   chunk.hash += change;
   hash_ += change;
 }

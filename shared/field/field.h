@@ -1,19 +1,26 @@
 // The field: every voxel of the world, of which only the edited bricks are stored.
 //
 // Reading any brick always answers: edited ones from the store, others generated and cached. Not thread-safe.
-// Invariant: hash() is the sum of brick_hash over the edited bricks; chunk_hash the same of one chunk.
+// Invariant: hash() is the sum of brick_hash over the edited bricks, with what they are painted; chunk_hash
+// the same of one chunk.
 #pragma once
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <map>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "shared/field/material.h"
 #include "shared/field/terrain.h"
 #include "shared/field/window.h"
 
 namespace scree {
+
+/// As brick.h's; a brick that is painted has another hash than one that is not.
+uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint);
 
 class Field {
  public:
@@ -39,6 +46,10 @@ class Field {
   bool has_edits(ChunkCoord chunk) const { return edited_.contains(chunk); }
   /// Marks the brick as edited, even when the codes are those generated.
   void set_brick(BrickCoord coord, const Brick& brick);
+  /// What the brick is painted, if anything.
+  std::optional<Material> painted(BrickCoord coord) const;
+  /// Paints the brick, or takes its paint off; marks it as edited. Its codes stay.
+  void paint_brick(BrickCoord coord, std::optional<Material> paint);
   /// Forgets the edits of a chunk: it reads as generated again.
   void forget_chunk(ChunkCoord chunk);
 
@@ -60,7 +71,8 @@ class Field {
  private:
   struct EditedChunk {
     uint64_t hash = 0;
-    uint64_t bricks = 0;  ///< bit i: brick i of the chunk is edited
+    uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
+    std::map<int, Material> paint;  ///< by index in the chunk
   };
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
 

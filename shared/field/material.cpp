@@ -1,5 +1,6 @@
 #include "shared/field/material.h"
 
+#include <algorithm>
 #include <array>
 
 namespace scree {
@@ -11,6 +12,8 @@ constexpr std::array<MaterialTraits, 3> traits = {{
     {1700.0F, 0.9F, 7.0F, 1.5F, 2.5e5F},   // soil
     {920.0F, 0.3F, 6.0F, 1.25F, 5.0e6F},   // ice
 }};
+
+constexpr std::array<std::string_view, traits.size()> names = {"rock", "soil", "ice"};
 
 constexpr float soil_depth_m = 1.0F;
 constexpr float ice_depth_m = 1.5F;
@@ -31,6 +34,16 @@ MaterialHeights heights_of(TerrainKind kind) {
       break;
   }
   return {8.0F, 19.0F};
+}
+
+std::string_view name_of(Material material) {
+  return names[static_cast<size_t>(material)];
+}
+
+std::optional<Material> material_named(std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Material>(found - names.begin());
 }
 
 Material material_at(const TerrainSource& source, glm::vec3 p_m) {

@@ -1,5 +1,6 @@
 // What terrain is made of, in layers: soil over rock, ice on the heights. A function of the terrain's source
-// and the place alone, so it never crosses the wire. Metres, kilograms, seconds.
+// and the place alone, so it never crosses the wire; what is painted over it does (paint.h). Metres,
+// kilograms, seconds.
 //
 // Mass in the ledger is volume (units of 1/254 voxel) whatever the material; density only tells how heavy a
 // piece is as a body.
@@ -7,12 +8,17 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
 
 #include "shared/field/terrain.h"
 
 namespace scree {
 
 enum class Material : uint8_t { rock = 0, soil = 1, ice = 2 };
+
+std::string_view name_of(Material material);
+std::optional<Material> material_named(std::string_view name);
 
 struct MaterialTraits {
   float density_kg_m3 = 0.0F;

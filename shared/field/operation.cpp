@@ -8,6 +8,7 @@
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
 #include "shared/field/island.h"
+#include "shared/field/paint.h"
 #include "shared/field/polygon_cut.h"
 #include "shared/field/prepared_stamp.h"
 #include "shared/field/shatter.h"
@@ -37,8 +38,10 @@ Result<void> validate_place(const Shape& shape) {
 }
 
 /// The cut's pieces go into the table, from that id on.
-void enter(Cut cut, PieceId id, PieceTable& pieces, Applied& applied) {
+template <typename MaterialOf>
+void enter(Cut cut, PieceId id, MaterialOf&& material_of, PieceTable& pieces, Applied& applied) {
   for (CutPiece& piece : cut.pieces) {
+    piece.volume.material = material_of(piece.volume);
     pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
     applied.created.push_back({id, std::move(piece.seeds)});
     ++id;
@@ -64,8 +67,9 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   const Window volume = extract(before, solid);
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
+  const auto material_of = [&](const Volume& piece) { return material_at(field, piece.centre_voxels * dx); };
   enter(cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels), carve_op.first_piece,
-        pieces, applied);
+        material_of, pieces, applied);
   applied.changed = scatter(field, after);
   applied.terrain_gain = mass_of(after) - mass_of(before);
   return applied;
@@ -123,13 +127,15 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
-  enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, pieces, applied);
+  const auto parents = [&](const Volume&) { return volume->material; };
+  enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, parents, pieces, applied);
   return applied;
 }
 
 Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
   Window window = gather(field, lift_box(op.box));
   Volume volume = lift(window, op.box, op.seed);
+  volume.material = material_at(field, volume.centre_voxels * field.source().voxel_size_m);
   Applied applied;
   applied.terrain_gain = -volume.mass;
   applied.changed = scatter(field, window);
@@ -139,6 +145,12 @@ Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces
   }
   pieces[op.piece] = std::make_shared<const Volume>(std::move(volume));
   applied.created.push_back({op.piece, {}});
+  return applied;
+}
+
+Applied apply_paint(const PaintOperation& op, Field& field) {
+  Applied applied;
+  applied.changed = paint(field, in_voxels(op.shape, field.source().voxel_size_m), op.material);
   return applied;
 }
 
@@ -189,6 +201,10 @@ struct Validator {
     return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
+  Result<void> operator()(const PaintOperation& op) const {
+    if (op.material > Material::ice) return fail("the material is none that is known (rock, soil, ice)");
+    return validate_place(op.shape);
+  }
   Result<void> operator()(const StampOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
     if (op.method > StampMethod::sphere)
@@ -244,6 +260,8 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
   if (const auto* op = std::get_if<FillOperation>(&operation))
     return band_box(in_voxels(op->shape, voxel_size_m));
   if (const auto* op = std::get_if<IslandOperation>(&operation)) return lift_box(op->box);
+  if (const auto* op = std::get_if<PaintOperation>(&operation))
+    return paint_box(in_voxels(op->shape, voxel_size_m));
   const auto* op = std::get_if<StampOperation>(&operation);
   if (op == nullptr) return {};
   const auto found = pieces.find(op->piece);
@@ -258,6 +276,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
     return apply_stamp(*op, field, pieces, prepared);
   if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
   if (const auto* op = std::get_if<IslandOperation>(&operation)) return apply_island(*op, field, pieces);
+  if (const auto* op = std::get_if<PaintOperation>(&operation)) return apply_paint(*op, field);
   Applied applied;
   applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
   return applied;

@@ -80,8 +80,16 @@ struct IslandOperation {
   bool operator==(const IslandOperation&) const = default;
 };
 
+/// The bricks of a shape (paint.h) become this material; no code changes.
+struct PaintOperation {
+  Shape shape;
+  Material material = Material::rock;
+
+  bool operator==(const PaintOperation&) const = default;
+};
+
 using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
-                               ShatterOperation, IslandOperation>;
+                               ShatterOperation, IslandOperation, PaintOperation>;
 
 /// The piece that the operation takes out of the table, if any.
 std::optional<PieceId> piece_ended_by(const Operation& operation);
@@ -101,7 +109,7 @@ struct CreatedPiece {
 };
 
 struct Applied {
-  std::vector<BrickCoord> changed;    ///< bricks whose codes changed, in order
+  std::vector<BrickCoord> changed;    ///< bricks whose codes or paint changed, in order
   std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
   std::vector<glm::vec3> seeds_voxels;
   MassUnits terrain_gain = 0;  ///< negative for a carve

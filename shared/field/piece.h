@@ -8,6 +8,7 @@
 
 #include "shared/base/ids.h"
 #include "shared/field/mass.h"
+#include "shared/field/material.h"
 #include "shared/field/window.h"
 
 namespace scree {
@@ -15,8 +16,9 @@ namespace scree {
 /// A piece's shape, in the voxel frame of the terrain that it was cut from. Outside the window is air.
 struct Volume {
   Window window;
-  MassUnits mass = 0;             ///< what the terrain lost to it; never changes
-  glm::vec3 centre_voxels{0.0F};  ///< centre of mass, in the window's frame, voxels
+  MassUnits mass = 0;                  ///< what the terrain lost to it; never changes
+  glm::vec3 centre_voxels{0.0F};       ///< centre of mass, in the window's frame, voxels
+  Material material = Material::rock;  ///< of the place where it was cut; its fragments keep it
 };
 
 /// Where a piece is: its centre of mass, and the rotation from its volume's axes to the world's.

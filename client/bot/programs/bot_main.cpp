@@ -17,6 +17,7 @@ struct Options {
   scree::BotConfig bot;
   std::string pattern = "radial";
   std::vector<float> centre_m = {0.0F, 0.0F};
+  std::string paint;
   std::string report;
   bool quiet = false;
 };
@@ -62,6 +63,9 @@ void add_carving(CLI::App& app, Options& options) {
       ->envname("SCREE_AREA")
       ->check(CLI::Range(0.0F, scree::limits::world_half_width_m))
       ->capture_default_str();
+  app.add_option("--paint", options.paint, "paint the rock of each carve before: rock, soil or ice")
+      ->envname("SCREE_PAINT")
+      ->check(CLI::IsMember({"rock", "soil", "ice"}));
 }
 
 void add_ending(CLI::App& app, Options& options) {
@@ -86,6 +90,7 @@ void complete(Options& options) {
   if (options.pattern == "clustered") carver.pattern = scree::SeedPattern::clustered;
   if (options.pattern == "authored") carver.pattern = scree::SeedPattern::authored;
   if (options.pattern == "both") carver.pattern.reset();
+  options.bot.paint = scree::material_named(options.paint);
   carver.centre_m = {options.centre_m[0], 0.0F, options.centre_m[1]};
 }
 
