@@ -72,14 +72,18 @@ void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
 
 SurfaceMesh BlockWindows::mesh() const {
   SurfaceMesh made = surface_nets(now, owned, before ? &*before : nullptr);
-  if (paint.empty()) return made;
+  put_paint_on(made);
+  return made;
+}
+
+void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
+  if (paint.empty()) return;
   constexpr int steps = static_cast<int>(surface_steps_per_voxel);
-  for (SurfaceVertex& vertex : made.vertices) {
+  for (SurfaceVertex& vertex : mesh.vertices) {
     const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
-    const auto found = paint.find(brick_of(made.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
+    const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
     if (found != paint.end()) vertex.paint = paint_number(found->second);
   }
-  return made;
 }
 
 uint8_t paint_number(const Field& field, const Volume& piece) {

@@ -17,6 +17,8 @@ struct BlockWindows {
   std::map<BrickCoord, Material> paint;
 
   SurfaceMesh mesh() const;
+  /// Sets SurfaceVertex::paint of a mesh in this window's voxels.
+  void put_paint_on(SurfaceMesh& mesh) const;
 };
 
 /// Nothing when all the bricks around are air, or all are rock.

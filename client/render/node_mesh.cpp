@@ -137,13 +137,14 @@ SurfaceMesh shaded(const LeafMesh& leaves, const VoxelBox& cells, const BlockWin
     seeds.push_back(seed);
   }
   add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, seeds, mesh.vertices);
+  windows.put_paint_on(mesh);
   return mesh;
 }
 static_assert(surface_steps_per_voxel == 256.0F);
 
 /// A window where the field has nothing but air or rock.
 BlockWindows plain_windows(const VoxelBox& owned, bool is_rock) {
-  return {owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt};
+  return {owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt, {}};
 }
 
 bool has_finer(const Neighbours& around) {
