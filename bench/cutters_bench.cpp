@@ -2,11 +2,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <set>
+#include <tuple>
 
 #include "bench/benches.h"
 #include "bench/heap.h"
 #include "bench/scenes.h"
 #include "server/fracture/hull.h"
+#include "shared/base/timing.h"
 #include "shared/field/edit.h"
 #include "shared/field/polygon_cut.h"
 
@@ -111,11 +114,23 @@ Sums blow_up(const Method& method, int carves) {
   return sums;
 }
 
+/// Corners of a part, each once: `conform` gives every face its own.
+size_t corners_of(const PolygonMesh& part) {
+  constexpr double same = 1e-6;
+  std::set<std::tuple<int64_t, int64_t, int64_t>> corners;
+  for (const glm::dvec3& p : part.vertices) {
+    const auto step = [](double x) { return static_cast<int64_t>(std::floor(x / same + 0.5)); };
+    corners.emplace(step(p.x), step(p.y), step(p.z));
+  }
+  return corners.size();
+}
+
 /// How far the polygons of the parts are from those of the whole, as a share of its volume: the worst blow.
-/// And how many corners a part has.
+/// How many corners a part has, and how long the polygons took, without turning them into codes.
 struct Conservation {
   double error = 0.0;
   double vertices = 0.0;
+  double median_ms = 0.0;
 };
 
 Conservation conservation_of(Cutter cutter, int carves) {
@@ -124,25 +139,28 @@ Conservation conservation_of(Cutter cutter, int carves) {
   ScatteredBlows blows(config.terrain, 50.0F, 2.0F, 64, 11);
   Conservation result;
   size_t parts = 0;
+  std::vector<double> times_ms;
   for (int i = 0; i < carves; ++i) {
     const CarveRequest blow = blows.next();
     MapField field(config.terrain);
     const Shape shape = in_voxels(blow.shape, dx);
     const Window before = gather(field, band_box(shape));
     const Window volume = extract(before, codes_of(shape, before.box));
-    const PolygonParts cut =
-        cut_polygons(cutter, volume,
-                     scatter_seeds(volume, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m / dx));
+    const auto seeds = scatter_seeds(volume, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m / dx);
+    Stopwatch watch;
+    const PolygonParts cut = cut_polygons(cutter, volume, seeds);
+    times_ms.push_back(watch.lap_ms());
     double sum = 0.0;
     for (const PolygonMesh& part : cut.parts) {
       sum += moments_of(part).volume;
-      result.vertices += static_cast<double>(part.vertices.size());
+      result.vertices += static_cast<double>(corners_of(part));
       parts += part.empty() ? 0 : 1;
     }
     const double whole = moments_of(cut.whole).volume;
     result.error = std::max(result.error, std::abs(sum - whole) / whole);
   }
   result.vertices /= static_cast<double>(parts);
+  result.median_ms = quantile(times_ms, 0.5);
   return result;
 }
 
@@ -176,6 +194,7 @@ BenchReport run_cutters_bench(const BenchOptions& options) {
   for (const auto& [name, cutter] :
        {std::pair("slice", Cutter::slice), std::pair("conform", Cutter::conform)}) {
     const Conservation conservation = conservation_of(cutter, carves);
+    report.metric(fmt::format("{}_polygons_median_ms", name), conservation.median_ms);
     report.metric(fmt::format("{}_polygon_vertices_per_part", name), conservation.vertices);
     report.metric(fmt::format("{}_polygon_volume_error", name), conservation.error);
     report.check(fmt::format("{}_conserves_volume", name), conservation.error <= 1e-3,
