@@ -10,6 +10,7 @@
 #include "server/bodies/limits.h"
 #include "shared/base/random.h"
 #include "shared/field/operation.h"
+#include "shared/field/paint.h"
 
 namespace scree {
 namespace {
@@ -91,6 +92,23 @@ TEST(Bodies, a_stack_says_who_carries_whom) {
   const BodyContacts contacts = bodies.contacts();
   EXPECT_EQ(contacts.on_terrain, std::vector<PieceId>{1});
   EXPECT_EQ(contacts.carried, (std::vector<Carried>{{2, 1}, {3, 2}}));
+}
+
+/// How far a box slides that sets out at 4 m/s over ground of the material.
+float slide_m(Material material) {
+  MapField field(terrain(TerrainKind::flat));
+  paint(field, in_voxels(sphere({0.0F, 0.0F, 0.0F}, 12.0F), voxel_m), material);
+  Bodies bodies(field, {});
+  bodies.add(box_shape({0.6F, 0.2F, 0.6F}), body_at(1, {-4.0F, 0.21F, 0.1F}, {4.0F, 0.0F, 0.0F}));
+  step(bodies, 240);
+  return bodies.state(1).pose.position_m.x + 4.0F;
+}
+
+TEST(Bodies, the_material_of_the_ground_holds_them_back) {
+  const float on_soil = slide_m(Material::soil), on_rock = slide_m(Material::rock);
+  EXPECT_GT(on_soil, 0.1F);
+  EXPECT_GT(on_rock, 1.1F * on_soil);
+  EXPECT_GT(slide_m(Material::ice), 1.3F * on_rock);
 }
 
 TEST(Bodies, none_of_two_hundred_falls_through_noise_terrain) {

@@ -27,7 +27,8 @@ struct BodyShape {
   std::vector<glm::vec3> hull_m;
   float mass_kg = 0.0F;
   glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes
-  float friction = 0.7F;          ///< coefficient; of two that touch, the geometric mean counts
+  /// Coefficient. Of two that touch, the geometric mean counts; the terrain's is its material's.
+  float friction = 0.7F;
   /// What touches the terrain, where the hull would not do: points of a concave piece's own surface, in the
   /// same frame. None: points of the hull.
   std::vector<glm::vec3> surface_m{};
@@ -70,7 +71,6 @@ struct BodyImpact {
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
-  float friction = 0.7F;      ///< of the terrain, as BodyShape::friction
   float restitution = 0.05F;  ///< rubble hardly bounces
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
 };

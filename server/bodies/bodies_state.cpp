@@ -76,9 +76,7 @@ void Bodies::State::find_ground(Body& body) {
   const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
   found.clear();
   body.probe->find(from_bullet(rigid.getWorldTransform()), limits::contact_slack_m + speed * tick_s, found);
-  // A body's own is a root already.
-  const float friction = rigid.getFriction() * std::sqrt(config.friction);
-  refill(*body.ground, rigid, found, {friction, config.restitution, tick_s});
+  refill(*body.ground, rigid, found, {terrain_field, config.restitution, tick_s});
 }
 
 /// What a body may not exceed, or it would cross the narrow band in one tick.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "server/bodies/limits.h"
+#include "shared/field/paint.h"
 
 namespace scree {
 
@@ -45,8 +47,17 @@ size_t choose(std::vector<TerrainContact>& found) {
   return wanted;
 }
 
-btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& body,
-                              const TerrainSurface& surface) {
+/// Of the body with the material half a voxel below its deepest contact: one look for all its contacts.
+float friction_between(const btRigidBody& body, const TerrainContact& deepest, const Field& field) {
+  const glm::vec3 on_body_m = from_bullet(body.getWorldTransform().getOrigin()) + deepest.offset_m;
+  const float down_m = deepest.distance_m + 0.5F * field.source().voxel_size_m;
+  const Material ground = material_at(field, on_body_m - deepest.normal * down_m);
+  // A body's own is a root already: Bullet multiplies.
+  return body.getFriction() * std::sqrt(traits_of(ground).friction);
+}
+
+btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& body, float friction,
+                              float restitution) {
   const btTransform& at = body.getWorldTransform();
   const bool buried = contact.distance_m < -limits::overlap_shallow_m;
   const float told = buried ? limits::overlap_told_buried_m : limits::overlap_told_m;
@@ -57,8 +68,8 @@ btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& 
   btManifoldPoint point(at.invXform(on_body), on_ground, normal, distance);
   point.m_positionWorldOnA = on_body;
   point.m_positionWorldOnB = on_ground;
-  point.m_combinedFriction = surface.friction;
-  point.m_combinedRestitution = surface.restitution;
+  point.m_combinedFriction = friction;
+  point.m_combinedRestitution = restitution;
   point.m_index0 = contact.point;
   return point;
 }
@@ -79,8 +90,9 @@ void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector
   });
   if (found.empty()) return;
   const size_t wanted = choose(found);
+  const float friction = friction_between(body, found.front(), surface.field);
   for (size_t i = 0; i < wanted; ++i) {
-    btManifoldPoint point = contact_point(found[i], body, surface);
+    btManifoldPoint point = contact_point(found[i], body, friction, surface.restitution);
     for (int j = 0; j < old_count; ++j) {
       const btManifoldPoint& before = old[static_cast<size_t>(j)];
       if (before.m_index0 != point.m_index0) continue;

@@ -10,9 +10,9 @@
 
 namespace scree {
 
-/// What every terrain contact has in common.
+/// What every terrain contact of a tick has in common. Friction is that of the material under the body.
 struct TerrainSurface {
-  float friction = 0.0F;
+  const Field& field;
   float restitution = 0.0F;
   float tick_s = 0.0F;
 };
