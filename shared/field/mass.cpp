@@ -14,9 +14,10 @@ int sum_of(size_t count, const Code* __restrict codes) {
   constexpr int ramp_end = 21;
   int sum = 0;
   for (size_t i = 0; i < count; ++i) {
-    const auto ramp = static_cast<uint8_t>(127 - 6 * codes[i]);
-    const auto below = static_cast<uint8_t>(codes[i] < -ramp_end ? units_per_voxel : ramp);
-    sum += static_cast<uint8_t>(codes[i] > ramp_end ? 0 : below);
+    const int8_t code = codes[i];
+    const auto ramp = static_cast<uint8_t>(127 - 6 * code);
+    const auto below = static_cast<uint8_t>(code < -ramp_end ? units_per_voxel : ramp);
+    sum += static_cast<uint8_t>(code > ramp_end ? 0 : below);
   }
   return sum;
 }

@@ -133,8 +133,10 @@ void fill_pits(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* 
     const auto along_y = static_cast<int8_t>(c[i - step_y] & c[i + step_y]);
     const auto along_x = static_cast<int8_t>(c[i - step_x] & c[i + step_x]);
     const auto two = static_cast<int8_t>((along_x & along_y) | (along_y & along_z) | (along_x & along_z));
-    const auto pit = static_cast<int8_t>(two & (c[i] >= 0 ? -1 : 0) & (c[i] < shallow ? -1 : 0) & core[i]);
-    out[i] = pit < 0 ? Code{-1} : c[i];
+    const int8_t own = c[i];
+    // By signs alone, not below zero and below shallow: comparisons became branches, four times the time.
+    const auto pit = static_cast<int8_t>(two & ~own & (own - shallow) & core[i]);
+    out[i] = pit < 0 ? Code{-1} : own;
   }
 }
 

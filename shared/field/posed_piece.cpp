@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "shared/base/vector_clones.h"
+
 namespace scree {
 
 namespace {
@@ -45,51 +47,104 @@ int ceil_to_int(float x) {
   return -floor_to_int(-x);
 }
 
-using Lanes = float __attribute__((vector_size(16)));
-using IntLanes = int __attribute__((vector_size(16)));
+/// A volume's codes by cells: where a cell lies between eight voxels, its four in one plane of x are one
+/// word, (y, z) lowest, then (y, z + 1), (y + 1, z), (y + 1, z + 1), and the other four are the next plane's
+/// word.
+struct Cells {
+  int lo_x, lo_y, lo_z;
+  int last_x, last_y, last_z;  ///< of the cells; a cell's far corner must lie in the window, too
+  int step_x, step_y;
+  std::vector<uint32_t> words;
 
-Lanes lanes(glm::vec3 v) {
-  return Lanes{v.x, v.y, v.z, 0.0F};
+  explicit Cells(const Window& window);
+};
+
+SCREE_VECTOR_CLONES
+void pack_words(ptrdiff_t count, ptrdiff_t step_y, const Code* __restrict c, uint32_t* __restrict words) {
+  for (ptrdiff_t i = 0; i < count; ++i)
+    words[i] = static_cast<uint32_t>(static_cast<uint8_t>(c[i])) |
+               static_cast<uint32_t>(static_cast<uint8_t>(c[i + 1])) << 8U |
+               static_cast<uint32_t>(static_cast<uint8_t>(c[i + step_y])) << 16U |
+               static_cast<uint32_t>(static_cast<uint8_t>(c[i + step_y + 1])) << 24U;
 }
 
-/// Reads a window's codes trilinearly, in vectors spelt out: left to itself the compiler took each coordinate
-/// for itself, and twice the time.
-class Sampler {
- public:
-  explicit Sampler(const Window& window)
-      : lo_{window.box.lo.x, window.box.lo.y, window.box.lo.z, 0},
-        // A cell's far corner must lie in the window, too.
-        last_{window.box.hi.x - 2 - window.box.lo.x, window.box.hi.y - 2 - window.box.lo.y,
-              window.box.hi.z - 2 - window.box.lo.z, 0},
-        step_y_(window.box.size().z),
-        step_x_(step_y_ * window.box.size().y),
-        codes_(window.codes.begin(), window.codes.end()) {}
+Cells::Cells(const Window& window)
+    : lo_x(window.box.lo.x),
+      lo_y(window.box.lo.y),
+      lo_z(window.box.lo.z),
+      last_x(window.box.size().x - 2),
+      last_y(window.box.size().y - 2),
+      last_z(window.box.size().z - 2),
+      step_x(window.box.size().y * window.box.size().z),
+      step_y(window.box.size().z),
+      words(window.codes.size() + static_cast<size_t>(step_x) + 1) {
+  pack_words(static_cast<ptrdiff_t>(window.codes.size()) - step_y - 1, step_y, window.codes.data(),
+             words.data());
+}
 
-  /// The nearest code at p, of which only three lanes count; air outside the window.
-  Code at(Lanes p) const {
-    IntLanes cell = __builtin_convertvector(p, IntLanes);
-    cell += p < __builtin_convertvector(cell, Lanes);  // all ones is −1: the largest integer not above
-    const Lanes part = p - __builtin_convertvector(cell, Lanes);
-    const IntLanes at = cell - lo_;
-    const IntLanes outside = (at < 0) | (at > last_);
-    if ((outside[0] | outside[1] | outside[2]) != 0) return code_air;
-    const float* c = codes_.data() + (at[0] * step_x_ + at[1] * step_y_ + at[2]);
-    const Lanes near{c[0], c[step_y_], c[step_x_], c[step_x_ + step_y_]};
-    const Lanes far{c[1], c[step_y_ + 1], c[step_x_ + 1], c[step_x_ + step_y_ + 1]};
-    const Lanes along_z = near + (far - near) * part[2];
-    const float low = along_z[0] + (along_z[1] - along_z[0]) * part[1];
-    const float high = along_z[2] + (along_z[3] - along_z[2]) * part[1];
-    const float code = low + (high - low) * part[0];
-    return static_cast<Code>(static_cast<int>(code + (code < 0.0F ? -0.5F : 0.5F)));
+/// Where the voxels of one plane of x lie in the volume, but for what the plane adds: each of six numbers for
+/// all of them in turn, along y and then along z, of which each has three.
+struct PlaneOffsets {
+  size_t count;
+  std::vector<float> numbers;
+
+  PlaneOffsets(const PosedAxes& axes, const VoxelBox& box)
+      : count(static_cast<size_t>(box.size().y) * static_cast<size_t>(box.size().z)), numbers(6 * count) {
+    size_t i = 0;
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z, ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          float* to = numbers.data() + static_cast<size_t>(axis) * count + i;
+          to[0] = axes.to_local[1][axis] * (static_cast<float>(y) - axes.world_centre.y);
+          to[3 * count] = axes.to_local[2][axis] * (static_cast<float>(z) - axes.world_centre.z);
+        }
   }
-
- private:
-  IntLanes lo_;
-  IntLanes last_;
-  ptrdiff_t step_y_;
-  ptrdiff_t step_x_;
-  std::vector<float> codes_;
 };
+
+inline int cell_of(float p) {
+  const int i = static_cast<int>(p);
+  return i - (p < static_cast<float>(i) ? 1 : 0);
+}
+
+template <unsigned Byte>
+inline float code_in(uint32_t word) {
+  return static_cast<float>(static_cast<int32_t>(word << (24U - 8U * Byte)) >> 24U);
+}
+
+/// The nearest codes of a plane's voxels, trilinearly; air outside the cells. No branch, so that it runs in
+/// vectors.
+SCREE_VECTOR_CLONES
+void sample_plane(size_t count, const float* __restrict offsets, const Cells& cells, glm::vec3 plane,
+                  glm::vec3 centre, int* __restrict out) {
+  const float plane_x = plane.x, plane_y = plane.y, plane_z = plane.z;
+  const float centre_x = centre.x, centre_y = centre.y, centre_z = centre.z;
+  const int lo_x = cells.lo_x, lo_y = cells.lo_y, lo_z = cells.lo_z;
+  const int last_x = cells.last_x, last_y = cells.last_y, last_z = cells.last_z;
+  const int step_x = cells.step_x, step_y = cells.step_y;
+  const uint32_t* __restrict words = cells.words.data();
+  for (size_t i = 0; i < count; ++i) {
+    const float x = plane_x + offsets[i] + centre_x + offsets[i + 3 * count];
+    const float y = plane_y + offsets[i + count] + centre_y + offsets[i + 4 * count];
+    const float z = plane_z + offsets[i + 2 * count] + centre_z + offsets[i + 5 * count];
+    const int cell_x = cell_of(x), cell_y = cell_of(y), cell_z = cell_of(z);
+    const float part_x = x - static_cast<float>(cell_x), part_y = y - static_cast<float>(cell_y),
+                part_z = z - static_cast<float>(cell_z);
+    const int at_x = cell_x - lo_x, at_y = cell_y - lo_y, at_z = cell_z - lo_z;
+    // By signs: all of them at once.
+    const int outside =
+        (at_x | at_y | at_z | (last_x - at_x) | (last_y - at_y) | (last_z - at_z)) >> 31;  // all ones or 0
+    const int index = (at_x * step_x + at_y * step_y + at_z) & ~outside;
+    const uint32_t near = words[index], far = words[index + step_x];
+    const float z00 = code_in<0>(near) + (code_in<1>(near) - code_in<0>(near)) * part_z;
+    const float z01 = code_in<2>(near) + (code_in<3>(near) - code_in<2>(near)) * part_z;
+    const float z10 = code_in<0>(far) + (code_in<1>(far) - code_in<0>(far)) * part_z;
+    const float z11 = code_in<2>(far) + (code_in<3>(far) - code_in<2>(far)) * part_z;
+    const float low = z00 + (z01 - z00) * part_y, high = z10 + (z11 - z10) * part_y;
+    const float code = low + (high - low) * part_x;
+    const int nearest = static_cast<int>(code + (code < 0.0F ? -0.5F : 0.5F));
+    out[i] = (nearest & ~outside) | (code_air & outside);
+  }
+}
 
 }  // namespace
 
@@ -130,18 +185,18 @@ VoxelBox posed_bounds(const Volume& volume, const QuantisedPose& pose, float vox
 }
 
 Window posed_codes(const Volume& volume, const QuantisedPose& pose, float voxel_size_m, const VoxelBox& box) {
-  const PosedAxes axes(volume, pose, voxel_size_m);
-  const Sampler sampler(volume.window);
-  const Lanes along = lanes(axes.to_local[2]);
   Window out(box);
+  if (box.empty()) return out;
+  const PosedAxes axes(volume, pose, voxel_size_m);
+  const Cells cells(volume.window);
+  const PlaneOffsets offsets(axes, box);
+  std::vector<int> codes(offsets.count);
   Code* to = out.codes.data();
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y) {
-      const Lanes row =
-          lanes(axes.local({static_cast<float>(x), static_cast<float>(y), axes.world_centre.z}));
-      for (int z = box.lo.z; z < box.hi.z; ++z)
-        *to++ = sampler.at(row + along * (static_cast<float>(z) - axes.world_centre.z));
-    }
+  for (int x = box.lo.x; x < box.hi.x; ++x, to += offsets.count) {
+    const glm::vec3 plane = axes.to_local[0] * (static_cast<float>(x) - axes.world_centre.x);
+    sample_plane(offsets.count, offsets.numbers.data(), cells, plane, axes.local_centre, codes.data());
+    for (size_t i = 0; i < offsets.count; ++i) to[i] = static_cast<Code>(codes[i]);
+  }
   return out;
 }
 
