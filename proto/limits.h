@@ -38,6 +38,9 @@ inline constexpr size_t watched_corners_max = 64;
 inline constexpr size_t watched_contacts_max = 4096;
 inline constexpr size_t watched_bricks_max = 1024;
 
+/// Work that fits into a tick, microseconds: a tick takes a second at most.
+inline constexpr uint32_t tick_budget_max_us = 1'000'000;
+
 /// Length of a refusal or a reply's reason, bytes; an encoder cuts what is longer.
 inline constexpr size_t reason_bytes_max = 1024;
 

@@ -162,6 +162,20 @@ struct ReplyMessage {
 inline constexpr std::array<const char*, 8> stage_names{"carve", "spawn",     "bodies",  "impacts",
                                                         "rest",  "recombine", "islands", "publish"};
 
+/// What the ticks of the last second had to do by the server's model, and what did not fit into them.
+struct WorkStatus {
+  uint32_t budget_us = 0;         ///< of a tick; 0: not known, as in a replay
+  uint32_t worst_us = 0;          ///< most that a tick had to do
+  uint32_t requests_waiting = 0;  ///< most at a tick's end
+  uint32_t merges_put_off = 0;    ///< most at a tick's end
+  uint32_t breaks_left_out = 0;   ///< in all
+  uint32_t dents_left_out = 0;    ///< in all
+  uint32_t ticks_cut_short = 0;   ///< in which any of these happened
+  uint32_t ticks_merging_sooner = 0;
+
+  bool operator==(const WorkStatus&) const = default;
+};
+
 /// Once a second, for people.
 struct StatusMessage {
   Tick tick = 0;
@@ -181,6 +195,7 @@ struct StatusMessage {
   uint32_t repairs = 0;                              ///< chunks resent to this client because a check failed
   SettingValues settings;                            ///< every setting of the simulation
   std::array<float, stage_names.size()> stage_ms{};  ///< mean over the last second
+  WorkStatus work;
 };
 
 struct PlayerCursor {

@@ -69,6 +69,17 @@ void write(wire::Frame& to, const FrameMessage& from) {
   to.set_transforms(to_string(from.transforms));
 }
 
+void write(wire::Work& to, const WorkStatus& from) {
+  to.set_budget_us(from.budget_us);
+  to.set_worst_us(from.worst_us);
+  to.set_requests_waiting(from.requests_waiting);
+  to.set_merges_put_off(from.merges_put_off);
+  to.set_breaks_left_out(from.breaks_left_out);
+  to.set_dents_left_out(from.dents_left_out);
+  to.set_ticks_cut_short(from.ticks_cut_short);
+  to.set_ticks_merging_sooner(from.ticks_merging_sooner);
+}
+
 void write(wire::Status& to, const StatusMessage& from) {
   to.set_tick(from.tick);
   to.set_clients(from.clients);
@@ -87,6 +98,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_repairs(from.repairs);
   write(*to.mutable_settings(), from.settings);
   to.mutable_stage_ms()->Add(from.stage_ms.begin(), from.stage_ms.end());
+  write(*to.mutable_work(), from.work);
 }
 
 struct Writing {
@@ -194,6 +206,19 @@ PieceMessage read(const wire::Piece& from, FieldChecker& check) {
   return piece;
 }
 
+WorkStatus read(const wire::Work& from, FieldChecker& check) {
+  WorkStatus work;
+  work.budget_us = check.within(from.budget_us(), 0, limits::tick_budget_max_us, "budget_us");
+  work.worst_us = from.worst_us();
+  work.requests_waiting = from.requests_waiting();
+  work.merges_put_off = from.merges_put_off();
+  work.breaks_left_out = from.breaks_left_out();
+  work.dents_left_out = from.dents_left_out();
+  work.ticks_cut_short = check.within(from.ticks_cut_short(), 0, rate_max, "ticks_cut_short");
+  work.ticks_merging_sooner = check.within(from.ticks_merging_sooner(), 0, rate_max, "ticks_merging_sooner");
+  return work;
+}
+
 StatusMessage read(const wire::Status& from, FieldChecker& check) {
   StatusMessage status;
   status.tick = from.tick();
@@ -218,6 +243,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   else
     std::ranges::transform(from.stage_ms(), status.stage_ms.begin(),
                            [&](float ms) { return check.not_negative(ms, "stage_ms"); });
+  status.work = read(from.work(), check);
   return status;
 }
 

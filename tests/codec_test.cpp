@@ -235,6 +235,15 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   StatusMessage status;
   status.settings = many;
   EXPECT_TRUE(names(server_refusal(status), "33 settings"));
+  status.settings.clear();
+  status.work.budget_us = limits::tick_budget_max_us + 1;
+  EXPECT_TRUE(names(server_refusal(status), "budget_us is 1000001"));
+  status.work = {};
+  status.work.ticks_cut_short = 1001;
+  EXPECT_TRUE(names(server_refusal(status), "ticks_cut_short is 1001"));
+  status.work = {};
+  status.work.ticks_merging_sooner = 1001;
+  EXPECT_TRUE(names(server_refusal(status), "ticks_merging_sooner is 1001"));
 }
 
 TEST(Codec, bricks_twice_astray_or_too_many_are_refused) {

@@ -345,6 +345,7 @@ TEST_F(PublisherTest, replies_go_to_who_asked_and_status_comes_once_a_second) {
   join(1, {0.0F, 2.0F, 0.0F}, 64.0F);
   join(2, {0.0F, 2.0F, 0.0F}, 64.0F);
   TickDelta delta = *source.step();
+  delta.work = {12500, 13000, 2, 0, 0, 0, false};
   delta.replies.push_back({2, 77, "too large", 0});
   delta.replies.push_back({9, 1, "", 0});  // left meanwhile
   deliver(delta);
@@ -355,6 +356,9 @@ TEST_F(PublisherTest, replies_go_to_who_asked_and_status_comes_once_a_second) {
   EXPECT_EQ(followers.at(2).replies[0].refusal, "too large");
   ASSERT_EQ(followers.at(1).statuses.size(), 2U);
   EXPECT_EQ(followers.at(1).statuses[0].clients, 2U);
+  EXPECT_EQ(followers.at(1).statuses[0].work.requests_waiting, 2U);
+  EXPECT_EQ(followers.at(1).statuses[0].work.ticks_cut_short, 1U);
+  EXPECT_EQ(followers.at(1).statuses[1].work.ticks_cut_short, 0U) << "that was a second before";
 }
 
 TEST(TickClock, stages_are_means_over_the_last_second) {
@@ -364,12 +368,21 @@ TEST(TickClock, stages_are_means_over_the_last_second) {
     StageTimes times;
     times.bodies_ms = ms;
     times.total_ms = 2.0 * ms;
-    clock.add(times);
+    clock.add(times, {});
   }
   EXPECT_STREQ(stage_names[2], "bodies");
   EXPECT_FLOAT_EQ(clock.stages_ms()[2], 4.0F) << "the 100 ms left the window";
   EXPECT_FLOAT_EQ(clock.worst_ms(), 10.0F);
   EXPECT_EQ(clock.stages_ms()[0], 0.0F);
+}
+
+TEST(TickClock, work_is_the_last_seconds) {
+  TickClock clock(2);
+  EXPECT_EQ(clock.work(), WorkStatus{});
+  clock.add({}, {12500, 90000, 9, 9, 9, 9, true});
+  clock.add({}, {12500, 14000, 3, 7, 2, 0, true});
+  clock.add({}, {12500, 9000, 4, 0, 5, 1, false});
+  EXPECT_EQ(clock.work(), (WorkStatus{12500, 14000, 4, 7, 7, 1, 2, 1})) << "the first tick left the window";
 }
 
 }  // namespace

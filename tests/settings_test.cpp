@@ -247,6 +247,15 @@ TEST_F(AdminSession, whoever_knows_the_token_changes_settings_and_everybody_sees
   EXPECT_TRUE(holds(to_json(server->report()), "\"dents\": \"false\""));
 }
 
+TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
+  start("");
+  const auto status = read_status(target);
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_EQ(status->work.budget_us, 12500U);
+  EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": 12500"));
+  EXPECT_TRUE(holds(status_lines(*status), "work.budget_us             12500\n"));
+}
+
 TEST_F(AdminSession, whoever_does_not_is_refused) {
   start(good_token);
   EXPECT_EQ(refusal("another-token-of-length", {{"dents", "false"}}),

@@ -52,13 +52,23 @@ Result<Talk> join(const AdminServer& server) {
   return Talk(std::move(*connected), until);
 }
 
+Result<StatusMessage> status_of(Talk& talk) {
+  return talk.next<StatusMessage>("status");
+}
+
 Result<SettingValues> settings_of_status(Talk& talk) {
-  Result<StatusMessage> status = talk.next<StatusMessage>("status");
+  Result<StatusMessage> status = status_of(talk);
   if (!status) return tl::unexpected(status.error());
   return std::move(status->settings);
 }
 
 }  // namespace
+
+Result<StatusMessage> read_status(const AdminServer& server) {
+  Result<Talk> talk = join(server);
+  if (!talk) return tl::unexpected(talk.error());
+  return status_of(*talk);
+}
 
 Result<SettingValues> read_settings(const AdminServer& server) {
   Result<Talk> talk = join(server);

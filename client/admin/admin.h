@@ -1,5 +1,5 @@
-// A client that looks at a running server's settings and changes them. Each function is one connection, that
-// follows no terrain. Waits for the server's answers; safe to call from any thread.
+// A client that looks at how a running server stands, and at its settings, and changes them. Each function is
+// one connection, that follows no terrain. Waits for the server's answers; safe to call from any thread.
 #pragma once
 
 #include <chrono>
@@ -16,6 +16,12 @@ struct AdminServer {
   uint16_t port = default_port;
   std::chrono::milliseconds within{10000};  ///< all of the server's answers
 };
+
+/// The server's next status, settings included. Needs no token.
+Result<StatusMessage> read_status(const AdminServer& server);
+/// What people read of it, as JSON or as lines of a name and a value.
+std::string status_json(const StatusMessage& status);
+std::string status_lines(const StatusMessage& status);
 
 /// Every setting as it stands. Needs no token.
 Result<SettingValues> read_settings(const AdminServer& server);

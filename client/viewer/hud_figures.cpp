@@ -28,6 +28,18 @@ void show_ledger(const StatusMessage& status) {
               status.pieces);
 }
 
+/// What the server's ticks had to do against their budget, and what did not fit.
+void show_work(const WorkStatus& work) {
+  if (work.budget_us == 0) return;
+  constexpr double us_per_ms = 1000.0;
+  ImGui::Text("work %.1f of %.1f ms%s", work.worst_us / us_per_ms, work.budget_us / us_per_ms,
+              work.ticks_merging_sooner > 0 ? ", merging sooner" : "");
+  if (work.requests_waiting + work.merges_put_off > 0)
+    ImGui::Text("put off: %u requests, %u merges", work.requests_waiting, work.merges_put_off);
+  if (work.breaks_left_out + work.dents_left_out > 0)
+    ImGui::Text("left out: %u breaks, %u dents", work.breaks_left_out, work.dents_left_out);
+}
+
 void show_memory(const MemoryCounts& counts) {
   ImGui::TextUnformatted("MiB              CPU     GPU");
   for (const MemoryCount& count : counts)
@@ -67,7 +79,10 @@ void Hud::figures(const HudFacts& facts) {
   ImGui::Text("%.1f KiB/s received", facts.bytes_per_s / kib);
   if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   ImGui::Separator();
-  if (facts.status) show_ledger(*facts.status);
+  if (facts.status) {
+    show_ledger(*facts.status);
+    show_work(facts.status->work);
+  }
   ImGui::Separator();
   ImGui::Text("chunks: %zu followed, %zu edited, %zu bricks", facts.held_chunks, facts.edited_chunks,
               facts.edited_bricks);

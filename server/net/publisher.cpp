@@ -89,7 +89,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   // against the old state, and refer to the same object after apply().
   const TickChanges changes(delta, state_, state_, config_.voxel_size_m);
   state_.apply(delta);
-  clock_.add(delta.times);
+  clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
   for (auto& [session, client] : clients_) serve(session, client, changes, backlog_bytes(session));
@@ -217,6 +217,7 @@ void Publisher::send_status(uint64_t session, Client& client) {
   status.tick_median_ms = clock_.median_ms();
   status.tick_worst_ms = clock_.worst_ms();
   status.stage_ms = clock_.stages_ms();
+  status.work = clock_.work();
   status.sent_bytes = client.sent_bytes;
   status.pieces_made = state_.pieces_made();
   status.pieces_merged = state_.pieces_merged();

@@ -1,4 +1,5 @@
-// How long the ticks of the last second took, and each of their stages, for the status that people read.
+// How long the ticks of the last second took, each of their stages, and what they had to do, for the status
+// that people read.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +16,14 @@ class TickClock {
  public:
   explicit TickClock(uint32_t ticks_per_second) : window_(std::max(1U, ticks_per_second)) {}
 
-  void add(const StageTimes& times) {
+  void add(const StageTimes& times, const TickWork& work) {
     if (times_.size() < window_) {
       times_.push_back(times);
+      work_.push_back(work);
       return;
     }
     times_[next_] = times;
+    work_[next_] = work;
     next_ = (next_ + 1) % window_;
   }
   float median_ms() const {
@@ -48,11 +51,26 @@ class TickClock {
     }
     return means;
   }
+  WorkStatus work() const {
+    WorkStatus sum;
+    for (const TickWork& work : work_) {
+      sum.budget_us = work.budget_us;
+      sum.worst_us = std::max(sum.worst_us, work.estimate_us);
+      sum.requests_waiting = std::max(sum.requests_waiting, work.requests_waiting);
+      sum.merges_put_off = std::max(sum.merges_put_off, work.merges_put_off);
+      sum.breaks_left_out += work.breaks_left_out;
+      sum.dents_left_out += work.dents_left_out;
+      sum.ticks_cut_short += work.cut_short() ? 1 : 0;
+      sum.ticks_merging_sooner += work.merging_sooner ? 1 : 0;
+    }
+    return sum;
+  }
 
  private:
   size_t window_;
   size_t next_ = 0;  ///< the oldest, once the window is full
   std::vector<StageTimes> times_;
+  std::vector<TickWork> work_;  ///< of the same ticks
 };
 
 }  // namespace scree

@@ -1,5 +1,5 @@
-// scree-admin: shows and changes a running server's settings. Exit status: 0 fine, 1 failed or refused, 2
-// wrong usage.
+// scree-admin: shows how a running server stands, and shows and changes its settings. Exit status: 0 fine, 1
+// failed or refused, 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -34,6 +34,12 @@ int print(const scree::Result<scree::SettingValues>& settings, bool as_json) {
     if (!as_json) std::printf("%-14s %s\n", setting.name.c_str(), setting.value.c_str());
   }
   if (as_json) std::printf("%s\n", json.dump(2).c_str());
+  return 0;
+}
+
+int print(const scree::Result<scree::StatusMessage>& status, bool as_json) {
+  if (!status) return complain(status.error(), exit_failed);
+  std::fputs((as_json ? scree::status_json(*status) : scree::status_lines(*status)).c_str(), stdout);
   return 0;
 }
 
@@ -77,11 +83,13 @@ void add_connection(CLI::App& app, Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Shows and changes the settings of a running server.", "scree-admin");
+  CLI::App app("Shows how a running server stands, and shows and changes its settings.", "scree-admin");
   app.require_subcommand(1);
   add_connection(app, options);
   app.fallthrough();
   const CLI::App* show = app.add_subcommand("show", "prints every setting as it stands");
+  const CLI::App* status =
+      app.add_subcommand("status", "prints what the last second's ticks took and had to do, and the ledger");
   CLI::App* set = app.add_subcommand("set", "changes settings, all or none, and prints how every one stands");
   set->add_option("NAME=VALUE", options.changes, "scree-server --help lists them")->required();
   CLI::Option* token =
@@ -96,5 +104,6 @@ int main(int argc, char** argv) {
   }
   options.server.within = std::chrono::milliseconds(static_cast<int64_t>(options.timeout_s * 1000.0));
   if (show->parsed()) return print(scree::read_settings(options.server), options.json);
+  if (status->parsed()) return print(scree::read_status(options.server), options.json);
   return change(options);
 }

@@ -1,0 +1,67 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "client/admin/admin.h"
+
+namespace scree {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const WorkStatus& work) {
+  return {{"budget_us", work.budget_us},
+          {"worst_us", work.worst_us},
+          {"requests_waiting", work.requests_waiting},
+          {"merges_put_off", work.merges_put_off},
+          {"breaks_left_out", work.breaks_left_out},
+          {"dents_left_out", work.dents_left_out},
+          {"ticks_cut_short", work.ticks_cut_short},
+          {"ticks_merging_sooner", work.ticks_merging_sooner}};
+}
+
+Json json_of(const StatusMessage& status) {
+  Json stages = Json::object();
+  for (size_t i = 0; i < stage_names.size(); ++i) stages[stage_names[i]] = status.stage_ms[i];
+  return {
+      {"tick", status.tick},
+      {"clients", status.clients},
+      {"pieces", {{"alive", status.pieces}, {"made", status.pieces_made}, {"merged", status.pieces_merged}}},
+      {"ledger",
+       {{"terrain", status.ledger_terrain},
+        {"pieces", status.ledger_pieces},
+        {"dust", status.ledger_dust},
+        {"poured", status.ledger_poured},
+        {"moved", status.ledger_moved}}},
+      {"tick_ms", {{"median", status.tick_median_ms}, {"worst", status.tick_worst_ms}}},
+      {"stage_ms", std::move(stages)},
+      {"work", json_of(status.work)}};
+}
+
+std::string line(const std::string& name, const Json& value) {
+  char text[96];
+  if (value.is_number_float())
+    std::snprintf(text, sizeof text, "%-26s %.3f\n", name.c_str(), value.get<double>());
+  else
+    std::snprintf(text, sizeof text, "%-26s %s\n", name.c_str(), value.dump().c_str());
+  return text;
+}
+
+}  // namespace
+
+std::string status_json(const StatusMessage& status) {
+  return json_of(status).dump(2) + "\n";
+}
+
+std::string status_lines(const StatusMessage& status) {
+  std::string lines;
+  const Json json = json_of(status);
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_object()) lines += line(name, value);
+    if (!value.is_object()) continue;
+    for (const auto& [part, of_part] : value.items()) lines += line(name + "." + part, of_part);
+  }
+  return lines;
+}
+
+}  // namespace scree
