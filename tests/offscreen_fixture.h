@@ -19,12 +19,11 @@ namespace scree {
 /// origin.
 class OffscreenTest : public testing::Test {
  protected:
-  static constexpr float view_radius_m = 12.0F;
   static constexpr int width = 160;
   static constexpr int height = 120;
 
-  explicit OffscreenTest(std::string_view method, const TerrainSource& terrain)
-      : method_name_(method), field_(terrain) {}
+  explicit OffscreenTest(std::string_view method, const TerrainSource& terrain, float radius_m = 12.0F)
+      : view_radius_m(radius_m), method_name_(method), field_(terrain) {}
 
   void SetUp() override {
     Result<std::unique_ptr<EglContext>> context = EglContext::create(true);
@@ -83,6 +82,7 @@ class OffscreenTest : public testing::Test {
     method_->changed(changes);
   }
 
+  const float view_radius_m;
   std::string_view method_name_;
   std::unique_ptr<EglContext> context_;
   WorkPool pool_{2};

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <optional>
 
 #include "client/render/gl.h"
@@ -82,6 +83,30 @@ Image read_pixels(int width, int height) {
     for (int x = 0; x < width; ++x) {
       const auto at = (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * 4;
       image.rgb.insert(image.rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
+    }
+  }
+  return image;
+}
+
+glm::mat4 projection_of(const Camera& camera, float reach_m, int width, int height) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  return camera.projection(aspect, reach_m * far_per_reach);
+}
+
+/// Undoes the projection of a perspective: from 0..1 to metres along the view's axis.
+DepthImage read_depths(const glm::mat4& projection, int width, int height) {
+  std::vector<float> depths(static_cast<size_t>(width) * static_cast<size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  DepthImage image{width, height, {}};
+  image.metres.reserve(depths.size());
+  const float scale = projection[2][2], offset = projection[3][2];
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) {
+      const float depth =
+          depths[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+      image.metres.push_back(depth >= 1.0F ? std::numeric_limits<float>::infinity()
+                                           : offset / (2.0F * depth - 1.0F + scale));
     }
   }
   return image;
@@ -171,8 +196,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   pass.kind = DrawPass::Kind::colour;
-  const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  pass.view_projection = camera.projection(aspect, reach_m * far_per_reach) * camera.view();
+  pass.view_projection = projection_of(camera, reach_m, width, height) * camera.view();
   if (method != nullptr) {
     const GpuTimers::Part part(&parts_->timers, "method");
     method->draw(pass);
@@ -218,6 +242,18 @@ Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, canvases.one.framebuffer.name());
   Image image = read_pixels(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  parts_->errors.poll();
+  return image;
+}
+
+Result<DepthImage> Renderer::draw_depths(DrawMethod& method, const Camera& camera, int width, int height) {
+  if (!epoxy_is_desktop_gl()) return fail("depths cannot be read with OpenGL ES: " + description());
+  if (Result<void> ready = parts_->prepare(width, height); !ready) return fail(ready.error().message);
+  const unsigned framebuffer = parts_->canvases->one.framebuffer.name();
+  draw(&method, camera, framebuffer, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  DepthImage image = read_depths(projection_of(camera, method.reach_m(), width, height), width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   parts_->errors.poll();
   return image;

@@ -18,6 +18,13 @@ struct Image {
   std::vector<uint8_t> rgb;  ///< rows from the top, 3 bytes a pixel
 };
 
+/// How far away what is drawn lies.
+struct DepthImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> metres;  ///< rows from the top, along the camera's forward(); infinity: sky
+};
+
 class Renderer {
  public:
   /// Fails when there is no OpenGL 3.3 or OpenGL ES 3.0, saying what was found.
@@ -35,7 +42,10 @@ class Renderer {
   /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,
                            const LineList& lines = {});
-  /// The same without the image: returns when the GPU has finished. For measurements.
+  /// What draw() leaves in the depth buffer, one sample in the middle of each pixel. Fails as draw_image()
+  /// does, and on OpenGL ES, which keeps depths to itself.
+  Result<DepthImage> draw_depths(DrawMethod& method, const Camera& camera, int width, int height);
+  /// Without any image: returns when the GPU has finished. For measurements.
   Result<void> draw_unseen(DrawMethod& method, const Camera& camera, int width, int height);
 
   /// "OpenGL 4.5 (llvmpipe …)", for people.
