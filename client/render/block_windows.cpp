@@ -70,8 +70,10 @@ void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
 
 }  // namespace
 
-SurfaceMesh BlockWindows::mesh() const {
-  SurfaceMesh made = surface_nets(now, owned, before ? &*before : nullptr);
+SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) const {
+  const Window* then = before ? &*before : nullptr;
+  SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
+                                      : surface_nets_placed(now, owned, then, mask, *place);
   put_paint_on(made);
   return made;
 }

@@ -16,7 +16,8 @@ struct BlockWindows {
   std::optional<Window> before;  ///< as generated; absent where nothing was ever edited
   std::map<BrickCoord, Material> paint;
 
-  SurfaceMesh mesh() const;
+  /// Of the cells in the mask alone, if there is one, and with vertices at those places (surface_nets.h).
+  SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// Sets SurfaceVertex::paint of a mesh in this window's voxels.
   void put_paint_on(SurfaceMesh& mesh) const;
 };

@@ -35,18 +35,29 @@ TerrainSource spaced(TerrainSource source, int level) {
 
 void take_edits(Field& field, int level, Window& window) {
   const int step = 1 << level;
-  const VoxelBox& box = window.box;
+  const auto fine = [step](VoxelCoord v) { return VoxelCoord{v.x * step, v.y * step, v.z * step}; };
+  // The first sample not below.
+  const auto sample = [&](VoxelCoord v) {
+    return VoxelCoord{(v.x + step - 1) >> level, (v.y + step - 1) >> level, (v.z + step - 1) >> level};
+  };
   const float scale = 1.0F / static_cast<float>(step);
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z) {
-        const VoxelCoord fine{x * step, y * step, z * step};
-        const BrickCoord home = brick_of(fine);
-        if (!field.has_edits(chunk_of(home)) || !field.is_edited(home)) continue;
-        const Code code =
-            field.brick(home).codes[static_cast<size_t>(Brick::index(fine.x & 7, fine.y & 7, fine.z & 7))];
-        window.at(x, y, z) = encode(decode(code) * scale);
-      }
+  for_each_chunk({fine(window.box.lo), fine(window.box.hi)}, [&](ChunkCoord chunk) {
+    if (!field.has_edits(chunk)) return;
+    for (const BrickCoord home : field.edited_bricks(chunk)) {
+      const VoxelCoord first = first_voxel(home);
+      const VoxelBox brick{first, first + VoxelCoord{brick_size, brick_size, brick_size}};
+      const VoxelBox part = common({sample(brick.lo), sample(brick.hi)}, window.box);
+      if (part.empty()) continue;
+      const Brick& codes = field.brick(home);
+      for (int x = part.lo.x; x < part.hi.x; ++x)
+        for (int y = part.lo.y; y < part.hi.y; ++y)
+          for (int z = part.lo.z; z < part.hi.z; ++z) {
+            const VoxelCoord in = fine({x, y, z}) - first;
+            const Code code = codes.codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
+            window.at(x, y, z) = encode(decode(code) * scale);
+          }
+    }
+  });
 }
 
 LevelBrick::Kind kind_of(const AtlasBrick& brick) {

@@ -1,6 +1,6 @@
-// The mesh of one node of the forest (surface_forest.h). Where all around is of its own level, surface nets
-// or dual contouring of its block; where finer or coarser nodes touch it, the same over the leaves of the
-// octree (leaf_surface.h), whose polygons reach from level to level.
+// The mesh of one node of the forest (surface_forest.h). Polygons between cells of its own level are surface
+// nets (surface_nets.h); where finer nodes touch it, those over the leaves of the octree join them
+// (leaf_surface.h), whose polygons reach from level to level.
 //
 // A polygon between nodes is the coarsest one's, and among those the one's farthest along x, then y, then z.
 // At points that finer nodes touch, their samples count. So all meshes meet without a crack, to the bit. A

@@ -147,6 +147,10 @@ bool is_undivided(const LeafGrid& grid, const Leaf& leaf) {
     for (const bool upper : {false, true})
       for (const bool other : {false, true})
         if (is_edge_divided(grid, leaf, axis, upper, (axis + 1) % 3, other)) return false;
+  for (int i = 0; i < 8 && leaf.side > 1; ++i) {
+    const auto at = [&](int bit) { return (i & bit) != 0 ? leaf.side : -1; };
+    if (is_finer(grid, leaf, leaf.at + VoxelCoord{at(4), at(2), at(1)})) return false;
+  }
   return true;
 }
 

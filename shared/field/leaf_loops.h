@@ -41,7 +41,7 @@ struct LeafLoops {
 enum class LeafRuns { rock, air };
 LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs);
 
-/// Whether no smaller leaf touches it by a face or an edge.
+/// Whether no smaller leaf touches it, be it by a corner.
 bool is_undivided(const LeafGrid& grid, const Leaf& leaf);
 
 /// The first face across which two links join the same sheet; -1 if there is none.

@@ -9,6 +9,7 @@
 
 #include "shared/base/check.h"
 #include "shared/field/leaf_loops.h"
+#include "shared/field/placed_sheets.h"
 #include "shared/field/surface_mesh.h"
 
 namespace scree {
@@ -20,6 +21,11 @@ using Steps = std::array<int32_t, 3>;
 
 Steps steps_of(VoxelCoord p) {
   return {p.x * steps_per_side, p.y * steps_per_side, p.z * steps_per_side};
+}
+
+CellSteps steps_in(const Leaf& leaf, const Steps& steps) {
+  const Steps low = steps_of(leaf.at);
+  return {(steps[0] - low[0]) / leaf.side, (steps[1] - low[1]) / leaf.side, (steps[2] - low[2]) / leaf.side};
 }
 
 Steps steps_of(const LeafGrid& grid, const LeafEdge& edge) {
@@ -67,12 +73,24 @@ class Mesher {
     return false;
   }
 
+  /// By all points that its boundary could be divided at, whether it is or not.
+  bool may_be_crossed(const Leaf& leaf) const {
+    const int points = leaf.side == 1 ? 2 : 3, step = leaf.side == 1 ? 1 : leaf.side / 2;
+    const bool rock = grid_.distance_at(leaf.at) < 0.0F;
+    for (int x = 0; x < points; ++x)
+      for (int y = 0; y < points; ++y)
+        for (int z = 0; z < points; ++z)
+          if ((grid_.distance_at(leaf.at + VoxelCoord{x * step, y * step, z * step}) < 0.0F) != rock)
+            return true;
+    return false;
+  }
+
   const Known& known(const Leaf& leaf) {
     static const Known nothing{};
     const auto found = known_.find(leaf.at);
     if (found != known_.end()) return found->second;
+    if (!may_be_crossed(leaf)) return nothing;
     const bool mixed = is_mixed(grid_, leaf);
-    if (!mixed && leaf.side == 1) return nothing;
     const bool undivided = is_undivided(grid_, leaf);
     if (undivided && !mixed) return nothing;
     Known& added = known_[leaf.at];
@@ -107,16 +125,12 @@ class Mesher {
       at[edge.axis] += crossing_of(grid_, edge) * (static_cast<float>(edge.length) / side);
       crossings.push_back({at, edge.axis});
     }
-    const glm::vec3 at = rules_.place(leaf, crossings);
+    // In steps of the leaf's own size.
+    std::vector<CellSteps> before;
+    for (const uint32_t other : there.vertices) before.push_back(steps_in(leaf, mesh_.points[other].steps));
+    const CellSteps inside = steps_inside(rules_.place(leaf, crossings), before);
     Steps steps = steps_of(leaf.at);
-    // Strictly inside the leaf: two leaves' vertices never coincide.
-    for (size_t i = 0; i < 3; ++i) {
-      const int inner = static_cast<int>(at[static_cast<int>(i)] * surface_steps_per_voxel + 0.5F);
-      steps[i] += std::clamp(inner, 1, steps_per_side - 1) * leaf.side;
-    }
-    // Nor do two sheets' vertices that were moved into the same corner of a leaf.
-    for (const uint32_t other : there.vertices)
-      if (mesh_.points[other].steps == steps) steps[0] += (at.x < 0.5F ? sheet : -sheet) * leaf.side;
+    for (size_t i = 0; i < 3; ++i) steps[i] += inside[i] * leaf.side;
     return add_point(leaf, steps);
   }
 

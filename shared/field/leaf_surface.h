@@ -37,7 +37,8 @@ struct LeafGrid {
   VoxelBox cells;              ///< of side 1
   std::vector<uint8_t> sides;  ///< of the leaf that holds the cell, a power of two, in a window's order
   /// Distances, in any unit, at the points of `cells` and one more at the upper ends; negative in rock. Only
-  /// those where leaves have corners count.
+  /// those where leaves have corners count. It is quickest when the others do not differ from those about
+  /// them.
   std::vector<float> distances;
 
   explicit LeafGrid(const VoxelBox& box);

@@ -53,8 +53,9 @@ struct ManySheets {
 
 class Builder {
  public:
-  Builder(const Window& window, const VoxelBox& owned, const Window* before)
-      : window_(window), before_(before), tables_(cell_tables()) {
+  Builder(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask,
+          const SheetPlace* place)
+      : window_(window), before_(before), mask_(mask), place_(place), tables_(cell_tables()) {
     const VoxelCoord size = window.box.size();
     stride_x_ = static_cast<std::ptrdiff_t>(size.y) * size.z;
     stride_y_ = size.z;
@@ -68,7 +69,11 @@ class Builder {
     for (const Segment& segment : segments_)
       if (segment.crossed) find_sheets(segment);
     if (seeds_.empty()) return std::move(mesh_);
-    add_sheet_vertices(window_, before_, seeds_, mesh_.vertices);
+    if (place_ == nullptr) {
+      add_sheet_vertices(window_, before_, seeds_, mesh_.vertices);
+    } else {
+      add_placed_vertices(window_, before_, placed_sheets(window_, origin_, seeds_, *place_), mesh_.vertices);
+    }
     mesh_.indices.resize(quads_ * 6);
     next_index_ = mesh_.indices.data();
     for (const Segment& segment : segments_)
@@ -125,6 +130,12 @@ class Builder {
     return segment;
   }
 
+  /// Which cells of the row count: bit i is cell (x, y, segment.z + i).
+  uint64_t counted(int x, int y) const {
+    if (mask_ == nullptr) return ~uint64_t{0};
+    return mask_->row(origin_.x + x, origin_.y + y) >> (origin_.z - mask_->cells().lo.z);
+  }
+
   SignRows signs_at(const Segment& segment, int x, int y) const {
     const auto rows_y = static_cast<size_t>(cells_.y + 1);
     const uint64_t* row = &segment.rows[static_cast<size_t>(x) * rows_y + static_cast<size_t>(y)];
@@ -140,7 +151,7 @@ class Builder {
     for (int x = 0; x < cells_.x; ++x) {
       for (int y = 0; y < cells_.y; ++y) {
         const SignRows rows = signs_at(segment, x, y);
-        uint64_t left = rows.active() & segment.mask();
+        uint64_t left = rows.active() & segment.mask() & counted(x, y);
         if (left == 0) continue;
         const std::ptrdiff_t row = cell_index(x, y, segment.z);
         uint32_t* slots = slots_of(x, y);
@@ -165,7 +176,7 @@ class Builder {
 
   /// Of a cell that holds several, or shares a pinched face. Returns what its slot must hold.
   uint32_t add_sheets(SheetSeed seed, uint32_t signs) {
-    const CellCase& sheets = case_of(seed.cell, signs);
+    const CellCase& sheets = case_of(seed, signs);
     const auto first = static_cast<uint32_t>(seeds_.size());
     for (size_t s = 0; s < sheets.sheets; ++s) {
       seed.edges = sheets.edges_of_sheet[s];
@@ -176,13 +187,18 @@ class Builder {
     return several | static_cast<uint32_t>(many_.size() - 1);
   }
 
-  const CellCase& case_of(std::ptrdiff_t cell, uint32_t signs) const {
+  const CellCase& case_of(const SheetSeed& seed, uint32_t signs) const {
     const CellCase& joined = tables_.joined[signs];
     if (joined.pinched_face == no_face) return joined;
+    const size_t axis = joined.pinched_face / 2U;
+    const int step = joined.pinched_face % 2U == 1 ? 1 : -1;
+    if (mask_ != nullptr) {
+      std::array<int, 3> across{seed.at[0], seed.at[1], seed.at[2]};
+      across[axis] += step;
+      if (!mask_->holds(origin_ + VoxelCoord{across[0], across[1], across[2]})) return joined;
+    }
     const std::array<std::ptrdiff_t, 3> strides{stride_x_, stride_y_, 1};
-    const std::ptrdiff_t stride = strides[joined.pinched_face / 2U];
-    const bool upper = joined.pinched_face % 2U == 1;
-    const Code* neighbour = window_.codes.data() + cell + (upper ? stride : -stride);
+    const Code* neighbour = window_.codes.data() + seed.cell + step * strides[axis];
     uint32_t across = 0;
     for (int i = 0; i < cell_corners; ++i) {
       const std::ptrdiff_t corner = (i >> 2) * stride_x_ + ((i >> 1) & 1) * stride_y_ + (i & 1);
@@ -213,19 +229,24 @@ class Builder {
         const uint32_t* s01 = slots_of(x - 1, y) + segment.z;
         const uint32_t* s10 = slots_of(x, y - 1) + segment.z;
         const uint32_t* s11 = slots_of(x, y) + segment.z;
-        const auto each = [&](uint64_t ends, auto&& quad) {
-          for (uint64_t left = (rows.r00 ^ ends) & segment.owned_mask(); left != 0; left &= left - 1) {
+        const uint64_t c00 = counted(x - 1, y - 1), c01 = counted(x - 1, y);
+        const uint64_t c10 = counted(x, y - 1), c11 = counted(x, y);
+        // Bit 0 of a first segment is not owned; the cell before it, of a later one, is never masked.
+        const auto and_before = [](uint64_t cells) { return cells & ((cells << 1U) | 1U); };
+        const auto each = [&](uint64_t ends, uint64_t cells, auto&& quad) {
+          for (uint64_t left = (rows.r00 ^ ends) & segment.owned_mask() & cells; left != 0;
+               left &= left - 1) {
             const int z = std::countr_zero(left);
             quad(z, ((rows.r00 >> z) & 1U) != 0);
           }
         };
-        each(rows.r10, [&](int z, bool rock) {
+        each(rows.r10, and_before(c10 & c11), [&](int z, bool rock) {
           add_quad({s10[z - 1], 3}, {s11[z - 1], 1}, {s11[z], 0}, {s10[z], 2}, rock);
         });
-        each(rows.r01, [&](int z, bool rock) {
+        each(rows.r01, and_before(c01 & c11), [&](int z, bool rock) {
           add_quad({s01[z - 1], 7}, {s01[z], 6}, {s11[z], 4}, {s11[z - 1], 5}, rock);
         });
-        each(rows.r00 >> 1U, [&](int z, bool rock) {
+        each(rows.r00 >> 1U, c00 & c01 & c10 & c11, [&](int z, bool rock) {
           add_quad({s00[z], 11}, {s10[z], 9}, {s11[z], 8}, {s01[z], 10}, rock);
         });
       }
@@ -256,6 +277,8 @@ class Builder {
 
   const Window& window_;
   const Window* before_;
+  const CellMask* mask_;
+  const SheetPlace* place_;  ///< or null: at the means of the crossings
   const CellTables& tables_;
   std::ptrdiff_t stride_x_;
   std::ptrdiff_t stride_y_;
@@ -270,9 +293,15 @@ class Builder {
   std::unique_ptr<uint32_t[]> slots_;  ///< only those of crossed cells are written, and read
 };
 
-}  // namespace
+/// Whether the mask knows the owned voxels' cells, those before them, and one more all around; of one
+/// segment.
+bool is_about(const CellMask& mask, const VoxelBox& owned) {
+  const VoxelBox& cells = mask.cells();
+  return cells.lo == owned.lo - VoxelCoord{2, 2, 2} && cells.hi == owned.hi + VoxelCoord{1, 1, 1};
+}
 
-SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Window* before) {
+SurfaceMesh build(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask,
+                  const SheetPlace* place) {
   const VoxelBox needed = owned.grown(surface_nets_apron);
   const VoxelBox& box = window.box;
   CHECK(box.lo.x <= needed.lo.x && box.lo.y <= needed.lo.y && box.lo.z <= needed.lo.z);
@@ -280,7 +309,20 @@ SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Wind
   const VoxelCoord size = owned.size();
   CHECK(!owned.empty() && std::max({size.x, size.y, size.z}) <= surface_side_max);
   CHECK(before == nullptr || before->codes.size() == window.codes.size());
-  return Builder(window, owned, before).build();
+  CHECK(mask == nullptr || is_about(*mask, owned));
+  return Builder(window, owned, before, mask, place).build();
+}
+
+}  // namespace
+
+SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Window* before,
+                         const CellMask* mask) {
+  return build(window, owned, before, mask, nullptr);
+}
+
+SurfaceMesh surface_nets_placed(const Window& window, const VoxelBox& owned, const Window* before,
+                                const CellMask* mask, const SheetPlace& place) {
+  return build(window, owned, before, mask, &place);
 }
 
 SurfaceMesh surface_nets_closed(const Window& volume, const Window* before) {

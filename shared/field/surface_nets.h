@@ -11,13 +11,22 @@
 // Pure, safe from any thread. Units: voxels.
 #pragma once
 
+#include "shared/field/cell_mask.h"
+#include "shared/field/placed_sheets.h"
 #include "shared/field/surface_mesh.h"
 
 namespace scree {
 
 /// Meshes `owned`; `window` must cover owned.grown(surface_nets_apron). `before`, if given, has the window's
-/// box: what the field was as generated, so that fresh surfaces can be told from weathered ones.
-SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Window* before = nullptr);
+/// box: what the field was as generated, so that fresh surfaces can be told from weathered ones. `mask`, if
+/// given, says of all cells from owned.lo − 2 to owned.hi which are leaves of that size (leaf_surface.h):
+/// only quads between four such are made, and no other takes part in telling sheets apart.
+SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Window* before = nullptr,
+                         const CellMask* mask = nullptr);
+
+/// The same polygons, with vertices at other places: dual contouring of leaves of one size.
+SurfaceMesh surface_nets_placed(const Window& window, const VoxelBox& owned, const Window* before,
+                                const CellMask* mask, const SheetPlace& place);
 
 /// Meshes a window outside of which all is air: a piece's volume.
 SurfaceMesh surface_nets_closed(const Window& volume, const Window* before = nullptr);
