@@ -12,6 +12,36 @@ namespace scree {
 
 namespace {
 
+/// A row's codes, eight at most: calling memcpy took longer than the copy.
+inline void copy_row(Code* to, const Code* from, size_t count) {
+  if (count == brick_size) {
+    std::memcpy(to, from, brick_size);
+  } else if (count >= 4) {
+    std::memcpy(to, from, 4);
+    std::memcpy(to + count - 4, from + count - 4, 4);
+  } else {
+    for (size_t i = 0; i < count; ++i) to[i] = from[i];
+  }
+}
+
+template <typename Word>
+inline Word word_at(const Code* codes) {
+  Word word;
+  std::memcpy(&word, codes, sizeof(word));
+  return word;
+}
+
+/// Zero where the rows are the same.
+inline uint64_t row_difference(const Code* a, const Code* b, size_t count) {
+  if (count == brick_size) return word_at<uint64_t>(a) ^ word_at<uint64_t>(b);
+  if (count >= 4)
+    return (word_at<uint32_t>(a) ^ word_at<uint32_t>(b)) |
+           (word_at<uint32_t>(a + count - 4) ^ word_at<uint32_t>(b + count - 4));
+  uint64_t difference = 0;
+  for (size_t i = 0; i < count; ++i) difference |= static_cast<uint8_t>(a[i] ^ b[i]);
+  return difference;
+}
+
 /// The part of a brick that lies in a box, as ranges relative to the brick.
 struct Overlap {
   VoxelCoord lo;
@@ -32,10 +62,14 @@ void for_each_row(BrickCoord brick, const Window& window, F&& f) {
   const Overlap part = overlap(brick, window.box);
   const VoxelCoord first = first_voxel(brick);
   const auto count = static_cast<size_t>(part.hi.z - part.lo.z);
-  for (int x = part.lo.x; x < part.hi.x; ++x)
-    for (int y = part.lo.y; y < part.hi.y; ++y)
-      f(static_cast<size_t>(Brick::index(x, y, part.lo.z)),
-        window.index(first.x + x, first.y + y, first.z + part.lo.z), count);
+  const VoxelCoord size = window.box.size();
+  const auto step_y = static_cast<size_t>(size.z), step_x = static_cast<size_t>(size.y) * step_y;
+  size_t plane = window.index(first.x + part.lo.x, first.y + part.lo.y, first.z + part.lo.z);
+  for (int x = part.lo.x; x < part.hi.x; ++x, plane += step_x) {
+    size_t row = plane;
+    for (int y = part.lo.y; y < part.hi.y; ++y, row += step_y)
+      f(static_cast<size_t>(Brick::index(x, y, part.lo.z)), row, count);
+  }
 }
 
 }  // namespace
@@ -56,12 +90,31 @@ Field::Field(const TerrainSource& source) : source_(source) {}
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   const auto found = generated_.find(chunk);
   if (found != generated_.end()) return found->second;
-  if (generated_.size() >= limits::generated_chunks_max) generated_.clear();
+  if (generated_.size() >= limits::generated_chunks_max) forget_generated();
   return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
 }
 
+void Field::forget_generated() {
+  generated_.clear();
+  last_.reset();
+}
+
+Field::LastChunk& Field::last_chunk(ChunkCoord chunk) {
+  if (!last_ || last_->coord != chunk) {
+    const auto edited = edited_.find(chunk);
+    last_ = {chunk, edited == edited_.end() ? 0 : edited->second.bricks, nullptr};
+  }
+  return *last_;
+}
+
 const Brick& Field::generated_brick(BrickCoord coord) {
-  return *generated_chunk(chunk_of(coord)).bricks[static_cast<size_t>(index_in_chunk(coord))];
+  const ChunkCoord chunk = chunk_of(coord);
+  LastChunk last = last_chunk(chunk);
+  if (last.generated == nullptr) {
+    last.generated = &generated_chunk(chunk);
+    last_ = last;
+  }
+  return *last.generated->bricks[static_cast<size_t>(index_in_chunk(coord))];
 }
 
 Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
@@ -70,10 +123,8 @@ Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
 }
 
 const Brick& Field::brick(BrickCoord coord) {
-  const auto chunk = edited_.find(chunk_of(coord));
-  if (chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0)
-    return *find_edited(coord);
-  return generated_brick(coord);
+  const bool edited = ((last_chunk(chunk_of(coord)).edited >> index_in_chunk(coord)) & 1U) != 0;
+  return edited ? *find_edited(coord) : generated_brick(coord);
 }
 
 void Field::set_brick(BrickCoord coord, const Brick& brick) {
@@ -83,6 +134,7 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
   store_edited(coord, brick);
   chunk.bricks |= bit;
+  if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
   hash_ += change;
 }
@@ -113,6 +165,7 @@ void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
 void Field::forget_chunk(ChunkCoord chunk) {
   const auto found = edited_.find(chunk);
   if (found == edited_.end()) return;
+  last_.reset();
   hash_ -= found->second.hash;
   for (const BrickCoord coord : edited_bricks(chunk)) erase_edited(coord);
   edited_.erase(found);
@@ -141,7 +194,7 @@ std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
 }
 
 void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
-  if (generated_.size() >= limits::generated_chunks_max) generated_.clear();
+  if (generated_.size() >= limits::generated_chunks_max) forget_generated();
   generated_.try_emplace(chunk, std::move(generated));
 }
 
@@ -170,7 +223,7 @@ Window gather(Field& field, const VoxelBox& box) {
   for_each_brick(box, [&](BrickCoord coord) {
     const Brick& brick = field.brick(coord);
     for_each_row(coord, window, [&](size_t from, size_t to, size_t count) {
-      std::memcpy(window.codes.data() + to, brick.codes.data() + from, count);
+      copy_row(window.codes.data() + to, brick.codes.data() + from, count);
     });
   });
   return window;
@@ -180,14 +233,14 @@ std::vector<BrickCoord> scatter(Field& field, const Window& window) {
   std::vector<BrickCoord> changed;
   for_each_brick(window.box, [&](BrickCoord coord) {
     const Brick& old = field.brick(coord);
-    bool same = true;
+    uint64_t difference = 0;
     for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
-      same = same && std::memcmp(old.codes.data() + to, window.codes.data() + from, count) == 0;
+      difference |= row_difference(old.codes.data() + to, window.codes.data() + from, count);
     });
-    if (same) return;
+    if (difference == 0) return;
     Brick brick = old;
     for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
-      std::memcpy(brick.codes.data() + to, window.codes.data() + from, count);
+      copy_row(brick.codes.data() + to, window.codes.data() + from, count);
     });
     field.set_brick(coord, brick);
     changed.push_back(coord);

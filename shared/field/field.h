@@ -74,11 +74,20 @@ class Field {
     uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
     std::map<int, Material> paint;  ///< by index in the chunk
   };
+  /// The chunk that was asked for last: most questions in a row are about the same one.
+  struct LastChunk {
+    ChunkCoord coord;
+    uint64_t edited;  ///< as EditedChunk::bricks
+    const GeneratedChunk* generated;
+  };
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
+  void forget_generated();
+  LastChunk& last_chunk(ChunkCoord chunk);
 
   TerrainSource source_;
   std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> generated_;
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
+  std::optional<LastChunk> last_;
   uint64_t hash_ = 0;
 };
 

@@ -1,10 +1,12 @@
 #include "shared/field/merge_patch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
+#include "shared/field/occupancy_byte.h"
 #include "shared/field/stamp.h"
 
 namespace scree {
@@ -26,6 +28,12 @@ constexpr int near_surface = 64;
 /// Codes whose occupancy is a ramp: ±21. Those up to here can be moved onto an end of it unseen.
 constexpr int ramp_end = 21;
 constexpr int ramp_end_reach = 30;
+
+uint64_t eight_marks(const uint8_t* marks) {
+  uint64_t eight = 0;
+  std::memcpy(&eight, marks, sizeof(eight));
+  return eight;
+}
 
 /// Negative where a neighbour lies on the other side.
 inline int8_t crossing_signs(const Code* c, ptrdiff_t step_x, ptrdiff_t step_y) {
@@ -148,16 +156,10 @@ int settled_sum(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code*
   int sum = 0;
   for (ptrdiff_t i = 0; i < count; ++i) {
     const int8_t own = c[i];
-    const auto signs =
-        static_cast<int8_t>((own ^ c[i - 1]) | (own ^ c[i + 1]) | (own ^ c[i - step_y]) |
-                            (own ^ c[i + step_y]) | (own ^ c[i - step_x]) | (own ^ c[i + step_x]));
+    const int8_t signs = crossing_signs(c + i, step_x, step_y);
     const auto settled = static_cast<int8_t>(own < 0 ? code_solid : code_air);
     const int8_t code = signs < 0 ? own : settled;
-    // Sums of a byte, modulo 256: on the ramp that is all that there is.
-    const auto ramp = static_cast<uint8_t>(127 - 6 * code);
-    const auto below = static_cast<uint8_t>(code < -ramp_end ? units_per_voxel : ramp);
-    const auto full = static_cast<uint8_t>(code > ramp_end ? 0 : below);
-    sum += static_cast<uint8_t>(full & inner[i]);
+    sum += static_cast<uint8_t>(occupancy_byte(code) & inner[i]);
   }
   return sum;
 }
@@ -167,24 +169,36 @@ SCREE_VECTOR_CLONES
 void find_surface(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
                   const Code* __restrict piece, const uint8_t* __restrict core, uint8_t* __restrict surface) {
   for (ptrdiff_t i = 0; i < count; ++i) {
-    const int8_t own = c[i];
-    const auto signs =
-        static_cast<int8_t>((own ^ c[i - 1]) | (own ^ c[i + 1]) | (own ^ c[i - step_y]) |
-                            (own ^ c[i + step_y]) | (own ^ c[i - step_x]) | (own ^ c[i + step_x]));
+    const int8_t signs = crossing_signs(c + i, step_x, step_y);
     surface[i] =
         static_cast<uint8_t>((signs < 0 ? 0xFF : 0) & (piece[i] < near_surface ? 0xFF : 0) & core[i]);
   }
 }
 
-/// All ones for every voxel but those of the outermost layers.
-std::vector<uint8_t> inner_mask(const VoxelBox& box, int layers) {
-  std::vector<uint8_t> mask(Window::count(box), 0);
-  const VoxelCoord size = box.size();
-  for (int x = layers; x + layers < size.x; ++x)
-    for (int y = layers; y + layers < size.y; ++y)
-      std::memset(mask.data() + (static_cast<ptrdiff_t>(x) * size.y + y) * size.z + layers, 0xFF,
-                  static_cast<size_t>(size.z - 2 * layers));
-  return mask;
+SCREE_VECTOR_CLONES
+int count_marks(size_t count, const uint8_t* __restrict marks) {
+  int sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += marks[i] & 1;
+  return sum;
+}
+
+/// Σ occupancy of the inner voxels.
+SCREE_VECTOR_CLONES
+int inner_sum(size_t count, const Code* __restrict codes, const uint8_t* __restrict inner) {
+  int sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += static_cast<uint8_t>(occupancy_byte(codes[i]) & inner[i]);
+  return sum;
+}
+
+/// All ones for every voxel but those of the outermost layers. The mask holds zeros.
+void mark_inner(const VoxelCoord& size, int layers, uint8_t* mask) {
+  const ptrdiff_t plane = static_cast<ptrdiff_t>(size.y) * size.z;
+  uint8_t* first = mask + layers * plane;
+  for (int y = layers; y + layers < size.y; ++y)
+    std::memset(first + static_cast<ptrdiff_t>(y) * size.z + layers, 0xFF,
+                static_cast<size_t>(size.z - 2 * layers));
+  for (int x = layers + 1; x + layers < size.x; ++x)
+    std::memcpy(mask + x * plane, first, static_cast<size_t>(plane));
 }
 
 }  // namespace
@@ -192,39 +206,52 @@ std::vector<uint8_t> inner_mask(const VoxelBox& box, int layers) {
 MassUnits settling_gain(const Window& window) {
   const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
   const ptrdiff_t first = step_x + step_y + 1;
-  const std::vector<uint8_t> inner = inner_mask(window.box, 1);
-  const int settled = settled_sum(static_cast<ptrdiff_t>(window.codes.size()) - 2 * first, step_x, step_y,
-                                  window.codes.data() + first, inner.data() + first);
-  return settled - mass_of(part_of(window, window.box.grown(-1)));
+  std::vector<uint8_t> inner(window.codes.size());
+  mark_inner(window.box.size(), 1, inner.data());
+  return settled_sum(static_cast<ptrdiff_t>(window.codes.size()) - 2 * first, step_x, step_y,
+                     window.codes.data() + first, inner.data() + first) -
+         inner_sum(inner.size(), window.codes.data(), inner.data());
 }
 
 MergePatch::MergePatch(const Window& terrain, const Window& piece)
-    : box_(terrain.box), terrain_(terrain.codes), inner_(inner_mask(box_, 1)), core_(inner_mask(box_, 2)) {
+    : box_(terrain.box),
+      step_x_(static_cast<ptrdiff_t>(box_.size().y) * box_.size().z),
+      step_y_(box_.size().z),
+      all_(terrain.codes.size()),
+      first_(static_cast<size_t>(step_x_ + step_y_ + 1)),
+      count_(all_ - 2 * first_),
+      terrain_(terrain.codes.data()),
+      code_room_(3 * all_, code_air),
+      byte_room_(4 * all_ + sizeof(uint64_t)),  // marks are read eight at a time
+      bend_room_(2 * all_),
+      piece_(code_room_.data()),
+      united_(piece_ + all_),
+      shaped_(united_ + all_),
+      touched_(byte_room_.data()),
+      inner_(touched_ + all_),
+      core_(inner_ + all_),
+      marks_(core_ + all_),
+      convex_(bend_room_.data()),
+      concave_(convex_ + all_) {
   CHECK(box_ == piece.box.grown(margin));
-  step_y_ = box_.size().z;
-  step_x_ = step_y_ * box_.size().y;
-  first_ = static_cast<size_t>(step_x_ + step_y_ + 1);
-  const size_t all = terrain_.size();
-  count_ = all - 2 * first_;
-  before_ = mass_of(part_of(terrain, box_.grown(-1)));
-  Window around(box_);
-  put(piece, around);
-  piece_ = std::move(around.codes);
-  united_.resize(all);
-  touched_.resize(all);
-  shaped_.resize(all);
-  unite(all, terrain_.data(), piece_.data(), shaped_.data(), touched_.data());
-  united_ = shaped_;
+  mark_inner(box_.size(), 1, inner_);
+  mark_inner(box_.size(), 2, core_);
+  before_ = inner_sum(all_, terrain_, inner_);
+  const VoxelCoord size = piece.box.size();
+  const Code* row = piece.codes.data();
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y, row += size.z)
+      std::memcpy(piece_ + (x + margin) * step_x_ + (y + margin) * step_y_ + margin, row,
+                  static_cast<size_t>(size.z));
+  unite(all_, terrain_, piece_, shaped_, touched_);
+  std::memcpy(united_, shaped_, all_);
   const auto count = static_cast<ptrdiff_t>(count_);
-  fill_gaps(count, step_x_, step_y_, shaped_.data() + first_, touched_.data() + first_,
-            united_.data() + first_);
-  convex_.assign(all, 0);
-  concave_.assign(all, 0);
-  find_bends(count, step_x_, step_y_, piece_.data() + first_, united_.data() + first_,
-             touched_.data() + first_, convex_.data() + first_, concave_.data() + first_);
-  codes_ = united_;
-  list_surface();
-  single_codes_ = 3 * static_cast<MassUnits>(surface_.size());
+  fill_gaps(count, step_x_, step_y_, shaped_ + first_, touched_ + first_, united_ + first_);
+  find_bends(count, step_x_, step_y_, piece_ + first_, united_ + first_, touched_ + first_, convex_ + first_,
+             concave_ + first_);
+  codes_.assign(united_, united_ + all_);
+  mark_surface();
+  single_codes_ = MassUnits{3} * count_marks(all_, marks_);
 }
 
 MassUnits MergePatch::shape(int roundness) {
@@ -232,29 +259,30 @@ MassUnits MergePatch::shape(int roundness) {
   const int curved = std::min(size, roundness_half);
   const Amounts by{static_cast<int16_t>(curved),
                    static_cast<int16_t>((size - curved) * uniform_sixteenths / 16)};
-  const size_t all = terrain_.size();
   if (roundness >= 0)
-    grow(all, by, united_.data(), piece_.data(), concave_.data(), shaped_.data());
+    grow(all_, by, united_, piece_, concave_, shaped_);
   else
-    shrink(all, by, united_.data(), terrain_.data(), convex_.data(), touched_.data(), shaped_.data());
+    shrink(all_, by, united_, terrain_, convex_, touched_, shaped_);
   const auto count = static_cast<ptrdiff_t>(count_);
-  fill_pits(count, step_x_, step_y_, shaped_.data() + first_, core_.data() + first_, codes_.data() + first_);
-  return settled_sum(count, step_x_, step_y_, codes_.data() + first_, inner_.data() + first_) - before_;
+  fill_pits(count, step_x_, step_y_, shaped_ + first_, core_ + first_, codes_.data() + first_);
+  return settled_sum(count, step_x_, step_y_, codes_.data() + first_, inner_ + first_) - before_;
+}
+
+void MergePatch::mark_surface() {
+  find_surface(static_cast<ptrdiff_t>(count_), step_x_, step_y_, codes_.data() + first_, piece_ + first_,
+               core_ + first_, marks_ + first_);
 }
 
 /// Voxels of the surface near the piece, in order. Moving codes without changing their signs keeps it.
 void MergePatch::list_surface() {
-  std::vector<uint8_t> marks(terrain_.size() + sizeof(uint64_t), 0);
-  find_surface(static_cast<ptrdiff_t>(count_), step_x_, step_y_, codes_.data() + first_,
-               piece_.data() + first_, core_.data() + first_, marks.data() + first_);
+  mark_surface();
   surface_.clear();
-  for (size_t i = 0; i < terrain_.size(); i += sizeof(uint64_t)) {
-    uint64_t eight = 0;
-    std::memcpy(&eight, marks.data() + i, sizeof(eight));
-    if (eight == 0) continue;
-    for (size_t k = i; k < i + sizeof(eight); ++k)
-      if (marks[k] != 0) surface_.push_back(static_cast<uint32_t>(k));
-  }
+  for (size_t i = 0; i < all_; i += sizeof(uint64_t))
+    for (uint64_t eight = eight_marks(marks_ + i); eight != 0;) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(eight));
+      surface_.push_back(static_cast<uint32_t>(i + bit / 8));
+      eight &= ~(uint64_t{0xFF} << bit);
+    }
 }
 
 /// Which voxels of the surface move first, and where these are spent the next, and the next.

@@ -15,9 +15,12 @@ class MergePatch {
   /// Voxels around a posed piece's window that the terrain's must hold more.
   static constexpr int margin = 2;
 
-  /// Unites the two and closes the gaps between them. `terrain` is the piece's box grown by the margin;
-  /// `piece` has a layer at least around the voxels that may become rock.
+  /// Unites the two and closes the gaps between them. `terrain` is the piece's box grown by the margin, and
+  /// must outlive the patch; `piece` has a layer at least around the voxels that may become rock.
   MergePatch(const Window& terrain, const Window& piece);
+  MergePatch(Window&& terrain, const Window& piece) = delete;
+  MergePatch(const MergePatch&) = delete;
+  MergePatch& operator=(const MergePatch&) = delete;
 
   /// Rounds edges or fills clefts, and moves the surface (stamp_roundness_max). Returns what the terrain's
   /// mass will have changed by, once redistanced.
@@ -37,6 +40,7 @@ class MergePatch {
   /// Voxels of the surface near the piece that lie in a cleft or at an edge; all that the piece reaches; all.
   enum class Tier { bent, piece, around };
 
+  void mark_surface();
   void list_surface();
   void list_movable(int direction, Tier tier);
   MassUnits move_some(int direction, MassUnits count);
@@ -45,18 +49,23 @@ class MergePatch {
   VoxelBox box_;
   ptrdiff_t step_x_;
   ptrdiff_t step_y_;
+  size_t all_;
   size_t first_;  ///< of the voxels that have all six neighbours in the box, and those between them in memory
   size_t count_;
-  std::vector<Code> terrain_;
-  std::vector<Code> piece_;
-  std::vector<Code> united_;
-  std::vector<Code> shaped_;
+  const Code* terrain_;
+  std::vector<Code> code_room_;  ///< one allocation for each type: they were a tenth of a merge's time
+  std::vector<uint8_t> byte_room_;
+  std::vector<int16_t> bend_room_;
+  Code* piece_;
+  Code* united_;
+  Code* shaped_;
+  uint8_t* touched_;  ///< all ones where the piece changed the terrain
+  uint8_t* inner_;    ///< all ones where the voxel's mass counts: all but the outermost layer
+  uint8_t* core_;     ///< all ones where changes count in all their neighbours: two layers in
+  uint8_t* marks_;    ///< all ones at the surface near the piece, as mark_surface last found it
+  int16_t* convex_;   ///< how far rounding raises the piece here
+  int16_t* concave_;  ///< how far filling lowers the union here
   std::vector<Code> codes_;
-  std::vector<uint8_t> touched_;  ///< all ones where the piece changed the terrain
-  std::vector<uint8_t> inner_;    ///< all ones where the voxel's mass counts: all but the outermost layer
-  std::vector<uint8_t> core_;     ///< all ones where changes count in all their neighbours: two layers in
-  std::vector<int16_t> convex_;   ///< how far rounding raises the piece here
-  std::vector<int16_t> concave_;  ///< how far filling lowers the union here
   std::vector<uint32_t> surface_;
   std::vector<uint32_t> movable_;
   MassUnits before_ = 0;

@@ -1,6 +1,8 @@
 #include "shared/field/posed_piece.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -27,6 +29,46 @@ struct PosedAxes {
 
 constexpr Code near_surface = 21;  ///< half a voxel
 
+static_assert(std::endian::native == std::endian::little, "near_bits reads eight codes as one word");
+
+/// The highest bit of each byte: whether that code is near the surface or inside.
+uint64_t near_bits(const Code* codes) {
+  constexpr uint64_t highest = 0x8080808080808080ULL, ones = 0x0101010101010101ULL;
+  uint64_t eight = 0;
+  std::memcpy(&eight, codes, sizeof(eight));
+  // Adding this carries codes that are not negative into the highest bit when they are above.
+  return (eight | ~((eight & ~highest) + ones * (127 - near_surface))) & highest;
+}
+
+struct Range {
+  int first, last;
+};
+
+/// Where the first and the last code near the surface lie in a row; first = count where none does.
+Range near_range(const Code* row, int count) {
+  constexpr int word = sizeof(uint64_t);
+  int first = 0, last = count - 1;
+  if (count < word) {
+    while (first < count && row[first] > near_surface) ++first;
+    while (last > first && row[last] > near_surface) --last;
+    return {first, last};
+  }
+  uint64_t bits = 0;
+  for (;; first += word) {
+    first = std::min(first, count - word);
+    bits = near_bits(row + first);
+    if (bits != 0) break;
+    if (first == count - word) return {count, count - 1};
+  }
+  first += std::countr_zero(bits) / 8;
+  for (last = count - word;; last -= word) {
+    last = std::max(last, 0);
+    bits = near_bits(row + last);
+    if (bits != 0) break;
+  }
+  return {first, last + word - 1 - std::countl_zero(bits) / 8};
+}
+
 /// Calls f(x, y, first z, last z) for the rows with voxels near the surface or inside.
 template <typename F>
 void for_each_near_row(const Window& window, F&& f) {
@@ -35,11 +77,8 @@ void for_each_near_row(const Window& window, F&& f) {
   const Code* row = window.codes.data();
   for (int x = all.lo.x; x < all.hi.x; ++x)
     for (int y = all.lo.y; y < all.hi.y; ++y, row += nz) {
-      int first = 0, last = nz - 1;
-      while (first < nz && row[first] > near_surface) ++first;
-      if (first == nz) continue;
-      while (row[last] > near_surface) --last;
-      f(x, y, all.lo.z + first, all.lo.z + last);
+      const Range near = near_range(row, nz);
+      if (near.first < nz) f(x, y, all.lo.z + near.first, all.lo.z + near.last);
     }
 }
 

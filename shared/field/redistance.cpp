@@ -156,15 +156,10 @@ void keep_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const C
     const auto signs =
         static_cast<int8_t>((own ^ c[i - 1]) | (own ^ c[i + 1]) | (own ^ c[i - step_y]) |
                             (own ^ c[i + step_y]) | (own ^ c[i - step_x]) | (own ^ c[i + step_x]));
-    magnitudes[i] = signs < 0 ? magnitudes[i] : far_voxels;
-    floors[i] = signs < 0 ? floors[i] : 0.0F;
+    const float magnitude = std::abs(decode(own));
+    magnitudes[i] = signs < 0 ? magnitude : far_voxels;
+    floors[i] = signs < 0 ? magnitude : 0.0F;
   }
-}
-
-SCREE_VECTOR_CLONES
-void decode_magnitudes(size_t count, const Code* __restrict codes, float* __restrict magnitudes,
-                       float* __restrict floors) {
-  for (size_t i = 0; i < count; ++i) floors[i] = magnitudes[i] = std::abs(decode(codes[i]));
 }
 
 /// Codes of the magnitudes, on the sides where they were.
@@ -177,17 +172,18 @@ void encode_magnitudes(size_t count, const float* __restrict magnitudes, Code* _
   }
 }
 
-/// Calls f(index, count) for the runs of voxels in the outermost layer of the planes between the first and
-/// the last.
-template <typename F>
-void for_each_rim(const VoxelCoord& size, F&& f) {
-  const auto nz = static_cast<size_t>(size.z);
-  for (int x = 1; x + 1 < size.x; ++x) {
-    const size_t plane = static_cast<size_t>(x) * static_cast<size_t>(size.y) * nz;
-    f(plane, nz + 1);
-    for (int y = 1; y + 2 < size.y; ++y) f(plane + static_cast<size_t>(y + 1) * nz - 1, size_t{2});
-    f(plane + static_cast<size_t>(size.y - 1) * nz - 1, nz + 1);
+/// The outermost layer keeps its magnitudes.
+void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* magnitudes, float* floors) {
+  const auto nz = static_cast<size_t>(size.z), plane = static_cast<size_t>(size.y) * nz;
+  const auto keep = [&](size_t first, size_t count) {
+    for (size_t i = first; i < first + count; ++i) floors[i] = magnitudes[i] = std::abs(decode(codes[i]));
+  };
+  keep(0, plane + nz + 1);
+  for (size_t x = plane; x + plane < codes.size(); x += plane) {
+    for (size_t row = x + nz; row + 2 * nz < x + plane; row += nz) keep(row + nz - 1, 2);
+    keep(x + plane - nz - 1, 2 * nz + 2);
   }
+  keep(codes.size() - plane, plane);
 }
 
 /// Rows with voxels that others measure from.
@@ -207,20 +203,10 @@ void redistance(Window& window) {
   CHECK(std::min({size.x, size.y, size.z}) >= 3);
   Solver solver(size);
   const size_t count = window.codes.size();
-  decode_magnitudes(count, window.codes.data(), solver.magnitudes(), solver.floors());
   const ptrdiff_t step_y = size.z, step_x = step_y * size.y, first = step_x + step_y + 1;
-  std::vector<float> rim;
-  for_each_rim(size, [&](size_t at, size_t many) {
-    rim.insert(rim.end(), solver.magnitudes() + at, solver.magnitudes() + at + many);
-  });
   keep_crossings(static_cast<ptrdiff_t>(count) - 2 * first, step_x, step_y, window.codes.data() + first,
                  solver.magnitudes() + first, solver.floors() + first);
-  size_t next = 0;
-  for_each_rim(size, [&](size_t at, size_t many) {
-    std::copy_n(rim.data() + next, many, solver.magnitudes() + at);
-    std::copy_n(rim.data() + next, many, solver.floors() + at);
-    next += many;
-  });
+  keep_rim(size, window.codes, solver.magnitudes(), solver.floors());
   find_sources(size, solver);
   solver.solve(passes_of_codes);
   encode_magnitudes(count, solver.magnitudes(), window.codes.data());
