@@ -48,7 +48,9 @@ Json json_of(const WorkReport& work) {
           {"requests_waiting_most", work.requests_waiting_most},
           {"merges_put_off_most", work.merges_put_off_most},
           {"breaks_left_out", work.breaks_left_out},
-          {"dents_left_out", work.dents_left_out}};
+          {"dents_left_out", work.dents_left_out},
+          {"supports_put_off_most", work.supports_put_off_most},
+          {"supports_given_up", work.supports_given_up}};
 }
 
 Json json_of(const NetStats& net) {
@@ -79,6 +81,8 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   merges_put_off_most = std::max(merges_put_off_most, work.merges_put_off);
   breaks_left_out += work.breaks_left_out;
   dents_left_out += work.dents_left_out;
+  supports_put_off_most = std::max(supports_put_off_most, work.supports_put_off);
+  supports_given_up += work.supports_given_up;
 }
 
 void ServerReport::add(const TickDelta& delta) {

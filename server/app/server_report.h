@@ -23,6 +23,8 @@ struct WorkReport {
   uint32_t merges_put_off_most = 0;
   uint64_t breaks_left_out = 0;
   uint64_t dents_left_out = 0;
+  uint32_t supports_put_off_most = 0;
+  uint64_t supports_given_up = 0;
 
   void add(Tick tick, const TickWork& work);
 };

@@ -13,6 +13,18 @@ inline constexpr size_t island_bricks_per_tick = 1024;
 /// islands were switched off may be more: they make several searches.
 inline constexpr size_t island_cut_bricks_max = 4096;
 
+/// Bricks around a change in which a mass too heavy for its neck is looked for: 14 m at 0.25 m. What reaches
+/// farther is held.
+inline constexpr int support_reach_bricks = 7;
+
+/// Bricks a side within which changes make one search for what holds: a blow of ordinary size.
+inline constexpr int support_cluster_bricks = 5;
+
+/// Seeds of a crushed neck: one for so many faces of voxels, at most so many; and how fast they part.
+inline constexpr int64_t neck_faces_per_seed = 24;
+inline constexpr uint32_t neck_seeds_max = 6;
+inline constexpr float neck_throw_m_s = 2.0F;
+
 /// Points of an island's surface that are tested against the ground, besides the corners of its hull. Above:
 /// they are spread more thinly.
 inline constexpr size_t concave_samples_max = 128;
@@ -78,6 +90,9 @@ inline constexpr float seed_cost_us = 22.0F;
 inline constexpr float break_cost_us = 500.0F;
 inline constexpr float dent_cost_us = 500.0F;
 inline constexpr float merge_cost_us = 250.0F;
+
+/// A part of terrain of which is asked whether it holds (shared/field/support_search.h).
+inline constexpr float support_part_cost_us = 0.7F;
 
 /// Merges in a tick whose budget is used up: it must get better some time.
 inline constexpr uint32_t merges_per_tick_min = 2;

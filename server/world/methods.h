@@ -20,6 +20,7 @@ struct Methods {
   bool impacts = true;                                        ///< hard contacts break pieces again
   bool dents = true;                                          ///< hard contacts dent soft ground
   bool islands = true;                                        ///< what is cut off from the ground falls
+  bool support = false;                                       ///< what is too heavy for its neck breaks off
   Recombination recombine = Recombination::stamp;             ///< how pieces at rest become terrain again
   Cutter cutter = Cutter::field;                              ///< how what breaks is cut into pieces
   Simplifier simplifier = Simplifier::hull;                   ///< which points of a piece collide

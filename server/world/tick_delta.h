@@ -45,13 +45,19 @@ struct StageTimes {
 struct TickWork {
   uint32_t budget_us = 0;
   uint32_t estimate_us = 0;  ///< at the tick's end; over the budget where the least was done all the same
-  uint32_t requests_waiting = 0;  ///< put off to a later tick
-  uint32_t merges_put_off = 0;    ///< pieces that are at rest and wait their turn
-  uint32_t breaks_left_out = 0;   ///< blows that would have broken a piece
-  uint32_t dents_left_out = 0;    ///< blows that would have dented the ground
-  bool merging_sooner = false;    ///< a crowd: half of the rest will do
+  uint32_t requests_waiting = 0;   ///< put off to a later tick
+  uint32_t merges_put_off = 0;     ///< pieces that are at rest and wait their turn
+  uint32_t breaks_left_out = 0;    ///< blows that would have broken a piece
+  uint32_t dents_left_out = 0;     ///< blows that would have dented the ground
+  bool merging_sooner = false;     ///< a crowd: half of the rest will do
+  uint32_t supports_put_off = 0;   ///< bricks that changed, around which what holds is not searched yet
+  uint32_t supports_given_up = 0;  ///< searches for what holds that were too intricate
 
-  bool cut_short() const { return requests_waiting + merges_put_off + breaks_left_out + dents_left_out > 0; }
+  bool cut_short() const {
+    return requests_waiting + merges_put_off + breaks_left_out + dents_left_out + supports_put_off +
+               supports_given_up >
+           0;
+  }
 };
 
 /// An operation as it was applied, with what a publisher needs to know to send it.

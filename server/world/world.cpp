@@ -8,6 +8,7 @@
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
 #include "server/world/state_hash.h"
+#include "server/world/support_stage.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -81,6 +82,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.rest_ms = watch.lap_ms();
   for (const PieceId id : at_rest) merge(s, id, *delta);
   delta->times.recombine_ms = watch.lap_ms();
+  break_overloads(s, *delta);
   drop_islands(s, *delta);
   delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);

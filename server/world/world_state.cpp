@@ -50,6 +50,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());
+  if (methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   if (const auto ended = piece_ended_by(operation)) traits.erase(*ended);

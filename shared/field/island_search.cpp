@@ -9,10 +9,8 @@
 
 namespace scree {
 
-IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed) : field_(field) {
-  const TerrainSource& source = field.source();
-  const float chunk_m = static_cast<float>(chunk_size) * source.voxel_size_m;
-  ground_chunk_y_ = floor_to_int(floor_m(source) / chunk_m) - 1;
+IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed)
+    : field_(field), ground_(field) {
   sites_.reserve(changed.size() * 4);
   start(changed);
 }
@@ -51,11 +49,6 @@ void IslandSearch::start(std::span<const BrickCoord> changed) {
       if (bared.any()) seed(brick + brick_faces[face], bared);
     }
   }
-}
-
-bool IslandSearch::is_ground(BrickCoord brick) const {
-  const ChunkCoord chunk = chunk_of(brick);
-  return chunk.y <= ground_chunk_y_ && !field_.has_edits(chunk);
 }
 
 bool IslandSearch::is_later(uint32_t a, uint32_t b) const {
@@ -115,7 +108,7 @@ void IslandSearch::cross(uint32_t part, size_t face) {
   if (!reached.any()) return;
   const BrickCoord beyond = parts_[part].brick + brick_faces[face];
   uint32_t flood = root(parts_[part].flood);
-  if (is_ground(beyond)) {
+  if (ground_.holds(beyond)) {
     floods_[flood].verdict = Verdict::ground;
     return;
   }
@@ -134,7 +127,7 @@ void IslandSearch::grow(uint32_t flood) {
   std::ranges::pop_heap(growing.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
   const uint32_t part = growing.ahead.back();
   growing.ahead.pop_back();
-  if (is_ground(parts_[part].brick)) growing.verdict = Verdict::ground;
+  if (ground_.holds(parts_[part].brick)) growing.verdict = Verdict::ground;
   for (size_t face = 0; face < brick_faces.size(); ++face) {
     if (floods_[root(flood)].verdict == Verdict::ground) return;
     cross(part, face);

@@ -1,7 +1,6 @@
 // Finds islands: solid terrain that a change cut off from the ground.
 //
-// Solid is a code < 0; voxels connect by faces. Ground is any chunk that was never edited and lies below the
-// terrain's floor, where generated terrain is nothing but rock (floor_m). An island is a component that
+// Solid is a code < 0; voxels connect by faces; ground is what ground.h says. An island is a component that
 // touches the changed bricks, or lies against their faces, and does not reach the ground. What hangs in the
 // air elsewhere, as generated or poured, stays until a change touches it.
 //
@@ -22,6 +21,7 @@
 
 #include "shared/field/brick_bits.h"
 #include "shared/field/field.h"
+#include "shared/field/ground.h"
 
 namespace scree {
 
@@ -74,7 +74,6 @@ class IslandSearch {
   BrickBits taken(const Site& site) const;
   void seed(BrickCoord brick, BrickBits among);
   void start(std::span<const BrickCoord> changed);
-  bool is_ground(BrickCoord brick) const;
   bool is_later(uint32_t a, uint32_t b) const;
   uint32_t root(uint32_t flood) const;
   void add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood);
@@ -83,7 +82,7 @@ class IslandSearch {
   void cross(uint32_t part, size_t face);
 
   Field& field_;
-  int ground_chunk_y_;  ///< chunks up to this y lie below the floor
+  Ground ground_;
   std::unordered_map<BrickCoord, Site, CoordHash> sites_;
   std::vector<Part> parts_;
   std::vector<Flood> floods_;

@@ -1,0 +1,110 @@
+#include "server/world/support_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "server/world/limits.h"
+#include "server/world/spawn.h"
+#include "shared/base/limits.h"
+#include "shared/field/support_search.h"
+
+namespace scree {
+
+namespace {
+
+/// The first brick that waits, and those near it.
+std::vector<BrickCoord> first_cluster(const std::set<BrickCoord>& strained) {
+  const BrickCoord first = *strained.begin();
+  const auto near = [](int a, int b) { return std::abs(a - b) < limits::support_cluster_bricks; };
+  std::vector<BrickCoord> cluster;
+  for (const BrickCoord brick : strained) {
+    if (!near(brick.x, first.x)) break;  // they are ordered by x
+    if (near(brick.y, first.y) && near(brick.z, first.z)) cluster.push_back(brick);
+  }
+  return cluster;
+}
+
+CarveOperation crushing(const World::State& state, const VoxelBox& voxels, int64_t section_voxels) {
+  const float dx = state.config.terrain.voxel_size_m;
+  const auto at = [&](VoxelCoord v) {
+    return (glm::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) - 0.5F) * dx;
+  };
+  const glm::vec3 lo = at(voxels.lo), hi = at(voxels.hi);
+  CarveOperation operation;
+  operation.shape = box(0.5F * (lo + hi), 0.5F * (hi - lo));
+  operation.seeds = static_cast<uint32_t>(
+      std::clamp<int64_t>(section_voxels / limits::neck_faces_per_seed, 1, limits::neck_seeds_max));
+  operation.random_seed = static_cast<uint32_t>(state.tick) * 0x9E3779B1U + state.next_piece;
+  operation.impact_m = centre_of(operation.shape);
+  operation.first_piece = state.next_piece;
+  operation.cutter = state.methods.cutter;
+  return operation;
+}
+
+void crush(World::State& state, const CarveOperation& operation, TickDelta& delta) {
+  if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
+  const float dx = state.config.terrain.voxel_size_m;
+  const Applied applied = state.apply_and_record(operation, delta);
+  state.ledger.moved -= applied.terrain_gain;
+  state.ledger.dust += applied.dust;
+  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  const auto thrown = [&](PieceId, const Volume& volume) {
+    Newborn piece;
+    piece.body.pose.position_m = volume.centre_voxels * dx;
+    const glm::vec3 away = piece.body.pose.position_m - operation.impact_m;
+    const float distance = std::max(std::sqrt(glm::dot(away, away)), dx);
+    piece.body.velocity_m_s = away / distance * limits::neck_throw_m_s;
+    piece.traits = {limits::break_generations_max};
+    return piece;
+  };
+  spawn(state, applied, thrown, delta);
+}
+
+/// Halves of a box that is longer than one edit reaches, halved again.
+void crush_by_halves(World::State& state, const VoxelBox& box, int64_t section_voxels, TickDelta& delta) {
+  const VoxelCoord size = box.size();
+  const int longest = std::max({size.x, size.y, size.z});
+  const float reach_m = 0.5F * static_cast<float>(longest) * state.config.terrain.voxel_size_m;
+  if (reach_m <= limits::edit_reach_max_m) {
+    crush(state, crushing(state, box, section_voxels), delta);
+    return;
+  }
+  VoxelBox first = box, second = box;
+  int VoxelCoord::*const side = size.x == longest   ? &VoxelCoord::x
+                                : size.y == longest ? &VoxelCoord::y
+                                                    : &VoxelCoord::z;
+  first.hi.*side = second.lo.*side = box.lo.*side + longest / 2;
+  crush_by_halves(state, first, section_voxels / 2, delta);
+  crush_by_halves(state, second, section_voxels / 2, delta);
+}
+
+/// False when there are too many pieces to break it now.
+bool break_off(World::State& state, const Overload& overload, TickDelta& delta) {
+  for (const Neck& neck : overload.necks) {
+    if (state.pieces.size() + limits::neck_seeds_max > state.config.pieces_max) return false;
+    crush_by_halves(state, neck.box, neck.section_voxels, delta);
+    state.work.spend(limits::dent_cost_us);
+  }
+  return true;
+}
+
+}  // namespace
+
+void break_overloads(World::State& state, TickDelta& delta) {
+  if (!state.methods.support || !state.methods.islands) state.strained.clear();
+  bool room = true;
+  for (bool first = true; room && !state.strained.empty(); first = false) {
+    if (!first && !state.work.affords(0.0F)) break;
+    const std::vector<BrickCoord> cluster = first_cluster(state.strained);
+    for (const BrickCoord brick : cluster) state.strained.erase(brick);
+    const SupportFound found = find_overloads(state.field, cluster, limits::support_reach_bricks);
+    state.work.spend(limits::support_part_cost_us * static_cast<float>(found.parts));
+    delta.work.supports_given_up += found.given_up ? 1 : 0;
+    for (const Overload& overload : found.overloads) room = room && break_off(state, overload, delta);
+    if (!room) state.strained.insert(cluster.begin(), cluster.end());
+  }
+  delta.work.supports_put_off = static_cast<uint32_t>(state.strained.size());
+}
+
+}  // namespace scree
