@@ -5,7 +5,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
-#include "shared/field/island.h"
+#include "shared/field/specks.h"
 
 namespace scree {
 
@@ -99,6 +99,15 @@ void drop_islands(World::State& state, TickDelta& delta) {
       }
     }
   state.islands.push(std::move(later));
+}
+
+void sweep_specks(World::State& state, TickDelta& delta) {
+  // What one leaves behind may make its neighbour light enough: again, until none is left.
+  while (!state.unswept.empty()) {
+    const std::vector<BrickCoord> bricks(state.unswept.begin(), state.unswept.end());
+    state.unswept.clear();
+    for (const Island& speck : find_specks(state.field, bricks)) drop(state, speck, delta);
+  }
 }
 
 }  // namespace scree

@@ -46,4 +46,9 @@ class IslandQueue {
 /// published.
 void drop_islands(World::State& state, TickDelta& delta);
 
+/// What merges and islands left hanging loose that is too light for a piece becomes dust
+/// (shared/field/specks.h); after carves and dents the search for islands does the same. Whatever the
+/// settings; call after the other two.
+void sweep_specks(World::State& state, TickDelta& delta);
+
 }  // namespace scree

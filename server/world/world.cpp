@@ -84,6 +84,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.recombine_ms = watch.lap_ms();
   break_overloads(s, *delta);
   drop_islands(s, *delta);
+  sweep_specks(s, *delta);
   delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);
   if (s.watched && s.tick % ticks_per_watch == 0) describe_physics(s, *delta);

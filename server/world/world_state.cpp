@@ -51,6 +51,8 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   changed.insert(applied.changed.begin(), applied.changed.end());
   if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());
   if (methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
+  if (std::holds_alternative<StampOperation>(operation) || std::holds_alternative<IslandOperation>(operation))
+    unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   if (const auto ended = piece_ended_by(operation)) traits.erase(*ended);
