@@ -46,7 +46,7 @@ struct World::State {
   std::set<BrickCoord> changed;  ///< in this tick
   std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up: not searched yet
   std::set<BrickCoord> strained;  ///< those that changed, around which what holds is not searched yet
-  std::set<BrickCoord> unswept;  ///< changed by merges and by islands' going: specks may lie there
+  std::set<BrickCoord> unswept;   ///< changed by merges and by islands' going: specks may lie there
   IslandQueue islands;
   WorkBudget work;
   std::deque<Command> waiting;  ///< requests that no tick had room for yet, in order
