@@ -1,6 +1,7 @@
 #include "client/render/node_mesh.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "shared/field/leaf_surface.h"
@@ -208,8 +209,9 @@ BlockWindows plain_windows(const VoxelBox& owned, bool is_rock) {
 SheetPlace place_by(Polygoniser polygoniser, const Window& window) {
   if (polygoniser == Polygoniser::nets)
     return [](VoxelCoord, std::span<const LeafCrossing> crossings) { return mean_of(crossings); };
-  return [&window](VoxelCoord cell, std::span<const LeafCrossing> crossings) {
-    return sharp_vertex(window, cell, crossings);
+  return [vertices = std::make_shared<SharpVertices>(window)](VoxelCoord cell,
+                                                              std::span<const LeafCrossing> crossings) {
+    return vertices->place(cell, crossings);
   };
 }
 
