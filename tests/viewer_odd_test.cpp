@@ -54,6 +54,18 @@ TEST(ViewerOdd, opengl_es_3_0_draws_too_and_says_which_methods_it_lacks) {
     if (entry.name == "mesh") {
       EXPECT_TRUE(waits) << said;
     }
+    if (entry.name == "grid") {
+      EXPECT_NE(said.find("the method grid needs geometry shaders"), std::string::npos) << said;
+    }
+  }
+}
+
+TEST(ViewerOdd, grids_that_cannot_be_are_refused_by_name) {
+  for (const std::string option : {"--grid-resolution 40", "--grid-resolution 0", "--grid-resolution 4096",
+                                   "--grid-scale 3", "--grid-scale 64", "--grid-spacing shrinking"}) {
+    const auto [status, said] = run_viewer("", "--port 1 --offscreen --screenshot never.png " + option);
+    EXPECT_NE(status, 0) << option;
+    EXPECT_NE(said.find(option.substr(0, option.find(' '))), std::string::npos) << said;
   }
 }
 

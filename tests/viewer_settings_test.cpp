@@ -70,7 +70,8 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
   for (const std::string broken :
        {"{\"width\": 12", "[]", R"({"width": "wide"})", R"({"width": -5})", R"({"method": "magic"})",
-        R"({"tool": "spoon"})", R"({"help": 1})", R"({"radius_m": 1e30})"}) {
+        R"({"tool": "spoon"})", R"({"help": 1})", R"({"radius_m": 1e30})", R"({"grid_resolution": 33})",
+        R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
     const KeptSettings kept(settings_file());
@@ -87,6 +88,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   Settings settings;
   settings.width = 801;
   settings.method = all_methods().front().name;
+  settings.grid = {64, 4, GridSpacing::growing};
   settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {false, true, false};
   settings.overlay = {true, false, true, false, true};
@@ -100,12 +102,15 @@ TEST_F(SettingsTest, flags_win) {
   settings.width = 640;
   settings.height = 360;
   settings.view_radius_m = 48.0F;
+  settings.grid = {64, 4, GridSpacing::growing};
   ViewerOptions options;
+  options.given.grid_scale = true;
   options.given.size = true;
   options.width = 100;
   apply_settings(settings, options);
   EXPECT_EQ(options.width, 100);
   EXPECT_EQ(options.view_radius_m, 48.0F);
+  EXPECT_EQ(options.grid, (GridShape{64, GridShape().scale, GridSpacing::growing}));
 }
 
 TEST(Tool, every_shape_is_within_the_servers_limits) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace {
 
 /// As shaders/bricks.glsl declares its arrays.
 constexpr size_t levels_max = 8;
+
+/// The border of shaders/bricks.glsl, and one more for what is rounded.
+constexpr int border_bricks = 3;
 
 /// The finest level reaches two thirds of the view radius at least: beyond, a pixel is hardly smaller than
 /// its voxels.
@@ -106,6 +110,33 @@ void BrickWorld::use(const gl::Program& program, glm::vec3 eye_m) const {
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_3D, atlas_.texture());
   glActiveTexture(GL_TEXTURE0);
+}
+
+std::optional<BrickWorld::Plain> BrickWorld::plain(glm::vec3 lo_m, glm::vec3 hi_m, int level) const {
+  if (level >= static_cast<int>(levels_.size())) return std::nullopt;
+  const ClipLevel& shown = levels_[static_cast<size_t>(level)];
+  const ClipWindow& window = shown.window();
+  // A box that ends where a brick begins does not reach into it.
+  constexpr float end_voxels = 1e-3F;
+  const glm::ivec3 lo(glm::floor((lo_m / shown.voxel_m() + end_voxels) / static_cast<float>(brick_size)));
+  const glm::ivec3 hi(glm::floor((hi_m / shown.voxel_m() - end_voxels) / static_cast<float>(brick_size)));
+  // Near the window's end the next level shows (shaders/bricks.glsl).
+  const BrickCoord margin{border_bricks, border_bricks, border_bricks};
+  if (!window.holds(BrickCoord{lo.x, lo.y, lo.z} - margin) ||
+      !window.holds(BrickCoord{hi.x, hi.y, hi.z} + margin))
+    return std::nullopt;
+  std::optional<Plain> found;
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z) {
+        const ClipEntry& entry = window.at({x, y, z});
+        const bool rock = entry.kind() == ClipEntry::solid;
+        if (!rock && !entry.is_empty()) return std::nullopt;
+        const Plain kind = rock ? Plain::rock : Plain::air;
+        if (found && *found != kind) return std::nullopt;
+        found = kind;
+      }
+  return found;
 }
 
 size_t BrickWorld::waiting() const {

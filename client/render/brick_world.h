@@ -1,9 +1,10 @@
-// The raymarcher's copy of the field on the GPU: one atlas of bricks, and one texture of entries that holds
-// the windows of all levels, which follow the camera. Needs the GL context current.
+// A copy of the field on the GPU, for rays and grids: one atlas of bricks, and one texture of entries that
+// holds the windows of all levels, which follow the camera. Needs the GL context current.
 #pragma once
 
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "client/render/camera.h"
 #include "client/render/clip_level.h"
@@ -21,6 +22,11 @@ class BrickWorld {
 
   /// Binds the textures to units 0 and 1 and sets the uniforms of shaders/bricks.glsl.
   void use(const gl::Program& program, glm::vec3 eye_m) const;
+
+  /// What a box, metres, has in all of its bricks on one level: only air, or only rock. Nothing where it has
+  /// a surface, where that is not loaded, or where the level's window does not show it.
+  enum class Plain { air, rock };
+  std::optional<Plain> plain(glm::vec3 lo_m, glm::vec3 hi_m, int level) const;
 
   BrickAtlas& atlas() { return atlas_; }
   const BrickAtlas& atlas() const { return atlas_; }

@@ -14,6 +14,7 @@
 
 #include "client/mirror/mirror.h"
 #include "client/render/camera.h"
+#include "client/render/grid_shape.h"
 #include "shared/base/memory_count.h"
 
 namespace scree {
@@ -77,6 +78,8 @@ class DrawMethod {
   virtual bool complete() const = 0;
   /// How far from the camera it draws; the fog hides what would be beyond. Metres.
   virtual float reach_m() const = 0;
+  /// Of methods that draw by a grid: its shape from now on.
+  virtual void shape_grid(const GridShape&) {}
   virtual void draw(const DrawPass& pass) = 0;
   virtual DrawStats stats() const = 0;
 };

@@ -32,21 +32,25 @@ Result<GLuint> compile(GLenum stage, std::string_view name, std::span<const std:
 
 }  // namespace
 
+Result<void> Program::attach(GLenum stage, std::string_view name,
+                             std::span<const std::string_view> parts) const {
+  const Result<GLuint> shader = compile(stage, name, parts);
+  if (!shader) return fail(shader.error().message);
+  glAttachShader(name_, *shader);
+  glDeleteShader(*shader);
+  return {};
+}
+
 Result<Program> Program::link(std::string_view name, std::span<const std::string_view> vertex_parts,
-                              std::span<const std::string_view> fragment_parts) {
-  const Result<GLuint> vertex = compile(GL_VERTEX_SHADER, name, vertex_parts);
-  if (!vertex) return fail(vertex.error().message);
-  const Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, name, fragment_parts);
-  if (!fragment) {
-    glDeleteShader(*vertex);
-    return fail(fragment.error().message);
-  }
+                              std::span<const std::string_view> fragment_parts,
+                              std::span<const std::string_view> geometry_parts) {
   Program program(glCreateProgram());
-  glAttachShader(program.name_, *vertex);
-  glAttachShader(program.name_, *fragment);
+  Result<void> attached = program.attach(GL_VERTEX_SHADER, name, vertex_parts);
+  if (attached && !geometry_parts.empty())
+    attached = program.attach(GL_GEOMETRY_SHADER, name, geometry_parts);
+  if (attached) attached = program.attach(GL_FRAGMENT_SHADER, name, fragment_parts);
+  if (!attached) return fail(attached.error().message);
   glLinkProgram(program.name_);
-  glDeleteShader(*vertex);
-  glDeleteShader(*fragment);
   GLint done = GL_FALSE;
   glGetProgramiv(program.name_, GL_LINK_STATUS, &done);
   if (done == GL_TRUE) return program;

@@ -1,7 +1,7 @@
 // Owners of OpenGL objects, and programs. Only for client/render: includes epoxy. Everything here needs the
 // context current on the calling thread, destructors too.
 //
-// Within the common subset of OpenGL 3.3 core and OpenGL ES 3.0.
+// Within the common subset of OpenGL 3.3 core and OpenGL ES 3.0, but for geometry shaders.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -52,6 +52,10 @@ struct FramebufferTraits {
   static void make(GLuint* name) { glGenFramebuffers(1, name); }
   static void free(GLuint* name) { glDeleteFramebuffers(1, name); }
 };
+struct QueryTraits {
+  static void make(GLuint* name) { glGenQueries(1, name); }
+  static void free(GLuint* name) { glDeleteQueries(1, name); }
+};
 struct RenderbufferTraits {
   static void make(GLuint* name) { glGenRenderbuffers(1, name); }
   static void free(GLuint* name) { glDeleteRenderbuffers(1, name); }
@@ -61,15 +65,18 @@ using Buffer = Object<BufferTraits>;
 using VertexArray = Object<VertexArrayTraits>;
 using Texture = Object<TextureTraits>;
 using Framebuffer = Object<FramebufferTraits>;
+using Query = Object<QueryTraits>;
 using Renderbuffer = Object<RenderbufferTraits>;
 
-/// A linked vertex and fragment shader. Uniforms that the compiler removed are set in vain, silently.
+/// A program of a vertex and a fragment shader, linked. Uniforms that the compiler removed are set in vain,
+/// silently.
 class Program {
  public:
-  /// `parts` are concatenated, behind the version line that the context needs. The message of a failure is
-  /// the compiler's.
+  /// `parts` are concatenated, behind the version line that the context needs; without any for a geometry
+  /// shader there is none. The message of a failure is the compiler's.
   static Result<Program> link(std::string_view name, std::span<const std::string_view> vertex_parts,
-                              std::span<const std::string_view> fragment_parts);
+                              std::span<const std::string_view> fragment_parts,
+                              std::span<const std::string_view> geometry_parts = {});
   ~Program() { glDeleteProgram(name_); }
   Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
   Program& operator=(Program&&) = delete;
@@ -85,6 +92,8 @@ class Program {
 
  private:
   explicit Program(GLuint name) : name_(name) {}
+  /// Nothing of it is kept if it does not compile.
+  Result<void> attach(GLenum stage, std::string_view name, std::span<const std::string_view> parts) const;
   GLuint name_;
 };
 

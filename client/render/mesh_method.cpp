@@ -1,19 +1,14 @@
 #include "client/render/mesh_method.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/common.hpp>
-#include <optional>
+#include <glm/geometric.hpp>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "client/render/gl.h"
-#include "client/render/gpu_mesh.h"
+#include "client/render/lighting.h"
 #include "client/render/mesh_scheduler.h"
-#include "client/render/piece_tint.h"
-#include "client/render/shader_sources.h"
+#include "client/render/piece_views.h"
 
 namespace scree {
 namespace {
@@ -21,47 +16,6 @@ namespace {
 glm::vec3 as_vector(VoxelCoord v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-
-/// The uniforms of surface.vert that differ from mesh to mesh, looked up once.
-struct SurfaceProgram {
-  gl::Program program;
-  GLint step_m, origin_m, centre_m, place_m, rotation, loose, tint;
-
-  explicit SurfaceProgram(gl::Program&& linked)
-      : program(std::move(linked)),
-        step_m(program.uniform("u_step_m")),
-        origin_m(program.uniform("u_origin_m")),
-        centre_m(program.uniform("u_centre_m")),
-        place_m(program.uniform("u_place_m")),
-        rotation(program.uniform("u_rotation")),
-        loose(program.uniform("u_loose")),
-        tint(program.uniform("u_tint")) {}
-};
-
-Result<SurfaceProgram> link_surface() {
-  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
-  const std::array fragment{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
-                            shader_source("noise.glsl"),    shader_source("rock.glsl"),
-                            shader_source("shadow.glsl"),   shader_source("surface.frag")};
-  Result<gl::Program> program = gl::Program::link("surface", vertex, fragment);
-  if (!program) return fail(program.error().message);
-  return SurfaceProgram(std::move(*program));
-}
-
-Result<SurfaceProgram> link_shadow() {
-  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
-  Result<gl::Program> program =
-      gl::Program::link("surface_shadow", vertex, std::array{shader_source("surface_shadow.frag")});
-  if (!program) return fail(program.error().message);
-  return SurfaceProgram(std::move(*program));
-}
-
-struct PieceView {
-  std::optional<GpuMesh> mesh;  ///< none: too small for the grid
-  glm::vec3 centre_m;
-  float radius_m;
-  Pose pose;  ///< the last known: a piece that has merged stays there until the rock is shown
-};
 
 class MeshMethod final : public DrawMethod {
  public:
@@ -84,9 +38,7 @@ class MeshMethod final : public DrawMethod {
  private:
   void show(MeshUpdate&& update);
   void erase(const SurfaceNode& node);
-  void show_piece(const PieceMesh& piece);
   void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
-  void draw_pieces(const SurfaceProgram& program, const Frustum& frustum);
   void count(const GpuMesh& mesh);
 
   Polygoniser polygoniser_;
@@ -100,7 +52,7 @@ class MeshMethod final : public DrawMethod {
     float voxel_m;
   };
   std::unordered_map<SurfaceNode, Block, SurfaceNodeHash> blocks_;
-  std::unordered_map<PieceId, PieceView> pieces_;
+  PieceViews pieces_;
   std::vector<std::pair<float, const Block*>> visible_;  ///< squared distance; kept for its memory
   size_t gpu_bytes_ = 0;
   DrawStats pass_;
@@ -109,10 +61,8 @@ class MeshMethod final : public DrawMethod {
 void MeshMethod::update(const Scene& scene, const Camera& camera) {
   voxel_m_ = scene.field.source().voxel_size_m;
   show(scheduler_.update(scene, camera.eye_m));
-  for (auto& [id, view] : pieces_) {
-    const auto piece = scene.pieces.find(id);
-    if (piece != scene.pieces.end()) view.pose = piece->second.pose;
-  }
+  // One that has merged stays where it was until the rock is shown.
+  pieces_.move(scene.pieces);
 }
 
 void MeshMethod::show(MeshUpdate&& update) {
@@ -123,13 +73,8 @@ void MeshMethod::show(MeshUpdate&& update) {
     const float voxel_m = voxel_m_ * static_cast<float>(1 << node.level);
     gpu_bytes_ += blocks_.emplace(node.node, Block{GpuMesh(node.mesh), voxel_m}).first->second.mesh.bytes();
   }
-  for (const PieceId id : update.removed_pieces) {
-    const auto found = pieces_.find(id);
-    if (found == pieces_.end()) continue;
-    if (found->second.mesh) gpu_bytes_ -= found->second.mesh->bytes();
-    pieces_.erase(found);
-  }
-  for (const PieceMesh& piece : update.pieces) show_piece(piece);
+  for (const PieceId id : update.removed_pieces) pieces_.remove(id);
+  for (const PieceMesh& piece : update.pieces) pieces_.show(piece, voxel_m_);
 }
 
 void MeshMethod::erase(const SurfaceNode& node) {
@@ -139,38 +84,16 @@ void MeshMethod::erase(const SurfaceNode& node) {
   blocks_.erase(found);
 }
 
-void MeshMethod::show_piece(const PieceMesh& piece) {
-  PieceView view;
-  if (!piece.mesh.empty()) {
-    view.mesh.emplace(piece.mesh);
-    gpu_bytes_ += view.mesh->bytes();
-  }
-  view.pose = piece.piece.pose;
-  view.centre_m = piece.piece.volume->centre_voxels * voxel_m_;
-  const VoxelBox& box = piece.piece.volume->window.box;
-  view.radius_m = glm::length(as_vector(box.size())) * voxel_m_;
-  pieces_.insert_or_assign(piece.id, std::move(view));
-}
-
 void MeshMethod::draw(const DrawPass& pass) {
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
   const SurfaceProgram& program = shadow ? shadow_ : surface_;
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
-  if (!shadow) {
-    program.program.set("u_eye", pass.eye_m);
-    program.program.set("u_sun", pass.lighting.sun);
-    program.program.set("u_fog_m", pass.lighting.fog_m);
-    program.program.set("u_ice_above_m", pass.lighting.ice_above_m);
-    program.program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
-    program.program.set("u_shadow_map", 0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, pass.lighting.shadow_map);
-  }
+  if (!shadow) set_lighting(program.program, pass, 0);
   pass_ = {};
   const Frustum frustum(pass.view_projection);
   draw_terrain(program, frustum, pass.eye_m);
-  draw_pieces(program, frustum);
+  pieces_.draw(program, frustum, voxel_m_, pass_);
   glBindVertexArray(0);
 }
 
@@ -207,27 +130,10 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
   }
 }
 
-void MeshMethod::draw_pieces(const SurfaceProgram& program, const Frustum& frustum) {
-  glUniform1f(program.loose, 1.0F);
-  glUniform1f(program.step_m, voxel_m_ / surface_steps_per_voxel);
-  for (const auto& [id, view] : pieces_) {
-    if (!view.mesh || !frustum.touches(view.pose.position_m, view.radius_m)) continue;
-    const glm::vec3 origin_m = as_vector(view.mesh->origin()) * voxel_m_;
-    const glm::vec3 place_m = view.pose.position_m;
-    const glm::quat& turn = view.pose.rotation;
-    glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
-    glUniform3f(program.centre_m, view.centre_m.x, view.centre_m.y, view.centre_m.z);
-    glUniform3f(program.place_m, place_m.x, place_m.y, place_m.z);
-    glUniform4f(program.rotation, turn.x, turn.y, turn.z, turn.w);
-    glUniform1f(program.tint, tint_of(id));
-    count(*view.mesh);
-  }
-}
-
 DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
-  stats.memory = {{"meshes", 0, gpu_bytes_}};
-  stats.pieces = pieces_.size();
+  stats.memory = {{"meshes", 0, gpu_bytes_ + pieces_.gpu_bytes()}};
+  stats.pieces = pieces_.count();
   stats.waiting = scheduler_.waiting();
   return stats;
 }
@@ -236,7 +142,7 @@ Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radiu
                                                 Polygoniser polygoniser) {
   Result<SurfaceProgram> surface = link_surface();
   if (!surface) return fail(surface.error().message);
-  Result<SurfaceProgram> shadow = link_shadow();
+  Result<SurfaceProgram> shadow = link_surface_shadow();
   if (!shadow) return fail(shadow.error().message);
   return std::make_unique<MeshMethod>(pool, view_radius_m, polygoniser, std::move(*surface),
                                       std::move(*shadow));

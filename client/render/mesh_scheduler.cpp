@@ -189,13 +189,8 @@ void MeshScheduler::begin_meshes(Field& field) {
 }
 
 void MeshScheduler::submit_piece(Field& field, PieceId id, const ScenePiece& piece) {
-  // A piece lies in the voxel frame of the rock that it was cut from: there it learns which of its faces are
-  // fresh.
-  Window before = gather_generated(field, piece.volume->window.box);
-  const uint8_t paint = paint_number(field, *piece.volume);
-  pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, id, piece, paint, before = std::move(before)] {
-    PieceMesh done{id, piece, surface_nets_closed(piece.volume->window, &before)};
-    for (SurfaceVertex& vertex : done.mesh.vertices) vertex.paint = paint;
+  pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, job = gather_piece(field, id, piece)] {
+    PieceMesh done = mesh_piece(job);
     const std::lock_guard lock(inbox->mutex);
     inbox->pieces.push_back(std::move(done));
   });

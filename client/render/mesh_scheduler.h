@@ -17,15 +17,10 @@
 
 #include "client/render/draw_method.h"
 #include "client/render/node_mesh.h"
+#include "client/render/piece_mesh.h"
 #include "client/render/work_pool.h"
 
 namespace scree {
-
-struct PieceMesh {
-  PieceId id = 0;
-  ScenePiece piece;  ///< as it was when the mesh was begun
-  SurfaceMesh mesh;
-};
 
 /// What to show from now on, as one.
 struct MeshUpdate {

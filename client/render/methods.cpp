@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "client/render/grid_method.h"
 #include "client/render/mesh_method.h"
 #include "client/render/raymarch_method.h"
 
@@ -20,6 +21,8 @@ constexpr std::array table{
                 make_dual_method},
     MethodEntry{"raymarch", "rays through an atlas of bricks, whatever was edited", nothing_missing,
                 make_raymarch_method},
+    MethodEntry{"grid", "marching cubes by a geometry shader, from a grid of points about the camera",
+                grid_method_missing, make_grid_method},
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "client/render/brick_world.h"
 #include "client/render/gl.h"
 #include "client/render/gpu_timers.h"
+#include "client/render/lighting.h"
 #include "client/render/march_targets.h"
 #include "client/render/piece_volumes.h"
 #include "client/render/shader_sources.h"
@@ -72,19 +73,6 @@ float pixel_at_one_metre(const glm::mat4& inverse, int height) {
     return glm::normalize(glm::vec3(far) / far.w - glm::vec3(near) / near.w);
   };
   return glm::length(ray(1.0F / static_cast<float>(height)) - ray(-1.0F / static_cast<float>(height)));
-}
-
-/// What the shaders of atmosphere.glsl, rock.glsl and shadow.glsl take.
-void set_light(const gl::Program& program, const DrawPass& pass) {
-  program.set("u_eye", pass.eye_m);
-  program.set("u_sun", pass.lighting.sun);
-  program.set("u_fog_m", pass.lighting.fog_m);
-  program.set("u_ice_above_m", pass.lighting.ice_above_m);
-  program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
-  program.set("u_shadow_map", shadow_unit);
-  glActiveTexture(GL_TEXTURE0 + shadow_unit);
-  glBindTexture(GL_TEXTURE_2D, pass.lighting.shadow_map);
-  glActiveTexture(GL_TEXTURE0);
 }
 
 class RaymarchMethod final : public DrawMethod {
@@ -172,7 +160,7 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
   world_->use(program, pass.eye_m);
   program.set("u_inverse_view_projection", inverse);
   program.set("u_view_projection", pass.view_projection);
-  set_light(program, pass);
+  set_lighting(program, pass, shadow_unit);
   program.set("u_pieces", pieces_.count() > 0 ? 1 : 0);
   program.set("u_pixel", pixel);
   program.set("u_tile", MarchTargets::tile);
@@ -194,7 +182,7 @@ void RaymarchMethod::draw_pieces(const DrawPass& pass) {
   const GpuTimers::Part part(pass.timers, "pieces");
   program.use();
   world_->use(program, pass.eye_m);
-  set_light(program, pass);
+  set_lighting(program, pass, shadow_unit);
   program.set("u_view_projection", pass.view_projection);
   const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
   glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);

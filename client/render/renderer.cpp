@@ -13,6 +13,7 @@
 #include "client/render/line_drawer.h"
 #include "client/render/shader_sources.h"
 #include "client/render/shadow_map.h"
+#include "shared/base/check.h"
 #include "shared/field/material.h"
 
 namespace scree {
@@ -126,6 +127,7 @@ struct Renderer::Parts {
   GpuTimers timers;
   Trace* trace = nullptr;
   float render_scale = 1.0F;
+  GridShape grid;
   std::optional<Canvases> canvases;  ///< of the last image
 
   Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, float radius_m)
@@ -182,6 +184,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_CULL_FACE);
+  if (method != nullptr) method->shape_grid(parts_->grid);
   const float reach_m = method == nullptr ? parts_->view_radius_m : method->reach_m();
   DrawPass pass;
   pass.timers = &parts_->timers;
@@ -272,6 +275,11 @@ const std::vector<GpuTime>& Renderer::gpu_times() const {
 
 void Renderer::set_render_scale(float scale) {
   parts_->render_scale = std::clamp(scale, limits::render_scale_min, limits::render_scale_max);
+}
+
+void Renderer::set_grid(const GridShape& shape) {
+  CHECK(is_valid(shape));
+  parts_->grid = shape;
 }
 
 void Renderer::set_trace(Trace* trace) {

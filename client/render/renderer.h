@@ -55,6 +55,8 @@ class Renderer {
   /// For methods that draw pixel by pixel: below 1 they draw fewer, above 1 more, limits::render_scale_min …
   /// max.
   void set_render_scale(float scale);
+  /// For methods that draw by a grid; a shape that is_valid().
+  void set_grid(const GridShape& shape);
   /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.
   void set_trace(Trace* trace);
   /// Errors that GL reported since the start (by its debug output, where the context has one), and the first.

@@ -1,9 +1,11 @@
 // The HUD's panel: which method draws, and what a strike does.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "client/viewer/hud.h"
 #include "client/viewer/hud_style.h"
+#include "client/viewer/limits.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -32,13 +34,31 @@ const MethodEntry* choose_method(const MethodEntry& chosen) {
   return picked;
 }
 
+/// Resolutions and scales go by steps, so that the shape stays valid.
+void choose_grid(GridShape& grid) {
+  int steps = grid.resolution / limits::grid_resolution_step;
+  const std::string cells = std::to_string(grid.resolution);
+  if (ImGui::SliderInt("grid cells", &steps, limits::grid_resolution_min / limits::grid_resolution_step,
+                       limits::grid_resolution_max / limits::grid_resolution_step, cells.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
+    grid.resolution = steps * limits::grid_resolution_step;
+  constexpr int doublings_max = std::bit_width(static_cast<unsigned>(limits::grid_scale_max)) - 1;
+  int doublings = std::bit_width(static_cast<unsigned>(grid.scale)) - 1;
+  const std::string voxels = std::to_string(grid.scale) + " voxels";
+  if (ImGui::SliderInt("spacing", &doublings, 0, doublings_max, voxels.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    grid.scale = 1 << doublings;
+  choose(grid.spacing, grid_spacings);
+}
+
 }  // namespace
 
-const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay) {
+const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay,
+                              GridShape& grid) {
   begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
                 mouse_is_free_);
   ImGui::PushItemWidth(150.0F);
   const MethodEntry* picked = choose_method(chosen);
+  if (chosen.name == "grid") choose_grid(grid);
   ImGui::Separator();
   choose(tool.kind, tool_kinds);
   ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");

@@ -50,6 +50,7 @@ struct Texts {
   std::string size = "1280x720";
   std::string camera = default_camera;
   std::string method{all_methods().front().name};
+  std::string grid_spacing{name_of(GridShape().spacing)};
   std::vector<std::string> screenshots;
 };
 
@@ -72,6 +73,16 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast")
       ->envname("SCREE_RENDER_SCALE")
       ->check(CLI::Range(limits::render_scale_min, limits::render_scale_max));
+  app.add_option("--grid-resolution", options.grid.resolution,
+                 "Of grid: cells along a side, a multiple of " + std::to_string(limits::grid_resolution_step))
+      ->envname("SCREE_GRID_RESOLUTION")
+      ->check(CLI::Range(limits::grid_resolution_min, limits::grid_resolution_max));
+  app.add_option("--grid-scale", options.grid.scale, "Of grid: voxels between two points, a power of two")
+      ->envname("SCREE_GRID_SCALE")
+      ->check(CLI::Range(1, limits::grid_scale_max));
+  app.add_option("--grid-spacing", texts.grid_spacing,
+                 "Of grid: uniform, or growing with the distance from the camera, to eight times as much")
+      ->envname("SCREE_GRID_SPACING");
   app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
   app.add_option(
@@ -114,6 +125,15 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.footer("Keys, mouse and gamepad:\n" + describe_controls());
 }
 
+Result<void> understand_grid(const std::string& spacing, GridShape& grid) {
+  const std::optional<GridSpacing> known = grid_spacing_named(spacing);
+  if (!known) return fail("--grid-spacing: there is no '" + spacing + "'; there are uniform and growing");
+  grid.spacing = *known;
+  if (is_valid(grid)) return {};
+  return fail("--grid-resolution must be a multiple of " + std::to_string(limits::grid_resolution_step) +
+              ", --grid-scale a power of two");
+}
+
 Result<void> understand_pictures(ViewerOptions& options) {
   const bool every_frame = !options.frames.empty() || options.time_demo;
   if (every_frame && (!options.offscreen || options.path_file.empty()))
@@ -135,6 +155,7 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
   options.method = method_named(texts.method);
   if (options.method == nullptr)
     return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
+  if (Result<void> grid = understand_grid(texts.grid_spacing, options.grid); !grid) return grid;
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
     if (!order) return fail(order.error().message);
@@ -160,7 +181,9 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   try {
     app.parse(argc, argv);
     const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
-    options.given = {given("--size"), given("--method"), given("--view-radius")};
+    options.given = {given("--size"),        given("--method"),
+                     given("--view-radius"), given("--grid-resolution"),
+                     given("--grid-scale"),  given("--grid-spacing")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

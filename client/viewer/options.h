@@ -27,11 +27,15 @@ struct ViewerOptions {
     bool size = false;
     bool method = false;
     bool view_radius = false;
+    bool grid_resolution = false;
+    bool grid_scale = false;
+    bool grid_spacing = false;
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
   float render_scale = 1.0F;  ///< of methods that draw pixel by pixel
+  GridShape grid;             ///< of the method grid
   bool offscreen = false;
   bool gl_debug = false;
   double timeout_s = 0.0;

@@ -96,6 +96,11 @@ Result<Settings> parse_settings(const std::string& text) {
     reader.wrong("method", "has no such value");
   reader.number("view_radius_m", settings.view_radius_m, limits::view_radius_min_m,
                 limits::view_radius_max_m);
+  reader.number("grid_resolution", settings.grid.resolution, limits::grid_resolution_min,
+                limits::grid_resolution_max);
+  reader.number("grid_scale", settings.grid.scale, 1, limits::grid_scale_max);
+  reader.choice("grid_spacing", settings.grid.spacing, grid_spacings);
+  if (!is_valid(settings.grid)) reader.wrong("grid_resolution or grid_scale", "is no such multiple");
   reader.flag("help", settings.hud.help);
   reader.flag("graphs", settings.hud.graphs);
   reader.flag("panel", settings.hud.panel);
@@ -118,6 +123,9 @@ std::string to_text(const Settings& settings) {
                   {"height", settings.height},
                   {"method", settings.method},
                   {"view_radius_m", settings.view_radius_m},
+                  {"grid_resolution", settings.grid.resolution},
+                  {"grid_scale", settings.grid.scale},
+                  {"grid_spacing", name_of(settings.grid.spacing)},
                   {"help", settings.hud.help},
                   {"graphs", settings.hud.graphs},
                   {"panel", settings.hud.panel},
@@ -140,6 +148,9 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
     options.height = settings.height;
   }
   if (!options.given.view_radius) options.view_radius_m = settings.view_radius_m;
+  if (!options.given.grid_resolution) options.grid.resolution = settings.grid.resolution;
+  if (!options.given.grid_scale) options.grid.scale = settings.grid.scale;
+  if (!options.given.grid_spacing) options.grid.spacing = settings.grid.spacing;
   const MethodEntry* method = method_named(settings.method);
   if (!options.given.method && method != nullptr) options.method = method;
 }
@@ -164,6 +175,9 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.height = merged(loaded_.height, start.height, end.height);
   kept.method = merged(loaded_.method, start.method, end.method);
   kept.view_radius_m = merged(loaded_.view_radius_m, start.view_radius_m, end.view_radius_m);
+  kept.grid.resolution = merged(loaded_.grid.resolution, start.grid.resolution, end.grid.resolution);
+  kept.grid.scale = merged(loaded_.grid.scale, start.grid.scale, end.grid.scale);
+  kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);
   kept.hud = end.hud;
   kept.overlay = end.overlay;
   kept.tool = end.tool;

@@ -23,6 +23,7 @@ struct Settings {
   int height = 720;
   std::string method;  ///< empty: the first
   float view_radius_m = 96.0F;
+  GridShape grid;
   HudChoice hud;
   OverlayChoice overlay;
   Tool tool;

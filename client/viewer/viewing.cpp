@@ -24,6 +24,7 @@ Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
       screenshots(given.screenshots) {
   view->renderer().set_trace(trace.get());
   view->renderer().set_render_scale(options.render_scale);
+  view->renderer().set_grid(options.grid);
   session.watch(given.overlay.shown && given.overlay.physics);
 }
 

@@ -19,7 +19,8 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
       hud_(window),
       choice_(kept.hud),
       overlay_(kept.overlay),
-      tool_(kept.tool) {
+      tool_(kept.tool),
+      grid_(viewing.options.grid) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
 }
 
@@ -69,7 +70,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   hud_.figures(facts);
   if (choice_.graphs) hud_.graphs(facts);
   const MethodEntry* picked =
-      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_) : nullptr;
+      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_, grid_) : nullptr;
+  viewing_.view->renderer().set_grid(grid_);
   if (choice_.help) hud_.help();
   const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
   const Camera& camera = viewing_.camera;
@@ -106,6 +108,7 @@ Settings WindowApp::settings() const {
   std::tie(settings.width, settings.height) = window_.window_size();
   settings.method = viewing_.view->methods().chosen().name;
   settings.view_radius_m = viewing_.options.view_radius_m;
+  settings.grid = grid_;
   settings.hud = choice_;
   settings.overlay = overlay_;
   settings.tool = tool_;

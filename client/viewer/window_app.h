@@ -35,6 +35,7 @@ class WindowApp {
   HudChoice choice_;
   OverlayChoice overlay_;
   Tool tool_;
+  GridShape grid_;
   FactFinder facts_;
   std::optional<double> path_begun_s_;
 };

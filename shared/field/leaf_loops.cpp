@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace scree {
 namespace {
@@ -103,19 +105,20 @@ void for_each_link(const LeafGrid& grid, const Polygon& polygon, LeafRuns runs, 
   }
 }
 
+/// Calls f(polygon, upper): of an upper face they are counter-clockwise seen from outside, else clockwise.
 template <typename F>
 void for_each_polygon(const LeafGrid& grid, const Leaf& leaf, F&& f) {
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (const bool upper : {false, true}) {
       if (!is_divided(grid, leaf, axis, upper)) {
-        f(whole_face(grid, leaf, axis, upper));
+        f(whole_face(grid, leaf, axis, upper), upper);
         continue;
       }
       const int half = leaf.side / 2;
       const VoxelCoord at = moved(leaf.at, axis, upper ? leaf.side : 0);
       for (int i = 0; i < 4; ++i)
-        f(square(moved(moved(at, u, (i >> 1) * half), v, (i & 1) * half), u, v, half));
+        f(square(moved(moved(at, u, (i >> 1) * half), v, (i & 1) * half), u, v, half), upper);
     }
   }
 }
@@ -171,7 +174,7 @@ LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs) {
     while (root[id] != id) id = root[id];
     return id;
   };
-  for_each_polygon(grid, leaf, [&](const Polygon& polygon) {
+  for_each_polygon(grid, leaf, [&](const Polygon& polygon, bool) {
     for_each_link(grid, polygon, runs, [&](const LeafEdge& a, const LeafEdge& b) {
       for (const LeafEdge& edge : {a, b}) {
         uint8_t& seen = loops.sheet_of[id_in(leaf, edge)];
@@ -191,6 +194,28 @@ LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs) {
     loops.sheet_of[id_in(leaf, edge)] = sheet;
   }
   return loops;
+}
+
+std::vector<std::vector<LeafEdge>> cycles_of(const LeafGrid& grid, const Leaf& leaf) {
+  std::array<std::optional<LeafEdge>, leaf_edge_ids> next;
+  std::vector<LeafEdge> crossed;
+  for_each_polygon(grid, leaf, [&](const Polygon& polygon, bool upper) {
+    for_each_link(grid, polygon, LeafRuns::rock, [&](const LeafEdge& a, const LeafEdge& b) {
+      next[id_in(leaf, upper ? a : b)] = upper ? b : a;
+      crossed.push_back(upper ? a : b);
+    });
+  });
+  std::ranges::sort(crossed);
+  std::vector<std::vector<LeafEdge>> cycles;
+  for (LeafEdge edge : crossed) {
+    std::vector<LeafEdge> cycle;
+    while (const std::optional<LeafEdge> after = std::exchange(next[id_in(leaf, edge)], std::nullopt)) {
+      cycle.push_back(edge);
+      edge = *after;
+    }
+    if (!cycle.empty()) cycles.push_back(std::move(cycle));
+  }
+  return cycles;
 }
 
 std::vector<LeafLink> links_of_face(const LeafGrid& grid, const Leaf& leaf, int face) {

@@ -1,4 +1,5 @@
-// The loops in which the surface crosses the boundary of one leaf of an octree: for leaf_surface alone.
+// The loops in which the surface crosses the boundary of one leaf of an octree: what leaf_surface and
+// marching_cubes are made of.
 #pragma once
 
 #include <array>
@@ -40,6 +41,9 @@ struct LeafLoops {
 /// What is cut off on its own: runs of rock, or of air.
 enum class LeafRuns { rock, air };
 LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs);
+
+/// The same loops where rock is cut off, each as its edges in order, counter-clockwise seen from the air.
+std::vector<std::vector<LeafEdge>> cycles_of(const LeafGrid& grid, const Leaf& leaf);
 
 /// Whether no smaller leaf touches it, be it by a corner.
 bool is_undivided(const LeafGrid& grid, const Leaf& leaf);

@@ -1,0 +1,46 @@
+// The grid of points that the method grid draws the terrain by: the paper's, section 2.2, with the spacing
+// that grows outwards which it proposes. No GL.
+//
+// The grid follows the eye, but by whole blocks, and every point lies at a multiple of the spacing about it:
+// so nothing swims when the eye moves. All axes have the same coordinates relative to the centre, so that
+// cells are boxes without hanging corners: the surface has no crack, whatever the spacing.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace scree {
+
+enum class GridSpacing { uniform, growing };
+inline constexpr std::array grid_spacings{GridSpacing::uniform, GridSpacing::growing};
+std::string_view name_of(GridSpacing spacing);
+std::optional<GridSpacing> grid_spacing_named(std::string_view name);
+
+struct GridShape {
+  int resolution = 128;  ///< cells along a side
+  int scale = 2;         ///< voxels between two points about the eye
+  GridSpacing spacing = GridSpacing::uniform;
+
+  bool operator==(const GridShape&) const = default;
+};
+
+/// Within limits.h.
+bool is_valid(const GridShape& shape);
+
+/// Cells along a side of a block, and what the grid moves by.
+inline constexpr int grid_block = 8;
+
+/// Spacings there are when it grows, each twice the one before.
+inline constexpr int grid_shells = 4;
+
+/// Coordinates of the points along one axis, resolution + 1 of them, voxels. When the spacing grows, the
+/// inner half of the cells has the finest; then it doubles after each sixth, or a little later, at a multiple
+/// of what follows.
+std::vector<int> grid_line(const GridShape& shape, float eye_voxels);
+
+/// How far it reaches from wherever the eye is, voxels.
+int grid_reach(const GridShape& shape);
+
+}  // namespace scree
