@@ -60,7 +60,7 @@ BenchReport run_carve_bench(const BenchOptions& options) {
   size_t pieces = 0;
   for (int i = 0; i < carves; ++i) {
     const CarveRequest blow = blows.next();
-    // The terrain around is generated at its first touch; a viewer or an earlier blow has usually been there.
+    // As a server does ahead of its ticks, around clients' eyes (server/app/terrain_ahead.h).
     gather(world.field(), band_box(in_voxels(blow.shape, config.terrain.voxel_size_m)).grown(chunk_size));
     const Command command{0, static_cast<uint32_t>(i), blow};
     const auto delta = world.step({&command, 1});

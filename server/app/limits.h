@@ -1,6 +1,7 @@
 // Bounds of the programs. Each says its unit, its reason, and what happens there.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace scree::limits {
@@ -10,6 +11,13 @@ inline constexpr int catch_up_ticks_max = 5;
 
 /// Ticks a second that a server may be asked for.
 inline constexpr uint32_t tick_rate_max_hz = 240;
+
+/// Around each client's eye, terrain is generated before anything touches it: so far, in chunks (32 m at
+/// voxels of 0.25 m), the reach of a viewer's tools. Beyond, the first touch generates it, inside its tick.
+inline constexpr int ahead_chunks = 4;
+
+/// Chunks that a tick looks at for whether they are generated: a few microseconds.
+inline constexpr size_t ahead_looks_per_tick = 64;
 
 /// Pieces alive at once that a server may be asked for. Beyond, no machine of today keeps the tick.
 inline constexpr uint32_t pieces_max_max = 20000;

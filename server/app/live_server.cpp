@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "server/app/limits.h"
+#include "server/app/terrain_ahead.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
 
@@ -45,7 +46,8 @@ struct LiveServer::State {
   std::unique_ptr<TickFeed> feed;  ///< the simulation thread's own
   std::unique_ptr<NetServer> net;
   std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<Trace> trace;  ///< null: not asked for
+  std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
+  std::unique_ptr<Trace> trace;         ///< null: not asked for
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
@@ -84,6 +86,7 @@ Result<void> LiveServer::State::open() {
     report.record_path = config.record_path;
   }
   if (!feed) feed = live_feed(config.world);
+  if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   return {};
 }
@@ -109,7 +112,10 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
 /// One tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
-  if (World* world = feed->world()) world->watch(net->is_watched());
+  if (World* world = feed->world()) {
+    world->watch(net->is_watched());
+    ahead->serve(world->field(), net->eyes_m());
+  }
   std::vector<Command> waiting = commands.drain();
   const auto next = feed->next(waiting);
   if (!next) {

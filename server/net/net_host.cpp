@@ -267,6 +267,12 @@ void NetHost::update_stats() {
   counts_.sessions = joined_count();
   const std::scoped_lock lock(stats_mutex_);
   stats_ = counts_;
+  eyes_m_ = publisher_.eyes_m();
+}
+
+std::vector<glm::vec3> NetHost::eyes_m() const {
+  const std::scoped_lock lock(stats_mutex_);
+  return eyes_m_;
 }
 
 NetStats NetHost::stats() const {

@@ -31,6 +31,7 @@ class NetHost final : public SessionHost {
 
   asio::io_context& context() { return context_; }
   NetStats stats() const;
+  std::vector<glm::vec3> eyes_m() const;
   bool is_watched() const { return watched_; }
 
  private:
@@ -67,7 +68,8 @@ class NetHost final : public SessionHost {
   std::atomic<bool> watched_{false};
   NetStats counts_;
   mutable std::mutex stats_mutex_;
-  NetStats stats_;  ///< guarded by stats_mutex_
+  NetStats stats_;                 ///< guarded by stats_mutex_
+  std::vector<glm::vec3> eyes_m_;  ///< guarded by stats_mutex_
 };
 
 }  // namespace scree

@@ -69,6 +69,10 @@ NetStats NetServer::stats() const {
   return stats;
 }
 
+std::vector<glm::vec3> NetServer::eyes_m() const {
+  return impl_->host.eyes_m();
+}
+
 bool NetServer::is_watched() const {
   return impl_->host.is_watched();
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "server/net/command_queue.h"
 #include "server/net/limits.h"
@@ -62,6 +63,8 @@ class NetServer {
 
   /// As of the last tick that was sent. From any thread.
   NetStats stats() const;
+  /// Where the clients look from, as of the last tick that was sent; metres. From any thread.
+  std::vector<glm::vec3> eyes_m() const;
   /// Whether any client wants to see what the bodies do. From any thread.
   bool is_watched() const;
 

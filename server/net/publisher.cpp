@@ -53,6 +53,12 @@ void Publisher::watch(uint64_t session, bool physics) {
   if (client != clients_.end()) client->second.watches = physics;
 }
 
+std::vector<glm::vec3> Publisher::eyes_m() const {
+  std::vector<glm::vec3> eyes_m;
+  for (const auto& [session, client] : clients_) eyes_m.push_back(client.view.eye_m());
+  return eyes_m;
+}
+
 bool Publisher::is_watched() const {
   return std::ranges::any_of(clients_, [](const auto& entry) { return entry.second.watches; });
 }

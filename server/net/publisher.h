@@ -63,6 +63,8 @@ class Publisher {
   /// Whether the client is told what the bodies do, where the ticks say so.
   void watch(uint64_t session, bool physics);
   bool is_watched() const;
+  /// Of every client, by session.
+  std::vector<glm::vec3> eyes_m() const;
 
   /// Takes the next tick and says what each client gets. `backlog_bytes(session)` is what still waits for it.
   /// A tick out of sequence is a keyframe: the world starts anew with it, and so does every client.

@@ -45,7 +45,7 @@ class World {
   MassUnits measure_terrain();
   /// From now on, or no more: every ticks_per_watch-th delta tells what the bodies do. Changes nothing else.
   void watch(bool wanted);
-  /// For tests and benches, between steps.
+  /// Between steps. Nobody changes it but apply().
   Field& field();
 
   struct State;  ///< world_state.h, for the stages in this folder alone

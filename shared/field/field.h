@@ -62,6 +62,8 @@ class Field {
   /// Hands over a chunk that another thread generated, so that brick() need not.
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
   bool has_generated(ChunkCoord chunk) const { return generated_.contains(chunk); }
+  /// How many it keeps; it drops them all at limits::generated_chunks_max.
+  size_t generated_chunks() const { return generated_.size(); }
 
  protected:
   virtual const Brick* find_edited(BrickCoord coord) const = 0;

@@ -1,0 +1,96 @@
+#include "server/app/terrain_ahead.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "server/app/limits.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+int square_of(ChunkCoord v) {
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+/// The chunks of a ball, relative to its middle one, nearest first.
+std::vector<ChunkCoord> ball_of_chunks(int radius) {
+  std::vector<ChunkCoord> ball;
+  for (int x = -radius; x <= radius; ++x)
+    for (int y = -radius; y <= radius; ++y)
+      for (int z = -radius; z <= radius; ++z)
+        if (square_of({x, y, z}) <= radius * radius) ball.push_back({x, y, z});
+  std::ranges::stable_sort(ball, {}, square_of);
+  return ball;
+}
+
+}  // namespace
+
+TerrainAhead::TerrainAhead(const TerrainSource& source)
+    : source_(source), around_(ball_of_chunks(limits::ahead_chunks)), thread_([this] { run(); }) {}
+
+TerrainAhead::~TerrainAhead() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
+  std::vector<Ready> ready;
+  bool idle = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    ready.swap(ready_);
+    idle = wanted_.empty();
+  }
+  for (Ready& each : ready) field.adopt_generated(each.coord, std::move(each.chunk));
+  const size_t room = limits::generated_chunks_max / 2;
+  if (!idle || eyes_m.empty() || field.generated_chunks() >= room) return;
+  std::vector<ChunkCoord> wanted = look_around(field, eyes_m);
+  if (wanted.empty()) return;
+  std::ranges::reverse(wanted);
+  const std::scoped_lock lock(mutex_);
+  wanted_ = std::move(wanted);
+  wake_.notify_all();
+}
+
+/// The chunks that the field lacks, of the next limits::ahead_looks_per_tick around an eye.
+std::vector<ChunkCoord> TerrainAhead::look_around(const Field& field, std::span<const glm::vec3> eyes_m) {
+  if (step_ >= around_.size()) {
+    step_ = 0;
+    ++eye_;
+  }
+  const glm::vec3 world{limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m};
+  const glm::vec3 eye = glm::clamp(eyes_m[eye_ % eyes_m.size()], -world, world) / source_.voxel_size_m;
+  const ChunkCoord middle =
+      chunk_of(VoxelCoord{floor_to_int(eye.x), floor_to_int(eye.y), floor_to_int(eye.z)});
+  std::vector<ChunkCoord> lacking;
+  const size_t end = std::min(step_ + limits::ahead_looks_per_tick, around_.size());
+  for (; step_ < end; ++step_) {
+    const ChunkCoord chunk = middle + around_[step_];
+    if (!field.has_generated(chunk)) lacking.push_back(chunk);
+  }
+  return lacking;
+}
+
+void TerrainAhead::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return stopping_ || !wanted_.empty(); });
+    if (stopping_) return;
+    const ChunkCoord coord = wanted_.back();
+    lock.unlock();
+    GeneratedChunk chunk = generate_chunk(source_, coord);
+    lock.lock();
+    // Kept until now: while anything is wanted, nothing more is asked for.
+    wanted_.pop_back();
+    ready_.push_back({coord, std::move(chunk)});
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,80 @@
+// Terrain generated around eyes before anything touches it: all of it comes, it is what the field itself
+// would have made, and it never pushes out what a full field keeps.
+#include "server/app/terrain_ahead.h"
+
+#include <chrono>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "server/app/limits.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+const TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
+
+/// Whether the chunks within the reach of an eye in chunk 0, 0, 0 are there.
+bool all_there(const Field& field) {
+  const int r = limits::ahead_chunks;
+  for (int x = -r; x <= r; ++x)
+    for (int y = -r; y <= r; ++y)
+      for (int z = -r; z <= r; ++z)
+        if (x * x + y * y + z * z <= r * r && !field.has_generated({x, y, z})) return false;
+  return true;
+}
+
+/// Serves until that holds, as long as a broken worker would need to be noticed.
+template <typename Holds>
+bool serve_until(TerrainAhead& ahead, Field& field, std::span<const glm::vec3> eyes_m, Holds&& holds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    ahead.serve(field, eyes_m);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+TEST(TerrainAhead, all_around_an_eye_comes_and_is_what_the_field_makes) {
+  MapField field(terrain), own(terrain);
+  TerrainAhead ahead(terrain);
+  const glm::vec3 eyes_m[] = {{1.0F, 2.0F, 3.0F}};
+  ASSERT_TRUE(serve_until(ahead, field, eyes_m, [&] { return all_there(field); }));
+  for (int x = -16; x < 16; ++x)
+    for (int y = -8; y < 8; ++y)
+      EXPECT_EQ(field.generated_brick({x, y, 2}).codes, own.generated_brick({x, y, 2}).codes);
+}
+
+TEST(TerrainAhead, every_eye_is_served) {
+  MapField field(terrain);
+  TerrainAhead ahead(terrain);
+  const glm::vec3 eyes_m[] = {{1.0F, 2.0F, 3.0F}, {-400.0F, 2.0F, 300.0F}};
+  EXPECT_TRUE(serve_until(ahead, field, eyes_m, [&] {
+    return all_there(field) && field.has_generated({-50, 0, 37});
+  }));
+}
+
+TEST(TerrainAhead, an_eye_far_out_of_the_world_counts_at_its_edge) {
+  MapField field(terrain);
+  TerrainAhead ahead(terrain);
+  const glm::vec3 eyes_m[] = {{1e30F, 0.0F, 0.0F}};
+  EXPECT_TRUE(serve_until(ahead, field, eyes_m, [&] { return field.has_generated({512, 0, 0}); }));
+}
+
+TEST(TerrainAhead, a_field_that_is_half_full_is_left_alone) {
+  MapField field(terrain);
+  const int room = static_cast<int>(limits::generated_chunks_max / 2);
+  for (int i = 0; i < room; ++i) field.generated_brick({4 * i, 400, 0});
+  ASSERT_EQ(field.generated_chunks(), limits::generated_chunks_max / 2);
+  TerrainAhead ahead(terrain);
+  const glm::vec3 eyes_m[] = {{1.0F, 2.0F, 3.0F}};
+  for (int i = 0; i < 50; ++i) {
+    ahead.serve(field, eyes_m);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(field.generated_chunks(), limits::generated_chunks_max / 2);
+}
+
+}  // namespace
+}  // namespace scree
