@@ -7,8 +7,9 @@ layout(location = 3) in float a_before;  // code / 127 of the field as generated
 layout(location = 4) in float a_paint;   // 0: as generated; else 1 + material
 
 uniform mat4 u_view_projection;
-uniform float u_step_m;       // metres a step of a_position
-uniform vec3 u_origin_m;      // of the mesh, in the frame of the rock that it is or was
+uniform float u_step;         // voxels a step of a_position
+uniform vec3 u_origin;        // voxels: of the mesh, in the frame of the rock that it is or was
+uniform float u_voxel_m;
 uniform vec3 u_centre_m;      // in that frame: what lies at u_place_m
 uniform vec3 u_place_m;
 uniform vec4 u_rotation;      // quaternion x, y, z, w
@@ -22,7 +23,8 @@ out float v_before;
 flat out int v_paint;
 
 void main() {
-  v_rock = u_origin_m + a_position * u_step_m;
+  // Voxels are exact; metres are rounded once. So blocks meet to the bit, whatever the size of a voxel.
+  v_rock = (u_origin + a_position * u_step) * u_voxel_m;
   v_world = u_place_m + rotated(u_rotation, v_rock - u_centre_m);
   v_rock_normal = a_normal;
   v_normal = rotated(u_rotation, a_normal);

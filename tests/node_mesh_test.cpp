@@ -4,29 +4,37 @@
 #include <gtest/gtest.h>
 #include <map>
 
+#include "client/render/mesh_place.h"
 #include "shared/base/random.h"
 #include "shared/field/operation.h"
 
 namespace scree {
 namespace {
 
-using Position = std::array<int64_t, 3>;
+/// Metres, as they are drawn (shaders/surface.vert).
+using Position = std::array<float, 3>;
 
-/// In 1/256 voxel of level 0.
-Position position_of(const NodeMesh& mesh, uint32_t index) {
+Position position_of(const NodeMesh& mesh, uint32_t index, float voxel_m) {
   const SurfaceVertex& v = mesh.mesh.vertices[index];
-  const VoxelCoord& o = mesh.mesh.origin;
-  const auto steps = [&](int origin, uint16_t inside) {
-    return (int64_t{origin} * 256 + inside) * (int64_t{1} << mesh.level);
-  };
-  return {steps(o.x, v.position[0]), steps(o.y, v.position[1]), steps(o.z, v.position[2])};
+  const MeshPlace place = place_of(mesh.mesh.origin, mesh.level);
+  const glm::vec3 at =
+      (place.origin + glm::vec3(v.position[0], v.position[1], v.position[2]) * place.step) * voxel_m;
+  return {at.x, at.y, at.z};
 }
 
-constexpr ForestShape shape{4, 4.0F, 16.0F, 70.0F, -20.0F, 36.0F};
+constexpr int levels = 4;
+
+/// The same in voxels, whatever they measure.
+ForestShape shape_of(float voxel_m) {
+  return {levels, 16.0F * voxel_m, 64.0F * voxel_m, 280.0F * voxel_m, -20.0F, 36.0F};
+}
 
 class World {
  public:
-  explicit World(Polygoniser polygoniser) : polygoniser_(polygoniser) {}
+  World(Polygoniser polygoniser, float voxel_m)
+      : polygoniser_(polygoniser), field_(TerrainSource{TerrainKind::canyon, 1, voxel_m}) {}
+
+  float voxel_m() const { return field_.source().voxel_size_m; }
 
   void look_from(glm::vec3 eye_m) {
     while (!forest_.grow(eye_m, 1000).empty()) {
@@ -35,9 +43,10 @@ class World {
 
   /// A ball taken out, or put there.
   void edit(Random& random) {
-    const glm::vec3 centre_m((random.unit() - 0.5F) * 50.0F, random.unit() * 24.0F - 4.0F,
-                             (random.unit() - 0.5F) * 50.0F);
-    const Shape ball = sphere(centre_m, 0.8F + random.unit() * 2.0F);
+    const float half_m = 100.0F * voxel_m();
+    const glm::vec3 centre_m((random.unit() * 2.0F - 1.0F) * half_m, random.unit() * 24.0F - 4.0F,
+                             (random.unit() * 2.0F - 1.0F) * half_m);
+    const Shape ball = sphere(centre_m, (3.2F + random.unit() * 8.0F) * voxel_m());
     if (random.below(3) != 0) {
       apply(CarveOperation{ball, SeedPattern::uniform, 1, 1, centre_m, next_++}, field_, pieces_);
       pieces_.clear();
@@ -55,15 +64,15 @@ class World {
   Leaks mesh_all() {
     std::map<std::pair<Position, Position>, int> uses;
     Leaks leaks;
-    for (const SurfaceNode& node : forest_.leaves_around({{-400, -400, -400}, {400, 400, 400}}, 0)) {
+    for (const SurfaceNode& node : forest_.leaves_around({{-900, -900, -900}, {900, 900, 900}}, 0)) {
       const auto job = gather_node(levels_, field_, node, forest_.neighbours(node), polygoniser_);
       if (!job) continue;
       const NodeMesh mesh = mesh_node(*job);
       leaks.triangles_of_level[node.level] += mesh.mesh.indices.size() / 3;
       for (size_t t = 0; t < mesh.mesh.indices.size(); t += 3)
         for (size_t i = 0; i < 3; ++i)
-          ++uses[{position_of(mesh, mesh.mesh.indices[t + i]),
-                  position_of(mesh, mesh.mesh.indices[t + (i + 1) % 3])}];
+          ++uses[{position_of(mesh, mesh.mesh.indices[t + i], voxel_m()),
+                  position_of(mesh, mesh.mesh.indices[t + (i + 1) % 3], voxel_m())}];
     }
     leaks.edges = uses.size();
     for (const auto& [edge, count] : uses) {
@@ -77,10 +86,10 @@ class World {
  private:
   /// Not at the outermost border of all leaves.
   bool is_inside(const Position& p) const {
-    constexpr int margin = 2 << (shape.levels - 1);
+    constexpr int margin = 2 << (levels - 1);
     for (int i = 0; i < 8; ++i) {
       const auto at = [&](size_t axis, int bit) {
-        return static_cast<int>(p[axis] >> 8) + ((i & bit) != 0 ? margin : -margin);
+        return floor_to_int(p[axis] / voxel_m()) + ((i & bit) != 0 ? margin : -margin);
       };
       const VoxelCoord v{at(0, 4), at(1, 2), at(2, 1)};
       if (forest_.leaves_around({v, v + VoxelCoord{1, 1, 1}}, 0).empty()) return false;
@@ -89,34 +98,41 @@ class World {
   }
 
   Polygoniser polygoniser_;
-  MapField field_{TerrainSource{TerrainKind::canyon, 1, 0.25F}};
+  MapField field_;
   PieceTable pieces_;
   PieceId next_ = 1;
-  SurfaceLevels levels_{field_.source(), shape.levels};
-  SurfaceForest forest_{shape};
+  SurfaceLevels levels_{field_.source(), levels};
+  SurfaceForest forest_{shape_of(voxel_m())};
 };
 
-void expect_watertight(Polygoniser polygoniser, int edits, int every) {
-  World world(polygoniser);
+void expect_watertight(Polygoniser polygoniser, int edits, int every, float voxel_m) {
+  World world(polygoniser, voxel_m);
   Random random(17);
   for (int edit = 1; edit <= edits; ++edit) {
     world.edit(random);
     if (edit % every != 0) continue;
-    world.look_from({random.unit() * 20.0F, random.unit() * 16.0F, random.unit() * 20.0F});
+    const float within_m = 80.0F * voxel_m;
+    world.look_from({random.unit() * within_m, random.unit() * 16.0F, random.unit() * within_m});
     const World::Leaks leaks = world.mesh_all();
     EXPECT_EQ(leaks.open, 0U) << "of " << leaks.edges << " edges, after edit " << edit;
-    EXPECT_EQ(leaks.triangles_of_level.size(), static_cast<size_t>(shape.levels));
+    EXPECT_EQ(leaks.triangles_of_level.size(), static_cast<size_t>(levels));
     for (const auto& [level, triangles] : leaks.triangles_of_level)
       EXPECT_GT(triangles, 500U) << "level " << level;
   }
 }
 
 TEST(NodeMesh, nets_are_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::nets, 200, 100);
+  expect_watertight(Polygoniser::nets, 200, 100, 0.25F);
 }
 
 TEST(NodeMesh, dual_is_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::dual, 200, 200);
+  expect_watertight(Polygoniser::dual, 200, 200, 0.25F);
+}
+
+/// Sizes that no float holds exactly.
+TEST(NodeMesh, both_are_watertight_whatever_a_voxel_measures) {
+  expect_watertight(Polygoniser::nets, 40, 40, 0.1F);
+  expect_watertight(Polygoniser::dual, 40, 40, 0.3F);
 }
 
 }  // namespace

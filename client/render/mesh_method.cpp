@@ -13,10 +13,6 @@
 namespace scree {
 namespace {
 
-glm::vec3 as_vector(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 class MeshMethod final : public DrawMethod {
  public:
   MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, SurfaceProgram&& surface,
@@ -46,10 +42,9 @@ class MeshMethod final : public DrawMethod {
   SurfaceProgram surface_;
   SurfaceProgram shadow_;
   float voxel_m_ = 0.0F;
-  /// A node's mesh, in voxels of its own level.
   struct Block {
     GpuMesh mesh;
-    float voxel_m;
+    MeshPlace place;
   };
   std::unordered_map<SurfaceNode, Block, SurfaceNodeHash> blocks_;
   PieceViews pieces_;
@@ -70,8 +65,8 @@ void MeshMethod::show(MeshUpdate&& update) {
   for (const NodeMesh& node : update.nodes) {
     erase(node.node);
     if (node.mesh.empty()) continue;
-    const float voxel_m = voxel_m_ * static_cast<float>(1 << node.level);
-    gpu_bytes_ += blocks_.emplace(node.node, Block{GpuMesh(node.mesh), voxel_m}).first->second.mesh.bytes();
+    Block block{GpuMesh(node.mesh), place_of(node.mesh.origin, node.level)};
+    gpu_bytes_ += blocks_.emplace(node.node, std::move(block)).first->second.mesh.bytes();
   }
   for (const PieceId id : update.removed_pieces) pieces_.remove(id);
   for (const PieceMesh& piece : update.pieces) pieces_.show(piece, voxel_m_);
@@ -108,6 +103,7 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
   glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
+  glUniform1f(program.voxel_m, voxel_m_);
   // Near ones first: what they hide is not shaded.
   visible_.clear();
   for (const auto& [node, block] : blocks_) {
@@ -123,9 +119,7 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
   }
   std::ranges::sort(visible_);
   for (const auto& [distance, block] : visible_) {
-    const glm::vec3 origin_m = as_vector(block->mesh.origin()) * block->voxel_m;
-    glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
-    glUniform1f(program.step_m, block->voxel_m / surface_steps_per_voxel);
+    program.set_place(block->place);
     count(block->mesh);
   }
 }

@@ -51,13 +51,12 @@ void PieceViews::keep_only(const ScenePieces& pieces) {
 void PieceViews::draw(const SurfaceProgram& program, const Frustum& frustum, float voxel_m,
                       DrawStats& pass) const {
   glUniform1f(program.loose, 1.0F);
-  glUniform1f(program.step_m, voxel_m / surface_steps_per_voxel);
+  glUniform1f(program.voxel_m, voxel_m);
   for (const auto& [id, view] : views_) {
     if (!view.mesh || !frustum.touches(view.pose.position_m, view.radius_m)) continue;
-    const glm::vec3 origin_m = as_vector(view.mesh->origin()) * voxel_m;
     const glm::vec3 place_m = view.pose.position_m;
     const glm::quat& turn = view.pose.rotation;
-    glUniform3f(program.origin_m, origin_m.x, origin_m.y, origin_m.z);
+    program.set_place(place_of(view.mesh->origin(), 0));
     glUniform3f(program.centre_m, view.centre_m.x, view.centre_m.y, view.centre_m.z);
     glUniform3f(program.place_m, place_m.x, place_m.y, place_m.z);
     glUniform4f(program.rotation, turn.x, turn.y, turn.z, turn.w);

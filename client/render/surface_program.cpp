@@ -19,13 +19,19 @@ Result<SurfaceProgram> link(std::string_view name, std::span<const std::string_v
 
 SurfaceProgram::SurfaceProgram(gl::Program&& linked)
     : program(std::move(linked)),
-      step_m(program.uniform("u_step_m")),
-      origin_m(program.uniform("u_origin_m")),
+      step(program.uniform("u_step")),
+      origin(program.uniform("u_origin")),
+      voxel_m(program.uniform("u_voxel_m")),
       centre_m(program.uniform("u_centre_m")),
       place_m(program.uniform("u_place_m")),
       rotation(program.uniform("u_rotation")),
       loose(program.uniform("u_loose")),
       tint(program.uniform("u_tint")) {}
+
+void SurfaceProgram::set_place(const MeshPlace& place) const {
+  glUniform3f(origin, place.origin.x, place.origin.y, place.origin.z);
+  glUniform1f(step, place.step);
+}
 
 std::span<const std::string_view> surface_fragment_parts() {
   static const std::array parts{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),

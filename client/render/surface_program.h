@@ -6,15 +6,17 @@
 #include <string_view>
 
 #include "client/render/gl.h"
+#include "client/render/mesh_place.h"
 
 namespace scree {
 
 /// The uniforms of surface.vert that differ from mesh to mesh, looked up once.
 struct SurfaceProgram {
   gl::Program program;
-  GLint step_m, origin_m, centre_m, place_m, rotation, loose, tint;
+  GLint step, origin, voxel_m, centre_m, place_m, rotation, loose, tint;
 
   explicit SurfaceProgram(gl::Program&& linked);
+  void set_place(const MeshPlace& place) const;
 };
 
 /// In colour, and for the shadow map. Fail when a shader does.
