@@ -2,7 +2,9 @@
 #include "client/render/mesh_scheduler.h"
 
 #include <chrono>
+#include <future>
 #include <gtest/gtest.h>
+#include <latch>
 #include <map>
 #include <set>
 #include <thread>
@@ -15,6 +17,7 @@ namespace scree {
 namespace {
 
 constexpr float view_radius_m = 14.0F;
+constexpr unsigned pool_threads = 2;
 
 /// A world of one field, and what a scheduler shows of it.
 class Watched : public testing::Test {
@@ -84,7 +87,7 @@ class Watched : public testing::Test {
   glm::vec3 eye_m_{0.0F, 2.0F, 0.0F};
   std::map<SurfaceNode, SurfaceMesh> nodes_;
   std::set<PieceId> shown_pieces_;
-  WorkPool pool_{2};
+  WorkPool pool_{pool_threads};
   MeshScheduler scheduler_{pool_, view_radius_m, Polygoniser::nets};
 };
 
@@ -151,6 +154,50 @@ TEST_F(Watched, what_is_left_behind_is_dropped_and_loaded_again) {
   eye_m_.x = 0.0F;
   finish();
   expect_current();
+}
+
+/// Keeps all threads of a pool from whatever comes later, until it is gone.
+class Jam {
+ public:
+  Jam(WorkPool& pool, unsigned threads) {
+    const std::shared_future<void> open = open_.get_future().share();
+    const auto jammed = std::make_shared<std::latch>(threads);
+    for (unsigned i = 0; i < threads; ++i)
+      pool.submit(WorkPool::Urgency::edit, [open, jammed] {
+        jammed->count_down();
+        open.wait();
+      });
+    jammed->wait();
+  }
+  ~Jam() { open_.set_value(); }
+  Jam(const Jam&) = delete;
+  Jam& operator=(const Jam&) = delete;
+
+ private:
+  std::promise<void> open_;
+};
+
+TEST_F(Watched, changes_overtake_growth_that_waits_for_its_terrain) {
+  finish();
+  MeshUpdate first;
+  MirrorChanges changes;
+  {
+    const Jam jam(pool_, pool_threads);
+    eye_m_.x = 200.0F;
+    EXPECT_TRUE(update().nodes.empty());
+    EXPECT_GT(scheduler_.waiting(), 0U);
+    changes = carve({0.0F, ground_height_m(field_.source(), 0.0F, 0.0F), 0.0F}, 1);
+    scheduler_.changed(changes);
+    EXPECT_TRUE(update().nodes.empty());
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (first.nodes.empty() && std::chrono::steady_clock::now() < deadline) first = update();
+  EXPECT_EQ(first.pieces.size(), changes.pieces_added.size());
+  EXPECT_TRUE(first.gone.empty());
+  finish();
+  // The growth came after.
+  for (const auto& [node, mesh] : nodes_) EXPECT_TRUE(node.level > 0 || node.at.x > 30);
+  EXPECT_EQ(shown_pieces_.size(), pieces_.size());
 }
 
 }  // namespace

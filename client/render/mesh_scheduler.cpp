@@ -41,6 +41,8 @@ struct MeshScheduler::Batch {
   size_t jobs_left = 0;
   bool of_changes = false;
   MeshUpdate update;
+
+  bool waits_for_terrain() const { return !begun && !terrain_needed.empty(); }
 };
 
 MeshScheduler::MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser)
@@ -84,9 +86,11 @@ MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   MeshUpdate update;
   if (batch_ && batch_->begun && batch_->jobs_left == 0) {
     caught_up_ = caught_up_ || batch_->of_changes;
+    growth_is_due_ = batch_->of_changes;
     update = std::move(batch_->update);
     batch_.reset();
   }
+  if (batch_ && batch_->waits_for_terrain() && !batch_->of_changes && has_changes()) give_way();
   if (!batch_) begin_batch(scene, eye_m);
   if (batch_ && !batch_->begun && batch_->terrain_needed.empty()) begin_meshes(scene.field);
   return update;
@@ -102,6 +106,7 @@ void MeshScheduler::take_results(Field& field) {
   }
   for (Inbox::Generated& generated : done.generated) {
     levels_->adopt_generated(field, generated.at.level, generated.at.chunk, std::move(generated.chunk));
+    generating_.erase(generated.at);
     if (batch_) batch_->terrain_needed.erase(generated.at);
   }
   if (!batch_) return;
@@ -110,22 +115,40 @@ void MeshScheduler::take_results(Field& field) {
   std::ranges::move(done.pieces, std::back_inserter(batch_->update.pieces));
 }
 
+bool MeshScheduler::has_changes() const {
+  return !collected_.bricks.empty() || !collected_.pieces_added.empty() || !collected_.pieces_removed.empty();
+}
+
 void MeshScheduler::begin_batch(const Scene& scene, glm::vec3 eye_m) {
-  if (begin_changes(scene)) return;
-  caught_up_ = true;
+  if (!has_changes()) caught_up_ = true;
+  if (!has_changes() || growth_is_due_) {
+    begin_growth(scene.field, eye_m);
+    if (!has_changes() || (batch_ && !batch_->waits_for_terrain())) return;
+    if (batch_) give_way();
+  }
+  begin_changes(scene);
+}
+
+/// No batch if there is nothing to grow.
+void MeshScheduler::begin_growth(Field& field, glm::vec3 eye_m) {
+  growth_is_due_ = false;
   ForestStep step = forest_->grow(eye_m, limits::forest_steps_max);
   grown_ = step.empty();
   if (grown_) return;
   batch_ = std::make_unique<Batch>();
   batch_->nodes = std::move(step.changed);
   batch_->update.gone = std::move(step.gone);
-  ask_for_terrain(scene.field);
+  ask_for_terrain(field);
 }
 
-/// What the mirror changed, if it changed anything.
-bool MeshScheduler::begin_changes(const Scene& scene) {
-  if (collected_.bricks.empty() && collected_.pieces_added.empty() && collected_.pieces_removed.empty())
-    return false;
+/// The forest is again what is shown; what is being generated for it will be there when it grows next.
+void MeshScheduler::give_way() {
+  forest_->undo();
+  batch_.reset();
+}
+
+/// What the mirror changed.
+void MeshScheduler::begin_changes(const Scene& scene) {
   batch_ = std::make_unique<Batch>();
   batch_->of_changes = true;
   std::unordered_set<SurfaceNode, SurfaceNodeHash> dirty;
@@ -145,7 +168,6 @@ bool MeshScheduler::begin_changes(const Scene& scene) {
   }
   collected_ = {};
   ask_for_terrain(scene.field);
-  return true;
 }
 
 /// The chunks into which the nodes' windows reach are generated first, on the pool.
@@ -163,12 +185,14 @@ void MeshScheduler::ask_for_terrain(Field& field) {
     const auto twice = [](VoxelCoord v) { return VoxelCoord{v.x * 2, v.y * 2, v.z * 2}; };
     need(node.level - 1, VoxelBox{twice(box.lo), twice(box.hi)}.grown(surface_nets_apron));
   }
-  for (const LevelChunk& at : batch_->terrain_needed)
+  for (const LevelChunk& at : batch_->terrain_needed) {
+    if (!generating_.insert(at).second) continue;
     pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = levels_->source(at.level), at] {
       GeneratedChunk generated = generate_chunk(source, at.chunk);
       const std::lock_guard lock(inbox->mutex);
       inbox->generated.push_back({at, std::move(generated)});
     });
+  }
 }
 
 void MeshScheduler::begin_meshes(Field& field) {

@@ -83,16 +83,49 @@ bool SurfaceForest::may_join(const SurfaceNode& node) const {
   return may;
 }
 
+/// To be called before each change.
+void SurfaceForest::note(const SurfaceNode& node) {
+  const auto leaf = leaves_.find(node);
+  before_.push_back({node, leaf == leaves_.end() ? std::nullopt : std::optional(leaf->second),
+                     split_.contains(node), roots_.contains(node)});
+}
+
+void SurfaceForest::undo() {
+  const auto put = [](auto& set, const SurfaceNode& node, bool in) {
+    if (in) {
+      set.insert(node);
+    } else {
+      set.erase(node);
+    }
+  };
+  for (; !before_.empty(); before_.pop_back()) {
+    const Before& was = before_.back();
+    if (was.leaf) {
+      leaves_[was.node] = *was.leaf;
+    } else {
+      leaves_.erase(was.node);
+    }
+    put(split_, was.node, was.split);
+    put(roots_, was.node, was.root);
+  }
+}
+
 void SurfaceForest::split(const SurfaceNode& node, ForestStep& step) {
+  note(node);
   leaves_.erase(node);
   split_.insert(node);
   step.gone.push_back(node);
-  for (int i = 0; i < 8; ++i) leaves_[child_of(node, i)] = not_yet();
+  for (int i = 0; i < 8; ++i) {
+    note(child_of(node, i));
+    leaves_[child_of(node, i)] = not_yet();
+  }
 }
 
 void SurfaceForest::join(const SurfaceNode& node, ForestStep& step) {
+  note(node);
   split_.erase(node);
   for (int i = 0; i < 8; ++i) {
+    note(child_of(node, i));
     leaves_.erase(child_of(node, i));
     step.gone.push_back(child_of(node, i));
   }
@@ -100,6 +133,7 @@ void SurfaceForest::join(const SurfaceNode& node, ForestStep& step) {
 }
 
 void SurfaceForest::remove_tree(const SurfaceNode& node, ForestStep& step) {
+  note(node);
   if (leaves_.erase(node) > 0) step.gone.push_back(node);
   if (split_.erase(node) > 0)
     for (int i = 0; i < 8; ++i) remove_tree(child_of(node, i), step);
@@ -113,6 +147,7 @@ void SurfaceForest::move_roots(glm::vec3 eye_m, ForestStep& step, std::vector<Su
   for (const SurfaceNode& root : roots_)
     if (distance_m(root, eye_m) > shape_.reach_m + side) far.push_back(root);
   for (const SurfaceNode& root : far) {
+    note(root);
     roots_.erase(root);
     remove_tree(root, step);
     touched.push_back(root);
@@ -124,6 +159,7 @@ void SurfaceForest::move_roots(glm::vec3 eye_m, ForestStep& step, std::vector<Su
       for (int z = whole(eye_m.z - shape_.reach_m); z <= whole(eye_m.z + shape_.reach_m); ++z) {
         const SurfaceNode root{level, {x, y, z}};
         if (roots_.contains(root) || distance_m(root, eye_m) > shape_.reach_m) continue;
+        note(root);
         roots_.insert(root);
         leaves_[root] = not_yet();
         touched.push_back(root);
@@ -150,6 +186,7 @@ std::vector<SurfaceForest::Change> SurfaceForest::wishes(glm::vec3 eye_m) const 
 
 ForestStep SurfaceForest::grow(glm::vec3 eye_m, size_t steps_max) {
   ForestStep step;
+  before_.clear();
   std::vector<SurfaceNode> touched;
   move_roots(eye_m, step, touched);
   if (touched.empty()) {
@@ -183,6 +220,7 @@ void SurfaceForest::refresh(const std::vector<SurfaceNode>& touched, ForestStep&
     if (leaf == leaves_.end()) continue;
     const Neighbours around = look_around(node);
     if (around == leaf->second) continue;
+    note(node);
     leaf->second = around;
     step.changed.push_back(node);
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -61,6 +62,8 @@ class SurfaceForest {
 
   /// Grows by at most so many splits and joins; roots come and go first, all at once. Nothing to do: empty.
   ForestStep grow(glm::vec3 eye_m, size_t steps_max);
+  /// Takes back all that the last grow() did; once.
+  void undo();
 
   bool is_leaf(const SurfaceNode& node) const { return leaves_.contains(node); }
   const Neighbours& neighbours(const SurfaceNode& leaf) const { return leaves_.at(leaf); }
@@ -75,6 +78,15 @@ class SurfaceForest {
     float distance_m;
   };
 
+  /// What a node was before grow() touched it.
+  struct Before {
+    SurfaceNode node;
+    std::optional<Neighbours> leaf;
+    bool split;
+    bool root;
+  };
+
+  void note(const SurfaceNode& node);
   float side_m(int level) const { return shape_.block_m * static_cast<float>(1 << level); }
   float distance_m(const SurfaceNode& node, glm::vec3 eye_m) const;
   bool wants_split(const SurfaceNode& node, glm::vec3 eye_m, float keep) const;
@@ -93,6 +105,7 @@ class SurfaceForest {
   std::unordered_map<SurfaceNode, Neighbours, SurfaceNodeHash> leaves_;
   std::unordered_set<SurfaceNode, SurfaceNodeHash> split_;
   std::unordered_set<SurfaceNode, SurfaceNodeHash> roots_;
+  std::vector<Before> before_;  ///< of the last grow(), in its order
 };
 
 }  // namespace scree
