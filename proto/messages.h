@@ -172,6 +172,9 @@ struct WorkStatus {
   uint32_t dents_left_out = 0;    ///< in all
   uint32_t ticks_cut_short = 0;   ///< in which any of these happened
   uint32_t ticks_merging_sooner = 0;
+  uint32_t supports_put_off = 0;   ///< most bricks at a tick's end, around which what holds is not searched
+  uint32_t islands_put_off = 0;    ///< most at a tick's end that hang loose and wait to fall
+  uint32_t islands_too_large = 0;  ///< in all, taken for ground
 
   bool operator==(const WorkStatus&) const = default;
 };

@@ -78,6 +78,9 @@ void write(wire::Work& to, const WorkStatus& from) {
   to.set_dents_left_out(from.dents_left_out);
   to.set_ticks_cut_short(from.ticks_cut_short);
   to.set_ticks_merging_sooner(from.ticks_merging_sooner);
+  to.set_supports_put_off(from.supports_put_off);
+  to.set_islands_put_off(from.islands_put_off);
+  to.set_islands_too_large(from.islands_too_large);
 }
 
 void write(wire::Status& to, const StatusMessage& from) {
@@ -216,6 +219,9 @@ WorkStatus read(const wire::Work& from, FieldChecker& check) {
   work.dents_left_out = from.dents_left_out();
   work.ticks_cut_short = check.within(from.ticks_cut_short(), 0, rate_max, "ticks_cut_short");
   work.ticks_merging_sooner = check.within(from.ticks_merging_sooner(), 0, rate_max, "ticks_merging_sooner");
+  work.supports_put_off = from.supports_put_off();
+  work.islands_put_off = from.islands_put_off();
+  work.islands_too_large = from.islands_too_large();
   return work;
 }
 

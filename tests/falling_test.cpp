@@ -94,6 +94,55 @@ TEST(falling, an_arch_cut_at_one_end_hangs_and_at_both_ends_falls) {
   EXPECT_EQ(world.measure_terrain(), both->ledger.terrain);
 }
 
+/// A viaduct of 44 m on three legs.
+std::vector<Command> viaduct() {
+  std::vector<Shape> shapes;
+  for (const float x : {-16.0F, 0.0F, 16.0F}) shapes.push_back(box({x, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}));
+  for (const float x : {-16.5F, -5.5F, 5.5F, 16.5F})
+    shapes.push_back(box({x, 7.5F, 0.0F}, {5.75F, 1.0F, 2.0F}));
+  return pour(shapes);
+}
+
+TEST(falling, a_viaduct_longer_than_a_piece_may_be_falls_in_several) {
+  World world(flat_world());
+  step(world, viaduct());
+  auto delta = step(world, {cut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
+                            cut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))});
+  size_t islands = 0;
+  MassUnits fell = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const size_t here = islands_of(*delta);
+    for (size_t i = delta->spawned.size() - here; i < delta->spawned.size(); ++i) fell += mass_of(*delta, i);
+    islands += here;
+    ASSERT_EQ(delta->ledger.error(), 0);
+    ASSERT_EQ(world.measure_terrain(), delta->ledger.terrain);
+    delta = step(world);
+  }
+  EXPECT_GE(islands, 2U);
+  EXPECT_GT(fell, MassUnits{units_per_voxel} * 44 * 4 * 8 * 16 * 95 / 100);
+  EXPECT_EQ(delta->work.islands_put_off, 0U);
+  EXPECT_EQ(delta->work.islands_too_large, 0U);
+}
+
+TEST(falling, blocks_over_the_budget_wait_and_fall_in_later_ticks) {
+  WorldConfig config = flat_world();
+  config.tick_rate_hz = 1000;  // a budget of 0.75 ms
+  World world(config);
+  for (int i = 0; i < 60; ++i) step(world, i == 0 ? viaduct() : std::vector<Command>{});
+  std::vector<Command> cuts = {cut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
+                               cut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))};
+  size_t islands = 0, waited = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const auto delta = step(world, std::exchange(cuts, {}));
+    islands += islands_of(*delta);
+    waited += delta->work.islands_put_off > 0 ? 1 : 0;
+    EXPECT_LE(islands_of(*delta), 1U) << "one a tick at least, and no more in so short a tick";
+    ASSERT_EQ(delta->ledger.error(), 0);
+  }
+  EXPECT_GE(islands, 2U);
+  EXPECT_GE(waited, 1U);
+}
+
 TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
   World world(flat_world());
   // Its legs end half a metre above the ground; a block stands between them, higher than they reach down.

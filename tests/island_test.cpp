@@ -163,16 +163,124 @@ TEST(island, what_stands_on_a_post_is_ground_and_without_it_an_island) {
   }
 }
 
-TEST(island, what_is_longer_than_the_limit_counts_as_ground) {
-  for (const bool longer : {false, true}) {
-    MapField field(flat);
-    std::vector<BrickCoord> bar;
-    for (int x = 0; x < limits::island_side_max_bricks + (longer ? 1 : 0); ++x) {
-      bar.push_back({x, 5, 0});
-      field.set_brick(bar.back(), solid_brick());
-    }
-    EXPECT_EQ(search(field, std::vector<BrickCoord>{bar.front()}, 1000).size(), longer ? 0U : 1U);
+/// A bar of bricks in the air.
+std::vector<BrickCoord> bar_of(Field& field, int length) {
+  std::vector<BrickCoord> bar;
+  for (int x = 0; x < length; ++x) {
+    bar.push_back({x, 5, 0});
+    field.set_brick(bar.back(), solid_brick());
   }
+  return bar;
+}
+
+TEST(island, what_is_longer_than_a_piece_may_be_comes_in_blocks) {
+  for (const int length : {limits::island_side_max_bricks, limits::island_side_max_bricks + 1, 100}) {
+    MapField field(flat);
+    const std::vector<BrickCoord> bar = bar_of(field, length);
+    const std::vector<Island> blocks = search(field, {bar.front()}, 1000);
+    int64_t voxels = 0;
+    for (const Island& block : blocks) {
+      EXPECT_LE(block.box.size().x, limits::island_side_max_bricks * brick_size);
+      EXPECT_EQ(block.voxels, int64_t{block.box.size().x} * brick_size * brick_size);
+      voxels += block.voxels;
+    }
+    EXPECT_EQ(voxels, int64_t{length} * brick_size * brick_size * brick_size);
+    EXPECT_EQ(blocks.size(), length == 100 ? 8U : length > limits::island_side_max_bricks ? 2U : 1U);
+  }
+}
+
+TEST(island, a_component_of_too_many_parts_counts_as_ground_and_is_counted) {
+  MapField field(flat);
+  const std::vector<BrickCoord> bar = bar_of(field, 20);
+  for (const size_t parts_max : {size_t{19}, size_t{20}}) {
+    // From both ends: two floods that meet are one component.
+    IslandSearch search(field, std::vector<BrickCoord>{bar.front(), bar.back()}, parts_max);
+    size_t bricks = 1000;
+    ASSERT_TRUE(search.advance(bricks));
+    EXPECT_EQ(search.too_large(), parts_max == 19 ? 1U : 0U);
+    EXPECT_EQ(search.islands().empty(), parts_max == 19);
+  }
+}
+
+/// What connects within each block of so many bricks a side, by brute force: voxels and box of each.
+std::vector<Island> split_by_brute_force(Field& field, const Island& whole,
+                                         const std::vector<Island>& blocks) {
+  std::vector<Island> found;
+  const Window window = gather(field, whole.box);
+  std::vector<uint8_t> seen(window.codes.size(), 0);
+  for (const Island& block : blocks) {
+    Island own{block.box, block.seed, 0};
+    std::vector<VoxelCoord> ahead{block.seed};
+    seen[window.index(block.seed.x, block.seed.y, block.seed.z)] = 1;
+    while (!ahead.empty()) {
+      const VoxelCoord v = ahead.back();
+      ahead.pop_back();
+      ++own.voxels;
+      for (const VoxelCoord n : neighbours(v)) {
+        if (!holds(block.box, n) || window.at(n.x, n.y, n.z) >= 0) continue;
+        uint8_t& mark = seen[window.index(n.x, n.y, n.z)];
+        if (mark != 0) continue;
+        mark = 1;
+        ahead.push_back(n);
+      }
+    }
+    found.push_back(own);
+  }
+  return found;
+}
+
+TEST(island, blocks_of_random_islands_are_connected_and_hold_every_voxel_once) {
+  size_t split = 0;
+  for (uint64_t round = 0; round < 40; ++round) {
+    MapField field(flat);
+    Random random(round);
+    scatter(field, random_window(field, random, round % 2 == 1));
+    std::vector<BrickCoord> bricks;
+    for_each_brick(edited, [&](BrickCoord brick) { bricks.push_back(brick); });
+    IslandSearch search(field, bricks);
+    size_t budget = 1'000'000;
+    ASSERT_TRUE(search.advance(budget));
+    const std::vector<Island> whole = search.islands(), blocks = search.islands({2, 4});
+    int64_t want = 0, got = 0;
+    for (const Island& island : whole) want += island.voxels;
+    for (const Island& block : blocks) {
+      got += block.voxels;
+      const VoxelCoord size = block.box.size();
+      EXPECT_LE(std::max({size.x, size.y, size.z}), 2 * brick_size);
+    }
+    EXPECT_EQ(got, want) << round;
+    // Each block's flood within its box, as the operation does it, takes what the search counted.
+    EXPECT_EQ(split_by_brute_force(field, {labelled, {}, 0}, blocks), blocks) << round;
+    split += blocks.size() - whole.size();
+  }
+  EXPECT_GT(split, 40U);
+}
+
+TEST(island, a_block_that_is_cut_off_leaves_a_flat_face_and_takes_exactly_its_mass) {
+  MapField field(flat);
+  const Shape bar = box({36.0F, 44.0F, 4.0F}, {30.5F, 3.3F, 3.3F});
+  const VoxelBox all{{-8, 32, -8}, {80, 56, 16}};
+  Window window = gather(field, all);
+  fill(window, codes_of(bar, all));
+  scatter(field, window);
+  const MassUnits whole = mass_of(window);
+  // Its left half.
+  const VoxelBox half{{6, 41, 1}, {36, 48, 8}};
+  Window left = gather(field, lift_box(half));
+  const MassUnits before = mass_of(left);
+  const Volume volume = lift(left, half, {20, 44, 4});
+  EXPECT_EQ(volume.mass, before - mass_of(left));
+  EXPECT_NEAR(static_cast<double>(volume.mass), static_cast<double>(whole) * 30.0 / 61.0,
+              0.002 * static_cast<double>(whole));
+  EXPECT_NEAR(static_cast<double>(mass_of(volume.window)), static_cast<double>(volume.mass),
+              0.001 * static_cast<double>(whole));
+  scatter(field, left);
+  // What a bar that ends there would look like.
+  Window want = gather(field, all);
+  for (Code& code : want.codes) code = code_air;
+  fill(want, codes_of(box({51.0F, 44.0F, 4.0F}, {15.5F, 3.3F, 3.3F}), all));
+  const Window got = gather(field, all);
+  for (int x = 33; x < 40; ++x) EXPECT_NEAR(got.at(x, 44, 4), want.at(x, 44, 4), 9) << "codes, at " << x;
 }
 
 TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_had_never_been) {

@@ -380,9 +380,10 @@ TEST(TickClock, work_is_the_last_seconds) {
   TickClock clock(2);
   EXPECT_EQ(clock.work(), WorkStatus{});
   clock.add({}, {12500, 90000, 9, 9, 9, 9, true});
-  clock.add({}, {12500, 14000, 3, 7, 2, 0, true});
-  clock.add({}, {12500, 9000, 4, 0, 5, 1, false});
-  EXPECT_EQ(clock.work(), (WorkStatus{12500, 14000, 4, 7, 7, 1, 2, 1})) << "the first tick left the window";
+  clock.add({}, {12500, 14000, 3, 7, 2, 0, true, 8, 0, 1, 2});
+  clock.add({}, {12500, 9000, 4, 0, 5, 1, false, 6, 0, 3, 1});
+  EXPECT_EQ(clock.work(), (WorkStatus{12500, 14000, 4, 7, 7, 1, 2, 1, 8, 3, 3}))
+      << "the first tick left the window";
 }
 
 }  // namespace

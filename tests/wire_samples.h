@@ -103,7 +103,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.stage_ms = {0.0F, 1.0F, 2.5F, 3.0F, 4.0F, 5.0F, 6.0F, 1e-3F};
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
-  status.work = {12500, 40000, 3, 17, 5, 1, 60, 59};
+  status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {
       welcome,        RefusalMessage{"protocol 9 is not 1"},

@@ -17,7 +17,10 @@ Json json_of(const WorkStatus& work) {
           {"breaks_left_out", work.breaks_left_out},
           {"dents_left_out", work.dents_left_out},
           {"ticks_cut_short", work.ticks_cut_short},
-          {"ticks_merging_sooner", work.ticks_merging_sooner}};
+          {"ticks_merging_sooner", work.ticks_merging_sooner},
+          {"supports_put_off", work.supports_put_off},
+          {"islands_put_off", work.islands_put_off},
+          {"islands_too_large", work.islands_too_large}};
 }
 
 Json json_of(const StatusMessage& status) {

@@ -36,6 +36,8 @@ void show_work(const WorkStatus& work) {
               work.ticks_merging_sooner > 0 ? ", merging sooner" : "");
   if (work.requests_waiting + work.merges_put_off > 0)
     ImGui::Text("put off: %u requests, %u merges", work.requests_waiting, work.merges_put_off);
+  if (work.islands_put_off + work.islands_too_large > 0)
+    ImGui::Text("islands: %u put off, %u too large", work.islands_put_off, work.islands_too_large);
   if (work.breaks_left_out + work.dents_left_out > 0)
     ImGui::Text("left out: %u breaks, %u dents", work.breaks_left_out, work.dents_left_out);
 }

@@ -50,7 +50,9 @@ Json json_of(const WorkReport& work) {
           {"breaks_left_out", work.breaks_left_out},
           {"dents_left_out", work.dents_left_out},
           {"supports_put_off_most", work.supports_put_off_most},
-          {"supports_given_up", work.supports_given_up}};
+          {"supports_given_up", work.supports_given_up},
+          {"islands_put_off_most", work.islands_put_off_most},
+          {"islands_too_large", work.islands_too_large}};
 }
 
 Json json_of(const NetStats& net) {
@@ -83,6 +85,8 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   dents_left_out += work.dents_left_out;
   supports_put_off_most = std::max(supports_put_off_most, work.supports_put_off);
   supports_given_up += work.supports_given_up;
+  islands_put_off_most = std::max(islands_put_off_most, work.islands_put_off);
+  islands_too_large += work.islands_too_large;
 }
 
 void ServerReport::add(const TickDelta& delta) {

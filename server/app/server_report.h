@@ -25,6 +25,8 @@ struct WorkReport {
   uint64_t dents_left_out = 0;
   uint32_t supports_put_off_most = 0;
   uint64_t supports_given_up = 0;
+  uint32_t islands_put_off_most = 0;
+  uint64_t islands_too_large = 0;
 
   void add(Tick tick, const TickWork& work);
 };

@@ -62,6 +62,9 @@ class TickClock {
       sum.dents_left_out += work.dents_left_out;
       sum.ticks_cut_short += work.cut_short() ? 1 : 0;
       sum.ticks_merging_sooner += work.merging_sooner ? 1 : 0;
+      sum.supports_put_off = std::max(sum.supports_put_off, work.supports_put_off);
+      sum.islands_put_off = std::max(sum.islands_put_off, work.islands_put_off);
+      sum.islands_too_large += work.islands_too_large;
     }
     return sum;
   }

@@ -5,6 +5,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
+#include "shared/field/island.h"
 #include "shared/field/specks.h"
 
 namespace scree {
@@ -24,7 +25,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   state.ledger.moved -= applied.terrain_gain;
   state.ledger.dust += applied.dust;
   state.ledger.pieces -= applied.terrain_gain + applied.dust;
-  state.islands.changed(applied.changed);
+  state.islands.fell(applied.changed);
   const float dx = state.config.terrain.voxel_size_m;
   const auto at_rest = [&](PieceId, const Volume& volume) {
     Newborn born;
@@ -33,6 +34,17 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
     return born;
   };
   spawn(state, applied, at_rest, delta);
+}
+
+/// Lifting it, with what surrounds it.
+float cost_us(const Island& island) {
+  const VoxelCoord size = lift_box(island.box).size();
+  return limits::lift_voxel_cost_us * static_cast<float>(size.x) * static_cast<float>(size.y) *
+         static_cast<float>(size.z);
+}
+
+bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
+  return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });
 }
 
 /// One search, or several where cuts of many ticks have waited for islands to be switched on: a search over
@@ -59,28 +71,54 @@ std::vector<BrickCoord> IslandQueue::waiting() const {
   return bricks;
 }
 
-void IslandQueue::changed(std::span<const BrickCoord> bricks) {
+void IslandQueue::fell(std::span<const BrickCoord> bricks) {
   for (Waiting& waiting : waiting_) {
-    if (waiting.search == nullptr) continue;
-    const IslandSearch& search = *waiting.search;
-    if (std::ranges::none_of(bricks, [&](BrickCoord brick) { return search.visited(brick); })) continue;
+    if (waiting.search == nullptr || !has_seen(*waiting.search, bricks)) continue;
     waiting.search.reset();
     ++waiting.restarts;
   }
 }
 
-std::optional<std::vector<Island>> IslandQueue::next(Field& field, size_t& bricks) {
-  if (waiting_.empty() || bricks == 0) return std::nullopt;
+void IslandQueue::changed(std::span<const BrickCoord> bricks) {
+  fell(bricks);
+  std::erase_if(falling_, [&](const Falling& falling) {
+    if (!has_seen(*falling.search, bricks)) return false;
+    std::vector<BrickCoord> seeds;
+    for (const Island& island : falling.islands) seeds.push_back(brick_of(island.seed));
+    push(std::move(seeds));
+    return true;
+  });
+}
+
+bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
+  if (waiting_.empty() || bricks == 0) return false;
   Waiting& first = waiting_.front();
-  if (first.search == nullptr) first.search = std::make_unique<IslandSearch>(field, first.cut);
+  if (first.search == nullptr)
+    first.search = std::make_unique<IslandSearch>(field, first.cut, limits::island_parts_max);
   const unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
   size_t own = bricks << doublings;
   const bool finished = first.search->advance(own);
   bricks = own >> doublings;
-  if (!finished) return std::nullopt;
-  std::vector<Island> islands = first.search->islands();
+  if (!finished) return false;
+  Falling falling{first.search->islands(), std::move(first.search)};
   waiting_.pop_front();
-  return islands;
+  too_large += static_cast<uint32_t>(falling.search->too_large());
+  // From the ground up, so that none falls on one that waits.
+  std::ranges::sort(falling.islands, std::ranges::greater{},
+                    [](const Island& island) { return std::pair(island.box.lo.y, island.seed); });
+  if (!falling.islands.empty()) falling_.push_back(std::move(falling));
+  return true;
+}
+
+void IslandQueue::pop() {
+  falling_.front().islands.pop_back();
+  if (falling_.front().islands.empty()) falling_.pop_front();
+}
+
+size_t IslandQueue::falling() const {
+  size_t count = 0;
+  for (const Falling& falling : falling_) count += falling.islands.size();
+  return count;
 }
 
 void drop_islands(World::State& state, TickDelta& delta) {
@@ -89,16 +127,19 @@ void drop_islands(World::State& state, TickDelta& delta) {
   if (!state.methods.islands) return;
   take_cuts(state);
   size_t bricks = limits::island_bricks_per_tick;
-  std::vector<BrickCoord> later;
-  while (const auto islands = state.islands.next(state.field, bricks))
-    for (const Island& island : *islands) {
-      if (state.pieces.size() < state.config.pieces_max) {
-        drop(state, island, delta);
-      } else {
-        later.push_back(brick_of(island.seed));
-      }
-    }
-  state.islands.push(std::move(later));
+  while (state.islands.search(state.field, bricks, delta.work.islands_too_large)) {
+  }
+  bool first = true;
+  while (const Island* next = state.islands.next()) {
+    const Island island = *next;
+    const float cost = cost_us(island);
+    if (state.pieces.size() >= state.config.pieces_max || (!first && !state.work.affords(cost))) break;
+    first = false;
+    state.islands.pop();
+    drop(state, island, delta);
+    state.work.spend(cost);
+  }
+  delta.work.islands_put_off = static_cast<uint32_t>(state.islands.falling());
 }
 
 void sweep_specks(World::State& state, TickDelta& delta) {

@@ -34,10 +34,14 @@ inline constexpr size_t concave_samples_max = 128;
 inline constexpr int compound_side_min_voxels = 16;
 inline constexpr size_t compound_parts_max = 64;
 
+/// Parts of a component, one for each brick as a rule, that a search follows: half a million m³ at 0.25 m.
+/// What is larger counts as ground, and is counted.
+inline constexpr size_t island_parts_max = 65536;
+
 /// Times that a search's budget doubles, once for each time that what it has seen changed under it: the
-/// largest island (limits::island_side_max_bricks) is then searched in one tick, and nothing can interrupt it
-/// any more.
-inline constexpr unsigned island_doublings_max = 4;
+/// largest island is then searched in one tick, and nothing can interrupt it any more.
+inline constexpr unsigned island_doublings_max = 6;
+static_assert(island_bricks_per_tick << island_doublings_max >= island_parts_max);
 
 /// Change of a piece's speed in one contact below which it is no impact, m/s: a piece at rest on the ground
 /// bears 0.16, one that drops by its own height 3.
@@ -93,6 +97,9 @@ inline constexpr float merge_cost_us = 250.0F;
 
 /// A part of terrain of which is asked whether it holds (shared/field/support_search.h).
 inline constexpr float support_part_cost_us = 0.7F;
+
+/// A voxel of the box around an island that is lifted.
+inline constexpr float lift_voxel_cost_us = 0.04F;
 
 /// Merges in a tick whose budget is used up: it must get better some time.
 inline constexpr uint32_t merges_per_tick_min = 2;

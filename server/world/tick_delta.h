@@ -52,10 +52,12 @@ struct TickWork {
   bool merging_sooner = false;     ///< a crowd: half of the rest will do
   uint32_t supports_put_off = 0;   ///< bricks that changed, around which what holds is not searched yet
   uint32_t supports_given_up = 0;  ///< searches for what holds that were too intricate
+  uint32_t islands_put_off = 0;    ///< that hang loose, or blocks of such, and wait their turn to fall
+  uint32_t islands_too_large = 0;  ///< components so large that they were taken for ground
 
   bool cut_short() const {
     return requests_waiting + merges_put_off + breaks_left_out + dents_left_out + supports_put_off +
-               supports_given_up >
+               supports_given_up + islands_put_off + islands_too_large >
            0;
   }
 };

@@ -58,8 +58,8 @@ inline constexpr size_t generated_chunks_max = 8192;
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
 inline constexpr int64_t piece_mass_min = 2 * 254;
 
-/// Bricks along a side of an island: with its shell, and room to redistance in, it fits window_side_max. What
-/// is longer, or cut off with it, counts as ground.
+/// Bricks along a side of an island's piece: with its shell, and room to redistance in, it fits
+/// window_side_max. What is longer falls in several.
 inline constexpr int island_side_max_bricks = 14;
 
 }  // namespace scree::limits

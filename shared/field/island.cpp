@@ -13,7 +13,9 @@ namespace {
 constexpr int band = 3;  ///< voxels that the narrow band reaches
 constexpr int margin =
     2 * band + 2;  ///< the island's band, what lies in the band of that, and room to redistance
-using Marks = std::vector<uint8_t>;  ///< of a window's voxels, in its order
+constexpr Code code_at_cut = -21;     ///< half a voxel deep
+constexpr Code code_beyond_cut = 21;  ///< half a voxel outside
+using Marks = std::vector<uint8_t>;   ///< of a window's voxels, in its order
 
 /// Steps from a voxel to its neighbours in a window's codes.
 std::array<ptrdiff_t, 3> strides(const Window& window) {
@@ -83,17 +85,17 @@ Marks grown(Marks marks, const Window& window, int by) {
   return marks;
 }
 
-/// Marks what is solid and not gone, and the voxels at its faces.
-Marks near_rest(const Window& window, const Marks& gone) {
+/// Marks what is marked, and the voxels at its faces.
+Marks beside_of(const Window& window, const Marks& marks) {
   const VoxelCoord size = window.box.size();
   const auto [step_x, step_y, step_z] = strides(window);
-  Marks near(window.codes.size(), 0);
+  Marks beside(marks.size(), 0);
   for (int x = 0; x < size.x; ++x)
     for (int y = 0; y < size.y; ++y)
       for (int z = 0; z < size.z; ++z) {
         const ptrdiff_t at = x * step_x + y * step_y + z * step_z;
-        if (window.codes[static_cast<size_t>(at)] >= 0 || gone[static_cast<size_t>(at)] != 0) continue;
-        uint8_t* mark = near.data() + at;
+        if (marks[static_cast<size_t>(at)] == 0) continue;
+        uint8_t* mark = beside.data() + at;
         *mark = 1;
         if (x > 0) mark[-step_x] = 1;
         if (x + 1 < size.x) mark[step_x] = 1;
@@ -102,7 +104,14 @@ Marks near_rest(const Window& window, const Marks& gone) {
         if (z > 0) mark[-step_z] = 1;
         if (z + 1 < size.z) mark[step_z] = 1;
       }
-  return near;
+  return beside;
+}
+
+/// Marks what is solid and not gone, and the voxels at its faces.
+Marks near_rest(const Window& window, const Marks& gone) {
+  Marks rest(gone.size());
+  for (size_t i = 0; i < rest.size(); ++i) rest[i] = window.codes[i] < 0 && gone[i] == 0 ? 1 : 0;
+  return beside_of(window, rest);
 }
 
 /// Bounds of what is solid, not gone, and marked in `within`.
@@ -118,15 +127,35 @@ VoxelBox rest_box(const Window& window, const Marks& gone, const Marks& within) 
   return box;
 }
 
+/// What remains gets a face where it was cut: halfway between its last voxels and the first that are gone.
+/// Returns the solids whose distance that changes: those within the band of the cut.
+Marks bare_cut(Window& window, const Marks& gone, const Marks& near) {
+  Marks cut(window.codes.size(), 0);
+  bool any = false;
+  for (size_t i = 0; i < cut.size(); ++i) {
+    cut[i] = gone[i] != 0 && near[i] != 0 ? 1 : 0;
+    any = any || cut[i] != 0;
+  }
+  if (!any) return {};
+  const Marks beside = beside_of(window, cut);
+  Marks bared = grown(std::move(cut), window, band);
+  for (size_t i = 0; i < bared.size(); ++i) {
+    if (gone[i] != 0 || window.codes[i] >= 0) bared[i] = 0;
+    if (bared[i] != 0 && beside[i] != 0) window.codes[i] = std::max(window.codes[i], code_at_cut);
+  }
+  return bared;
+}
+
 /// Takes the marked solids out, and gives them and their band the distance to what remains.
 void strip(Window& window, const Marks& gone) {
   const Marks within = grown(gone, window, 2 * band);
   const VoxelBox rest = rest_box(window, gone, within);
   const Marks near = near_rest(window, gone);
+  const Marks bared = bare_cut(window, gone, near);
   Marks touched = grown(gone, window, band);
   for (size_t i = 0; i < touched.size(); ++i) {
     if (gone[i] == 0 && (window.codes[i] < 0 || near[i] != 0)) touched[i] = 0;
-    if (touched[i] != 0) window.codes[i] = code_air;
+    if (touched[i] != 0) window.codes[i] = gone[i] != 0 && near[i] != 0 ? code_beyond_cut : code_air;
   }
   if (rest.empty()) return;
   Window part = part_of(window, common(rest.grown(band + 2), window.box));
@@ -135,6 +164,7 @@ void strip(Window& window, const Marks& gone) {
   for_each_voxel(part.box, [&](int x, int y, int z) {
     const size_t to = window.index(x, y, z);
     if (touched[to] != 0) window.codes[to] = part.codes[at];
+    if (!bared.empty() && bared[to] != 0) window.codes[to] = std::max(window.codes[to], part.codes[at]);
     ++at;
   });
 }

@@ -1,5 +1,6 @@
 // Lifting an island out of the terrain: its voxels become a piece, and the field around closes as if it had
-// never been there. Lengths in voxels.
+// never been there. Where the box cuts it off from what goes on outside, both get a flat face halfway between
+// their voxels. Lengths in voxels.
 #pragma once
 
 #include "shared/field/piece.h"

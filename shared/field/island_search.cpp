@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "shared/base/check.h"
@@ -9,8 +10,64 @@
 
 namespace scree {
 
-IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed)
-    : field_(field), ground_(field) {
+namespace {
+
+/// An island's bounds, and the blocks that it is cut into.
+class BlockGrid {
+ public:
+  void add(BrickCoord brick) {
+    if (empty_) lo_ = hi_ = brick;
+    empty_ = false;
+    lo_ = {std::min(lo_.x, brick.x), std::min(lo_.y, brick.y), std::min(lo_.z, brick.z)};
+    hi_ = {std::max(hi_.x, brick.x), std::max(hi_.y, brick.y), std::max(hi_.z, brick.z)};
+  }
+  void divide(const BlockLimits& limits) {
+    sides_ = hi_ - lo_ + BrickCoord{1, 1, 1};
+    for (;;) {
+      int& longest = sides_.x >= std::max(sides_.y, sides_.z) ? sides_.x
+                     : sides_.y >= sides_.z                   ? sides_.y
+                                                              : sides_.z;
+      if (longest <= limits.side_bricks && sides_.x * sides_.y * sides_.z <= limits.bricks) return;
+      longest = (longest + 1) / 2;
+    }
+  }
+  /// Of a brick of the island.
+  BrickCoord block(BrickCoord brick) const {
+    const BrickCoord at = brick - lo_;
+    return {at.x / sides_.x, at.y / sides_.y, at.z / sides_.z};
+  }
+
+ private:
+  bool empty_ = true;
+  BrickCoord lo_, hi_, sides_;
+};
+
+/// An island, as its parts are told one by one.
+struct Found {
+  Island island;
+  BrickCoord first;
+
+  void add(BrickCoord brick, const BrickBits& bits) {
+    const VoxelCoord origin = first_voxel(brick);
+    const VoxelBox inner = bounds_of(bits);
+    const VoxelBox box{inner.lo + origin, inner.hi + origin};
+    const VoxelCoord seed = origin + bounds_of(first_of(bits)).lo;
+    const bool is_new = island.voxels == 0;
+    const VoxelBox& b = is_new ? box : island.box;
+    island.box = {{std::min(b.lo.x, box.lo.x), std::min(b.lo.y, box.lo.y), std::min(b.lo.z, box.lo.z)},
+                  {std::max(b.hi.x, box.hi.x), std::max(b.hi.y, box.hi.y), std::max(b.hi.z, box.hi.z)}};
+    if (is_new || brick < first || (brick == first && seed < island.seed)) {
+      first = brick;
+      island.seed = seed;
+    }
+    island.voxels += bits.count();
+  }
+};
+
+}  // namespace
+
+IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max)
+    : field_(field), ground_(field), parts_max_(parts_max) {
   sites_.reserve(changed.size() * 4);
   start(changed);
 }
@@ -33,7 +90,7 @@ void IslandSearch::seed(BrickCoord brick, BrickBits among) {
   for (among = among & here.solid & ~taken(here); among.any();) {
     const BrickBits bits = flooded(first_of(among), here.solid);
     const auto flood = static_cast<uint32_t>(floods_.size());
-    floods_.push_back({flood, Verdict::open, brick, brick, {}});
+    floods_.push_back({flood, Verdict::open, 0, {}});
     open_.push_back(flood);
     add_part(brick, bits, flood);
     among = among & ~bits;
@@ -70,12 +127,9 @@ void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t fl
   parts_.push_back({brick, bits, flood, here.first});
   here.first = part;
   Flood& into = floods_[flood];
-  into.lo = {std::min(into.lo.x, brick.x), std::min(into.lo.y, brick.y), std::min(into.lo.z, brick.z)};
-  into.hi = {std::max(into.hi.x, brick.x), std::max(into.hi.y, brick.y), std::max(into.hi.z, brick.z)};
   into.ahead.push_back(part);
   std::ranges::push_heap(into.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
-  const BrickCoord reach = into.hi - into.lo;
-  if (std::max({reach.x, reach.y, reach.z}) >= limits::island_side_max_bricks) into.verdict = Verdict::ground;
+  if (++into.parts > parts_max_) into.verdict = Verdict::too_large;
 }
 
 /// Two floods met: they are one. Returns it.
@@ -89,17 +143,14 @@ uint32_t IslandSearch::unite(uint32_t a, uint32_t b) {
   CHECK(into.verdict != Verdict::island &&
         from.verdict != Verdict::island);  // those have nothing left to meet
   from.parent = a;
-  into.lo = {std::min(into.lo.x, from.lo.x), std::min(into.lo.y, from.lo.y), std::min(into.lo.z, from.lo.z)};
-  into.hi = {std::max(into.hi.x, from.hi.x), std::max(into.hi.y, from.hi.y), std::max(into.hi.z, from.hi.z)};
   for (const uint32_t part : from.ahead) {
     into.ahead.push_back(part);
     std::ranges::push_heap(into.ahead, [this](uint32_t x, uint32_t y) { return is_later(x, y); });
   }
   from.ahead = {};
-  const BrickCoord reach = into.hi - into.lo;
-  if (from.verdict == Verdict::ground ||
-      std::max({reach.x, reach.y, reach.z}) >= limits::island_side_max_bricks)
-    into.verdict = Verdict::ground;
+  into.parts += from.parts;
+  if (from.verdict != Verdict::open && into.verdict != Verdict::ground) into.verdict = from.verdict;
+  if (into.verdict == Verdict::open && into.parts > parts_max_) into.verdict = Verdict::too_large;
   return a;
 }
 
@@ -129,7 +180,7 @@ void IslandSearch::grow(uint32_t flood) {
   growing.ahead.pop_back();
   if (ground_.holds(parts_[part].brick)) growing.verdict = Verdict::ground;
   for (size_t face = 0; face < brick_faces.size(); ++face) {
-    if (floods_[root(flood)].verdict == Verdict::ground) return;
+    if (floods_[root(flood)].verdict != Verdict::open) return;
     cross(part, face);
   }
 }
@@ -154,32 +205,47 @@ bool IslandSearch::advance(size_t& bricks) {
   return true;
 }
 
-std::vector<Island> IslandSearch::islands() const {
-  struct Found {
-    BrickCoord first;
-    Island island;
+size_t IslandSearch::too_large() const {
+  return static_cast<size_t>(std::ranges::count_if(floods_, [this](const Flood& flood) {
+    return flood.verdict == Verdict::too_large && &floods_[flood.parent] == &flood;
+  }));
+}
+
+std::vector<uint32_t> IslandSearch::parts_of_islands() const {
+  std::vector<uint32_t> found;
+  for (uint32_t part = 0; part < parts_.size(); ++part)
+    if (floods_[root(parts_[part].flood)].verdict == Verdict::island) found.push_back(part);
+  return found;
+}
+
+std::vector<Island> IslandSearch::islands(const BlockLimits& limits) const {
+  const std::vector<uint32_t> parts = parts_of_islands();
+  std::map<uint32_t, BlockGrid> grids;  // by flood
+  for (const uint32_t part : parts) grids[root(parts_[part].flood)].add(parts_[part].brick);
+  for (auto& [flood, grid] : grids) grid.divide(limits);
+  // What connects within a block has the same group: its first part.
+  std::vector<uint32_t> groups(parts_.size());
+  std::iota(groups.begin(), groups.end(), 0U);
+  const auto group = [&](uint32_t part) {
+    while (groups[part] != part) part = groups[part] = groups[groups[part]];
+    return part;
   };
-  std::map<uint32_t, Found> found;
-  for (const Part& part : parts_) {
-    const uint32_t flood = root(part.flood);
-    if (floods_[flood].verdict != Verdict::island) continue;
-    const VoxelCoord origin = first_voxel(part.brick);
-    const VoxelBox inner = bounds_of(part.bits);
-    const VoxelBox box{inner.lo + origin, inner.hi + origin};
-    const VoxelCoord seed = origin + bounds_of(first_of(part.bits)).lo;
-    const auto [entry, is_new] = found.try_emplace(flood, Found{part.brick, {box, seed, 0}});
-    auto& [first, island] = entry->second;
-    const VoxelBox& b = island.box;
-    island.box = {{std::min(b.lo.x, box.lo.x), std::min(b.lo.y, box.lo.y), std::min(b.lo.z, box.lo.z)},
-                  {std::max(b.hi.x, box.hi.x), std::max(b.hi.y, box.hi.y), std::max(b.hi.z, box.hi.z)}};
-    if (part.brick < first || (part.brick == first && seed < island.seed)) {
-      first = part.brick;
-      island.seed = seed;
+  for (const uint32_t part : parts) {
+    const BrickCoord brick = parts_[part].brick;
+    const BlockGrid& grid = grids.at(root(parts_[part].flood));
+    for (size_t face = 0; face < brick_faces.size(); face += 2) {
+      const auto beyond = sites_.find(brick + brick_faces[face]);
+      if (beyond == sites_.end() || grid.block(brick) != grid.block(beyond->first)) continue;
+      const BrickBits reached = across(parts_[part].bits, face);
+      for (uint32_t i = beyond->second.first; i != none; i = parts_[i].next)
+        if ((parts_[i].bits & reached).any())
+          groups[std::max(group(part), group(i))] = std::min(group(part), group(i));
     }
-    island.voxels += part.bits.count();
   }
+  std::map<uint32_t, Found> found;
+  for (const uint32_t part : parts) found[group(part)].add(parts_[part].brick, parts_[part].bits);
   std::vector<Island> islands;
-  for (const auto& [flood, entry] : found) islands.push_back(entry.island);
+  for (const auto& [first, entry] : found) islands.push_back(entry.island);
   std::ranges::sort(islands, {}, &Island::seed);
   return islands;
 }
