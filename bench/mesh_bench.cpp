@@ -1,5 +1,5 @@
-// How fast the changed rock becomes triangles: one block of 16³ voxels, the quads of a whole scene beside
-// those of OpenVDB's volumeToMesh, and the time from a change to its picture.
+// How fast the changed rock becomes triangles: one block of 16³ voxels by either polygoniser, the quads of a
+// whole scene beside those of OpenVDB's volumeToMesh, and the time from a change to its picture.
 #include <fmt/format.h>
 
 #include "bench/benches.h"
@@ -75,6 +75,24 @@ std::vector<BlockWindows> dirty_windows(Field& field, const std::vector<BrickCoo
   return windows;
 }
 
+/// The other polygoniser on the same blocks, in triangles: its polygons are no quads.
+void report_cubes(BenchReport& report, const std::vector<BlockWindows>& dirty, int rounds, double nets_us,
+                  size_t nets_triangles) {
+  size_t triangles = 0;
+  const double cubes_us = median_us(rounds, dirty.size(), [&] {
+    triangles = 0;
+    for (const BlockWindows& windows : dirty) triangles += windows.mesh_by_cubes(nullptr).indices.size() / 3;
+  });
+  const auto report_one = [&](const char* name, double block_us, size_t count) {
+    const double per_block = static_cast<double>(count) / static_cast<double>(dirty.size());
+    report.metric(fmt::format("{}_triangles_per_dirty_block", name), per_block);
+    report.metric(fmt::format("{}_million_triangles_per_s", name), per_block / block_us);
+  };
+  report_one("nets", nets_us, nets_triangles);
+  report_one("cubes", cubes_us, triangles);
+  report.metric("cubes_dirty_block_us", cubes_us);
+}
+
 void report_blocks(BenchReport& report, Field& field, const std::vector<BrickCoord>& changed, int rounds) {
   const std::vector<BlockWindows> dirty = dirty_windows(field, changed);
   size_t triangles = 0;
@@ -82,6 +100,7 @@ void report_blocks(BenchReport& report, Field& field, const std::vector<BrickCoo
     triangles = 0;
     for (const BlockWindows& windows : dirty) triangles += windows.mesh().indices.size() / 3;
   });
+  report_cubes(report, dirty, rounds, dirty_us, triangles);
   // Nothing but air or nothing but rock, as far as anyone has looked: told by the bricks themselves.
   std::vector<BlockCoord> empty;
   for (const BlockCoord block : scene_blocks())

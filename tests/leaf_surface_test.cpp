@@ -7,6 +7,7 @@
 #include <set>
 
 #include "shared/base/random.h"
+#include "shared/field/marching_cubes.h"
 #include "shared/field/surface_nets.h"
 
 namespace scree {
@@ -115,6 +116,20 @@ TEST(LeafSurface, every_edge_has_two_triangles_even_in_noise) {
   }
 }
 
+TEST(LeafCubes, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet_even_in_noise) {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
+    const LeafGrid grid = random_octree(random, [&](VoxelCoord) {
+      const int depth = 1 + static_cast<int>(random.below(126));
+      return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
+    });
+    const LeafMesh mesh = leaf_cubes(grid, all_leaves(grid));
+    EXPECT_GT(mesh.indices.size(), 3000U);
+    EXPECT_EQ(open_edges(mesh), 0) << "seed " << seed;
+  }
+}
+
 glm::vec3 place(const LeafMesh& mesh, size_t index) {
   const std::array<int32_t, 3>& steps = mesh.points[mesh.indices[index]].steps;
   return glm::vec3(steps[0], steps[1], steps[2]) / surface_steps_per_voxel;
@@ -145,17 +160,29 @@ TEST(LeafSurface, leaves_of_one_size_have_what_surface_nets_has) {
   EXPECT_EQ(std::set(here.begin(), here.end()), std::set(there.begin(), there.end()));
 }
 
-TEST(LeafSurface, triangles_face_the_air) {
-  Random random(3);
-  const LeafGrid grid = random_octree(
-      random, [](VoxelCoord p) { return encode((glm::length(glm::vec3(p.x, p.y, p.z)) - 6.3F) * 0.3F); });
-  const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
+double volume_of(const LeafMesh& mesh) {
   double volume = 0.0;
   for (size_t t = 0; t < mesh.indices.size(); t += 3) {
     const glm::vec3 a = place(mesh, t), b = place(mesh, t + 1), c = place(mesh, t + 2);
     volume += static_cast<double>(glm::dot(a, glm::cross(b, c))) / 6.0;
   }
-  EXPECT_NEAR(volume / (4.0 / 3.0 * 3.14159265 * 6.3 * 6.3 * 6.3), 1.0, 0.1);
+  return volume;
+}
+
+TEST(LeafSurface, triangles_face_the_air) {
+  Random random(3);
+  const LeafGrid grid = random_octree(
+      random, [](VoxelCoord p) { return encode((glm::length(glm::vec3(p.x, p.y, p.z)) - 6.3F) * 0.3F); });
+  const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
+  EXPECT_NEAR(volume_of(mesh) / (4.0 / 3.0 * 3.14159265 * 6.3 * 6.3 * 6.3), 1.0, 0.1);
+}
+
+TEST(LeafCubes, triangles_face_the_air) {
+  Random random(3);
+  const LeafGrid grid = random_octree(
+      random, [](VoxelCoord p) { return encode((glm::length(glm::vec3(p.x, p.y, p.z)) - 6.3F) * 0.3F); });
+  EXPECT_NEAR(volume_of(leaf_cubes(grid, all_leaves(grid))) / (4.0 / 3.0 * 3.14159265 * 6.3 * 6.3 * 6.3), 1.0,
+              0.1);
 }
 
 }  // namespace

@@ -130,9 +130,14 @@ TEST(NodeMesh, dual_is_watertight_over_random_edits_and_all_levels) {
 }
 
 /// Sizes that no float holds exactly.
-TEST(NodeMesh, both_are_watertight_whatever_a_voxel_measures) {
+TEST(NodeMesh, all_are_watertight_whatever_a_voxel_measures) {
   expect_watertight(Polygoniser::nets, 40, 40, 0.1F);
   expect_watertight(Polygoniser::dual, 40, 40, 0.3F);
+  expect_watertight(Polygoniser::cubes, 40, 40, 0.1F);
+}
+
+TEST(NodeMesh, cubes_are_watertight_over_random_edits_and_all_levels) {
+  expect_watertight(Polygoniser::cubes, 200, 100, 0.25F);
 }
 
 }  // namespace

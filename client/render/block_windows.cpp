@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "shared/field/marching_cubes.h"
+
 namespace scree {
 namespace {
 
@@ -74,6 +76,12 @@ SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) co
   const Window* then = before ? &*before : nullptr;
   SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
                                       : surface_nets_placed(now, owned, then, mask, *place);
+  put_paint_on(made);
+  return made;
+}
+
+SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
+  SurfaceMesh made = marching_cubes(now, owned, before ? &*before : nullptr, mask);
   put_paint_on(made);
   return made;
 }

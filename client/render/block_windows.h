@@ -18,6 +18,8 @@ struct BlockWindows {
 
   /// Of the cells in the mask alone, if there is one, and with vertices at those places (surface_nets.h).
   SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
+  /// The same by marching_cubes.h.
+  SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
   /// Sets SurfaceVertex::paint of a mesh in this window's voxels.
   void put_paint_on(SurfaceMesh& mesh) const;
 };

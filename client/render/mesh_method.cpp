@@ -22,7 +22,10 @@ class MeshMethod final : public DrawMethod {
         surface_(std::move(surface)),
         shadow_(std::move(shadow)) {}
 
-  std::string_view name() const override { return polygoniser_ == Polygoniser::nets ? "mesh" : "dual"; }
+  std::string_view name() const override {
+    if (polygoniser_ == Polygoniser::cubes) return "cubes";
+    return polygoniser_ == Polygoniser::nets ? "mesh" : "dual";
+  }
   void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
   bool loaded() const override { return scheduler_.loaded(); }
   bool complete() const override { return scheduler_.complete(); }
@@ -150,6 +153,10 @@ Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_
 
 Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m) {
   return make_method(pool, view_radius_m, Polygoniser::dual);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_cubes_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::cubes);
 }
 
 }  // namespace scree

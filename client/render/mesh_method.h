@@ -13,5 +13,7 @@ namespace scree {
 Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m);
 /// The same by dual contouring: sharp edges of the terrain stay sharp.
 Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m);
+/// The same by marching cubes; its pieces are surface nets, as everywhere.
+Result<std::unique_ptr<DrawMethod>> make_cubes_method(WorkPool& pool, float view_radius_m);
 
 }  // namespace scree

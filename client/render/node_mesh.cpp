@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/field/leaf_surface.h"
+#include "shared/field/marching_cubes.h"
 #include "shared/field/sharp_vertex.h"
 #include "shared/field/surface_vertices.h"
 
@@ -49,7 +50,8 @@ bool has_finer(const Neighbours& around) {
   return std::ranges::find(around, Neighbour::finer) != around.end();
 }
 
-/// Cells of the node's level that no finer node touches: surface nets' own. All others are leaf_surface's.
+/// Cells of the node's level that no finer node touches: surface nets' and marching cubes' own. All others
+/// are leaf_surface's or leaf_cubes'.
 CellMask plain_cells(const NodeJob& job) {
   const VoxelBox own = samples_of(job.node);
   CellMask mask({own.lo - VoxelCoord{2, 2, 2}, own.hi + VoxelCoord{1, 1, 1}});
@@ -174,6 +176,17 @@ std::vector<Leaf> border_leaves(const NodeJob& job) {
   return leaves;
 }
 
+/// The node's leaves that finer nodes touch.
+std::vector<Leaf> touched_leaves(const NodeJob& job, const CellMask& plain) {
+  const VoxelBox own = samples_of(job.node);
+  std::vector<Leaf> leaves;
+  for (int x = own.lo.x; x < own.hi.x; ++x)
+    for (int y = own.lo.y; y < own.hi.y; ++y)
+      for (int z = own.lo.z; z < own.hi.z; ++z)
+        if (!plain.holds({x, y, z})) leaves.push_back({scaled(VoxelCoord{x, y, z}, own_side), own_side});
+  return leaves;
+}
+
 /// Placed and shaded by a window in the grid's units.
 SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows& windows) {
   SurfaceMesh mesh;
@@ -229,26 +242,32 @@ void append(const SurfaceMesh& coarser, SurfaceMesh& mesh) {
   for (const uint32_t index : coarser.indices) mesh.indices.push_back(first + index);
 }
 
-/// What surface nets leave out where finer nodes touch the node; in samples of those.
+LeafMesh border_polygons(const NodeJob& job, const CellMask& plain, const Window& own, const Window& finer) {
+  const LeafGrid grid = grid_of(job, own, finer);
+  if (job.polygoniser == Polygoniser::cubes) return leaf_cubes(grid, touched_leaves(job, plain));
+  const SheetPlace own_place = place_by(job.polygoniser, own);
+  const SheetPlace finer_place = place_by(job.polygoniser, finer);
+  const NodeRules rules(job, plain, own_place, finer_place);
+  return leaf_surface(grid, border_leaves(job), rules);
+}
+
+/// What mesh_inside leaves out where finer nodes touch the node; in samples of those.
 SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
   const VoxelBox own = samples_of(job.node);
   const BlockWindows& coarse = job.own ? *job.own : plain_windows(own, job.own_is_rock);
   const BlockWindows& finer =
       job.finer ? *job.finer
                 : plain_windows(scaled(own, own_side).grown(known_around - 2), job.finer_is_rock);
-  const LeafGrid grid = grid_of(job, coarse.now, finer.now);
-  const SheetPlace own_place = place_by(job.polygoniser, coarse.now);
-  const SheetPlace finer_place = place_by(job.polygoniser, finer.now);
-  const NodeRules rules(job, plain, own_place, finer_place);
-  const LeafMesh leaves = leaf_surface(grid, border_leaves(job), rules);
-  // Below all that surface nets, too, make of the node.
+  const LeafMesh leaves = border_polygons(job, plain, coarse.now, finer.now);
+  // Below all that mesh_inside makes of the node, too.
   const VoxelCoord origin = scaled(own, own_side).grown(known_around).lo;
   return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, finer);
 }
 
-/// What surface nets make of the node.
+/// What the node's own samples make of it.
 SurfaceMesh mesh_inside(const NodeJob& job, const CellMask* plain) {
   if (!job.own) return {};
+  if (job.polygoniser == Polygoniser::cubes) return job.own->mesh_by_cubes(plain);
   const SheetPlace place = place_by(job.polygoniser, job.own->now);
   return job.own->mesh(plain, job.polygoniser == Polygoniser::nets ? nullptr : &place);
 }

@@ -14,7 +14,8 @@
 
 namespace scree {
 
-enum class Polygoniser { nets, dual };
+/// Surface nets, dual contouring, marching cubes.
+enum class Polygoniser { nets, dual, cubes };
 
 struct NodeJob {
   SurfaceNode node;
