@@ -189,6 +189,26 @@ TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
   EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
 }
 
+TEST(falling, what_waits_to_fall_and_is_propped_up_meanwhile_stays) {
+  WorldConfig config = flat_world();
+  config.pieces_max = 1;
+  World world(config);
+  step(world,
+       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
+  auto delta = step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+  ASSERT_EQ(delta->work.islands_put_off, 1U);
+  EXPECT_TRUE(delta->work.cut_short());
+  delta = step(world, pour({box({7.0F, 3.0F, 0.0F}, {0.5F, 4.0F, 0.5F})}));
+  EXPECT_EQ(delta->work.islands_put_off, 0U);
+  size_t islands = 0;
+  for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) {
+    delta = step(world);
+    islands += islands_of(*delta);
+  }
+  EXPECT_TRUE(delta->pieces.empty());
+  EXPECT_EQ(islands, 0U);
+}
+
 TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
   World one(flat_world()), other(flat_world());
   for (int tick = 0; tick < 200; ++tick) {

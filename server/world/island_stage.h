@@ -40,6 +40,8 @@ class IslandQueue {
   void pop();
   /// How many wait to fall.
   size_t falling() const;
+  /// Nothing is searched, and nothing waits to fall.
+  bool idle() const { return waiting_.empty() && falling_.empty(); }
   /// Bricks whose searches are not finished, for people to look at.
   std::vector<BrickCoord> waiting() const;
 
@@ -58,8 +60,7 @@ class IslandQueue {
   std::deque<Falling> falling_;
 };
 
-/// Finds what this tick's cuts loosened, and lets it fall: after all other changes of the tick, before it is
-/// published.
+/// Finds what this tick's cuts loosened, and lets it fall: after the tick's requests, impacts and merges.
 void drop_islands(World::State& state, TickDelta& delta);
 
 /// What merges and islands left hanging loose that is too light for a piece becomes dust

@@ -99,7 +99,7 @@ inline constexpr float merge_cost_us = 250.0F;
 inline constexpr float support_part_cost_us = 0.7F;
 
 /// A voxel of the box around an island that is lifted.
-inline constexpr float lift_voxel_cost_us = 0.04F;
+inline constexpr float lift_voxel_cost_us = 0.05F;
 
 /// Merges in a tick whose budget is used up: it must get better some time.
 inline constexpr uint32_t merges_per_tick_min = 2;

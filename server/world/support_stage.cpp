@@ -93,16 +93,18 @@ bool break_off(World::State& state, const Overload& overload, TickDelta& delta) 
 
 void break_overloads(World::State& state, TickDelta& delta) {
   if (!state.methods.support || !state.methods.islands) state.strained.clear();
-  bool room = true;
-  for (bool first = true; room && !state.strained.empty(); first = false) {
+  bool whole = state.islands.idle();
+  for (bool first = true; whole && !state.strained.empty(); first = false) {
     if (!first && !state.work.affords(0.0F)) break;
     const std::vector<BrickCoord> cluster = first_cluster(state.strained);
     for (const BrickCoord brick : cluster) state.strained.erase(brick);
     const SupportFound found = find_overloads(state.field, cluster, limits::support_reach_bricks);
     state.work.spend(limits::support_part_cost_us * static_cast<float>(found.parts));
     delta.work.supports_given_up += found.given_up ? 1 : 0;
+    bool room = true;
     for (const Overload& overload : found.overloads) room = room && break_off(state, overload, delta);
     if (!room) state.strained.insert(cluster.begin(), cluster.end());
+    whole = found.overloads.empty();  // what broke off falls first
   }
   delta.work.supports_put_off = static_cast<uint32_t>(state.strained.size());
 }

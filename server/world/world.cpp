@@ -82,8 +82,8 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.rest_ms = watch.lap_ms();
   for (const PieceId id : at_rest) merge(s, id, *delta);
   delta->times.recombine_ms = watch.lap_ms();
-  break_overloads(s, *delta);
   drop_islands(s, *delta);
+  break_overloads(s, *delta);
   sweep_specks(s, *delta);
   delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);
