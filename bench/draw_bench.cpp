@@ -52,9 +52,13 @@ void report_memory(const MethodEntry& entry, const MemoryCounts& counts, BenchRe
   report.metric(fmt::format("{}_cpu_mib", entry.name), mebibytes(cpu_bytes));
 }
 
-/// At the paper's size. Points cost no memory but for the blocks of them that are drawn; the field's copy has
-/// the rest.
+/// At the paper's size, from near the ground, so that the smallest grid reaches it. Points cost no memory but
+/// for the blocks of them that are drawn; the field's copy has the rest.
 Result<void> measure_grids(Stage& stage, Drawing& drawing, bool quick, BenchReport& report) {
+  glm::vec3& eye_m = drawing.camera.eye_m;
+  eye_m.y = ground_height_m(drawing.field().source(), eye_m.x, eye_m.z) + 1.5F;
+  drawing.finish();
+  bool shown = true;
   for (const GridSpacing spacing : grid_spacings)
     for (const int resolution : grid_resolutions) {
       if (quick && resolution > grid_resolutions[1]) break;
@@ -68,8 +72,10 @@ Result<void> measure_grids(Stage& stage, Drawing& drawing, bool quick, BenchRepo
       report.metric(name + "_triangles", static_cast<double>(stats.triangles));
       report.metric(name + "_gpu_mib", mebibytes(gpu_bytes_of(stats.memory)));
       report.metric(name + "_reach_m", static_cast<double>(drawing.method().reach_m()));
+      shown = shown && stats.triangles > 0;
     }
   stage.renderer->set_grid({});
+  report.check("grids_show_ground", shown, "every grid has triangles");
   return {};
 }
 
