@@ -184,7 +184,10 @@ DrawStats GridMethod::stats() const {
   DrawStats stats = pass_;
   stats.triangles += terrain_triangles();
   stats.pieces = pieces_.count();
-  if (world_) stats.memory = world_->memory();
+  if (world_) {
+    stats.memory = world_->memory();
+    stats.kept = world_->atlas().bricks();
+  }
   stats.memory.push_back({"grid", 0, points_.gpu_bytes() + case_row * cube_cases().size()});
   stats.memory.push_back({"pieces", 0, pieces_.gpu_bytes()});
   stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);

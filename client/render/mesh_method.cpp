@@ -131,6 +131,7 @@ DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
   stats.memory = {{"meshes", 0, gpu_bytes_ + pieces_.gpu_bytes()}};
   stats.pieces = pieces_.count();
+  stats.kept = blocks_.size();
   stats.waiting = scheduler_.waiting();
   return stats;
 }

@@ -214,7 +214,10 @@ DrawStats RaymarchMethod::stats() const {
   stats.draws = pieces_.count() > 0 ? 4 : 3;
   stats.triangles = 3 + 12 * pieces_.count();
   stats.pieces = pieces_.count();
-  if (world_) stats.memory = world_->memory();
+  if (world_) {
+    stats.memory = world_->memory();
+    stats.kept = world_->atlas().bricks();
+  }
   stats.memory.push_back({"targets", 0, targets_.bytes()});
   stats.memory.push_back({"pieces", pieces_.cpu_bytes(), pieces_.gpu_bytes()});
   stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);

@@ -92,6 +92,7 @@ void Hud::figures(const HudFacts& facts) {
   ImGui::Separator();
   ImGui::Text("%s: %zu draws, %zu k triangles, %zu pieces", facts.method.c_str(), facts.draw.draws,
               facts.draw.triangles / 1000, facts.draw.pieces);
+  ImGui::Text("%zu blocks or bricks kept", facts.draw.kept);
   if (facts.draw.waiting > 0) ImGui::Text("%zu waiting", facts.draw.waiting);
   if (!facts.notice.empty()) ImGui::TextColored(ImVec4(1.0F, 0.6F, 0.4F, 1.0F), "%s", facts.notice.c_str());
   ImGui::End();
