@@ -1,26 +1,14 @@
-// A field, a method and a camera without any server: what the drawing benches measure. Needs no display; the
-// GL context is made here, and belongs to the thread that made it.
+// A field, a method and a camera without any server: what the drawing benches measure. Needs no display.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "bench/stage.h"
 #include "client/render/method_switch.h"
-#include "client/render/renderer.h"
-#include "client/viewer/egl_context.h"
 #include "shared/field/operation.h"
 
 namespace scree {
-
-/// The GL context that every drawing of a bench shares.
-struct Stage {
-  std::unique_ptr<EglContext> context;
-  std::unique_ptr<Renderer> renderer;
-  WorkPool pool{default_worker_threads()};
-
-  /// Fails where there is no EGL or no fit OpenGL, saying so.
-  static Result<std::unique_ptr<Stage>> create(float view_radius_m);
-};
 
 /// A terrain that is carved and drawn; pieces vanish as soon as they are cut.
 class Drawing {

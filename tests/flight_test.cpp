@@ -151,7 +151,7 @@ class Flight : public OffscreenTest, public testing::WithParamInterface<std::str
 };
 
 TEST_P(Flight, no_frame_shows_a_hole) {
-  constexpr int legs = 4, frames = 8;
+  constexpr int legs = 3, frames = 8;
   for (int leg = 0; leg < legs; ++leg) {
     // What a frame shows is one of these: all is shown when a leg begins, and not awaited from then on.
     std::deque<Moment> moments;
@@ -192,7 +192,7 @@ TEST_P(Flight, nothing_is_left_of_many_edits) {
     if (round == warm_up) warm_heap_bytes = settled_heap_bytes();
   }
   const size_t heap_bytes = settled_heap_bytes();
-  EXPECT_LT(heap_bytes, warm_heap_bytes + (size_t{4} << 20));
+  EXPECT_LT(heap_bytes, warm_heap_bytes + (size_t{8} << 20));
   draw();
   const DrawStats flown = method_->stats();
 

@@ -1,0 +1,216 @@
+// Draws the pictures of docs/: small scenes, simulated tick by tick and drawn at chosen ticks. The same on
+// every run but for what the graphics driver makes of it.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/stage.h"
+#include "client/render/methods.h"
+#include "client/viewer/overlay.h"
+#include "client/viewer/png.h"
+#include "server/world/world.h"
+
+namespace scree {
+namespace {
+
+constexpr float view_radius_m = 48.0F;
+constexpr int width = 560;
+constexpr int height = 315;
+constexpr TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
+
+Camera look(glm::vec3 from_m, glm::vec3 at_m) {
+  const glm::vec3 way = glm::normalize(at_m - from_m);
+  return {from_m, std::atan2(-way.x, -way.z), std::asin(way.y)};
+}
+
+[[noreturn]] void give_up(const std::string& why) {
+  std::fprintf(stderr, "scree-pictures: %s\n", why.c_str());
+  std::exit(1);
+}
+
+/// A world, and the means to take pictures of it at any tick.
+class Film {
+ public:
+  Film(Stage& stage, std::string folder) : stage_(stage), folder_(std::move(folder)), world_(config()) {
+    world_.watch(true);
+    stage_.renderer->set_terrain(canyon);
+  }
+
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) step({});
+  }
+  void ask(const CarveRequest& carve) { step({{0, 0, carve}}); }
+  void ask(const FillRequest& fill) { step({{0, 0, fill}}); }
+  /// Until nothing moves any more.
+  void settle() {
+    constexpr int ticks_max = 3600;
+    for (int i = 0; !pieces_.empty(); ++i) {
+      if (i == ticks_max) give_up("a scene does not come to rest");
+      step({});
+    }
+  }
+
+  /// `name`.png, drawn by a method made for it.
+  void shoot(const std::string& name, const Camera& camera, std::string_view method = "raymarch",
+             bool overlay = false) {
+    const MethodEntry& entry = *method_named(method);
+    if (const auto missing = entry.missing()) give_up("method " + std::string(method) + " needs " + *missing);
+    Result<std::unique_ptr<DrawMethod>> drawn = entry.make(stage_.pool, view_radius_m);
+    if (!drawn) give_up(drawn.error().message);
+    MirrorChanges all;
+    for (const auto& [id, piece] : pieces_) all.pieces_added.push_back(id);
+    (*drawn)->changed(all);
+    do {
+      (*drawn)->update(Scene{world_.field(), pieces_}, camera);
+      std::this_thread::yield();
+    } while (!(*drawn)->complete());
+    LineList lines;
+    if (overlay && physics_) add_physics(lines, *physics_, pieces_, canyon.voxel_size_m);
+    const Result<Image> image = stage_.renderer->draw_image(**drawn, camera, width, height, lines);
+    if (!image) give_up(image.error().message);
+    const std::string file = folder_ + "/" + name + ".png";
+    if (const Result<void> written = write_png(file, *image); !written) give_up(written.error().message);
+    std::printf("%s: tick %llu, %zu pieces\n", file.c_str(), static_cast<unsigned long long>(world_.tick()),
+                pieces_.size());
+  }
+
+ private:
+  static WorldConfig config() {
+    WorldConfig config;
+    config.terrain = canyon;
+    return config;
+  }
+  void step(const std::vector<Command>& commands) {
+    const std::shared_ptr<const TickDelta> delta = world_.step(commands);
+    for (const Reply& reply : delta->replies)
+      if (!reply.refusal.empty()) give_up(reply.refusal);
+    for (const SpawnedPiece& piece : delta->spawned) volumes_[piece.id] = piece.volume;
+    pieces_.clear();
+    for (const PieceState& piece : delta->pieces)
+      pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
+    if (delta->physics) physics_ = delta->physics;
+  }
+
+  Stage& stage_;
+  std::string folder_;
+  World world_;
+  ScenePieces pieces_;
+  std::map<PieceId, std::shared_ptr<const Volume>> volumes_;
+  std::shared_ptr<const PhysicsMessage> physics_;
+};
+
+CarveRequest blow(const Shape& shape, glm::vec3 impact_m, uint32_t seeds, float speed_m_s) {
+  CarveRequest carve;
+  carve.shape = shape;
+  carve.seeds = seeds;
+  carve.random_seed = 4;
+  carve.impact_m = impact_m;
+  carve.blast_speed_m_s = speed_m_s;
+  return carve;
+}
+
+float ground_m(float x, float z) {
+  return ground_height_m(canyon, x, z);
+}
+
+/// A blow against the cliff: the hole, the cracks about the impact, the flight, the heap, the ground.
+void draw_blast(Film& film) {
+  const glm::vec3 impact_m(1.6F, 5.0F, 20.0F);
+  const Camera camera = look({11.0F, 5.6F, 25.5F}, {2.2F, 2.5F, 20.0F});
+  film.shoot("cliff", camera);
+  film.ask(blow(sphere({0.6F, 5.0F, 20.0F}, 2.4F), impact_m, 80, 2.0F));
+  film.run(6);
+  film.shoot("fracture", camera);
+  film.run(60);
+  film.shoot("flight", camera);
+  film.run(75);
+  film.shoot("rest", camera);
+  film.shoot("overlay", camera, "raymarch", true);
+  film.settle();
+  film.shoot("merged", camera);
+}
+
+/// A tower, built of rock, loses its foot.
+void draw_tower(Film& film) {
+  const float x = 9.0F, z = -27.0F, base_m = ground_m(x, z);
+  for (const float up_m : {1.5F, 4.5F, 7.5F})
+    film.ask(FillRequest{box({x, base_m + up_m, z}, {1.3F, 2.0F, 1.3F})});
+  const Camera camera = look({x + 13.0F, base_m + 5.0F, z + 11.0F}, {x, base_m + 4.2F, z});
+  film.shoot("tower_before", camera);
+  const glm::vec3 foot_m(x, base_m + 1.3F, z);
+  film.ask(blow(sphere(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
+  film.run(120);
+  film.shoot("tower_during", camera);
+  film.settle();
+  film.shoot("tower_after", camera);
+}
+
+/// The arch, cut at both feet, falls as one.
+void draw_arch(Film& film) {
+  const Camera camera = look({31.0F, 6.0F, 9.0F}, {15.0F, 3.8F, 0.0F});
+  for (const float z : {-7.4F, 7.4F}) {
+    const glm::vec3 foot_m(15.0F, 1.8F, z);
+    film.ask(blow(sphere(foot_m, 2.8F), foot_m + glm::vec3(2.0F, 0.0F, 0.0F), 24, 4.0F));
+  }
+  film.run(30);
+  film.shoot("island", camera);
+  film.run(45);
+  film.shoot("impact", camera);
+  film.settle();
+  film.shoot("island_after", camera);
+}
+
+/// One carved scene, some of it in flight, by every method.
+void draw_methods(Film& film) {
+  const auto strike = [&](glm::vec3 at_m) {
+    film.ask(blow(sphere(at_m, 2.2F), at_m + glm::vec3(1.5F, 0.5F, 0.0F), 40, 5.0F));
+  };
+  strike({0.6F, 5.0F, 14.0F});
+  strike({0.4F, 8.5F, 17.0F});
+  strike({9.0F, ground_m(9.0F, 14.0F), 14.0F});
+  film.settle();
+  strike({0.6F, 6.0F, 19.0F});
+  film.run(30);
+  const Camera camera = look({14.0F, 7.0F, 22.0F}, {2.0F, 3.0F, 15.0F});
+  for (const MethodEntry& entry : all_methods())
+    film.shoot("method_" + std::string(entry.name), camera, entry.name);
+}
+
+struct Scenario {
+  std::string_view name;
+  void (*draw)(Film&);
+};
+
+constexpr std::array scenarios{Scenario{"blast", draw_blast}, Scenario{"tower", draw_tower},
+                               Scenario{"arch", draw_arch}, Scenario{"methods", draw_methods}};
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  using namespace scree;
+  std::string folder = "docs/images", only;
+  CLI::App app("Draws the pictures of Scree's documentation.", "scree-pictures");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--out", folder, "where the PNGs go");
+  app.add_option("--only", only, "one of blast, tower, arch, methods");
+  CLI11_PARSE(app, argc, argv);
+  std::filesystem::create_directories(folder);
+  const Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
+  if (!stage) give_up(stage.error().message);
+  (*stage)->renderer->set_render_scale(2.0F);
+  for (const Scenario& scenario : scenarios) {
+    if (!only.empty() && only != scenario.name) continue;
+    Film film(**stage, folder);
+    scenario.draw(film);
+  }
+  return 0;
+}
