@@ -1,5 +1,6 @@
 // Merging the pieces of a carve into terrain elsewhere, by each method: time, mass and shape, beside
 // OpenVDB's stock way.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "shared/field/operation.h"
 #include "shared/field/posed_piece.h"
 #include "shared/field/prepared_stamp.h"
+#include "shared/field/stamp_groups.h"
 #include "shared/field/stamp_method.h"
 
 namespace scree {
@@ -107,12 +109,17 @@ void add_error(MethodFigures& figures, MassUnits gain, MassUnits mass) {
   ++figures.pieces;
 }
 
-/// The union of terrain and piece, as exactly as their codes tell it.
-Window exact_union(Field& field, const Volume& volume, const QuantisedPose& pose) {
-  Window window = gather(field, stamp_box(volume, pose, voxel_size_m));
-  const Window piece = posed_codes(volume, pose, voxel_size_m, window.box);
-  for (size_t i = 0; i < window.codes.size(); ++i)
-    window.codes[i] = std::min(window.codes[i], piece.codes[i]);
+/// The union of terrain and pieces, as exactly as their codes tell it.
+Window exact_union(Field& field, const PieceTable& pieces, const std::vector<StampedPiece>& places) {
+  VoxelBox box = stamp_box(*pieces.at(places.front().piece), places.front().pose, voxel_size_m);
+  for (const StampedPiece& one : places)
+    box = hull_of(box, stamp_box(*pieces.at(one.piece), one.pose, voxel_size_m));
+  Window window = gather(field, box);
+  for (const StampedPiece& one : places) {
+    const Window piece = posed_codes(*pieces.at(one.piece), one.pose, voxel_size_m, box);
+    for (size_t i = 0; i < window.codes.size(); ++i)
+      window.codes[i] = std::min(window.codes[i], piece.codes[i]);
+  }
   return window;
 }
 
@@ -125,13 +132,46 @@ void merge_all(StampMethod method, Field& field, PieceTable pieces, const std::v
   size_t i = 0;
   for (const auto& [id, volume] : made) {
     const QuantisedPose pose = quantise(poses[i++]);
-    const Window exact = exact_union(field, *volume, pose);
+    const Window exact = exact_union(field, made, {{id, pose}});
     Stopwatch watch;
     const PreparedStamp prepared = prepare_stamp(field, pieces, id, pose, method, volume->mass);
     plan_us += 1000.0 * watch.lap_ms();
     const Applied applied = apply(prepared.operation, field, pieces, &prepared);
     apply_us += 1000.0 * watch.lap_ms();
     add_error(figures, applied.terrain_gain, volume->mass);
+    add_distances(gather(field, exact.box), exact, distance);
+  }
+  figures.plan_us.push_back(plan_us / static_cast<double>(made.size()));
+  figures.apply_us.push_back(apply_us / static_cast<double>(made.size()));
+  figures.rms_voxels = std::max(figures.rms_voxels, distance.rms());
+}
+
+/// A heap: the pieces where they were cut, from the ground up. One operation each, or one for each group.
+void merge_heap(bool grouped, Field& field, PieceTable pieces, MethodFigures& figures) {
+  const PieceTable made = pieces;
+  std::vector<StampedPiece> places;
+  for (const auto& [id, volume] : made)
+    places.push_back(
+        {id, quantise({volume->centre_voxels * voxel_size_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)})});
+  std::ranges::stable_sort(places, {}, [](const StampedPiece& one) { return one.pose.y; });
+  std::vector<std::vector<StampedPiece>> groups;
+  Stopwatch watch;
+  if (grouped)
+    groups = stamp_groups(places, made, voxel_size_m);
+  else
+    for (const StampedPiece& one : places) groups.push_back({one});
+  double plan_us = 1000.0 * watch.lap_ms(), apply_us = 0.0;
+  Distance distance;
+  for (const std::vector<StampedPiece>& group : groups) {
+    MassUnits mass = 0;
+    for (const StampedPiece& one : group) mass += made.at(one.piece)->mass;
+    const Window exact = exact_union(field, made, group);
+    watch.lap_ms();
+    const PreparedStamp prepared = prepare_group(field, pieces, group, mass);
+    plan_us += 1000.0 * watch.lap_ms();
+    const Applied applied = apply(prepared.operation, field, pieces, &prepared);
+    apply_us += 1000.0 * watch.lap_ms();
+    add_error(figures, applied.terrain_gain, mass);
     add_distances(gather(field, exact.box), exact, distance);
   }
   figures.plan_us.push_back(plan_us / static_cast<double>(made.size()));
@@ -175,7 +215,9 @@ BenchReport run_recombine_bench(const BenchOptions& options) {
   constexpr std::array<std::pair<StampMethod, const char*>, 3> methods = {
       {{StampMethod::stamp, "stamp"}, {StampMethod::slices, "slices"}, {StampMethod::sphere, "sphere"}}};
   const int rounds = options.quick ? 2 : 10;
+  constexpr std::array<const char*, 2> heap_names = {"heap_one_by_one", "heap_grouped"};
   std::array<MethodFigures, methods.size()> figures;
+  std::array<MethodFigures, heap_names.size()> heaps;
   std::vector<double> stock_us;
   for (int round = 0; round < rounds; ++round) {
     const auto random_seed = static_cast<uint32_t>(round) + 1;
@@ -187,6 +229,11 @@ BenchReport run_recombine_bench(const BenchOptions& options) {
       poses = resting_places(*field, pieces, random_seed);
       merge_all(methods[i].first, *field, pieces, poses, figures[i]);
     }
+    for (size_t i = 0; i < heap_names.size(); ++i) {
+      PieceTable pieces;
+      const auto field = carved_field(random_seed, pieces, carved);
+      merge_heap(i == 1, *field, pieces, heaps[i]);
+    }
     stock_us.push_back(1000.0 * stock_merge_ms(carved, poses) / static_cast<double>(poses.size()));
     options.progress(static_cast<double>(round + 1) / rounds);
   }
@@ -194,6 +241,11 @@ BenchReport run_recombine_bench(const BenchOptions& options) {
   const double stock = quantile(stock_us, 0.5);
   report.metric("openvdb_us_a_piece", stock);
   for (size_t i = 0; i < methods.size(); ++i) report_figures(report, methods[i].second, figures[i], stock);
+  for (size_t i = 0; i < heap_names.size(); ++i) {
+    report_figures(report, heap_names[i], heaps[i], stock);
+    report.metric(std::string(heap_names[i]) + "_operations",
+                  static_cast<double>(heaps[i].pieces) / static_cast<double>(rounds));
+  }
   const MethodFigures& stamped = figures[0];
   report.check("times_faster", stock >= 100.0 * stamped.piece_us(),
                fmt::format("{:.0f} µs a piece against {:.0f}: {:.0f} times, wanted 100", stamped.piece_us(),

@@ -177,8 +177,7 @@ Merged blast(uint32_t number) {
   Merged times;
   for (Tick tick = 1; tick < blast_ticks_max && times.all == blast_ticks_max; ++tick) {
     const auto delta = world.step({});
-    for (const AppliedOperation& applied : delta->operations)
-      merged += std::holds_alternative<StampOperation>(applied.operation) ? 1 : 0;
+    for (const AppliedOperation& applied : delta->operations) merged += pieces_merged_by(applied.operation);
     made = std::max(made, merged + delta->pieces.size());
     if (2 * merged >= made) times.half = std::min(times.half, tick);
     if (delta->pieces.empty()) times.all = tick;

@@ -26,6 +26,8 @@ constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
 /// Of a stamp's shift, its sign folded in. What is above them is the method, so that the usual one takes no
 /// byte of its own.
 constexpr unsigned shift_bits = 14;
+/// In place of the method: it is `stamp`, and others follow.
+constexpr uint64_t method_group = static_cast<uint64_t>(StampMethod::sphere) + 1;
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
 
@@ -76,7 +78,16 @@ struct Writing {
     writer.u32(stamp.pose.rotation);
     const uint64_t shift = fold_sign(stamp.shift);
     CHECK(shift >> shift_bits == 0);
-    writer.varint((uint64_t{static_cast<uint8_t>(stamp.method)} << shift_bits) | shift);
+    const uint64_t method = stamp.others.empty() ? static_cast<uint8_t>(stamp.method) : method_group;
+    writer.varint((method << shift_bits) | shift);
+    if (stamp.others.empty()) return;
+    CHECK(stamp.others.size() < limits::stamp_group_max);
+    writer.varint(stamp.others.size());
+    for (const StampedPiece& other : stamp.others) {
+      writer.varint(other.piece);
+      writer.position(other.pose);
+      writer.u32(other.pose.rotation);
+    }
   }
   void operator()(const DiscardOperation& discard) const { write_head(writer, kind_discard, discard.piece); }
   void operator()(const ShatterOperation& shatter) const {
@@ -138,15 +149,28 @@ CarveOperation read_carve(ByteReader& reader, PieceId id) {
 StampOperation read_stamp(ByteReader& reader, PieceId id) {
   StampOperation stamp;
   stamp.piece = id;
-  stamp.pose = reader.position("position of a stamp");
-  stamp.pose.rotation = reader.u32("rotation of a stamp");
-  constexpr uint64_t method_max = static_cast<uint64_t>(StampMethod::sphere);
+  const auto read_pose = [&] {
+    QuantisedPose pose = reader.position("position of a stamp");
+    pose.rotation = reader.u32("rotation of a stamp");
+    return pose;
+  };
+  stamp.pose = read_pose();
   const uint64_t method_and_shift =
-      reader.varint("method and shift of a stamp", ((method_max + 1) << shift_bits) - 1);
-  stamp.method = static_cast<StampMethod>(method_and_shift >> shift_bits);
+      reader.varint("method and shift of a stamp", ((method_group + 1) << shift_bits) - 1);
+  const uint64_t method = method_and_shift >> shift_bits;
   stamp.shift = static_cast<int32_t>(unfold_sign(method_and_shift & ((1U << shift_bits) - 1)));
   if (stamp.shift < -stamp_shift_max)
     reader.refuse("shift of a stamp is beyond ±" + std::to_string(stamp_shift_max));
+  if (method != method_group) {
+    stamp.method = static_cast<StampMethod>(method);
+    return stamp;
+  }
+  const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
+  if (others == 0) reader.refuse("a stamp together with none");
+  for (uint64_t i = 0; i < others && !reader.failed(); ++i) {
+    const auto piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
+    stamp.others.push_back({piece, read_pose()});
+  }
   return stamp;
 }
 

@@ -104,6 +104,29 @@ TEST(Codec, stamps_round_trip_at_the_ends_of_their_range) {
         }
 }
 
+TEST(Codec, stamps_of_several_pieces_round_trip_and_more_than_may_merge_together_are_refused_by_name) {
+  StampOperation sent{5, {1, -2, 3, 4}, -77};
+  while (sent.others.size() + 1 < limits::stamp_group_max) {
+    sent.others.push_back(
+        {0xFFFFFFFFU - static_cast<PieceId>(sent.others.size()), {-70000, 8, 9, 0x89ABCDEFU}});
+    const Result<Operation> got = decode_operation(encode_operation(sent));
+    ASSERT_TRUE(got) << got.error().message;
+    EXPECT_EQ(*got, Operation(sent));
+  }
+  sent.others.assign(2, {7, {}});
+  const size_t two = encode_operation(sent).size();
+  sent.others.resize(1);
+  std::vector<uint8_t> bytes = encode_operation(sent);
+  uint8_t& count = bytes[2 * bytes.size() - two - 1];  // right before the other
+  ASSERT_EQ(count, 1U);
+  for (const size_t refused : {size_t{0}, limits::stamp_group_max}) {
+    count = static_cast<uint8_t>(refused);
+    const Result<Operation> got = decode_operation(bytes);
+    ASSERT_FALSE(got);
+    EXPECT_TRUE(names(got.error().message, "together")) << got.error().message;
+  }
+}
+
 TEST(Codec, a_carve_alone_in_its_frame_takes_at_most_200_bytes) {
   FrameMessage frame;
   frame.tick = 1U << 20U;
@@ -176,7 +199,7 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   FrameMessage frame;
   for (const StampOperation& stamp : {StampOperation{1, {}, -stamp_shift_max - 1},
                                       StampOperation{1, {}, -stamp_shift_max - 1, StampMethod::sphere},
-                                      StampOperation{1, {}, 0, static_cast<StampMethod>(3)}}) {
+                                      StampOperation{1, {}, 0, static_cast<StampMethod>(4)}}) {
     frame.operations = {stamp};
     EXPECT_TRUE(names(server_refusal(frame), "shift of a stamp"));
   }

@@ -112,15 +112,15 @@ TEST(stamp, what_was_prepared_for_another_field_or_operation_is_not_taken) {
   const MassUnits mass = rubble.pieces.at(id)->mass;
   const PreparedStamp prepared =
       prepare_stamp(rubble.field, rubble.pieces, id, pose, StampMethod::stamp, mass);
-  EXPECT_TRUE(prepared.holds(prepared.operation, rubble.field, rubble.pieces.at(id)));
-  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, other.pieces.at(id)));
+  EXPECT_TRUE(prepared.holds(prepared.operation, rubble.field, {rubble.pieces.at(id)}));
+  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, {other.pieces.at(id)}));
   StampOperation moved = prepared.operation;
   moved.pose.x += 1;
-  EXPECT_FALSE(prepared.holds(moved, rubble.field, rubble.pieces.at(id)));
+  EXPECT_FALSE(prepared.holds(moved, rubble.field, {rubble.pieces.at(id)}));
   const glm::vec3 ground = dequantise(pose).position_m;
   apply(FillOperation{sphere(ground, 1.0F)}, rubble.field, rubble.pieces);
   apply(FillOperation{sphere(ground, 1.0F)}, other.field, other.pieces);
-  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, rubble.pieces.at(id)));
+  EXPECT_FALSE(prepared.holds(prepared.operation, rubble.field, {rubble.pieces.at(id)}));
   apply(prepared.operation, rubble.field, rubble.pieces, &prepared);
   apply(prepared.operation, other.field, other.pieces);
   EXPECT_EQ(rubble.field.hash(), other.field.hash());

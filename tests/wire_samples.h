@@ -57,6 +57,8 @@ inline FrameMessage frame() {
       stamp_operation(),
       StampOperation{77789, {1, 2, 3, 4}, -8000, StampMethod::slices},
       StampOperation{77788, {-1, 2, 3, 4}, 8000, StampMethod::sphere},
+      StampOperation{
+          77787, {5, 6, 7, 8}, 300, StampMethod::stamp, {{9, {5, 5, 5, 5}}, {70000, {-9, 8, 7, 6}}}},
       DiscardOperation{77791},
       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},

@@ -125,7 +125,7 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, Chun
   }
   counters_.pieces_made += applied.created.size();
   count(operation);
-  if (const auto ended = piece_ended_by(operation)) remove_piece(*ended, changes);
+  for (const PieceId ended : pieces_ended_by(operation)) remove_piece(ended, changes);
   return {};
 }
 
@@ -145,7 +145,7 @@ void Mirror::count(const Operation& operation) {
     ++counters_.fills;
   } else if (std::holds_alternative<StampOperation>(operation)) {
     ++counters_.stamps;
-    ++counters_.pieces_merged;
+    counters_.pieces_merged += pieces_merged_by(operation);
   } else if (std::holds_alternative<ShatterOperation>(operation)) {
     ++counters_.shatters;
   } else if (std::holds_alternative<IslandOperation>(operation)) {

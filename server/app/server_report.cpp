@@ -99,7 +99,7 @@ void ServerReport::add(const TickDelta& delta) {
     fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
     shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
     islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
-    pieces_merged += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
+    pieces_merged += pieces_merged_by(operation);
     pieces_lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
   }
   pieces_made += delta.spawned.size();

@@ -89,13 +89,14 @@ bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges&
   };
   if (!std::ranges::all_of(operation.reads, readable)) return false;
   if (!std::ranges::all_of(operation.writes, readable)) return false;
-  const auto ended = piece_ended_by(operation.operation);
-  return !ended || known_.contains(*ended);
+  return std::ranges::all_of(pieces_ended_by(operation.operation),
+                             [&](PieceId ended) { return known_.contains(ended); });
 }
 
 bool ClientView::concerns(const AppliedOperation& operation, const TickChanges& changes) const {
-  const auto ended = piece_ended_by(operation.operation);
-  if (ended && known_.contains(*ended)) return true;
+  if (std::ranges::any_of(pieces_ended_by(operation.operation),
+                          [&](PieceId ended) { return known_.contains(ended); }))
+    return true;
   const auto followed = [&](ChunkCoord chunk) {
     return held_.contains(chunk) || near(chunk, changes.voxel_size_m);
   };
@@ -114,10 +115,10 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
                                    ChunkSet& changed) {
   for (uint32_t i = 0; i < changes.delta.operations.size(); ++i) {
     const AppliedOperation& operation = changes.delta.operations[i];
-    const auto ended = piece_ended_by(operation.operation);
+    const std::vector<PieceId> ended = pieces_ended_by(operation.operation);
     if (!can_apply(operation, changes, tainted) || !concerns(operation, changes)) {
       tainted.insert(operation.writes.begin(), operation.writes.end());
-      if (ended) forget_piece(*ended, frame);
+      for (const PieceId id : ended) forget_piece(id, frame);
       continue;
     }
     frame.operations.push_back(i);
@@ -127,7 +128,7 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
       if (held_.insert(chunk).second && !near(chunk, changes.voxel_size_m)) rescan_due_ = true;
     }
     for (const PieceId id : operation.created) known_[id] = {};
-    if (ended) known_.erase(*ended);
+    for (const PieceId id : ended) known_.erase(id);
   }
 }
 

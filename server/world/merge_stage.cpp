@@ -4,6 +4,7 @@
 
 #include "server/world/limits.h"
 #include "shared/field/prepared_stamp.h"
+#include "shared/field/stamp_groups.h"
 
 namespace scree {
 
@@ -57,18 +58,35 @@ StampMethod method_of(Recombination recombination) {
   return StampMethod::stamp;
 }
 
-}  // namespace
-
-/// The field gains what the piece weighed, and with it the dust that earlier merges could not place.
-void merge(World::State& state, PieceId id, TickDelta& delta) {
-  const MassUnits mass = state.pieces.at(id)->mass;
-  const PreparedStamp prepared =
-      prepare_stamp(state.field, state.pieces, id, quantise(state.bodies.state(id).pose),
-                    method_of(state.methods.recombine), stamp_budget(mass, state.ledger.dust));
-  state.bodies.remove(id);
+/// The field gains what the pieces weighed, and with it the dust that earlier merges could not place.
+void merge_group(World::State& state, const std::vector<StampedPiece>& group, TickDelta& delta) {
+  MassUnits mass = 0;
+  for (const StampedPiece& one : group) mass += state.pieces.at(one.piece)->mass;
+  const MassUnits budget = stamp_budget(mass, state.ledger.dust);
+  const StampedPiece& first = group.front();
+  const PreparedStamp prepared = group.size() > 1
+                                     ? prepare_group(state.field, state.pieces, group, budget)
+                                     : prepare_stamp(state.field, state.pieces, first.piece, first.pose,
+                                                     method_of(state.methods.recombine), budget);
+  for (const StampedPiece& one : group) state.bodies.remove(one.piece);
   const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
   state.ledger.pieces -= mass;
   state.ledger.dust += mass - applied.terrain_gain;
+}
+
+}  // namespace
+
+void merge(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta) {
+  std::vector<StampedPiece> places;
+  for (const PieceId id : ids) places.push_back({id, quantise(state.bodies.state(id).pose)});
+  const bool grouping =
+      state.methods.group_merges && method_of(state.methods.recombine) == StampMethod::stamp;
+  if (!grouping) {
+    for (const StampedPiece& one : places) merge_group(state, {one}, delta);
+    return;
+  }
+  for (const auto& group : stamp_groups(places, state.pieces, state.config.terrain.voxel_size_m))
+    merge_group(state, group, delta);
 }
 
 }  // namespace scree

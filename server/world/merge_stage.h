@@ -9,7 +9,8 @@ namespace scree {
 /// there are none. Call once a tick, after the bodies' step.
 std::vector<PieceId> settled(World::State& state, TickDelta& delta);
 
-/// Merges a piece where it lies. What the field cannot gain of its mass becomes dust; dust goes out with it.
-void merge(World::State& state, PieceId id, TickDelta& delta);
+/// Merges pieces where they lie, in that order; with Methods::group_merges those that stamp_groups puts
+/// together in one operation. What the field cannot gain of their mass becomes dust; dust goes out with it.
+void merge(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta);
 
 }  // namespace scree

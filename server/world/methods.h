@@ -22,8 +22,9 @@ struct Methods {
   bool islands = true;                                        ///< what is cut off from the ground falls
   bool support = false;                                       ///< what is too heavy for its neck breaks off
   Recombination recombine = Recombination::stamp;             ///< how pieces at rest become terrain again
-  Cutter cutter = Cutter::field;                              ///< how what breaks is cut into pieces
-  Simplifier simplifier = Simplifier::hull;                   ///< which points of a piece collide
+  bool group_merges = false;                 ///< pieces that rest together become terrain in one pass
+  Cutter cutter = Cutter::field;             ///< how what breaks is cut into pieces
+  Simplifier simplifier = Simplifier::hull;  ///< which points of a piece collide
 
   bool operator==(const Methods&) const = default;
 };

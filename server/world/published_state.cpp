@@ -44,7 +44,7 @@ void PublishedState::apply(const TickDelta& delta) {
   pieces_ = std::move(alive);
   pieces_made_ += delta.spawned.size();
   for (const AppliedOperation& applied : delta.operations)
-    pieces_merged_ += std::holds_alternative<StampOperation>(applied.operation) ? 1 : 0;
+    pieces_merged_ += pieces_merged_by(applied.operation);
   ledger_ = delta.ledger;
   if (!delta.settings.empty()) settings_ = delta.settings;
   field_hash_ = delta.field_hash;

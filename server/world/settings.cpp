@@ -54,16 +54,19 @@ constexpr std::array table{
     choice<&Methods::islands>("islands", "whether terrain that is cut off from the ground falls"),
     choice<&Methods::support>("support", "whether terrain too heavy for its neck breaks off; needs islands"),
     choice<&Methods::recombine>("recombine", "how pieces at rest become terrain again; off: never"),
+    choice<&Methods::group_merges>("group-merges",
+                                   "whether pieces that rest together become terrain in one pass"),
     choice<&Methods::cutter>("cutter", "how what breaks is cut into pieces"),
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
 };
 
 /// Bound one by one, so that a member that is new and not in the table does not compile.
 constexpr size_t members() {
-  const auto [collider, impacts, dents, islands, support, recombine, cutter, simplifier] = Methods{};
-  return std::array{static_cast<int>(collider), static_cast<int>(impacts),   static_cast<int>(dents),
-                    static_cast<int>(islands),  static_cast<int>(support),   static_cast<int>(recombine),
-                    static_cast<int>(cutter),   static_cast<int>(simplifier)}
+  const auto [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
+      Methods{};
+  return std::array{static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
+                    static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
+                    static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)}
       .size();
 }
 static_assert(members() == table.size());

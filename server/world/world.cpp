@@ -80,7 +80,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.impacts_ms = watch.lap_ms();
   const std::vector<PieceId> at_rest = settled(s, *delta);
   delta->times.rest_ms = watch.lap_ms();
-  for (const PieceId id : at_rest) merge(s, id, *delta);
+  merge(s, at_rest, *delta);
   delta->times.recombine_ms = watch.lap_ms();
   drop_islands(s, *delta);
   break_overloads(s, *delta);

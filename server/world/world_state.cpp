@@ -55,7 +55,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
     unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
-  if (const auto ended = piece_ended_by(operation)) traits.erase(*ended);
+  for (const PieceId ended : pieces_ended_by(operation)) traits.erase(ended);
   return applied;
 }
 

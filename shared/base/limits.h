@@ -58,6 +58,13 @@ inline constexpr size_t generated_chunks_max = 8192;
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
 inline constexpr int64_t piece_mass_min = 2 * 254;
 
+/// Pieces that merge in one pass; the longest side of each one's volume, voxels; and how far from the first
+/// they may lie along each axis, metres: with the smallest voxels all of it fits window_side_max. Above: they
+/// merge one by one; off a wire: refused.
+inline constexpr size_t stamp_group_max = 16;
+inline constexpr int stamp_group_side_max_voxels = 32;
+inline constexpr float stamp_group_reach_max_m = 3.0F;
+
 /// Bricks along a side of an island's piece: with its shell, and room to redistance in, it fits
 /// window_side_max. What is longer falls in several.
 inline constexpr int island_side_max_bricks = 14;

@@ -94,6 +94,12 @@ inline VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
           {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
 }
 
+/// The smallest box that holds both.
+inline VoxelBox hull_of(const VoxelBox& a, const VoxelBox& b) {
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
 /// Calls f(ChunkCoord) for each chunk that the box touches, x slowest.
 template <typename F>
 void for_each_chunk(const VoxelBox& box, F&& f) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 
 #include "shared/base/check.h"
@@ -94,31 +95,38 @@ std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
   return volume;
 }
 
-/// The terrain with the piece, as far as it reaches; and what it gained.
-Window stamped(const StampOperation& op, Field& field, const Volume& volume, MassUnits& gain) {
+using Volumes = std::vector<std::shared_ptr<const Volume>>;
+
+/// The terrain with the pieces, as far as they reach; and what it gained.
+Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, MassUnits& gain) {
   const float dx = field.source().voxel_size_m;
+  const Volume& volume = *volumes.front();
   const bool whole = op.method != StampMethod::stamp;
-  const Window laid = whole ? Window() : lay(volume, op.pose, dx);
+  const Window laid = whole ? Window() : lay_all(op, volumes, dx);
   Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : reach_of(laid));
   const MassUnits before = mass_of(window);
-  if (whole)
+  if (whole) {
     stamp(op.method, window, volume, op.pose, dx, op.shift);
-  else
-    stamp_laid(window, laid, volume.mass, op.shift);
+  } else {
+    MassUnits mass = 0;
+    for (const auto& one : volumes) mass += one->mass;
+    stamp_laid(window, laid, mass, op.shift);
+  }
   gain = mass_of(window) - before;
   return window;
 }
 
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
                     const PreparedStamp* prepared) {
-  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+  Volumes volumes{take(pieces, op.piece)};
+  for (const StampedPiece& other : op.others) volumes.push_back(take(pieces, other.piece));
   Applied applied;
-  if (prepared != nullptr && prepared->holds(op, field, volume)) {
+  if (prepared != nullptr && prepared->holds(op, field, volumes)) {
     applied.terrain_gain = prepared->gain;
     applied.changed = scatter(field, prepared->after);
     return applied;
   }
-  applied.changed = scatter(field, stamped(op, field, *volume, applied.terrain_gain));
+  applied.changed = scatter(field, stamped(op, field, volumes, applied.terrain_gain));
   return applied;
 }
 
@@ -190,6 +198,22 @@ Result<void> validate_authored(const CarveOperation& op) {
   return {};
 }
 
+Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) {
+  if (op.method != StampMethod::stamp) return fail("only the method stamp merges several pieces at once");
+  std::vector<StampedPiece> group{{op.piece, op.pose}};
+  for (const StampedPiece& other : op.others) {
+    if (Result<void> valid = known(other.piece, pieces); !valid) return valid;
+    if (std::ranges::find(group, other.piece, &StampedPiece::piece) != group.end())
+      return fail("piece " + std::to_string(other.piece) + " is stamped twice");
+    if (!in_world(dequantise(other.pose).position_m))
+      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    group.push_back(other);
+  }
+  if (!can_merge_together(group, pieces))
+    return fail("the pieces are too many, too large or too far apart for one stamp (limits.stamp_group_max)");
+  return {};
+}
+
 struct Validator {
   const PieceTable& pieces;
 
@@ -213,7 +237,7 @@ struct Validator {
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
     if (!in_world(dequantise(op.pose).position_m))
       return fail("the stamp is outside the world (limits.world_half_width_m)");
-    return {};
+    return op.others.empty() ? Result<void>{} : validate_group(op, pieces);
   }
   Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
   Result<void> operator()(const ShatterOperation& op) const {
@@ -239,11 +263,30 @@ struct Validator {
 
 }  // namespace
 
-std::optional<PieceId> piece_ended_by(const Operation& operation) {
-  if (const auto* stamp = std::get_if<StampOperation>(&operation)) return stamp->piece;
-  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) return discard->piece;
-  if (const auto* shatter = std::get_if<ShatterOperation>(&operation)) return shatter->piece;
-  return std::nullopt;
+std::vector<PieceId> pieces_ended_by(const Operation& operation) {
+  std::vector<PieceId> ended;
+  if (const auto* stamp = std::get_if<StampOperation>(&operation)) {
+    ended.push_back(stamp->piece);
+    for (const StampedPiece& other : stamp->others) ended.push_back(other.piece);
+  }
+  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) ended.push_back(discard->piece);
+  if (const auto* shatter = std::get_if<ShatterOperation>(&operation)) ended.push_back(shatter->piece);
+  return ended;
+}
+
+size_t pieces_merged_by(const Operation& operation) {
+  return std::holds_alternative<StampOperation>(operation) ? pieces_ended_by(operation).size() : 0;
+}
+
+bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
+  if (group.size() > limits::stamp_group_max) return false;
+  const glm::vec3 first_m = dequantise(group.front().pose).position_m;
+  return std::ranges::all_of(group, [&](const StampedPiece& one) {
+    const VoxelCoord size = pieces.at(one.piece)->window.box.size();
+    const glm::vec3 off_m = glm::abs(dequantise(one.pose).position_m - first_m);
+    return std::max({size.x, size.y, size.z}) <= limits::stamp_group_side_max_voxels &&
+           std::max({off_m.x, off_m.y, off_m.z}) <= limits::stamp_group_reach_max_m;
+  });
 }
 
 PieceIds ids_made_by(const Operation& operation) {
@@ -264,9 +307,14 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
     return paint_box(in_voxels(op->shape, voxel_size_m));
   const auto* op = std::get_if<StampOperation>(&operation);
   if (op == nullptr) return {};
-  const auto found = pieces.find(op->piece);
-  CHECK(found != pieces.end());
-  return stamp_box(op->method, *found->second, op->pose, voxel_size_m);
+  const auto box_of = [&](PieceId piece, const QuantisedPose& pose) {
+    const auto found = pieces.find(piece);
+    CHECK(found != pieces.end());
+    return stamp_box(op->method, *found->second, pose, voxel_size_m);
+  };
+  VoxelBox box = box_of(op->piece, op->pose);
+  for (const StampedPiece& other : op->others) box = hull_of(box, box_of(other.piece, other.pose));
+  return box;
 }
 
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {

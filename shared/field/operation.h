@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -38,12 +39,23 @@ struct FillOperation {
   bool operator==(const FillOperation&) const = default;
 };
 
-/// A piece becomes terrain at this pose.
+/// Where a piece lies that becomes terrain with another.
+struct StampedPiece {
+  PieceId piece = 0;
+  QuantisedPose pose;
+
+  bool operator==(const StampedPiece&) const = default;
+};
+
+/// A piece becomes terrain at this pose; and others with it, in one pass over all of them: united first, then
+/// the gaps closed, the mass met as a whole and the surroundings redistanced (paper, section 4.3: "groups of
+/// objects"). Others by the method `stamp` alone, at most limits::stamp_group_max pieces in all.
 struct StampOperation {
   PieceId piece = 0;
   QuantisedPose pose;
-  int32_t shift = 0;  ///< how its mass is met; its meaning is the method's
+  int32_t shift = 0;  ///< how the mass is met; its meaning is the method's
   StampMethod method = StampMethod::stamp;
+  std::vector<StampedPiece> others{};
 
   bool operator==(const StampOperation&) const = default;
 };
@@ -91,8 +103,15 @@ struct PaintOperation {
 using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
                                ShatterOperation, IslandOperation, PaintOperation>;
 
-/// The piece that the operation takes out of the table, if any.
-std::optional<PieceId> piece_ended_by(const Operation& operation);
+/// The pieces that the operation takes out of the table.
+std::vector<PieceId> pieces_ended_by(const Operation& operation);
+
+/// How many pieces the operation makes terrain.
+size_t pieces_merged_by(const Operation& operation);
+
+/// Whether these may merge in one pass: few, small, and near the first, so that what the pass works on stays
+/// small, too (limits::stamp_group_*).
+bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces);
 
 /// The ids that the operation may give to pieces: first, first + 1, … up to `count` of them.
 struct PieceIds {

@@ -8,15 +8,15 @@ namespace scree {
 
 struct PreparedStamp {
   StampOperation operation;
-  std::shared_ptr<const Volume> volume;
+  std::vector<std::shared_ptr<const Volume>> volumes;  ///< of the piece and of the others
   uint64_t field_hash = 0;
   Window after;  ///< empty for methods that prepare nothing but the operation
   MassUnits gain = 0;
 
-  /// Whether applying that operation to this field, where the piece has this volume, gives `after`.
+  /// Whether applying that operation to this field, where the pieces have these volumes, gives `after`.
   bool holds(const StampOperation& op, const Field& field,
-             const std::shared_ptr<const Volume>& volume_now) const {
-    return !after.codes.empty() && operation == op && volume == volume_now && field_hash == field.hash();
+             const std::vector<std::shared_ptr<const Volume>>& volumes_now) const {
+    return !after.codes.empty() && operation == op && volumes == volumes_now && field_hash == field.hash();
   }
 };
 
@@ -24,5 +24,13 @@ struct PreparedStamp {
 /// says. The piece must be in the table.
 PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
                             StampMethod method, MassUnits budget);
+
+/// The same of several pieces in one pass, which can_merge_together; the method is `stamp`.
+PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
+                            MassUnits budget);
+
+/// All of the operation's pieces on the terrain's grid, as one; their volumes in its order.
+Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
+               float voxel_size_m);
 
 }  // namespace scree

@@ -65,6 +65,23 @@ Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) 
   return near.empty() ? posed : part_of(posed, common(near.grown(laid_margin), box));
 }
 
+Window together(std::vector<Window> laid) {
+  if (laid.size() == 1) return std::move(laid.front());
+  VoxelBox box = laid.front().box;
+  for (const Window& one : laid) box = hull_of(box, one.box);
+  Window all(box);
+  for (const Window& one : laid) {
+    const VoxelCoord size = one.box.size();
+    const Code* from = one.codes.data();
+    for (int x = one.box.lo.x; x < one.box.hi.x; ++x)
+      for (int y = one.box.lo.y; y < one.box.hi.y; ++y, from += size.z) {
+        Code* to = all.codes.data() + all.index(x, y, one.box.lo.z);
+        for (int z = 0; z < size.z; ++z) to[z] = std::min(to[z], from[z]);
+      }
+  }
+  return all;
+}
+
 VoxelBox reach_of(const Window& laid) {
   return laid.box.grown(MergePatch::margin);
 }

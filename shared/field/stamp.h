@@ -32,6 +32,9 @@ VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_
 /// The piece on the terrain's grid: the voxels that may become rock, and a layer around them.
 Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 
+/// The pieces' windows as one: the least of their codes.
+Window together(std::vector<Window> laid);
+
 /// The voxels around such a piece that stamping it reads; all that it may change lie at least one voxel
 /// inside.
 VoxelBox reach_of(const Window& laid);

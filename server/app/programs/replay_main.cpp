@@ -63,7 +63,7 @@ Result<Sums> sum_up(RecordingReader& recording) {
       sums.fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
       sums.shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
       sums.islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
-      sums.merges += std::holds_alternative<StampOperation>(operation) ? 1 : 0;
+      sums.merges += pieces_merged_by(operation);
       sums.lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
     }
     sums.last = std::move(*frame);
