@@ -91,7 +91,7 @@ std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks
     }
   }
   std::ranges::sort(specks, {}, &Island::seed);
-  specks.erase(std::ranges::unique(specks).begin(), specks.end());
+  specks.erase(std::unique(specks.begin(), specks.end()), specks.end());
   return specks;
 }
 
