@@ -86,14 +86,16 @@ inline constexpr float crowded_share = 0.5F;
 
 /// The model, microseconds as measured on one core of a 2023 server (bench storm): a body that is awake, a
 /// point of contact, a voxel of an edit's box, a seed's piece with its hull and body, a break, a dent, a
-/// merge.
-inline constexpr float body_cost_us = 3.0F;
-inline constexpr float contact_cost_us = 0.9F;
+/// merge by each method.
+inline constexpr float body_cost_us = 4.2F;
+inline constexpr float contact_cost_us = 1.2F;
 inline constexpr float edit_voxel_cost_us = 0.06F;
 inline constexpr float seed_cost_us = 22.0F;
 inline constexpr float break_cost_us = 500.0F;
 inline constexpr float dent_cost_us = 500.0F;
-inline constexpr float merge_cost_us = 250.0F;
+inline constexpr float stamp_cost_us = 30.0F;
+inline constexpr float slices_cost_us = 60.0F;
+inline constexpr float sphere_cost_us = 170.0F;
 
 /// A part of terrain of which is asked whether it holds (shared/field/support_search.h).
 inline constexpr float support_part_cost_us = 0.7F;

@@ -10,10 +10,24 @@ namespace scree {
 
 namespace {
 
+/// By the model, in microseconds. What is off merges nothing.
+float cost_us(Recombination recombination) {
+  switch (recombination) {
+    case Recombination::slices:
+      return limits::slices_cost_us;
+    case Recombination::sphere:
+      return limits::sphere_cost_us;
+    case Recombination::stamp:
+    case Recombination::off:
+      break;
+  }
+  return limits::stamp_cost_us;
+}
+
 /// As many as are merged in any tick, and fewer, down to a few, where its budget ends.
 size_t merges_max(const World::State& state) {
   const uint32_t most = state.config.merges_per_tick_max;
-  const auto room = static_cast<int>(state.work.left_us() / limits::merge_cost_us);
+  const auto room = static_cast<int>(state.work.left_us() / cost_us(state.methods.recombine));
   const auto least = static_cast<int>(std::min(limits::merges_per_tick_min, most));
   return static_cast<size_t>(std::clamp(room, least, static_cast<int>(most)));
 }
@@ -38,7 +52,7 @@ std::vector<PieceId> settled(World::State& state, TickDelta& delta) {
     return {};
   }
   delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
-  state.work.spend(limits::merge_cost_us * static_cast<float>(ready.size()));
+  state.work.spend(cost_us(state.methods.recombine) * static_cast<float>(ready.size()));
   return ready;
 }
 
