@@ -19,6 +19,9 @@ uniform int u_levels;
 uniform vec3 u_eye_in[levels_max];  // voxels, from the window's lowest corner
 uniform ivec3 u_wrap[levels_max];   // where that corner's brick lies in the entries
 uniform float u_voxels_per_m[levels_max];
+uniform vec4 u_layers;  // metres: soil below, its depth, ice above, its depth
+
+const float cut_begins = -0.08;  // of the field as generated, code / 127 (rock.glsl, cut_of)
 
 uvec2 entry_at(ivec3 at, int level) {
   ivec3 i = (at + u_wrap[level]) & (u_window - 1);
@@ -42,7 +45,7 @@ vec3 brick_gradient(uint entry, vec3 local) {
 
 // The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
 float generated_in(uvec2 entry, vec3 local, float same) {
-  uint kind = entry.y >> 24u;
+  uint kind = (entry.y >> 24u) & 15u;
   if (kind == 1u) return brick_value(entry.y, local) / band;
   return kind == 2u ? 1.0 : kind == 3u ? -1.0 : same;
 }
@@ -58,6 +61,25 @@ float field_at(vec3 from_eye, int level) {
   uint kind = entry >> 24u;
   if (kind == kind_stored) return brick_value(entry, p - vec3(at) * brick);
   return kind == kind_solid ? -band : band;
+}
+
+// The field as generated at a point; what is not there counts as air.
+float generated_at(vec3 from_eye, int level) {
+  vec3 p = in_level(from_eye, level);
+  ivec3 at = ivec3(floor(p / brick));
+  if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, u_window))) return 1.0;
+  return generated_in(entry_at(at, level), p - vec3(at) * brick, field_at(from_eye, level) / band);
+}
+
+// What shows at a point of the surface, as SurfaceVertex::paint: the brick's paint, and the layer that a cut lays
+// bare, as shared/field/material.h has it: what lay less than the layer's depth below the ground.
+int paint_at(uvec2 entry, vec3 from_eye, float height_m, int level, float before) {
+  int paint = int(entry.y >> 28u);
+  if (paint != 0 || before >= cut_begins) return paint;
+  bool soil = height_m < u_layers.x;
+  if (!soil && height_m <= u_layers.z) return 0;
+  float depth = soil ? u_layers.y : u_layers.w;
+  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) < 0.0 ? 0 : (soil ? 2 : 3) << 2;
 }
 
 // The finest level, from `level` on, that shows this point; u_levels beyond all.

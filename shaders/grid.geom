@@ -59,11 +59,13 @@ float distance_at(vec3 corner, Home home) {
 
 void emit(vec3 from_eye, vec3 normal, Home home) {
   float before = 0.0;
+  int paint = 0;
   if (home.entry.x >> 24u == kind_stored) {
     vec3 local = in_level(from_eye, home.level) - home.first;
     vec3 slope = brick_gradient(home.entry.x, local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
     before = generated_in(home.entry, local, 0.0);
+    paint = paint_at(home.entry, from_eye, u_eye.y + from_eye.y, home.level, before);
   }
   v_world = u_eye + from_eye;
   v_rock = v_world;
@@ -71,7 +73,7 @@ void emit(vec3 from_eye, vec3 normal, Home home) {
   v_rock_normal = normal;
   v_openness = openness_at(from_eye, normal, home.level, band);
   v_before = before;
-  v_paint = 0;
+  v_paint = paint;
   gl_Position = u_view_projection * vec4(v_world, 1.0);
   EmitVertex();
 }

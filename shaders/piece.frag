@@ -1,13 +1,5 @@
 out vec4 o_colour;
 
-// Of the terrain as generated, at a point of the piece: what it will look like when it has merged.
-float generated_at(vec3 from_eye) {
-  vec3 p = in_level(from_eye, 0);
-  ivec3 at = ivec3(floor(p / brick));
-  if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, u_window))) return 1.0;
-  return generated_in(entry_at(at, 0), p - vec3(at) * brick, field_at(from_eye, 0) / band);
-}
-
 void main() {
   PieceHit hit = march_piece();
   if (!hit.found) discard;
@@ -24,10 +16,10 @@ void main() {
   }
   vec3 normal = rotated(v_rotation, local_normal);
   // On the ground it takes on the looks of what it is about to become.
-  float there = generated_at(from_eye);
+  float there = generated_at(from_eye, 0);
   vec2 wear = mix(vec2(cut_of(before), heap_of(before)), vec2(cut_of(there), heap_of(there)), v_dust);
   Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, wear.x, wear.y, away);
-  vec3 albedo = rock.albedo * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
+  vec3 albedo = painted(rock.albedo, int(hit.entry.y >> 28u), wear.x) * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
   vec3 bent = normalize(rotated(v_rotation, rock.normal));
   int level = level_of(from_eye, 0);
   float open = 1.0;

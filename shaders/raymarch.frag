@@ -24,10 +24,12 @@ void main() {
 
   vec3 normal = -direction;
   float before = 0.0;
+  int paint = 0;
   if (hit.there.kind == kind_stored) {
     vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
     before = generated_in(hit.there.entry, hit.there.local, 0.0);
+    paint = paint_at(hit.there.entry, from_eye, world.y, hit.level, before);
   }
   Rock rock = rock_at(world, normal, cut_of(before), heap_of(before), hit.along);
   float open = openness_at(from_eye, normal, hit.level, band);
@@ -35,5 +37,6 @@ void main() {
   float voxel = 1.0 / u_voxels_per_m[hit.level];
   if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel), u_sun, hit.level);
   if (u_pieces && sunlight > 0.0) sunlight *= lit(world, normal);
-  o_colour = vec4(tone(in_fog(lit_rock(rock.albedo, rock.normal, open, sunlight), world, hit.along)), 1.0);
+  vec3 albedo = painted(rock.albedo, paint, cut_of(before));
+  o_colour = vec4(tone(in_fog(lit_rock(albedo, rock.normal, open, sunlight), world, hit.along)), 1.0);
 }

@@ -54,12 +54,17 @@ Rock rock_at(vec3 p, vec3 shape_normal, float cut, float heap, float away) {
   return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain));
 }
 
-// What bricks are painted (1 rock, 2 soil, 3 ice) lends its colour to the grain of what lies there; 0: not painted.
-vec3 painted(vec3 albedo, int paint) {
+// A material (1 rock, 2 soil, 3 ice) lends its colour to the grain of what lies there.
+vec3 of_material(int material, vec3 albedo) {
   float grain = 0.55 + 1.1 * dot(albedo, vec3(0.3, 0.5, 0.2));
-  if (paint == 1) return vec3(0.33, 0.31, 0.30) * grain;
-  if (paint == 2) return vec3(0.20, 0.12, 0.06) * grain;
-  if (paint == 3) return vec3(0.62, 0.76, 0.86) * grain;
+  if (material == 1) return vec3(0.33, 0.31, 0.30) * grain;
+  return (material == 2 ? vec3(0.20, 0.12, 0.06) : vec3(0.62, 0.76, 0.86)) * grain;
+}
+
+// `paint` as SurfaceVertex has it: what the brick is painted, or else the layer that shows as far as there is a cut.
+vec3 painted(vec3 albedo, int paint, float cut) {
+  if ((paint & 3) != 0) return of_material(paint & 3, albedo);
+  if (paint != 0) return mix(albedo, of_material(paint >> 2, albedo), cut);
   return albedo;
 }
 

@@ -15,7 +15,7 @@ out vec4 o_colour;
 void main() {
   float away = length(v_world - u_eye);
   Rock rock = rock_at(v_rock, normalize(v_rock_normal), cut_of(v_before), heap_of(v_before), away);
-  vec3 albedo = painted(rock.albedo, v_paint) * (1.0 + u_loose * 0.22 * (u_tint - 0.4));
+  vec3 albedo = painted(rock.albedo, v_paint, cut_of(v_before)) * (1.0 + u_loose * 0.22 * (u_tint - 0.4));
   vec3 normal = normalize(rotated(u_rotation, rock.normal));
   float sunlight = max(dot(normal, u_sun), 0.0);
   if (sunlight > 0.0) sunlight *= lit(v_world, normalize(v_normal));

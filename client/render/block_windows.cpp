@@ -5,9 +5,13 @@
 #include <utility>
 
 #include "shared/field/marching_cubes.h"
+#include "shared/field/material.h"
 
 namespace scree {
 namespace {
+
+/// Of the field as generated: from here on, looks are those of a cut (shaders/bricks.glsl).
+constexpr Code cut_begins = -10;
 
 /// Calls f(coordinate, index in the chunk) for each brick of the chunk that the box touches.
 template <typename F>
@@ -86,10 +90,18 @@ SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
   return made;
 }
 
+glm::vec3 BlockWindows::place_m(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const {
+  const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
+  const glm::vec3 steps(vertex.position[0], vertex.position[1], vertex.position[2]);
+  return (origin + steps / surface_steps_per_voxel) * source.voxel_size_m;
+}
+
 void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
-  if (paint.empty()) return;
+  if (!before) return;  // nothing was edited here
   constexpr int steps = static_cast<int>(surface_steps_per_voxel);
   for (SurfaceVertex& vertex : mesh.vertices) {
+    if (vertex.before < cut_begins) vertex.paint = layer_number(material_at(source, place_m(mesh, vertex)));
+    if (paint.empty()) continue;
     const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
     const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
     if (found != paint.end()) vertex.paint = paint_number(found->second);
@@ -100,14 +112,14 @@ uint8_t paint_number(const Field& field, const Volume& piece) {
   const glm::vec3 centre = piece.centre_voxels + 0.5F;
   const BrickCoord birthplace =
       brick_of(VoxelCoord{floor_to_int(centre.x), floor_to_int(centre.y), floor_to_int(centre.z)});
-  return field.painted(birthplace) ? paint_number(piece.material) : uint8_t{0};
+  return field.painted(birthplace) ? paint_number(piece.material) : layer_number(piece.material);
 }
 
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) {
   const VoxelBox box = owned.grown(surface_nets_apron);
   Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
-  BlockWindows windows{owned, Window(box), std::nullopt, std::move(seen.paint)};
+  BlockWindows windows{owned, Window(box), std::nullopt, std::move(seen.paint), field.source()};
   if (seen.edited) windows.before.emplace(box);
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);

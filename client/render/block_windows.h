@@ -15,24 +15,32 @@ struct BlockWindows {
   Window now;
   std::optional<Window> before;  ///< as generated; absent where nothing was ever edited
   std::map<BrickCoord, Material> paint;
+  TerrainSource source;
 
   /// Of the cells in the mask alone, if there is one, and with vertices at those places (surface_nets.h).
   SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
-  /// Sets SurfaceVertex::paint of a mesh in this window's voxels.
+  /// Sets SurfaceVertex::paint of a mesh in this window's voxels: by brick, and by layer in cuts.
   void put_paint_on(SurfaceMesh& mesh) const;
+
+ private:
+  glm::vec3 place_m(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const;
 };
 
 /// Nothing when all the bricks around are air, or all are rock.
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned);
 
-/// What SurfaceVertex::paint says.
+/// What SurfaceVertex::paint says of a painted brick; and of what a cut lays bare, where that is no rock.
 inline uint8_t paint_number(std::optional<Material> paint) {
   return paint ? static_cast<uint8_t>(1 + static_cast<int>(*paint)) : uint8_t{0};
 }
+inline uint8_t layer_number(Material layer) {
+  return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>((1 + static_cast<int>(layer)) << 2);
+}
 
-/// What a piece shows: its material, where the field is painted at the place that it was cut from.
+/// What a piece shows: its material, everywhere when the field is painted at the place that it was cut from,
+/// else in its cuts.
 uint8_t paint_number(const Field& field, const Volume& piece);
 
 /// As gather(), of the field as it was generated.

@@ -150,6 +150,7 @@ void ClipLevel::read(Field& field, BrickCoord brick, BrickAtlas& atlas) {
   // What was generated never changes: a brick of it stays where it is.
   const bool keeps = now.before_kind == LevelBrick::Before::mixed && old.has_before_slot();
   entry.before = keeps ? old.before : store_before(now.before_kind, now.before, atlas);
+  entry.paint(now.paint);
   if (old.kind() == ClipEntry::stored && entry.kind() != ClipEntry::stored)
     atlas.remove(ClipEntry::slot_of(old.field));
   if (old.has_before_slot() && !keeps) atlas.remove(ClipEntry::slot_of(old.before));

@@ -22,14 +22,16 @@ inline constexpr int empty_distance_max = 16;
 struct ClipEntry {
   enum Kind : uint32_t { unloaded = 0, stored = 254, solid = 255 };  ///< between: empty, the distance
 
-  uint32_t field = 0;   ///< kind << 24 | slot z << 16 | y << 8 | x
-  uint32_t before = 0;  ///< the field as generated: kind << 24, and the slot of what is mixed
+  uint32_t field = 0;  ///< kind << 24 | slot z << 16 | y << 8 | x
+  /// Paint as SurfaceVertex::paint << 28; the field as generated: kind << 24, and the slot of what is mixed.
+  uint32_t before = 0;
 
   /// Of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a brick.
   enum BeforeKind : uint32_t { same = 0, mixed = 1, air = 2, rock = 3 };
 
   uint32_t kind() const { return field >> 24U; }
-  bool has_before_slot() const { return before >> 24U == mixed; }
+  bool has_before_slot() const { return ((before >> 24U) & 15U) == mixed; }
+  void paint(uint8_t number) { before = (before & 0x0FFFFFFFU) | static_cast<uint32_t>(number) << 28U; }
   bool is_empty() const { return kind() != unloaded && kind() < stored; }
   static uint32_t packed(uint32_t kind, AtlasSlot slot) {
     return kind << 24U | static_cast<uint32_t>(slot.z) << 16U | static_cast<uint32_t>(slot.y) << 8U | slot.x;

@@ -40,7 +40,7 @@ struct Lighting {
   float fog_m = 100.0F;             ///< where the fog hides nearly all
   glm::mat4 shadow_matrix{1.0F};    ///< from the world to the shadow map's coordinates, 0..1
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
-  float ice_above_m = 0.0F;         ///< where ice covers the ground
+  MaterialHeights layers;           ///< where soil and ice cover the ground
 };
 
 /// One walk over the scene. For `shadow` only depth counts, and there is no shadow matrix yet.

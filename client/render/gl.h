@@ -86,6 +86,9 @@ class Program {
   void set(const char* name, float value) const { glUniform1f(uniform(name), value); }
   void set(const char* name, int value) const { glUniform1i(uniform(name), value); }
   void set(const char* name, glm::vec3 value) const { glUniform3f(uniform(name), value.x, value.y, value.z); }
+  void set(const char* name, glm::vec4 value) const {
+    glUniform4f(uniform(name), value.x, value.y, value.z, value.w);
+  }
   void set(const char* name, const glm::mat4& value) const {
     glUniformMatrix4fv(uniform(name), 1, GL_FALSE, &value[0][0]);
   }

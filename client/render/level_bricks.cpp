@@ -123,13 +123,14 @@ LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
     if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)
-      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}};
+      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}, 0};
   }
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
   if (level_ > 0 && edited) take_edits(field, level_, window);
-  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}};
+  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, 0};
+  if (edited && level_ == 0) read.paint = paint_number(field.painted(brick));
   read.kind = kind_of(read.field);
   if (!before || before->codes == window.codes) return read;
   read.before = as_brick(*before);

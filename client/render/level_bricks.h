@@ -19,6 +19,7 @@ struct LevelBrick {
   /// As generated: the same where nothing was edited; else what fresh rock and rubble are told by.
   enum class Before { same, mixed, air, rock } before_kind = Before::same;
   AtlasBrick before;  ///< when mixed
+  uint8_t paint = 0;  ///< as SurfaceVertex::paint; on level 0 alone
 };
 
 /// By the samples of its own cells, not the rest of its apron.

@@ -1,4 +1,5 @@
-// What the shaders of atmosphere.glsl, rock.glsl and shadow.glsl take: one light for all methods.
+// What the shaders of atmosphere.glsl, bricks.glsl, rock.glsl and shadow.glsl take: one light for all
+// methods.
 #pragma once
 
 #include "client/render/draw_method.h"

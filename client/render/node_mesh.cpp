@@ -216,7 +216,8 @@ static_assert(surface_steps_per_voxel == 256.0F);
 
 /// A window where the field has nothing but air or rock.
 BlockWindows plain_windows(const VoxelBox& owned, bool is_rock) {
-  return {owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt, {}};
+  return {
+      owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt, {}, {}};
 }
 
 SheetPlace place_by(Polygoniser polygoniser, const Window& window) {

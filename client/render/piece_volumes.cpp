@@ -113,6 +113,7 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
   const auto along = [](int voxels) { return (voxels + brick_size - 1) / brick_size; };
   const VoxelCoord bricks{along(size.x), along(size.y), along(size.z)};
   const Window before = gather_generated(field, window.box);
+  const uint8_t paint = paint_number(field, *piece.volume);
   stored.count = static_cast<uint32_t>(bricks.x * bricks.y * bricks.z);
   stored.first = take_run(stored.count);
   ClipEntry* entry = &entries_[stored.first];
@@ -127,6 +128,7 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
         if (const auto slot = atlas.add(codes)) entry->field = ClipEntry::packed(ClipEntry::stored, *slot);
         const AtlasBrick generated = brick_from(before, at);
         entry->before = store_before(before_kind_of(generated), generated, atlas);
+        entry->paint(paint);
       }
   upload_entries(stored.first, stored.count);
   const glm::vec3 centre = piece.volume->centre_voxels - glm::vec3(first.x, first.y, first.z);

@@ -119,7 +119,7 @@ struct Renderer::Parts {
   gl::Program sky;
   LineDrawer lines;
   float view_radius_m;
-  float ice_above_m = limits::world_half_height_m;
+  MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   ShadowMap shadows;
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
@@ -190,8 +190,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   pass.timers = &parts_->timers;
   pass.render_scale = parts_->render_scale;
   pass.eye_m = camera.eye_m;
-  pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture()};
-  pass.lighting.ice_above_m = parts_->ice_above_m;
+  pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture(), parts_->layers};
   if (method != nullptr) parts_->draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -287,7 +286,7 @@ void Renderer::set_trace(Trace* trace) {
 }
 
 void Renderer::set_terrain(const TerrainSource& terrain) {
-  parts_->ice_above_m = heights_of(terrain.kind).ice_above_m;
+  parts_->layers = heights_of(terrain.kind);
 }
 
 const std::string& Renderer::description() const {

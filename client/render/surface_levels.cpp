@@ -42,7 +42,7 @@ std::optional<BlockWindows> SurfaceLevels::gather(Field& field, int level, const
   MapField& generator = *coarse_[static_cast<size_t>(level)];
   const VoxelBox box = owned.grown(surface_nets_apron);
   if (!has_edits(field, level, box)) return gather_windows(generator, owned);
-  BlockWindows windows{owned, gather_generated(generator, box), std::nullopt, {}};
+  BlockWindows windows{owned, gather_generated(generator, box), std::nullopt, {}, generator.source()};
   windows.before = windows.now;
   take_edits(field, level, windows.now);
   return windows;

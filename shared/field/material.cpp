@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "shared/field/layer_depths.h"
+
 namespace scree {
 
 namespace {
@@ -14,9 +16,6 @@ constexpr std::array<MaterialTraits, 3> traits = {{
 }};
 
 constexpr std::array<std::string_view, traits.size()> names = {"rock", "soil", "ice"};
-
-constexpr float soil_depth_m = 1.0F;
-constexpr float ice_depth_m = 1.5F;
 
 }  // namespace
 
