@@ -1,7 +1,6 @@
 #include "client/render/piece_views.h"
 
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "client/render/piece_tint.h"
 
@@ -16,7 +15,7 @@ glm::vec3 as_vector(VoxelCoord v) {
 
 void PieceViews::show(const PieceMesh& piece, float voxel_m) {
   remove(piece.id);
-  View view;
+  View& view = views_[piece.id];
   if (!piece.mesh.empty()) {
     view.mesh.emplace(piece.mesh);
     gpu_bytes_ += view.mesh->bytes();
@@ -24,7 +23,6 @@ void PieceViews::show(const PieceMesh& piece, float voxel_m) {
   view.pose = piece.piece.pose;
   view.centre_m = piece.piece.volume->centre_voxels * voxel_m;
   view.radius_m = glm::length(as_vector(piece.piece.volume->window.box.size())) * voxel_m;
-  views_.emplace(piece.id, std::move(view));
 }
 
 void PieceViews::remove(PieceId id) {
