@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "shared/base/random.h"
 #include "shared/field/marching_cubes.h"
@@ -39,7 +40,8 @@ void balance(LeafGrid& grid) {
       int smallest = leaf.side;
       const VoxelCoord size{leaf.side, leaf.side, leaf.side};
       for_each_cell(VoxelBox{leaf.at, leaf.at + size}.grown(1), 1, [&](VoxelCoord near) {
-        if (grid.side_at(near) != leaf_unknown) smallest = std::min<int>(smallest, grid.side_at(near));
+        const uint8_t side = std::as_const(grid).side_at(near);  // unknown beyond the region
+        if (side != leaf_unknown) smallest = std::min<int>(smallest, side);
       });
       if (smallest * 2 >= leaf.side) return;
       set_side(grid, leaf.at, leaf.side, leaf.side / 2);
