@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "shared/field/layer_depths.h"
 #include "shared/field/marching_cubes.h"
 #include "shared/field/material.h"
 
@@ -90,17 +91,29 @@ SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
   return made;
 }
 
-glm::vec3 BlockWindows::place_m(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const {
+uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const {
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   const glm::vec3 steps(vertex.position[0], vertex.position[1], vertex.position[2]);
-  return (origin + steps / surface_steps_per_voxel) * source.voxel_size_m;
+  const glm::vec3 p = origin + steps / surface_steps_per_voxel;
+  const MaterialHeights layers = heights_of(source.kind);
+  const float height_m = p.y * source.voxel_size_m;
+  const bool soil = height_m < layers.soil_below_m;
+  if (!soil && height_m <= layers.ice_above_m) return 0;
+  // As a rule the window tells that the ground's surface is farther above than the layer is deep.
+  const float end = p.y + (soil ? soil_depth_m : ice_depth_m) / source.voxel_size_m;
+  const VoxelCoord above{floor_to_int(p.x), std::min(floor_to_int(end) + 1, before->box.hi.y - 1),
+                         floor_to_int(p.z)};
+  if (before->box.holds(above) &&
+      static_cast<float>(above.y) - decode(before->at(above.x, above.y, above.z)) > end + 1.0F)
+    return 0;
+  return layer_number(material_at(source, p * source.voxel_size_m));
 }
 
 void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
   constexpr int steps = static_cast<int>(surface_steps_per_voxel);
   for (SurfaceVertex& vertex : mesh.vertices) {
-    if (vertex.before < cut_begins) vertex.paint = layer_number(material_at(source, place_m(mesh, vertex)));
+    if (vertex.before < cut_begins) vertex.paint = layer_in_cut(mesh, vertex);
     if (paint.empty()) continue;
     const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
     const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));

@@ -25,7 +25,7 @@ struct BlockWindows {
   void put_paint_on(SurfaceMesh& mesh) const;
 
  private:
-  glm::vec3 place_m(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const;
+  uint8_t layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const;
 };
 
 /// Nothing when all the bricks around are air, or all are rock.
