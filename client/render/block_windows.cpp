@@ -1,6 +1,7 @@
 #include "client/render/block_windows.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -112,8 +113,19 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
 void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
   constexpr int steps = static_cast<int>(surface_steps_per_voxel);
+  // One look for two voxels a side, in a block of usual size.
+  constexpr int looks = 10;
+  std::array<uint8_t, looks * looks * looks> looked{};  // 1 + the layer's number
   for (SurfaceVertex& vertex : mesh.vertices) {
-    if (vertex.before < cut_begins) vertex.paint = layer_in_cut(mesh, vertex);
+    if (vertex.before < cut_begins) {
+      const int x = vertex.position[0] / (2 * steps), y = vertex.position[1] / (2 * steps),
+                z = vertex.position[2] / (2 * steps);
+      uint8_t own = 0;
+      uint8_t& known =
+          std::max({x, y, z}) < looks ? looked[static_cast<size_t>((x * looks + y) * looks + z)] : own;
+      if (known == 0) known = static_cast<uint8_t>(1 + layer_in_cut(mesh, vertex));
+      vertex.paint = static_cast<uint8_t>(known - 1);
+    }
     if (paint.empty()) continue;
     const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
     const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
