@@ -179,9 +179,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
   if (!quota.take(state.work, delta.work.dents_left_out)) return;
   const Applied applied = state.apply_and_record(operation, delta);
-  state.ledger.moved -= applied.terrain_gain;
-  state.ledger.dust += applied.dust;
-  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  state.enter_taken(applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
     Newborn piece;
     piece.body.pose.position_m = volume.centre_voxels * dx;

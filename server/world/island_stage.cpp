@@ -22,9 +22,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   if (!still_there(state.field, island)) return;
   const Applied applied =
       state.apply_and_record(IslandOperation{island.box, island.seed, state.next_piece}, delta);
-  state.ledger.moved -= applied.terrain_gain;
-  state.ledger.dust += applied.dust;
-  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  state.enter_taken(applied);
   state.islands.fell(applied.changed);
   const float dx = state.config.terrain.voxel_size_m;
   const auto at_rest = [&](PieceId, const Volume& volume) {

@@ -60,9 +60,7 @@ Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDel
                 std::to_string(state.config.pieces_max) + " (pieces_max): wait until some have settled");
   Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
-  state.ledger.moved -= applied.terrain_gain;
-  state.ledger.dust += applied.dust;
-  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  state.enter_taken(applied);
   delta.times.carve_ms += watch.lap_ms();
   throw_out(state, applied, request, delta);
   delta.times.spawn_ms += watch.lap_ms();

@@ -46,9 +46,7 @@ void crush(World::State& state, const CarveOperation& operation, TickDelta& delt
   if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
   const float dx = state.config.terrain.voxel_size_m;
   const Applied applied = state.apply_and_record(operation, delta);
-  state.ledger.moved -= applied.terrain_gain;
-  state.ledger.dust += applied.dust;
-  state.ledger.pieces -= applied.terrain_gain + applied.dust;
+  state.enter_taken(applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
     Newborn piece;
     piece.body.pose.position_m = volume.centre_voxels * dx;

@@ -1,10 +1,7 @@
 #include "server/world/work.h"
 
-#include <algorithm>
-#include <glm/common.hpp>
-
 #include "server/world/limits.h"
-#include "shared/base/limits.h"
+#include "shared/field/operation.h"
 
 namespace scree {
 
@@ -17,9 +14,7 @@ float cost_of(const Bodies& bodies) {
 
 /// Nothing for what will be refused: it may be too large, or too far away, to be counted at all.
 float voxels_of(const Shape& shape, float voxel_size_m) {
-  if (!validate(shape) || reach_of(shape) > limits::edit_reach_max_m) return 0.0F;
-  const glm::vec3 away = glm::abs(centre_of(shape));
-  if (std::max({away.x, away.y, away.z}) > limits::world_half_width_m) return 0.0F;
+  if (!validate(Operation(FillOperation{shape}), {})) return 0.0F;
   const VoxelCoord size = band_box(in_voxels(shape, voxel_size_m)).size();
   return static_cast<float>(size.x) * static_cast<float>(size.y) * static_cast<float>(size.z);
 }

@@ -59,6 +59,12 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   return applied;
 }
 
+void World::State::enter_taken(const Applied& applied) {
+  ledger.moved -= applied.terrain_gain;
+  ledger.dust += applied.dust;
+  ledger.pieces -= applied.terrain_gain + applied.dust;
+}
+
 PieceTraits World::State::traits_of(PieceId id) const {
   const auto found = traits.find(id);
   return found == traits.end() ? PieceTraits{} : found->second;

@@ -31,6 +31,8 @@ struct World::State {
   /// Applies a valid operation; whoever calls it enters in the ledger where the mass came from or went to.
   Applied apply_and_record(const Operation& operation, TickDelta& delta,
                            const PreparedStamp* prepared = nullptr);
+  /// Enters what an operation took out of the terrain: pieces, and the rest dust.
+  void enter_taken(const Applied& applied);
   PieceTraits traits_of(PieceId id) const;
 
   WorldConfig config;
