@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include "client/mirror/mirror.h"
-#include "server/replay/verify.h"
 #include "server/store/recorder.h"
 #include "server/world/published_state.h"
 #include "server/world/world.h"
+#include "tests/verify_recording.h"
 
 namespace scree {
 namespace {
@@ -262,12 +262,7 @@ TEST(falling, a_recorded_fall_verifies) {
     }
     ASSERT_TRUE((*recorder)->finish().has_value());
   }
-  auto reader = RecordingReader::open(path.string());
-  ASSERT_TRUE(reader.has_value()) << reader.error().message;
-  const auto report = verify(**reader, {});
-  ASSERT_TRUE(report.has_value()) << report.error().message;
-  EXPECT_TRUE(report->agrees()) << report->difference;
-  std::filesystem::remove(path);
+  expect_verifies(path);
 }
 
 }  // namespace

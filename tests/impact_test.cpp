@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "server/replay/verify.h"
 #include "server/store/recorder.h"
 #include "server/world/impact_stage.h"
 #include "server/world/limits.h"
 #include "server/world/published_state.h"
 #include "server/world/spawn.h"
+#include "tests/verify_recording.h"
 
 namespace scree {
 namespace {
@@ -242,12 +242,7 @@ TEST(impact, a_recorded_session_with_impacts_verifies) {
     ASSERT_TRUE((*recorder)->finish().has_value());
   }
   EXPECT_GT(shatters, 0U);
-  auto reader = RecordingReader::open(path.string());
-  ASSERT_TRUE(reader.has_value()) << reader.error().message;
-  const auto report = verify(**reader, {});
-  ASSERT_TRUE(report.has_value()) << report.error().message;
-  EXPECT_TRUE(report->agrees()) << report->difference;
-  std::filesystem::remove(path);
+  expect_verifies(path);
 }
 
 TEST(impact, a_follower_of_the_deltas_ends_with_the_same_pieces) {

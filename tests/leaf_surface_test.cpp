@@ -10,6 +10,7 @@
 #include "shared/base/random.h"
 #include "shared/field/marching_cubes.h"
 #include "shared/field/surface_nets.h"
+#include "tests/edge_uses.h"
 
 namespace scree {
 namespace {
@@ -81,15 +82,10 @@ struct Mean final : LeafRules {
 };
 
 int open_edges(const LeafMesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> uses;
-  for (size_t t = 0; t < mesh.indices.size(); t += 3)
-    for (size_t i = 0; i < 3; ++i) ++uses[{mesh.indices[t + i], mesh.indices[t + (i + 1) % 3]}];
-  int open = 0;
-  for (const auto& [edge, count] : uses) {
-    const auto back = uses.find({edge.second, edge.first});
-    if (count != 1 || back == uses.end() || back->second != 1) ++open;
-  }
-  return open;
+  EdgeUses<uint32_t> uses;
+  count_edges(
+      std::span<const uint32_t>(mesh.indices), [](uint32_t index) { return index; }, uses);
+  return scree::open_edges(uses);
 }
 
 TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
@@ -106,26 +102,25 @@ TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
 }
 
 /// Every corner of ambiguity at once: no smooth field has as many.
+LeafGrid noisy_octree(uint64_t seed) {
+  Random random(seed);
+  const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
+  return random_octree(random, [&](VoxelCoord) {
+    const int depth = 1 + static_cast<int>(random.below(126));
+    return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
+  });
+}
+
 TEST(LeafSurface, every_edge_has_two_triangles_even_in_noise) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    Random random(seed);
-    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
-    const LeafGrid grid = random_octree(random, [&](VoxelCoord) {
-      const int depth = 1 + static_cast<int>(random.below(126));
-      return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
-    });
+    const LeafGrid grid = noisy_octree(seed);
     EXPECT_EQ(open_edges(leaf_surface(grid, all_leaves(grid), Mean())), 0) << "seed " << seed;
   }
 }
 
 TEST(LeafCubes, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet_even_in_noise) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    Random random(seed);
-    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
-    const LeafGrid grid = random_octree(random, [&](VoxelCoord) {
-      const int depth = 1 + static_cast<int>(random.below(126));
-      return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
-    });
+    const LeafGrid grid = noisy_octree(seed);
     const LeafMesh mesh = leaf_cubes(grid, all_leaves(grid));
     EXPECT_GT(mesh.indices.size(), 3000U);
     EXPECT_EQ(open_edges(mesh), 0) << "seed " << seed;

@@ -3,10 +3,10 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <map>
 
 #include "shared/base/random.h"
 #include "shared/field/surface_nets.h"
+#include "tests/edge_uses.h"
 
 namespace scree {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr int steps = static_cast<int>(surface_steps_per_voxel);
 
 using Position = std::array<int, 3>;
-using EdgeUses = std::map<std::pair<Position, Position>, int>;
+using Edges = EdgeUses<Position>;
 
 VoxelBox cube(int lo, int hi) {
   return {{lo, lo, lo}, {hi, hi, hi}};
@@ -25,19 +25,9 @@ Position position(const SurfaceMesh& mesh, uint32_t index) {
   return {mesh.origin.x * steps + p[0], mesh.origin.y * steps + p[1], mesh.origin.z * steps + p[2]};
 }
 
-void count_edges(const SurfaceMesh& mesh, EdgeUses& uses) {
-  for (size_t t = 0; t < mesh.indices.size(); t += 3)
-    for (size_t i = 0; i < 3; ++i)
-      ++uses[{position(mesh, mesh.indices[t + i]), position(mesh, mesh.indices[t + (i + 1) % 3])}];
-}
-
-int open_edges(const EdgeUses& uses) {
-  int open = 0;
-  for (const auto& [edge, count] : uses) {
-    const auto back = uses.find({edge.second, edge.first});
-    if (count != 1 || back == uses.end() || back->second != 1) ++open;
-  }
-  return open;
+void count(const SurfaceMesh& mesh, Edges& uses) {
+  count_edges(
+      std::span<const uint32_t>(mesh.indices), [&](uint32_t i) { return position(mesh, i); }, uses);
 }
 
 /// Every corner of ambiguity at once, with air all around.
@@ -66,15 +56,15 @@ Window ball(const VoxelBox& box, float radius) {
 TEST(MarchingCubes, every_edge_has_two_triangles_within_boxes_and_from_box_to_box) {
   for (uint64_t seed = 1; seed <= 7; ++seed) {
     const Window window = noise(cube(-20, 20), seed);
-    EdgeUses whole, parts;
-    count_edges(marching_cubes(window, cube(-16, 16)), whole);
+    Edges whole, parts;
+    count(marching_cubes(window, cube(-16, 16)), whole);
     EXPECT_GT(whole.size(), 10000U);
     EXPECT_EQ(open_edges(whole), 0) << "seed " << seed;
     // Sides that are no power of two, and rows of less than eight codes.
     for (int i = 0; i < 8; ++i) {
       const auto lo = [&](int bit) { return (i & bit) != 0 ? -11 : -16; };
       const auto hi = [&](int bit) { return (i & bit) != 0 ? 16 : -11; };
-      count_edges(marching_cubes(window, {{lo(4), lo(2), lo(1)}, {hi(4), hi(2), hi(1)}}), parts);
+      count(marching_cubes(window, {{lo(4), lo(2), lo(1)}, {hi(4), hi(2), hi(1)}}), parts);
     }
     EXPECT_EQ(parts, whole) << "seed " << seed;
   }
@@ -88,12 +78,12 @@ TEST(MarchingCubes, a_mask_leaves_out_exactly_what_it_says) {
   rest.remove({{9, -18, -18}, {17, 17, 17}});
   rest.remove({{-3, -18, -18}, {9, 17, -5}});
   rest.remove({{-3, -18, 2}, {9, 17, 17}});
-  EdgeUses whole, parts;
-  count_edges(marching_cubes(window, cube(-16, 16)), whole);
+  Edges whole, parts;
+  count(marching_cubes(window, cube(-16, 16)), whole);
   for (const CellMask* mask : {&part, &rest}) {
     const SurfaceMesh mesh = marching_cubes(window, cube(-16, 16), nullptr, mask);
     EXPECT_FALSE(mesh.empty());
-    count_edges(mesh, parts);
+    count(mesh, parts);
   }
   EXPECT_EQ(parts, whole);
 }

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "server/app/server_report.h"
-#include "server/replay/verify.h"
 #include "server/store/recorder.h"
 #include "server/world/limits.h"
 #include "server/world/world.h"
@@ -14,6 +13,7 @@
 #include "shared/field/edit.h"
 #include "shared/field/load_flow.h"
 #include "shared/field/support_search.h"
+#include "tests/verify_recording.h"
 
 namespace scree {
 namespace {
@@ -388,12 +388,7 @@ TEST(support, a_recorded_break_verifies) {
     ASSERT_TRUE((*recorder)->finish().has_value());
   }
   EXPECT_GE(islands, 1U);
-  auto reader = RecordingReader::open(path.string());
-  ASSERT_TRUE(reader.has_value()) << reader.error().message;
-  const auto report = verify(**reader, {});
-  ASSERT_TRUE(report.has_value()) << report.error().message;
-  EXPECT_TRUE(report->agrees()) << report->difference;
-  std::filesystem::remove(path);
+  expect_verifies(path);
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
-#include <map>
 #include <utility>
 
 #include "shared/base/random.h"
+#include "tests/edge_uses.h"
 
 namespace scree {
 namespace {
@@ -45,35 +45,21 @@ Corner corner(const SurfaceMesh& mesh, uint32_t index) {
           {v.normal[0], v.normal[1], v.normal[2]}};
 }
 
-/// How often each edge is walked, in either direction.
-using EdgeUses = std::map<std::pair<Corner, Corner>, int>;
+using Edges = EdgeUses<Corner>;
 
-void count_edges(const SurfaceMesh& mesh, EdgeUses& uses) {
-  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-    for (size_t i = 0; i < 3; ++i) {
-      ++uses[{corner(mesh, mesh.indices[t + i]), corner(mesh, mesh.indices[t + (i + 1) % 3])}];
-    }
-  }
-}
-
-/// Edges that are not shared by exactly two triangles, once in each direction.
-int open_edges(const EdgeUses& uses) {
-  int open = 0;
-  for (const auto& [edge, count] : uses) {
-    const auto back = uses.find({edge.second, edge.first});
-    if (count != 1 || back == uses.end() || back->second != 1) ++open;
-  }
-  return open;
+void count(const SurfaceMesh& mesh, Edges& uses) {
+  count_edges(
+      std::span<const uint32_t>(mesh.indices), [&](uint32_t i) { return corner(mesh, i); }, uses);
 }
 
 /// Meshes blocks of `side` voxels that tile [0, extent)³ one by one, each from its own window.
-EdgeUses mesh_in_blocks(const Window& whole, int extent, int side) {
-  EdgeUses uses;
+Edges mesh_in_blocks(const Window& whole, int extent, int side) {
+  Edges uses;
   for (int x = 0; x < extent; x += side)
     for (int y = 0; y < extent; y += side)
       for (int z = 0; z < extent; z += side) {
         const VoxelBox owned{{x, y, z}, {x + side, y + side, z + side}};
-        count_edges(surface_nets(part_of(whole, owned.grown(surface_nets_apron)), owned), uses);
+        count(surface_nets(part_of(whole, owned.grown(surface_nets_apron)), owned), uses);
       }
   return uses;
 }
@@ -101,7 +87,7 @@ TEST(SurfaceNets, watertight_across_blocks_after_random_edits) {
           code = carving ? std::max(code, encode(-d)) : std::min(code, encode(d));
         }
     if (edit % 12 != 11) continue;
-    const EdgeUses uses = mesh_in_blocks(whole, extent, 16);
+    const Edges uses = mesh_in_blocks(whole, extent, 16);
     EXPECT_GT(uses.size(), 1000U);
     EXPECT_EQ(open_edges(uses), 0) << "after edit " << edit;
   }
@@ -171,12 +157,12 @@ TEST(SurfaceNets, long_windows_are_meshed_as_short_ones) {
   const Window window = window_of(owned.grown(surface_nets_apron), [](glm::vec3 p) {
     return 5.0F - glm::length(glm::vec3(p.x - 8.0F, p.y - 8.0F, std::fmod(p.z + 5.0F, 25.0F) - 12.0F));
   });
-  EdgeUses whole;
-  count_edges(surface_nets(window, owned), whole);
-  EdgeUses parts;
+  Edges whole;
+  count(surface_nets(window, owned), whole);
+  Edges parts;
   for (int z = 0; z < 200; z += 25) {
     const VoxelBox part{{0, 0, z}, {16, 16, z + 25}};
-    count_edges(surface_nets(part_of(window, part.grown(surface_nets_apron)), part), parts);
+    count(surface_nets(part_of(window, part.grown(surface_nets_apron)), part), parts);
   }
   EXPECT_GT(whole.size(), 1000U);
   EXPECT_EQ(whole, parts);

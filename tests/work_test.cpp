@@ -3,6 +3,7 @@
 #include "server/world/work.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "bench/scenes.h"
 #include "server/app/server_report.h"
@@ -40,6 +41,16 @@ TEST(work, requests_over_the_budget_wait_and_are_carried_out_in_order) {
   }
   EXPECT_EQ(next, 16U);
   EXPECT_EQ(delta->work.requests_waiting, 0U);
+}
+
+TEST(work, what_will_be_refused_takes_nothing_from_the_others) {
+  const auto filling = [](glm::vec3 at_m, float radius_m) {
+    return cost_us(Command{1, 1, FillRequest{sphere(at_m, radius_m)}}, 0.25F);
+  };
+  EXPECT_GT(filling({0.0F, 5.0F, 0.0F}, 2.0F), 0.0F);
+  EXPECT_EQ(filling({1e30F, 5.0F, 0.0F}, 2.0F), 0.0F);
+  EXPECT_EQ(filling({0.0F, 5.0F, 0.0F}, 1e30F), 0.0F);
+  EXPECT_EQ(filling({0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F}, 2.0F), 0.0F);
 }
 
 TEST(work, too_many_requests_at_once_are_refused_by_name) {
