@@ -169,14 +169,18 @@ TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
   EXPECT_LT(highest_m, from_m + 0.05F);
 }
 
+/// A beam on a post: what is cut out of it drops, and leaves the gap open.
+auto cut_beam(World& world) {
+  step(world,
+       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
+  return step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+}
+
 TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
   WorldConfig config = flat_world();
   config.pieces_max = 1;
   World world(config);
-  // A beam on a post: what is cut out of it drops, and leaves the gap open.
-  step(world,
-       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
-  auto delta = step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+  auto delta = cut_beam(world);
   EXPECT_EQ(delta->pieces.size(), 1U);
   EXPECT_EQ(islands_of(*delta), 0U);
   size_t islands = 0;
@@ -193,9 +197,7 @@ TEST(falling, what_waits_to_fall_and_is_propped_up_meanwhile_stays) {
   WorldConfig config = flat_world();
   config.pieces_max = 1;
   World world(config);
-  step(world,
-       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
-  auto delta = step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+  auto delta = cut_beam(world);
   ASSERT_EQ(delta->work.islands_put_off, 1U);
   EXPECT_TRUE(delta->work.cut_short());
   delta = step(world, pour({box({7.0F, 3.0F, 0.0F}, {0.5F, 4.0F, 0.5F})}));
