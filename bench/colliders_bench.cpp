@@ -12,7 +12,7 @@
 #include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

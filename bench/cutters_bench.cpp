@@ -11,7 +11,7 @@
 #include "server/fracture/hull.h"
 #include "shared/base/timing.h"
 #include "shared/field/edit.h"
-#include "shared/field/polygon_cut.h"
+#include "shared/fracture/polygon_cut.h"
 
 namespace scree {
 

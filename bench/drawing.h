@@ -6,7 +6,7 @@
 
 #include "bench/stage.h"
 #include "client/render/method_switch.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

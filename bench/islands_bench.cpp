@@ -9,7 +9,7 @@
 #include "server/world/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
-#include "shared/field/island_search.h"
+#include "shared/falling/island_search.h"
 
 namespace scree {
 

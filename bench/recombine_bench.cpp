@@ -11,11 +11,11 @@
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
 #include "shared/field/edit.h"
-#include "shared/field/operation.h"
-#include "shared/field/posed_piece.h"
-#include "shared/field/prepared_stamp.h"
-#include "shared/field/stamp_groups.h"
-#include "shared/field/stamp_method.h"
+#include "shared/operation/operation.h"
+#include "shared/operation/prepared_stamp.h"
+#include "shared/operation/stamp_groups.h"
+#include "shared/recombine/posed_piece.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 

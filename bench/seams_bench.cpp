@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "bench/benches.h"
-#include "shared/field/operation.h"
-#include "shared/field/posed_piece.h"
-#include "shared/field/stamp.h"
+#include "shared/operation/operation.h"
+#include "shared/recombine/posed_piece.h"
+#include "shared/recombine/stamp.h"
 
 namespace scree {
 

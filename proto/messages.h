@@ -11,7 +11,7 @@
 
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

@@ -3,7 +3,7 @@
 #include "proto/byte_stream.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
-#include "shared/field/stamp.h"
+#include "shared/recombine/stamp.h"
 
 namespace scree {
 

@@ -12,7 +12,7 @@
 #include "proto/limits.h"
 #include "proto/messages.h"
 #include "shared/base/result.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

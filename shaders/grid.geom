@@ -1,4 +1,4 @@
-// Marching cubes of one cell (shared/field/cube_cases.h), for surface.frag. Needs bricks.glsl and march.glsl.
+// Marching cubes of one cell (shared/surface/cube_cases.h), for surface.frag. Needs bricks.glsl and march.glsl.
 //
 // A corner's distance depends on the corner alone, not on the cell: so cells meet. What is read from the atlas is
 // read in the brick that the cell lies in, whose apron has all of its corners.

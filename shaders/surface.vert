@@ -1,4 +1,4 @@
-// Meshes of surface nets: blocks of terrain and pieces (shared/field/surface_nets.h, SurfaceVertex).
+// Meshes of surface nets: blocks of terrain and pieces (shared/surface/surface_nets.h, SurfaceVertex).
 
 layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
 layout(location = 1) in vec3 a_normal;

@@ -9,8 +9,8 @@
 
 #include "server/bodies/limits.h"
 #include "shared/base/random.h"
-#include "shared/field/operation.h"
 #include "shared/field/paint.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "proto/operation_codec.h"
 #include "shared/base/limits.h"
-#include "shared/field/stamp.h"
+#include "shared/recombine/stamp.h"
 #include "tests/wire_samples.h"
 
 namespace scree {

@@ -1,12 +1,12 @@
 // The derived table of marching cubes: closed, and of the size that is known of it.
-#include "shared/field/cube_cases.h"
+#include "shared/surface/cube_cases.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
 
-#include "shared/field/surface_cells.h"
+#include "shared/surface/surface_cells.h"
 
 namespace scree {
 namespace {

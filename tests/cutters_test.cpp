@@ -9,10 +9,10 @@
 #include "shared/base/random.h"
 #include "shared/field/edit.h"
 #include "shared/field/field.h"
-#include "shared/field/polygon_codes.h"
-#include "shared/field/polygon_cut.h"
 #include "shared/field/terrain.h"
-#include "shared/field/voronoi_cells.h"
+#include "shared/fracture/polygon_codes.h"
+#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/voronoi_cells.h"
 
 namespace scree {
 namespace {

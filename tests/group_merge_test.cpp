@@ -6,7 +6,7 @@
 #include "client/mirror/mirror.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"
-#include "shared/field/prepared_stamp.h"
+#include "shared/operation/prepared_stamp.h"
 
 namespace scree {
 namespace {

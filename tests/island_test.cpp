@@ -1,5 +1,5 @@
 // Islands: the search against labelling by brute force, and what lifting one leaves behind.
-#include "shared/field/island.h"
+#include "shared/falling/island.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "shared/falling/island_search.h"
 #include "shared/field/edit.h"
-#include "shared/field/island_search.h"
 
 namespace scree {
 namespace {

@@ -1,4 +1,4 @@
-#include "shared/field/leaf_surface.h"
+#include "shared/surface/leaf_surface.h"
 
 #include <functional>
 #include <glm/geometric.hpp>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "shared/base/random.h"
-#include "shared/field/marching_cubes.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/marching_cubes.h"
+#include "shared/surface/surface_nets.h"
 #include "tests/edge_uses.h"
 
 namespace scree {

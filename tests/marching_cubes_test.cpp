@@ -1,11 +1,11 @@
 // Marching cubes of boxes: one closed surface, wherever one box ends, and where the field is zero.
-#include "shared/field/marching_cubes.h"
+#include "shared/surface/marching_cubes.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "shared/base/random.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 #include "tests/edge_uses.h"
 
 namespace scree {

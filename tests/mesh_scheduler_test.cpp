@@ -11,7 +11,7 @@
 
 #include "client/render/block_windows.h"
 #include "shared/base/random.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "client/render/mesh_place.h"
 #include "shared/base/random.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {

@@ -7,7 +7,7 @@
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
-#include "shared/field/polygon_cut.h"
+#include "shared/fracture/polygon_cut.h"
 
 namespace scree {
 namespace {

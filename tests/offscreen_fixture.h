@@ -10,7 +10,7 @@
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/viewer/egl_context.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 #include "tests/loaded_libraries.h"
 
 namespace scree {

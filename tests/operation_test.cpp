@@ -1,13 +1,13 @@
 // Operations on a field: what a carve takes out is what its pieces weigh; what a stamp adds is what was
 // planned.
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
 #include "shared/base/limits.h"
-#include "shared/field/stamp.h"
+#include "shared/recombine/stamp.h"
 
 namespace scree {
 namespace {

@@ -1,4 +1,4 @@
-#include "shared/field/sharp_vertex.h"
+#include "shared/surface/sharp_vertex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "shared/field/surface_mesh.h"
+#include "shared/surface/surface_mesh.h"
 
 namespace scree {
 namespace {

@@ -1,5 +1,5 @@
 // Specks: nothing lighter than the smallest piece hangs loose, whatever was merged where.
-#include "shared/field/specks.h"
+#include "shared/recombine/specks.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "shared/falling/island.h"
 #include "shared/field/edit.h"
-#include "shared/field/island.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {

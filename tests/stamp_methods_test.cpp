@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "shared/base/random.h"
-#include "shared/field/operation.h"
-#include "shared/field/posed_piece.h"
-#include "shared/field/stamp_method.h"
-#include "shared/field/stamp_slices.h"
+#include "shared/operation/operation.h"
+#include "shared/recombine/posed_piece.h"
+#include "shared/recombine/stamp_method.h"
+#include "shared/recombine/stamp_slices.h"
 
 namespace scree {
 namespace {

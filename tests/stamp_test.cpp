@@ -1,12 +1,12 @@
 // Stamps: a piece at rest becomes terrain, with exactly its mass.
-#include "shared/field/stamp.h"
+#include "shared/recombine/stamp.h"
 
 #include <gtest/gtest.h>
 
-#include "shared/field/merge_patch.h"
-#include "shared/field/operation.h"
-#include "shared/field/prepared_stamp.h"
 #include "shared/field/redistance.h"
+#include "shared/operation/operation.h"
+#include "shared/operation/prepared_stamp.h"
+#include "shared/recombine/merge_patch.h"
 
 namespace scree {
 namespace {

@@ -18,7 +18,12 @@ struct Layer {
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = {
       {"shared/base/", {}},
-      {"shared/field/", {"shared/"}},
+      {"shared/field/", {"shared/base/"}},
+      {"shared/surface/", {"shared/base/", "shared/field/"}},
+      {"shared/falling/", {"shared/base/", "shared/field/"}},
+      {"shared/fracture/", {"shared/base/", "shared/field/", "shared/surface/"}},
+      {"shared/recombine/", {"shared/base/", "shared/field/", "shared/surface/", "shared/falling/"}},
+      {"shared/operation/", {"shared/"}},
       {"proto/", {"shared/"}},
       {"server/field/", {"shared/", "proto/"}},
       {"server/fracture/", {"shared/", "proto/", "server/field/"}},
@@ -174,7 +179,7 @@ Complaints check_library_leaks(const std::vector<SourceFile>& files) {
 Complaints check_kernel_arithmetic(const SourceFile& file) {
   static const std::regex inexact(
       R"(\b(std|glm)::(a?(sin|cos|tan)h?f?|atan2f?|exp[2m1]*f?|log[210p]*f?|powf?|cbrtf?|hypotf?|fmaf?|slerp|angleAxis|rotate)\s*\()");
-  if (!file.path.starts_with("shared/field/")) return {};
+  if (!file.path.starts_with("shared/")) return {};
   const std::string code = without_comments_and_literals(file.text);
   Complaints complaints;
   for (std::sregex_iterator it(code.begin(), code.end(), inexact), end; it != end; ++it)

@@ -10,9 +10,9 @@
 #include "server/world/limits.h"
 #include "server/world/world.h"
 #include "shared/base/random.h"
+#include "shared/falling/load_flow.h"
+#include "shared/falling/support_search.h"
 #include "shared/field/edit.h"
-#include "shared/field/load_flow.h"
-#include "shared/field/support_search.h"
 #include "tests/verify_recording.h"
 
 namespace scree {

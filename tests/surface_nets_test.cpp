@@ -1,4 +1,4 @@
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 
 #include <array>
 #include <cmath>

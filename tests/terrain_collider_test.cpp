@@ -10,7 +10,7 @@
 #include "server/bodies/limits.h"
 #include "server/bodies/nearest_triangle.h"
 #include "shared/base/random.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {

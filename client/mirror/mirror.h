@@ -19,7 +19,7 @@
 
 #include "proto/messages.h"
 #include "shared/field/field.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

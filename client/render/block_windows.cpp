@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "shared/field/layer_depths.h"
-#include "shared/field/marching_cubes.h"
 #include "shared/field/material.h"
+#include "shared/surface/marching_cubes.h"
 
 namespace scree {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 
 namespace scree {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "client/render/gl.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 
 namespace scree {
 

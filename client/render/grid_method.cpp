@@ -11,8 +11,8 @@
 #include "client/render/lighting.h"
 #include "client/render/piece_views.h"
 #include "client/render/shader_sources.h"
-#include "shared/field/cube_cases.h"
-#include "shared/field/surface_cells.h"
+#include "shared/surface/cube_cases.h"
+#include "shared/surface/surface_cells.h"
 
 namespace scree {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "shared/field/surface_mesh.h"
+#include "shared/surface/surface_mesh.h"
 
 namespace scree {
 

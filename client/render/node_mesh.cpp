@@ -4,10 +4,10 @@
 #include <memory>
 #include <utility>
 
-#include "shared/field/leaf_surface.h"
-#include "shared/field/marching_cubes.h"
-#include "shared/field/sharp_vertex.h"
-#include "shared/field/surface_vertices.h"
+#include "shared/surface/leaf_surface.h"
+#include "shared/surface/marching_cubes.h"
+#include "shared/surface/sharp_vertex.h"
+#include "shared/surface/surface_vertices.h"
 
 namespace scree {
 namespace {

@@ -5,7 +5,7 @@
 #include "server/bodies/nearby_codes.h"
 #include "server/bodies/nearest_triangle.h"
 #include "server/bodies/terrain_collider.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 
 namespace scree {
 

@@ -5,7 +5,7 @@
 
 #include "server/bodies/limits.h"
 #include "server/bodies/nearby_codes.h"
-#include "shared/field/surface_nets.h"
+#include "shared/surface/surface_nets.h"
 
 namespace scree {
 

@@ -1,6 +1,6 @@
 // The terrain as triangles, block by block, made when a body comes near and again when the terrain has
-// changed there: the mesh that is drawn (shared/field/surface_nets.h), as the paper collides with what is on
-// screen. Voxels, world axes. Not thread-safe.
+// changed there: the mesh that is drawn (shared/surface/surface_nets.h), as the paper collides with what is
+// on screen. Voxels, world axes. Not thread-safe.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "server/fracture/simplify.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 #include "shared/base/setting_value.h"
 #include "shared/field/material.h"
 #include "shared/field/shape.h"
-#include "shared/field/voronoi.h"
+#include "shared/fracture/voronoi.h"
 
 namespace scree {
 

@@ -5,8 +5,8 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
-#include "shared/field/island.h"
-#include "shared/field/specks.h"
+#include "shared/falling/island.h"
+#include "shared/recombine/specks.h"
 
 namespace scree {
 

@@ -1,9 +1,9 @@
 // Terrain that a change cut off from the ground falls.
 //
-// Every tick's cuts make one search (shared/field/island_search.h), taken up in the order of the cuts. A tick
-// looks at limits::island_bricks_per_tick bricks; what is not finished goes on in the next tick, and starts
-// afresh when what it has seen changed in between. With every fresh start its budget doubles, so that each
-// search ends. Part of the simulation: it counts bricks, never time.
+// Every tick's cuts make one search (shared/falling/island_search.h), taken up in the order of the cuts. A
+// tick looks at limits::island_bricks_per_tick bricks; what is not finished goes on in the next tick, and
+// starts afresh when what it has seen changed in between. With every fresh start its budget doubles, so that
+// each search ends. Part of the simulation: it counts bricks, never time.
 //
 // What a search found falls in the same tick, as long as the tick's budget of work lasts, and one at least: a
 // large island comes in blocks (island_search.h), of which some wait. What waits is searched afresh when
@@ -20,7 +20,7 @@
 
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
-#include "shared/field/island_search.h"
+#include "shared/falling/island_search.h"
 
 namespace scree {
 
@@ -64,7 +64,7 @@ class IslandQueue {
 void drop_islands(World::State& state, TickDelta& delta);
 
 /// What merges and islands left hanging loose that is too light for a piece becomes dust
-/// (shared/field/specks.h); after carves and dents the search for islands does the same. Whatever the
+/// (shared/recombine/specks.h); after carves and dents the search for islands does the same. Whatever the
 /// settings; call after the other two.
 void sweep_specks(World::State& state, TickDelta& delta);
 

@@ -97,7 +97,7 @@ inline constexpr float stamp_cost_us = 30.0F;
 inline constexpr float slices_cost_us = 60.0F;
 inline constexpr float sphere_cost_us = 170.0F;
 
-/// A part of terrain of which is asked whether it holds (shared/field/support_search.h).
+/// A part of terrain of which is asked whether it holds (shared/falling/support_search.h).
 inline constexpr float support_part_cost_us = 0.7F;
 
 /// A voxel of the box around an island that is lifted.

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "server/world/limits.h"
-#include "shared/field/prepared_stamp.h"
-#include "shared/field/stamp_groups.h"
+#include "shared/operation/prepared_stamp.h"
+#include "shared/operation/stamp_groups.h"
 
 namespace scree {
 

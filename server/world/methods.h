@@ -7,12 +7,12 @@
 
 #include "server/bodies/terrain_collider_kind.h"
 #include "server/fracture/simplify.h"
-#include "shared/field/voronoi.h"
+#include "shared/fracture/voronoi.h"
 
 namespace scree {
 
-/// How pieces at rest become terrain again: by one of the methods of shared/field/stamp_method.h, or never:
-/// then they stay bodies.
+/// How pieces at rest become terrain again: by one of the methods of shared/recombine/stamp_method.h, or
+/// never: then they stay bodies.
 enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3 };
 
 struct Methods {

@@ -7,7 +7,7 @@
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "shared/base/limits.h"
-#include "shared/field/support_search.h"
+#include "shared/falling/support_search.h"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-// Terrain that is too heavy for what holds it breaks off (shared/field/support_search.h).
+// Terrain that is too heavy for what holds it breaks off (shared/falling/support_search.h).
 //
 // Around every brick that changed, whatever changed it, what holds is searched: changes near each other in
 // one search, one search a tick at least and more as the tick's budget goes; what waits is counted. The neck

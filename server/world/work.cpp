@@ -1,7 +1,7 @@
 #include "server/world/work.h"
 
 #include "server/world/limits.h"
-#include "shared/field/operation.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 

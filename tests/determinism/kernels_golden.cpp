@@ -7,14 +7,14 @@
 #include <string>
 
 #include "shared/base/random.h"
+#include "shared/falling/island_search.h"
 #include "shared/field/edit.h"
-#include "shared/field/island_search.h"
-#include "shared/field/operation.h"
-#include "shared/field/polygon_cut.h"
 #include "shared/field/redistance.h"
-#include "shared/field/stamp_method.h"
 #include "shared/field/terrain.h"
-#include "shared/field/voronoi.h"
+#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/voronoi.h"
+#include "shared/operation/operation.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 namespace {

@@ -1,0 +1,222 @@
+#include "shared/falling/island.h"
+
+#include <algorithm>
+#include <array>
+
+#include "shared/base/check.h"
+#include "shared/field/redistance.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int band = 3;  ///< voxels that the narrow band reaches
+constexpr int margin =
+    2 * band + 2;  ///< the island's band, what lies in the band of that, and room to redistance
+constexpr Code code_at_cut = -21;     ///< half a voxel deep
+constexpr Code code_beyond_cut = 21;  ///< half a voxel outside
+using Marks = std::vector<uint8_t>;   ///< of a window's voxels, in its order
+
+/// Steps from a voxel to its neighbours in a window's codes.
+std::array<ptrdiff_t, 3> strides(const Window& window) {
+  const VoxelCoord size = window.box.size();
+  return {static_cast<ptrdiff_t>(size.y) * size.z, size.z, 1};
+}
+
+template <typename F>
+void for_each_voxel(const VoxelBox& box, F&& f) {
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z) f(x, y, z);
+}
+
+/// Marks what connects to the seed by faces of solid voxels, within the box.
+Marks component(const Window& window, const VoxelBox& box, VoxelCoord seed) {
+  Marks marks(window.codes.size(), 0);
+  std::vector<VoxelCoord> ahead;
+  const auto reach = [&](VoxelCoord v) {
+    const size_t at = window.index(v.x, v.y, v.z);
+    if (window.codes[at] >= 0 || marks[at] != 0) return;
+    marks[at] = 1;
+    ahead.push_back(v);
+  };
+  reach(seed);
+  while (!ahead.empty()) {
+    const VoxelCoord v = ahead.back();
+    ahead.pop_back();
+    if (v.x > box.lo.x) reach({v.x - 1, v.y, v.z});
+    if (v.y > box.lo.y) reach({v.x, v.y - 1, v.z});
+    if (v.z > box.lo.z) reach({v.x, v.y, v.z - 1});
+    if (v.x + 1 < box.hi.x) reach({v.x + 1, v.y, v.z});
+    if (v.y + 1 < box.hi.y) reach({v.x, v.y + 1, v.z});
+    if (v.z + 1 < box.hi.z) reach({v.x, v.y, v.z + 1});
+  }
+  return marks;
+}
+
+/// Spreads the marks of a line of `count` voxels by `by`, both ways.
+void spread(uint8_t* line, ptrdiff_t stride, int count, int by, std::vector<uint8_t>& scratch) {
+  scratch.assign(static_cast<size_t>(count), 0);
+  for (int i = 0, left = -1; i < count; ++i) {
+    left = line[i * stride] != 0 ? by : left - 1;
+    if (left >= 0) scratch[static_cast<size_t>(i)] = 1;
+  }
+  for (int i = count - 1, left = -1; i >= 0; --i) {
+    left = line[i * stride] != 0 ? by : left - 1;
+    if (left >= 0) scratch[static_cast<size_t>(i)] = 1;
+  }
+  for (int i = 0; i < count; ++i) line[i * stride] = scratch[static_cast<size_t>(i)];
+}
+
+/// Marks also what lies within `by` voxels, along every axis, of what is marked.
+Marks grown(Marks marks, const Window& window, int by) {
+  const VoxelCoord size = window.box.size();
+  const auto [step_x, step_y, step_z] = strides(window);
+  std::vector<uint8_t> scratch;
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y)
+      spread(marks.data() + x * step_x + y * step_y, step_z, size.z, by, scratch);
+  for (int x = 0; x < size.x; ++x)
+    for (int z = 0; z < size.z; ++z)
+      spread(marks.data() + x * step_x + z * step_z, step_y, size.y, by, scratch);
+  for (int y = 0; y < size.y; ++y)
+    for (int z = 0; z < size.z; ++z)
+      spread(marks.data() + y * step_y + z * step_z, step_x, size.x, by, scratch);
+  return marks;
+}
+
+/// Marks what is marked, and the voxels at its faces.
+Marks beside_of(const Window& window, const Marks& marks) {
+  const VoxelCoord size = window.box.size();
+  const auto [step_x, step_y, step_z] = strides(window);
+  Marks beside(marks.size(), 0);
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y)
+      for (int z = 0; z < size.z; ++z) {
+        const ptrdiff_t at = x * step_x + y * step_y + z * step_z;
+        if (marks[static_cast<size_t>(at)] == 0) continue;
+        uint8_t* mark = beside.data() + at;
+        *mark = 1;
+        if (x > 0) mark[-step_x] = 1;
+        if (x + 1 < size.x) mark[step_x] = 1;
+        if (y > 0) mark[-step_y] = 1;
+        if (y + 1 < size.y) mark[step_y] = 1;
+        if (z > 0) mark[-step_z] = 1;
+        if (z + 1 < size.z) mark[step_z] = 1;
+      }
+  return beside;
+}
+
+/// Marks what is solid and not gone, and the voxels at its faces.
+Marks near_rest(const Window& window, const Marks& gone) {
+  Marks rest(gone.size());
+  for (size_t i = 0; i < rest.size(); ++i) rest[i] = window.codes[i] < 0 && gone[i] == 0 ? 1 : 0;
+  return beside_of(window, rest);
+}
+
+/// Bounds of what is solid, not gone, and marked in `within`.
+VoxelBox rest_box(const Window& window, const Marks& gone, const Marks& within) {
+  VoxelBox box{window.box.hi, window.box.lo};
+  size_t at = 0;
+  for_each_voxel(window.box, [&](int x, int y, int z) {
+    const size_t i = at++;
+    if (window.codes[i] >= 0 || gone[i] != 0 || within[i] == 0) return;
+    box.lo = {std::min(box.lo.x, x), std::min(box.lo.y, y), std::min(box.lo.z, z)};
+    box.hi = {std::max(box.hi.x, x + 1), std::max(box.hi.y, y + 1), std::max(box.hi.z, z + 1)};
+  });
+  return box;
+}
+
+/// What remains gets a face where it was cut: halfway between its last voxels and the first that are gone.
+/// Returns the solids whose distance that changes: those within the band of the cut.
+Marks bare_cut(Window& window, const Marks& gone, const Marks& near) {
+  Marks cut(window.codes.size(), 0);
+  bool any = false;
+  for (size_t i = 0; i < cut.size(); ++i) {
+    cut[i] = gone[i] != 0 && near[i] != 0 ? 1 : 0;
+    any = any || cut[i] != 0;
+  }
+  if (!any) return {};
+  const Marks beside = beside_of(window, cut);
+  Marks bared = grown(std::move(cut), window, band);
+  for (size_t i = 0; i < bared.size(); ++i) {
+    if (gone[i] != 0 || window.codes[i] >= 0) bared[i] = 0;
+    if (bared[i] != 0 && beside[i] != 0) window.codes[i] = std::max(window.codes[i], code_at_cut);
+  }
+  return bared;
+}
+
+/// Takes the marked solids out, and gives them and their band the distance to what remains.
+void strip(Window& window, const Marks& gone) {
+  const Marks within = grown(gone, window, 2 * band);
+  const VoxelBox rest = rest_box(window, gone, within);
+  const Marks near = near_rest(window, gone);
+  const Marks bared = bare_cut(window, gone, near);
+  Marks touched = grown(gone, window, band);
+  for (size_t i = 0; i < touched.size(); ++i) {
+    if (gone[i] == 0 && (window.codes[i] < 0 || near[i] != 0)) touched[i] = 0;
+    if (touched[i] != 0) window.codes[i] = gone[i] != 0 && near[i] != 0 ? code_beyond_cut : code_air;
+  }
+  if (rest.empty()) return;
+  Window part = part_of(window, common(rest.grown(band + 2), window.box));
+  redistance(part);
+  size_t at = 0;
+  for_each_voxel(part.box, [&](int x, int y, int z) {
+    const size_t to = window.index(x, y, z);
+    if (touched[to] != 0) window.codes[to] = part.codes[at];
+    if (!bared.empty() && bared[to] != 0) window.codes[to] = std::max(window.codes[to], part.codes[at]);
+    ++at;
+  });
+}
+
+/// The own field of the marked voxels, which lie in the box.
+Window alone(const Window& window, const VoxelBox& box, const Marks& marks) {
+  // What lies just outside the island's band has its own band inside.
+  Window own = part_of(window, box.grown(2 * band));
+  Marks others(own.codes.size(), 0);
+  size_t at = 0;
+  for_each_voxel(own.box, [&](int x, int y, int z) {
+    others[at] = own.codes[at] < 0 && marks[window.index(x, y, z)] == 0 ? 1 : 0;
+    ++at;
+  });
+  strip(own, others);
+  return part_of(own, box.grown(band));
+}
+
+glm::vec3 centre_of_mass(const Window& window) {
+  int64_t sum = 0, sum_x = 0, sum_y = 0, sum_z = 0;
+  size_t at = 0;
+  const VoxelCoord origin = window.box.lo;
+  for_each_voxel(window.box, [&](int x, int y, int z) {
+    const int units = occupancy(window.codes[at++]);
+    sum += units;
+    sum_x += int64_t{units} * (x - origin.x);
+    sum_y += int64_t{units} * (y - origin.y);
+    sum_z += int64_t{units} * (z - origin.z);
+  });
+  const auto mean = [&](int64_t total, int from) {
+    return static_cast<float>(static_cast<double>(total) / static_cast<double>(sum) + from);
+  };
+  return {mean(sum_x, origin.x), mean(sum_y, origin.y), mean(sum_z, origin.z)};
+}
+
+}  // namespace
+
+VoxelBox lift_box(const VoxelBox& island) {
+  return island.grown(margin);
+}
+
+Volume lift(Window& window, const VoxelBox& box, VoxelCoord seed) {
+  CHECK(window.codes.size() >= Window::count(lift_box(box)));
+  Volume volume;
+  if (window.at(seed.x, seed.y, seed.z) >= 0) return volume;
+  const Marks marks = component(window, box, seed);
+  volume.window = alone(window, box, marks);
+  volume.centre_voxels = centre_of_mass(volume.window);
+  volume.mass = mass_of(window);
+  strip(window, marks);
+  volume.mass -= mass_of(window);
+  return volume;
+}
+
+}  // namespace scree

@@ -1,0 +1,253 @@
+#include "shared/falling/island_search.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// An island's bounds, and the blocks that it is cut into.
+class BlockGrid {
+ public:
+  void add(BrickCoord brick) {
+    if (empty_) lo_ = hi_ = brick;
+    empty_ = false;
+    lo_ = {std::min(lo_.x, brick.x), std::min(lo_.y, brick.y), std::min(lo_.z, brick.z)};
+    hi_ = {std::max(hi_.x, brick.x), std::max(hi_.y, brick.y), std::max(hi_.z, brick.z)};
+  }
+  void divide(const BlockLimits& limits) {
+    sides_ = hi_ - lo_ + BrickCoord{1, 1, 1};
+    for (;;) {
+      int& longest = sides_.x >= std::max(sides_.y, sides_.z) ? sides_.x
+                     : sides_.y >= sides_.z                   ? sides_.y
+                                                              : sides_.z;
+      if (longest <= limits.side_bricks && sides_.x * sides_.y * sides_.z <= limits.bricks) return;
+      longest = (longest + 1) / 2;
+    }
+  }
+  /// Of a brick of the island.
+  BrickCoord block(BrickCoord brick) const {
+    const BrickCoord at = brick - lo_;
+    return {at.x / sides_.x, at.y / sides_.y, at.z / sides_.z};
+  }
+
+ private:
+  bool empty_ = true;
+  BrickCoord lo_, hi_, sides_;
+};
+
+/// An island, as its parts are told one by one.
+struct Found {
+  Island island;
+  BrickCoord first;
+
+  void add(BrickCoord brick, const BrickBits& bits) {
+    const VoxelCoord origin = first_voxel(brick);
+    const VoxelBox inner = bounds_of(bits);
+    const VoxelBox box{inner.lo + origin, inner.hi + origin};
+    const VoxelCoord seed = origin + bounds_of(first_of(bits)).lo;
+    const bool is_new = island.voxels == 0;
+    const VoxelBox& b = is_new ? box : island.box;
+    island.box = {{std::min(b.lo.x, box.lo.x), std::min(b.lo.y, box.lo.y), std::min(b.lo.z, box.lo.z)},
+                  {std::max(b.hi.x, box.hi.x), std::max(b.hi.y, box.hi.y), std::max(b.hi.z, box.hi.z)}};
+    if (is_new || brick < first || (brick == first && seed < island.seed)) {
+      first = brick;
+      island.seed = seed;
+    }
+    island.voxels += bits.count();
+  }
+};
+
+}  // namespace
+
+IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max)
+    : field_(field), ground_(field), parts_max_(parts_max) {
+  sites_.reserve(changed.size() * 4);
+  start(changed);
+}
+
+IslandSearch::Site& IslandSearch::site(BrickCoord brick) {
+  const auto [found, is_new] = sites_.try_emplace(brick);
+  if (is_new) found->second.solid = solid_bits(field_.brick(brick));
+  return found->second;
+}
+
+BrickBits IslandSearch::taken(const Site& site) const {
+  BrickBits all;
+  for (uint32_t i = site.first; i != none; i = parts_[i].next) all = all | parts_[i].bits;
+  return all;
+}
+
+/// A flood from each component, within the brick, of what is solid `among` these voxels.
+void IslandSearch::seed(BrickCoord brick, BrickBits among) {
+  const Site& here = site(brick);
+  for (among = among & here.solid & ~taken(here); among.any();) {
+    const BrickBits bits = flooded(first_of(among), here.solid);
+    const auto flood = static_cast<uint32_t>(floods_.size());
+    floods_.push_back({flood, Verdict::open, 0, {}});
+    open_.push_back(flood);
+    add_part(brick, bits, flood);
+    among = among & ~bits;
+  }
+}
+
+void IslandSearch::start(std::span<const BrickCoord> changed) {
+  for (const BrickCoord brick : changed) {
+    const BrickBits solid = site(brick).solid;
+    seed(brick, solid);
+    for (size_t face = 0; face < brick_faces.size(); ++face) {
+      const BrickBits bared = across(~solid, face);  // what may have leant on the brick through this face
+      if (bared.any()) seed(brick + brick_faces[face], bared);
+    }
+  }
+}
+
+bool IslandSearch::is_later(uint32_t a, uint32_t b) const {
+  const auto key = [&](uint32_t part) {
+    const BrickCoord& at = parts_[part].brick;
+    return std::tuple(at.y, at.x, at.z, part);
+  };
+  return key(a) > key(b);
+}
+
+uint32_t IslandSearch::root(uint32_t flood) const {
+  while (floods_[flood].parent != flood) flood = floods_[flood].parent;
+  return flood;
+}
+
+void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood) {
+  Site& here = site(brick);
+  const auto part = static_cast<uint32_t>(parts_.size());
+  parts_.push_back({brick, bits, flood, here.first});
+  here.first = part;
+  Flood& into = floods_[flood];
+  into.ahead.push_back(part);
+  std::ranges::push_heap(into.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
+  if (++into.parts > parts_max_) into.verdict = Verdict::too_large;
+}
+
+/// Two floods met: they are one. Returns it.
+uint32_t IslandSearch::unite(uint32_t a, uint32_t b) {
+  a = root(a);
+  b = root(b);
+  if (a == b) return a;
+  if (floods_[a].ahead.size() < floods_[b].ahead.size()) std::swap(a, b);
+  Flood& into = floods_[a];
+  Flood& from = floods_[b];
+  CHECK(into.verdict != Verdict::island &&
+        from.verdict != Verdict::island);  // those have nothing left to meet
+  from.parent = a;
+  for (const uint32_t part : from.ahead) {
+    into.ahead.push_back(part);
+    std::ranges::push_heap(into.ahead, [this](uint32_t x, uint32_t y) { return is_later(x, y); });
+  }
+  from.ahead = {};
+  into.parts += from.parts;
+  if (from.verdict != Verdict::open && into.verdict != Verdict::ground) into.verdict = from.verdict;
+  if (into.verdict == Verdict::open && into.parts > parts_max_) into.verdict = Verdict::too_large;
+  return a;
+}
+
+void IslandSearch::cross(uint32_t part, size_t face) {
+  BrickBits reached = across(parts_[part].bits, face);
+  if (!reached.any()) return;
+  const BrickCoord beyond = parts_[part].brick + brick_faces[face];
+  uint32_t flood = root(parts_[part].flood);
+  if (ground_.holds(beyond)) {
+    floods_[flood].verdict = Verdict::ground;
+    return;
+  }
+  const Site& there = site(beyond);
+  reached = reached & there.solid;
+  for (uint32_t i = there.first; i != none; i = parts_[i].next) {
+    if (!(parts_[i].bits & reached).any()) continue;
+    flood = unite(flood, parts_[i].flood);
+    reached = reached & ~parts_[i].bits;
+  }
+  if (reached.any()) add_part(beyond, flooded(reached, there.solid), flood);
+}
+
+void IslandSearch::grow(uint32_t flood) {
+  Flood& growing = floods_[flood];
+  std::ranges::pop_heap(growing.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
+  const uint32_t part = growing.ahead.back();
+  growing.ahead.pop_back();
+  if (ground_.holds(parts_[part].brick)) growing.verdict = Verdict::ground;
+  for (size_t face = 0; face < brick_faces.size(); ++face) {
+    if (floods_[root(flood)].verdict != Verdict::open) return;
+    cross(part, face);
+  }
+}
+
+bool IslandSearch::advance(size_t& bricks) {
+  while (!open_.empty()) {
+    if (turn_ >= open_.size()) turn_ = 0;
+    const uint32_t flood = open_[turn_];
+    Flood& next = floods_[flood];
+    if (next.parent == flood && next.verdict == Verdict::open && next.ahead.empty())
+      next.verdict = Verdict::island;
+    if (next.parent != flood || next.verdict != Verdict::open) {
+      open_[turn_] = open_.back();
+      open_.pop_back();
+      continue;
+    }
+    if (bricks == 0) return false;
+    --bricks;
+    grow(flood);
+    ++turn_;
+  }
+  return true;
+}
+
+size_t IslandSearch::too_large() const {
+  return static_cast<size_t>(std::ranges::count_if(floods_, [this](const Flood& flood) {
+    return flood.verdict == Verdict::too_large && &floods_[flood.parent] == &flood;
+  }));
+}
+
+std::vector<uint32_t> IslandSearch::parts_of_islands() const {
+  std::vector<uint32_t> found;
+  for (uint32_t part = 0; part < parts_.size(); ++part)
+    if (floods_[root(parts_[part].flood)].verdict == Verdict::island) found.push_back(part);
+  return found;
+}
+
+std::vector<Island> IslandSearch::islands(const BlockLimits& limits) const {
+  const std::vector<uint32_t> parts = parts_of_islands();
+  std::map<uint32_t, BlockGrid> grids;  // by flood
+  for (const uint32_t part : parts) grids[root(parts_[part].flood)].add(parts_[part].brick);
+  for (auto& [flood, grid] : grids) grid.divide(limits);
+  // What connects within a block has the same group: its first part.
+  std::vector<uint32_t> groups(parts_.size());
+  std::iota(groups.begin(), groups.end(), 0U);
+  const auto group = [&](uint32_t part) {
+    while (groups[part] != part) part = groups[part] = groups[groups[part]];
+    return part;
+  };
+  for (const uint32_t part : parts) {
+    const BrickCoord brick = parts_[part].brick;
+    const BlockGrid& grid = grids.at(root(parts_[part].flood));
+    for (size_t face = 0; face < brick_faces.size(); face += 2) {
+      const auto beyond = sites_.find(brick + brick_faces[face]);
+      if (beyond == sites_.end() || grid.block(brick) != grid.block(beyond->first)) continue;
+      const BrickBits reached = across(parts_[part].bits, face);
+      for (uint32_t i = beyond->second.first; i != none; i = parts_[i].next)
+        if ((parts_[i].bits & reached).any())
+          groups[std::max(group(part), group(i))] = std::min(group(part), group(i));
+    }
+  }
+  std::map<uint32_t, Found> found;
+  for (const uint32_t part : parts) found[group(part)].add(parts_[part].brick, parts_[part].bits);
+  std::vector<Island> islands;
+  for (const auto& [first, entry] : found) islands.push_back(entry.island);
+  std::ranges::sort(islands, {}, &Island::seed);
+  return islands;
+}
+
+}  // namespace scree

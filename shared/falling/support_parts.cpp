@@ -1,0 +1,248 @@
+#include "shared/falling/support_parts.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "shared/field/paint.h"
+
+namespace scree {
+
+namespace {
+
+constexpr uint32_t unread = UINT32_MAX - 1;
+constexpr uint64_t row_y = 0xFFU;                ///< y = 0
+constexpr uint64_t row_z = 0x0101010101010101U;  ///< z = 0
+
+/// The voxels of one layer along an axis.
+BrickBits layer(const BrickBits& bits, int axis, int k) {
+  BrickBits out;
+  for (size_t x = 0; x < bits.words.size(); ++x) {
+    if (axis == 0 && static_cast<int>(x) != k) continue;
+    const uint64_t mask = axis == 1 ? row_y << (8 * k) : axis == 2 ? row_z << k : ~uint64_t{0};
+    out.words[x] = bits.words[x] & mask;
+  }
+  return out;
+}
+
+/// Voxels whose next neighbour along the axis is set, too.
+BrickBits followed(const BrickBits& bits, int axis) {
+  BrickBits out;
+  for (size_t x = 0; x < bits.words.size(); ++x) {
+    const uint64_t word = bits.words[x];
+    if (axis == 0) out.words[x] = x + 1 < bits.words.size() ? word & bits.words[x + 1] : 0;
+    if (axis == 1) out.words[x] = word & (word >> 8U);
+    if (axis == 2) out.words[x] = word & (word >> 1U) & ~(row_z << 7U);
+  }
+  return out;
+}
+
+/// How many bits each byte of the word has, in that byte.
+uint64_t byte_counts(uint64_t word) {
+  word -= (word >> 1U) & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + ((word >> 2U) & 0x3333333333333333U);
+  return (word + (word >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
+}
+
+/// Rows become columns: bit y·8 + z becomes bit z·8 + y. (Hacker's Delight, 7-3.)
+uint64_t transposed(uint64_t word) {
+  uint64_t swapped = (word ^ (word >> 7U)) & 0x00AA00AA00AA00AAU;
+  word ^= swapped ^ (swapped << 7U);
+  swapped = (word ^ (word >> 14U)) & 0x0000CCCC0000CCCCU;
+  word ^= swapped ^ (swapped << 14U);
+  swapped = (word ^ (word >> 28U)) & 0x00000000F0F0F0F0U;
+  return word ^ swapped ^ (swapped << 28U);
+}
+
+/// Voxels in each layer along the axis.
+std::array<uint8_t, brick_size> layer_counts(const BrickBits& bits, int axis) {
+  std::array<uint8_t, brick_size> counts{};
+  uint64_t sums = 0;  // 64 voxels a layer at most: no byte overflows
+  for (size_t x = 0; x < bits.words.size(); ++x) {
+    const uint64_t bytes = byte_counts(axis == 2 ? transposed(bits.words[x]) : bits.words[x]);
+    if (axis == 0) counts[x] = static_cast<uint8_t>((bytes * row_z) >> 56U);
+    sums += bytes;
+  }
+  for (size_t k = 0; k < counts.size() && axis != 0; ++k) counts[k] = static_cast<uint8_t>(sums >> (8 * k));
+  return counts;
+}
+
+/// The layer up to which half of the voxels lie.
+int middle_of(const std::array<uint8_t, brick_size>& layers, int voxels) {
+  size_t k = 0;
+  for (int below = layers[0]; 2 * below < voxels; below += layers[k]) ++k;
+  return static_cast<int>(k);
+}
+
+void measure(SupportPart& part) {
+  constexpr int all = brick_size * brick_size * brick_size;
+  part.voxels = part.bits == ~BrickBits{} ? all : part.bits.count();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    auto& sections = part.sections[axis];
+    sections.fill(brick_size * brick_size);
+    part.middle[axis] = brick_size / 2 - 1;
+    if (part.voxels == all) continue;
+    part.middle[axis] = middle_of(layer_counts(part.bits, static_cast<int>(axis)), part.voxels);
+    const auto pairs = layer_counts(followed(part.bits, static_cast<int>(axis)), static_cast<int>(axis));
+    std::copy_n(pairs.begin(), sections.size(), sections.begin());
+  }
+}
+
+/// A place inside, for what it is made of.
+glm::vec3 middle_m(const SupportPart& part, float voxel_size_m) {
+  const VoxelCoord at = first_voxel(part.brick);
+  const VoxelBox box = bounds_of(part.bits);
+  const auto mean = [&](int origin, int lo, int hi) {
+    return (static_cast<float>(origin) + 0.5F * static_cast<float>(lo + hi - 1)) * voxel_size_m;
+  };
+  return {mean(at.x, box.lo.x, box.hi.x), mean(at.y, box.lo.y, box.hi.y), mean(at.z, box.lo.z, box.hi.z)};
+}
+
+BrickCoord least(BrickCoord a, BrickCoord b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+BrickCoord most(BrickCoord a, BrickCoord b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+}  // namespace
+
+SupportParts::SupportParts(Field& field, std::span<const BrickCoord> changed, int reach_bricks,
+                           size_t parts_max)
+    : field_(field), ground_(field), parts_max_(parts_max) {
+  if (changed.empty()) return;
+  BrickCoord lo = changed.front(), hi = changed.front();
+  for (const BrickCoord brick : changed) {
+    lo = least(lo, brick);
+    hi = most(hi, brick);
+  }
+  const BrickCoord reach{reach_bricks, reach_bricks, reach_bricks};
+  lo_ = lo - reach;
+  size_ = hi + reach + BrickCoord{1, 1, 1} - lo_;
+  firsts_.assign(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z),
+                 unread);
+  for (const BrickCoord brick : changed) {
+    load(brick);
+    for (const BrickCoord face : brick_faces)
+      if (inside(brick + face)) load(brick + face);
+  }
+  for (uint32_t part = 0; part < parts_.size() && !overflow_; ++part)
+    for (size_t face = 0; face < brick_faces.size(); ++face) connect(part, face);
+}
+
+bool SupportParts::inside(BrickCoord brick) const {
+  const BrickCoord at = brick - lo_;
+  return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size_.x && at.y < size_.y && at.z < size_.z;
+}
+
+uint32_t& SupportParts::first_of_brick(BrickCoord brick) {
+  const BrickCoord at = brick - lo_;
+  return firsts_[(static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
+                     static_cast<size_t>(size_.z) +
+                 static_cast<size_t>(at.z)];
+}
+
+void SupportParts::add(BrickCoord brick, const BrickBits& bits, uint32_t& first) {
+  if (parts_.size() == parts_max_) {
+    overflow_ = true;
+    return;
+  }
+  SupportPart part;
+  part.brick = brick;
+  part.bits = bits;
+  part.next = first;
+  measure(part);
+  part.material = material_at(field_, middle_m(part, field_.source().voxel_size_m));
+  part.held = is_held(part);
+  first = static_cast<uint32_t>(parts_.size());
+  parts_.push_back(part);
+}
+
+bool SupportParts::is_held(const SupportPart& part) const {
+  if (ground_.holds(part.brick)) return true;
+  for (size_t face = 0; face < brick_faces.size(); ++face) {
+    const BrickCoord beyond = part.brick + brick_faces[face];
+    if ((!inside(beyond) || ground_.holds(beyond)) && across(part.bits, face).any()) return true;
+  }
+  return false;
+}
+
+uint32_t SupportParts::load(BrickCoord brick) {
+  uint32_t& first = first_of_brick(brick);
+  if (first != unread) return first;
+  first = SupportPart::none;
+  const BrickBits solid = solid_bits(field_.brick(brick));
+  for (BrickBits left = solid; left.any();) {
+    const BrickBits bits = solid == ~BrickBits{} ? solid : flooded(first_of(left), solid);
+    add(brick, bits, first);
+    left = left & ~bits;
+  }
+  return first;
+}
+
+void SupportParts::connect(uint32_t part, size_t face) {
+  if (parts_[part].held) return;  // what it leans on needs no looking at
+  const BrickBits reached = across(parts_[part].bits, face);
+  if (!reached.any()) return;
+  const BrickCoord beyond = parts_[part].brick + brick_faces[face];
+  const bool up = face % 2 == 0;
+  for (uint32_t i = load(beyond); i != SupportPart::none; i = parts_[i].next) {
+    if (!(parts_[i].bits & reached).any()) continue;
+    // Each pair once: from the lower one, or from the upper when the lower one does not look.
+    if (!up && !parts_[i].held) continue;
+    links_.push_back(link_of(up ? part : i, up ? i : part, static_cast<int>(face / 2)));
+  }
+}
+
+int SupportParts::section(const SupportLink& link, int at) const {
+  const SupportPart& lower = parts_[link.lower];
+  const SupportPart& upper = parts_[link.upper];
+  const auto axis = static_cast<size_t>(link.axis);
+  if (at < 0) return lower.sections[axis][static_cast<size_t>(brick_size - 1 + at)];
+  if (at > 0) return upper.sections[axis][static_cast<size_t>(at - 1)];
+  return (across(lower.bits, 2 * axis) & upper.bits).count();
+}
+
+int SupportParts::first_place(const SupportLink& link) const {
+  return parts_[link.lower].middle[static_cast<size_t>(link.axis)] - (brick_size - 1);
+}
+
+int SupportParts::last_place(const SupportLink& link) const {
+  return parts_[link.upper].middle[static_cast<size_t>(link.axis)];
+}
+
+SupportLink SupportParts::link_of(uint32_t lower, uint32_t upper, int axis) const {
+  constexpr int full = brick_size * brick_size;
+  SupportLink link{lower, upper, axis, 0, full};
+  if (parts_[lower].voxels == full * brick_size && parts_[upper].voxels == full * brick_size) return link;
+  link.section = section(link, 0);
+  for (int at = first_place(link); at <= last_place(link); ++at) {
+    const int there = section(link, at);
+    const bool nearer = there == link.section && std::abs(at) < std::abs(link.at);
+    if (there > link.section || (there == link.section && !nearer)) continue;
+    link.section = there;
+    link.at = at;
+  }
+  return link;
+}
+
+VoxelBox SupportParts::section_box(const SupportLink& link, int at) const {
+  const SupportPart& lower = parts_[link.lower];
+  const SupportPart& upper = parts_[link.upper];
+  const SupportPart& part = at < 0 ? lower : upper;
+  const int k = at < 0 ? brick_size - 1 + at : at == 0 ? 0 : at - 1;
+  BrickBits bits = layer(at == 0 ? across(lower.bits, 2 * static_cast<size_t>(link.axis)) & upper.bits
+                                 : followed(part.bits, link.axis),
+                         link.axis, k);
+  const VoxelCoord origin = first_voxel(part.brick);
+  VoxelBox box = bounds_of(bits);
+  box = {box.lo + origin, box.hi + origin};
+  // At the face the layer is the upper brick's first: the section lies below it, elsewhere above.
+  if (at == 0) {
+    (link.axis == 0 ? box.lo.x : link.axis == 1 ? box.lo.y : box.lo.z) -= 1;
+  } else {
+    (link.axis == 0 ? box.hi.x : link.axis == 1 ? box.hi.y : box.hi.z) += 1;
+  }
+  return box;
+}
+
+}  // namespace scree

@@ -1,0 +1,191 @@
+#include "shared/falling/support_search.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "shared/base/limits.h"
+#include "shared/falling/load_flow.h"
+#include "shared/falling/support_parts.h"
+
+namespace scree {
+
+namespace {
+
+/// Links of one neck lie within squares of so many bricks; wider ones break in several places.
+constexpr int neck_side_bricks = 4;
+/// Steps of the flow for each part.
+constexpr size_t steps_per_part = 400;
+
+constexpr float standard_gravity = 9.80665F;
+
+/// Each number in grams, so that they add up exactly.
+struct Strength {
+  int64_t voxel = 0;                               ///< weight
+  int64_t pressed = 0, hanging = 0, sideways = 0;  ///< carried by one face of a voxel
+};
+
+Strength strength_of(Material material, float voxel_size_m) {
+  constexpr float grams = 1000.0F;
+  const float area_m2 = voxel_size_m * voxel_size_m;
+  const Bearing bearing = bearing_of(material);
+  const auto carried = [&](float pa) {
+    return static_cast<int64_t>(pa * area_m2 / standard_gravity * grams);
+  };
+  const float voxel_kg = traits_of(material).density_kg_m3 * area_m2 * voxel_size_m;
+  return {static_cast<int64_t>(voxel_kg * grams), carried(bearing.pressed_pa), carried(bearing.hanging_pa),
+          carried(bearing.sideways_pa)};
+}
+
+class Search {
+ public:
+  Search(Field& field, std::span<const BrickCoord> changed, int reach_bricks)
+      : parts_(field, changed, reach_bricks, support_parts_max), changed_(changed.begin(), changed.end()) {
+    for (size_t i = 0; i < strengths_.size(); ++i)
+      strengths_[i] = strength_of(static_cast<Material>(i), field.source().voxel_size_m);
+  }
+
+  SupportFound run() {
+    SupportFound found;
+    found.parts = parts_.parts().size();
+    found.given_up = parts_.overflow() || !flow();
+    if (found.given_up) return found;
+    label();
+    for (auto& [mass, overload] : gather())
+      if (overload.voxels >= overload_voxels_min && !overload.necks.empty())
+        found.overloads.push_back(std::move(overload));
+    return found;
+  }
+
+ private:
+  const Strength& strength(uint32_t part) const {
+    return strengths_[static_cast<size_t>(parts_.parts()[part].material)];
+  }
+
+  bool flow() {
+    for (const SupportPart& part : parts_.parts()) {
+      const uint32_t node =
+          flow_.add_node(strengths_[static_cast<size_t>(part.material)].voxel * part.voxels);
+      if (part.held) flow_.ground(node);
+    }
+    for (const SupportLink& link : parts_.links()) {
+      const Strength& a = strength(link.lower);
+      const Strength& b = strength(link.upper);
+      const int64_t section = link.section;
+      const int64_t sideways = section * std::min(a.sideways, b.sideways);
+      if (link.axis == 1)
+        flow_.link(link.lower, link.upper, section * std::min(a.hanging, b.hanging),
+                   section * std::min(a.pressed, b.pressed));
+      else
+        flow_.link(link.lower, link.upper, sideways, sideways);
+    }
+    return flow_.run(steps_per_part * std::max<size_t>(parts_.parts().size(), 1));
+  }
+
+  /// Gives every overloaded part the first one that it connects to by overloaded ones: its mass.
+  void label() {
+    mass_.resize(parts_.parts().size());
+    for (uint32_t i = 0; i < mass_.size(); ++i) mass_[i] = i;
+    for (const SupportLink& link : parts_.links()) {
+      if (!flow_.overloaded(link.lower) || !flow_.overloaded(link.upper)) continue;
+      const uint32_t a = root(link.lower), b = root(link.upper);
+      mass_[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  uint32_t root(uint32_t part) {
+    while (mass_[part] != part) part = mass_[part] = mass_[mass_[part]];
+    return part;
+  }
+
+  /// Links from a mass to what holds, that lie in one plane and near each other.
+  using NeckKey = std::tuple<uint32_t, int, int, int, int>;
+
+  std::map<uint32_t, Overload> gather() {
+    std::map<uint32_t, Overload> masses;
+    std::set<uint32_t> touched;
+    for (uint32_t i = 0; i < mass_.size(); ++i) {
+      if (!flow_.overloaded(i)) continue;
+      const SupportPart& part = parts_.parts()[i];
+      Overload& overload = masses[root(i)];
+      if (overload.voxels == 0) overload.seed = first_voxel(part.brick) + bounds_of(first_of(part.bits)).lo;
+      overload.voxels += part.voxels;
+      if (changed_.contains(part.brick)) touched.insert(root(i));
+    }
+    std::map<NeckKey, std::vector<SupportLink>> necks;
+    for (const SupportLink& link : parts_.links()) {
+      if (flow_.overloaded(link.lower) == flow_.overloaded(link.upper)) continue;
+      const uint32_t beyond = flow_.overloaded(link.lower) ? link.lower : link.upper;
+      const uint32_t before = beyond == link.lower ? link.upper : link.lower;
+      necks[key(root(beyond), link)].push_back(link);
+      if (changed_.contains(parts_.parts()[before].brick)) touched.insert(root(beyond));
+    }
+    for (const auto& [at, links] : necks) masses.at(std::get<0>(at)).necks.push_back(neck(links));
+    std::erase_if(masses, [&](const auto& entry) { return !touched.contains(entry.first); });
+    return masses;
+  }
+
+  NeckKey key(uint32_t mass, const SupportLink& link) const {
+    const BrickCoord b = parts_.parts()[link.lower].brick;
+    const int plane = link.axis == 0 ? b.x : link.axis == 1 ? b.y : b.z;
+    const int u = link.axis == 0 ? b.y : b.x, v = link.axis == 2 ? b.y : b.z;
+    const auto square = [](int at) { return at >= 0 ? at / neck_side_bricks : ~(~at / neck_side_bricks); };
+    return {mass, link.axis, plane, square(u), square(v)};
+  }
+
+  /// One section through all of the links, where it is least in sum.
+  Neck neck(const std::vector<SupportLink>& links) const {
+    int first = 1 - brick_size, last = brick_size - 1;
+    for (const SupportLink& link : links) {
+      first = std::max(first, parts_.first_place(link));
+      last = std::min(last, parts_.last_place(link));
+    }
+    Neck neck{{}, INT64_MAX};
+    int place = 0;
+    for (int at = first; at <= last; ++at) {
+      int64_t sum = 0;
+      for (const SupportLink& link : links) sum += parts_.section(link, at);
+      if (sum > neck.section_voxels || (sum == neck.section_voxels && std::abs(at) >= std::abs(place)))
+        continue;
+      neck.section_voxels = sum;
+      place = at;
+    }
+    neck.box = {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+    for (const SupportLink& link : links) {
+      if (parts_.section(link, place) == 0) continue;
+      const VoxelBox box = parts_.section_box(link, place);
+      neck.box.lo = {std::min(neck.box.lo.x, box.lo.x), std::min(neck.box.lo.y, box.lo.y),
+                     std::min(neck.box.lo.z, box.lo.z)};
+      neck.box.hi = {std::max(neck.box.hi.x, box.hi.x), std::max(neck.box.hi.y, box.hi.y),
+                     std::max(neck.box.hi.z, box.hi.z)};
+    }
+    neck.box = neck.box.grown(1);  // two layers on each side, and what slants
+    return neck;
+  }
+
+  SupportParts parts_;
+  std::set<BrickCoord> changed_;
+  std::array<Strength, 3> strengths_;
+  LoadFlow flow_;
+  std::vector<uint32_t> mass_;  ///< by part
+};
+
+}  // namespace
+
+Bearing bearing_of(Material material) {
+  // What a column of so many metres of rock weighs on its foot is 25,500 Pa a metre: rock carries 200 m of
+  // itself pressed, 50 m hanging and 25 m sideways, soil a tenth of that, ice in between.
+  constexpr std::array<Bearing, 3> bearings = {{
+      {5.1e6F, 1.27e6F, 6.4e5F},  // rock
+      {4.0e5F, 1.0e5F, 5.0e4F},   // soil
+      {1.35e6F, 3.4e5F, 1.7e5F},  // ice
+  }};
+  return bearings[static_cast<size_t>(material)];
+}
+
+SupportFound find_overloads(Field& field, std::span<const BrickCoord> changed, int reach_bricks) {
+  return Search(field, changed, reach_bricks).run();
+}
+
+}  // namespace scree

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "shared/base/check.h"
+#include "shared/base/random.h"
+#include "shared/fracture/voronoi.h"
+
+namespace scree {
+
+namespace {
+
+/// A seed is given up after so many positions that were too near to others or lost the draw.
+constexpr uint32_t tries_per_seed = 32;
+constexpr float spacing_voxels = 1.0F;
+
+/// Seeds by unit cell, so that a seed's neighbours are found in constant time.
+class SpacedSeeds {
+ public:
+  bool add(glm::vec3 p) {
+    const VoxelCoord home = cell(p);
+    for (int i = 0; i < 27; ++i) {
+      const auto found = cells_.find(home + VoxelCoord{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1});
+      if (found == cells_.end()) continue;
+      const glm::vec3 off = found->second - p;
+      if (glm::dot(off, off) < spacing_voxels * spacing_voxels) return false;
+    }
+    // Two seeds of one cell can be a voxel apart; keeping one a cell is what makes the look-up simple.
+    if (!cells_.try_emplace(home, p).second) return false;
+    seeds.push_back(p);
+    return true;
+  }
+
+  std::vector<glm::vec3> seeds;
+
+ private:
+  static VoxelCoord cell(glm::vec3 p) { return {floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)}; }
+  std::unordered_map<VoxelCoord, glm::vec3, CoordHash> cells_;
+};
+
+std::vector<VoxelCoord> solid_voxels(const Window& volume) {
+  std::vector<VoxelCoord> out;
+  const VoxelBox& box = volume.box;
+  size_t i = 0;
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
+        if (volume.codes[i] < 0) out.push_back({x, y, z});
+      }
+  return out;
+}
+
+glm::vec3 as_vec3(VoxelCoord v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Where seeds gather: density ∝ 1/d² from the nearest of the places; without any, the same everywhere.
+class Density {
+ public:
+  Density(std::vector<glm::vec3> places, const std::vector<VoxelCoord>& solid) : places_(std::move(places)) {
+    if (places_.empty()) return;
+    float nearest2 = distance2(as_vec3(solid.front()));
+    for (const VoxelCoord& voxel : solid) nearest2 = std::min(nearest2, distance2(as_vec3(voxel)));
+    // Within a voxel of a place the density is that at one voxel: 1/d² has no bound.
+    nearest2_ = std::max(1.0F, nearest2);
+  }
+
+  bool wants(glm::vec3 p, float draw) const { return places_.empty() || draw * distance2(p) < nearest2_; }
+
+ private:
+  float distance2(glm::vec3 p) const {
+    const auto to = [&](glm::vec3 place) { return glm::dot(p - place, p - place); };
+    float nearest2 = to(places_.front());
+    for (const glm::vec3& place : places_) nearest2 = std::min(nearest2, to(place));
+    return nearest2;
+  }
+
+  std::vector<glm::vec3> places_;
+  float nearest2_ = 0.0F;
+};
+
+constexpr uint32_t seeds_per_cluster = 8;
+/// Bounds what a seed's draw costs.
+constexpr size_t clusters_max = 64;
+
+std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 impact,
+                                 const std::vector<VoxelCoord>& solid, Random& random) {
+  if (pattern == SeedPattern::radial) return {impact};
+  std::vector<glm::vec3> places;
+  if (pattern == SeedPattern::clustered)
+    for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
+      places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+  return places;
+}
+
+int rounded(float x) {
+  return floor_to_int(x + 0.5F);
+}
+
+}  // namespace
+
+std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
+                                     uint32_t random_seed, glm::vec3 impact_voxels) {
+  CHECK(pattern != SeedPattern::authored);
+  const std::vector<VoxelCoord> solid = solid_voxels(volume);
+  if (solid.empty()) return {};
+  Random random(random_seed);
+  const Density density(places_of(pattern, count, impact_voxels, solid, random), solid);
+  SpacedSeeds out;
+  const uint64_t tries_max = static_cast<uint64_t>(count) * tries_per_seed;
+  for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
+    const VoxelCoord voxel = solid[random.below(static_cast<uint32_t>(solid.size()))];
+    const float dx = random.unit() - 0.5F, dy = random.unit() - 0.5F, dz = random.unit() - 0.5F;
+    const glm::vec3 p = as_vec3(voxel) + glm::vec3(dx, dy, dz);
+    const float draw = random.unit();
+    // A pattern that keeps losing its draws falls back to uniform for the last quarter of the tries.
+    if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(p);
+  }
+  return std::move(out.seeds);
+}
+
+std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,
+                                      uint32_t random_seed) {
+  SpacedSeeds out;
+  for (const glm::vec3& p : points_voxels) {
+    const VoxelCoord voxel{rounded(p.x), rounded(p.y), rounded(p.z)};
+    if (volume.box.holds(voxel) && volume.at(voxel.x, voxel.y, voxel.z) < 0) out.add(p);
+  }
+  if (out.seeds.empty()) return scatter_seeds(volume, SeedPattern::uniform, 1, random_seed, glm::vec3(0.0F));
+  return std::move(out.seeds);
+}
+
+}  // namespace scree

@@ -1,0 +1,337 @@
+#include "shared/operation/operation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+#include "shared/falling/island.h"
+#include "shared/field/edit.h"
+#include "shared/field/paint.h"
+#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/shatter.h"
+#include "shared/operation/prepared_stamp.h"
+#include "shared/recombine/stamp_method.h"
+
+namespace scree {
+
+namespace {
+
+bool in_world(glm::vec3 p) {
+  return std::abs(p.x) <= limits::world_half_width_m && std::abs(p.z) <= limits::world_half_width_m &&
+         std::abs(p.y) <= limits::world_half_height_m;
+}
+
+Result<void> validate_place(const Shape& shape) {
+  if (Result<void> valid = validate(shape); !valid) return valid;
+  const float reach = reach_of(shape);
+  if (reach > limits::edit_reach_max_m)
+    return fail("reach " + std::to_string(reach) + " m is over the limit of " +
+                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
+  if (reach < limits::edit_reach_min_m)
+    return fail("reach " + std::to_string(reach) + " m is under the limit of " +
+                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
+  if (!in_world(centre_of(shape)))
+    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
+  return {};
+}
+
+/// The cut's pieces go into the table, from that id on.
+template <typename MaterialOf>
+void enter(Cut cut, PieceId id, MaterialOf&& material_of, PieceTable& pieces, Applied& applied) {
+  for (CutPiece& piece : cut.pieces) {
+    piece.volume.material = material_of(piece.volume);
+    pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
+    applied.created.push_back({id, std::move(piece.seeds)});
+    ++id;
+  }
+  applied.dust = cut.dust;
+}
+
+std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
+  if (op.pattern != SeedPattern::authored)
+    return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
+  std::vector<glm::vec3> points;
+  for (const glm::vec3& point_m : op.authored_m) points.push_back(point_m / voxel_size_m);
+  return authored_seeds(volume, points, op.random_seed);
+}
+
+Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pieces) {
+  const float dx = field.source().voxel_size_m;
+  const Shape shape = in_voxels(carve_op.shape, dx);
+  const Window before = gather(field, band_box(shape));
+  const Window solid = codes_of(shape, before.box);
+  Window after = before;
+  carve(after, solid);
+  const Window volume = extract(before, solid);
+  Applied applied;
+  applied.seeds_voxels = seeds_of(carve_op, volume, dx);
+  const auto material_of = [&](const Volume& piece) { return material_at(field, piece.centre_voxels * dx); };
+  enter(cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels), carve_op.first_piece,
+        material_of, pieces, applied);
+  applied.changed = scatter(field, after);
+  applied.terrain_gain = mass_of(after) - mass_of(before);
+  return applied;
+}
+
+Applied apply_fill(const FillOperation& fill_op, Field& field) {
+  const Shape shape = in_voxels(fill_op.shape, field.source().voxel_size_m);
+  Window window = gather(field, band_box(shape));
+  Applied applied;
+  applied.terrain_gain = -mass_of(window);
+  fill(window, codes_of(shape, window.box));
+  applied.terrain_gain += mass_of(window);
+  applied.changed = scatter(field, window);
+  return applied;
+}
+
+std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
+  const auto found = pieces.find(id);
+  CHECK(found != pieces.end());
+  std::shared_ptr<const Volume> volume = std::move(found->second);
+  pieces.erase(found);
+  return volume;
+}
+
+using Volumes = std::vector<std::shared_ptr<const Volume>>;
+
+/// The terrain with the pieces, as far as they reach; and what it gained.
+Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, MassUnits& gain) {
+  const float dx = field.source().voxel_size_m;
+  const Volume& volume = *volumes.front();
+  const bool whole = op.method != StampMethod::stamp;
+  const Window laid = whole ? Window() : lay_all(op, volumes, dx);
+  Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : reach_of(laid));
+  const MassUnits before = mass_of(window);
+  if (whole) {
+    stamp(op.method, window, volume, op.pose, dx, op.shift);
+  } else {
+    MassUnits mass = 0;
+    for (const auto& one : volumes) mass += one->mass;
+    stamp_laid(window, laid, mass, op.shift);
+  }
+  gain = mass_of(window) - before;
+  return window;
+}
+
+Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
+                    const PreparedStamp* prepared) {
+  Volumes volumes{take(pieces, op.piece)};
+  for (const StampedPiece& other : op.others) volumes.push_back(take(pieces, other.piece));
+  Applied applied;
+  if (prepared != nullptr && prepared->holds(op, field, volumes)) {
+    applied.terrain_gain = prepared->gain;
+    applied.changed = scatter(field, prepared->after);
+    return applied;
+  }
+  applied.changed = scatter(field, stamped(op, field, volumes, applied.terrain_gain));
+  return applied;
+}
+
+Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
+  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+  Applied applied;
+  applied.seeds_voxels =
+      scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
+  const auto parents = [&](const Volume&) { return volume->material; };
+  enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, parents, pieces, applied);
+  return applied;
+}
+
+Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
+  Window window = gather(field, lift_box(op.box));
+  Volume volume = lift(window, op.box, op.seed);
+  volume.material = material_at(field, volume.centre_voxels * field.source().voxel_size_m);
+  Applied applied;
+  applied.terrain_gain = -volume.mass;
+  applied.changed = scatter(field, window);
+  if (volume.mass < limits::piece_mass_min) {
+    applied.dust = volume.mass;
+    return applied;
+  }
+  pieces[op.piece] = std::make_shared<const Volume>(std::move(volume));
+  applied.created.push_back({op.piece, {}});
+  return applied;
+}
+
+Applied apply_paint(const PaintOperation& op, Field& field) {
+  Applied applied;
+  applied.changed = paint(field, in_voxels(op.shape, field.source().voxel_size_m), op.material);
+  return applied;
+}
+
+Result<void> known(PieceId id, const PieceTable& pieces) {
+  if (pieces.contains(id)) return {};
+  return fail("there is no piece " + std::to_string(id));
+}
+
+Result<void> validate_seeds(SeedPattern pattern, Cutter cutter, uint32_t seeds, PieceId first_piece) {
+  if (pattern > SeedPattern::authored)
+    return fail("the seed pattern is none that is known (uniform, radial, clustered, authored)");
+  if (cutter > Cutter::conform) return fail("the cutter is none that is known (field, slice, conform)");
+  if (seeds == 0) return fail("a carve needs at least one seed");
+  if (seeds > limits::seeds_max)
+    return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
+                " (limits.seeds_max)");
+  if (first_piece > UINT32_MAX - seeds) return fail("the piece ids are used up");
+  return {};
+}
+
+bool is_finite(glm::vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Result<void> validate_authored(const CarveOperation& op) {
+  const size_t wanted = op.pattern == SeedPattern::authored ? op.seeds : 0;
+  if (op.authored_m.size() != wanted)
+    return fail(std::to_string(op.authored_m.size()) + " authored seeds for a carve of " +
+                std::to_string(wanted) + " (the pattern authored has as many as seeds, others none)");
+  if (wanted > limits::authored_seeds_max)
+    return fail(std::to_string(wanted) + " authored seeds are over the limit of " +
+                std::to_string(limits::authored_seeds_max) + " (limits.authored_seeds_max)");
+  for (const glm::vec3& point_m : op.authored_m) {
+    if (!is_finite(point_m)) return fail("an authored seed's position is not a finite number");
+    if (!in_world(point_m)) return fail("an authored seed is outside the world (limits.world_half_width_m)");
+  }
+  return {};
+}
+
+Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) {
+  if (op.method != StampMethod::stamp) return fail("only the method stamp merges several pieces at once");
+  std::vector<StampedPiece> group{{op.piece, op.pose}};
+  for (const StampedPiece& other : op.others) {
+    if (Result<void> valid = known(other.piece, pieces); !valid) return valid;
+    if (std::ranges::find(group, other.piece, &StampedPiece::piece) != group.end())
+      return fail("piece " + std::to_string(other.piece) + " is stamped twice");
+    if (!in_world(dequantise(other.pose).position_m))
+      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    group.push_back(other);
+  }
+  if (!can_merge_together(group, pieces))
+    return fail("the pieces are too many, too large or too far apart for one stamp (limits.stamp_group_max)");
+  return {};
+}
+
+struct Validator {
+  const PieceTable& pieces;
+
+  Result<void> operator()(const CarveOperation& op) const {
+    if (Result<void> valid = validate_place(op.shape); !valid) return valid;
+    if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
+    if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
+    if (Result<void> valid = validate_authored(op); !valid) return valid;
+    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
+  }
+  Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
+  Result<void> operator()(const PaintOperation& op) const {
+    if (op.material > Material::ice) return fail("the material is none that is known (rock, soil, ice)");
+    return validate_place(op.shape);
+  }
+  Result<void> operator()(const StampOperation& op) const {
+    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    if (op.method > StampMethod::sphere)
+      return fail("the stamp's method is none that is known (stamp, slices, sphere)");
+    if (std::abs(op.shift) > stamp_shift_max)
+      return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
+    if (!in_world(dequantise(op.pose).position_m))
+      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    return op.others.empty() ? Result<void>{} : validate_group(op, pieces);
+  }
+  Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
+  Result<void> operator()(const ShatterOperation& op) const {
+    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
+    if (op.pattern == SeedPattern::authored) return fail("a piece that breaks has no authored seeds");
+    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
+  }
+  Result<void> operator()(const IslandOperation& op) const {
+    constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
+    const VoxelBox world{{-far, -far, -far}, {far, far, far}};
+    if (!world.holds(op.box.lo) || !world.holds(op.box.hi))
+      return fail("the island is outside the world (limits.world_half_width_m)");
+    const VoxelCoord size = op.box.size();
+    if (std::max({size.x, size.y, size.z}) > limits::island_side_max_bricks * brick_size)
+      return fail("the island is longer than " + std::to_string(limits::island_side_max_bricks) +
+                  " bricks (limits.island_side_max_bricks)");
+    if (!op.box.holds(op.seed)) return fail("the island's seed is outside its box");
+    if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
+    return {};
+  }
+};
+
+}  // namespace
+
+std::vector<PieceId> pieces_ended_by(const Operation& operation) {
+  std::vector<PieceId> ended;
+  if (const auto* stamp = std::get_if<StampOperation>(&operation)) {
+    ended.push_back(stamp->piece);
+    for (const StampedPiece& other : stamp->others) ended.push_back(other.piece);
+  }
+  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) ended.push_back(discard->piece);
+  if (const auto* shatter = std::get_if<ShatterOperation>(&operation)) ended.push_back(shatter->piece);
+  return ended;
+}
+
+size_t pieces_merged_by(const Operation& operation) {
+  return std::holds_alternative<StampOperation>(operation) ? pieces_ended_by(operation).size() : 0;
+}
+
+bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
+  if (group.size() > limits::stamp_group_max) return false;
+  const glm::vec3 first_m = dequantise(group.front().pose).position_m;
+  return std::ranges::all_of(group, [&](const StampedPiece& one) {
+    const VoxelCoord size = pieces.at(one.piece)->window.box.size();
+    const glm::vec3 off_m = glm::abs(dequantise(one.pose).position_m - first_m);
+    return std::max({size.x, size.y, size.z}) <= limits::stamp_group_side_max_voxels &&
+           std::max({off_m.x, off_m.y, off_m.z}) <= limits::stamp_group_reach_max_m;
+  });
+}
+
+PieceIds ids_made_by(const Operation& operation) {
+  if (const auto* carve = std::get_if<CarveOperation>(&operation)) return {carve->first_piece, carve->seeds};
+  if (const auto* shatter = std::get_if<ShatterOperation>(&operation))
+    return {shatter->first_piece, shatter->seeds};
+  if (const auto* island = std::get_if<IslandOperation>(&operation)) return {island->piece, 1};
+  return {};
+}
+
+VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
+  if (const auto* op = std::get_if<CarveOperation>(&operation))
+    return band_box(in_voxels(op->shape, voxel_size_m));
+  if (const auto* op = std::get_if<FillOperation>(&operation))
+    return band_box(in_voxels(op->shape, voxel_size_m));
+  if (const auto* op = std::get_if<IslandOperation>(&operation)) return lift_box(op->box);
+  if (const auto* op = std::get_if<PaintOperation>(&operation))
+    return paint_box(in_voxels(op->shape, voxel_size_m));
+  const auto* op = std::get_if<StampOperation>(&operation);
+  if (op == nullptr) return {};
+  const auto box_of = [&](PieceId piece, const QuantisedPose& pose) {
+    const auto found = pieces.find(piece);
+    CHECK(found != pieces.end());
+    return stamp_box(op->method, *found->second, pose, voxel_size_m);
+  };
+  VoxelBox box = box_of(op->piece, op->pose);
+  for (const StampedPiece& other : op->others) box = hull_of(box, box_of(other.piece, other.pose));
+  return box;
+}
+
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {
+  if (const auto* op = std::get_if<CarveOperation>(&operation)) return apply_carve(*op, field, pieces);
+  if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
+  if (const auto* op = std::get_if<StampOperation>(&operation))
+    return apply_stamp(*op, field, pieces, prepared);
+  if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
+  if (const auto* op = std::get_if<IslandOperation>(&operation)) return apply_island(*op, field, pieces);
+  if (const auto* op = std::get_if<PaintOperation>(&operation)) return apply_paint(*op, field);
+  Applied applied;
+  applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
+  return applied;
+}
+
+Result<void> validate(const Operation& operation, const PieceTable& pieces) {
+  return std::visit(Validator{pieces}, operation);
+}
+
+}  // namespace scree

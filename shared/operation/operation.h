@@ -1,0 +1,153 @@
+// Operations: everything that ever changes a field, as it is simulated, sent, recorded and replayed.
+//
+// apply() is the only way to change a field, on the server, in a client's mirror and in a replay: same field,
+// pieces and operation in, same bits out. Lengths in metres.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "shared/field/field.h"
+#include "shared/field/piece.h"
+#include "shared/field/shape.h"
+#include "shared/fracture/voronoi.h"
+#include "shared/recombine/stamp.h"
+
+namespace scree {
+
+/// Carves the shape out and breaks it along Voronoi cells into pieces first_piece, first_piece + 1, …
+struct CarveOperation {
+  Shape shape;
+  SeedPattern pattern = SeedPattern::uniform;
+  uint32_t seeds = 1;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};
+  PieceId first_piece = 0;
+  Cutter cutter = Cutter::field;
+  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
+
+  bool operator==(const CarveOperation&) const = default;
+};
+
+/// Adds a solid shape; its mass is entered in the ledger as poured.
+struct FillOperation {
+  Shape shape;
+
+  bool operator==(const FillOperation&) const = default;
+};
+
+/// Where a piece lies that becomes terrain with another.
+struct StampedPiece {
+  PieceId piece = 0;
+  QuantisedPose pose;
+
+  bool operator==(const StampedPiece&) const = default;
+};
+
+/// A piece becomes terrain at this pose; and others with it, in one pass over all of them: united first, then
+/// the gaps closed, the mass met as a whole and the surroundings redistanced (paper, section 4.3: "groups of
+/// objects"). Others by the method `stamp` alone, at most limits::stamp_group_max pieces in all.
+struct StampOperation {
+  PieceId piece = 0;
+  QuantisedPose pose;
+  int32_t shift = 0;  ///< how the mass is met; its meaning is the method's
+  StampMethod method = StampMethod::stamp;
+  std::vector<StampedPiece> others{};
+
+  bool operator==(const StampOperation&) const = default;
+};
+
+/// A piece that left the world becomes dust.
+struct DiscardOperation {
+  PieceId piece = 0;
+
+  bool operator==(const DiscardOperation&) const = default;
+};
+
+/// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
+/// impact is in the voxel frame of its volume. Of any pattern but `authored`.
+struct ShatterOperation {
+  PieceId piece = 0;
+  SeedPattern pattern = SeedPattern::radial;
+  uint32_t seeds = 1;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_voxels{0.0F};
+  PieceId first_piece = 0;
+  Cutter cutter = Cutter::field;
+
+  bool operator==(const ShatterOperation&) const = default;
+};
+
+/// Terrain that hangs loose leaves the field: the solid voxels that connect to `seed` within `box` become a
+/// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and seed in
+/// voxels, which are exact.
+struct IslandOperation {
+  VoxelBox box;
+  VoxelCoord seed;
+  PieceId piece = 0;
+
+  bool operator==(const IslandOperation&) const = default;
+};
+
+/// The bricks of a shape (paint.h) become this material; no code changes.
+struct PaintOperation {
+  Shape shape;
+  Material material = Material::rock;
+
+  bool operator==(const PaintOperation&) const = default;
+};
+
+using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
+                               ShatterOperation, IslandOperation, PaintOperation>;
+
+/// The pieces that the operation takes out of the table.
+std::vector<PieceId> pieces_ended_by(const Operation& operation);
+
+/// How many pieces the operation makes terrain.
+size_t pieces_merged_by(const Operation& operation);
+
+/// Whether these may merge in one pass: few, small, and near the first, so that what the pass works on stays
+/// small, too (limits::stamp_group_*).
+bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces);
+
+/// The ids that the operation may give to pieces: first, first + 1, … up to `count` of them.
+struct PieceIds {
+  PieceId first = 0;
+  uint32_t count = 0;
+};
+PieceIds ids_made_by(const Operation& operation);
+
+/// A piece that an operation made: its id, and where its seeds lie (voxels) for those who need the cells
+/// again.
+struct CreatedPiece {
+  PieceId id = 0;
+  std::vector<uint32_t> seeds;  ///< indices into Applied::seeds_voxels
+};
+
+struct Applied {
+  std::vector<BrickCoord> changed;    ///< bricks whose codes or paint changed, in order
+  std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
+  std::vector<glm::vec3> seeds_voxels;
+  MassUnits terrain_gain = 0;  ///< negative for a carve
+  MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
+};
+
+/// The voxels that apply() reads. A field that holds these bricks (and, for a stamp, the piece) can apply it.
+/// Empty for a discard and a shatter. `pieces` must hold the piece of a stamp.
+VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
+
+struct PreparedStamp;
+
+/// Applies a valid operation. A stamp, discard or shatter takes its piece out of the table; it must be there.
+/// The result of a stamp may be at hand already (prepared_stamp.h); it is checked whether it is this one's.
+Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
+              const PreparedStamp* prepared = nullptr);
+
+/// Whether `apply` can be called at all: shape valid, counts within limits, piece known. For what comes off a
+/// wire.
+Result<void> validate(const Operation& operation, const PieceTable& pieces);
+
+}  // namespace scree

@@ -1,0 +1,55 @@
+#include "shared/operation/prepared_stamp.h"
+
+#include "shared/recombine/stamp_method.h"
+
+namespace scree {
+
+Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
+               float voxel_size_m) {
+  std::vector<Window> laid{lay(*volumes.front(), op.pose, voxel_size_m)};
+  for (size_t i = 0; i < op.others.size(); ++i)
+    laid.push_back(lay(*volumes[i + 1], op.others[i].pose, voxel_size_m));
+  return together(std::move(laid));
+}
+
+PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
+                            MassUnits budget) {
+  PreparedStamp prepared;
+  prepared.field_hash = field.hash();
+  StampOperation& op = prepared.operation;
+  op.piece = group.front().piece;
+  op.pose = group.front().pose;
+  op.others.assign(group.begin() + 1, group.end());
+  MassUnits mass = 0;
+  for (const StampedPiece& one : group) {
+    prepared.volumes.push_back(pieces.at(one.piece));
+    mass += prepared.volumes.back()->mass;
+  }
+  const Window laid = lay_all(op, prepared.volumes, field.source().voxel_size_m);
+  prepared.after = gather(field, reach_of(laid));
+  const StampPlan plan = plan_laid(prepared.after, laid, mass, budget);
+  op.shift = plan.shift;
+  prepared.gain = plan.gain;
+  return prepared;
+}
+
+PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
+                            StampMethod method, MassUnits budget) {
+  const StampedPiece alone[] = {{piece, pose}};
+  if (method == StampMethod::stamp) return prepare_group(field, pieces, alone, budget);
+  const float dx = field.source().voxel_size_m;
+  PreparedStamp prepared;
+  prepared.operation.piece = piece;
+  prepared.operation.pose = pose;
+  prepared.operation.method = method;
+  prepared.field_hash = field.hash();
+  prepared.volumes.push_back(pieces.at(piece));
+  const Volume& volume = *prepared.volumes.front();
+  const Window window = gather(field, stamp_box(method, volume, pose, dx));
+  const StampPlan plan = plan_stamp(method, window, volume, pose, dx, budget);
+  prepared.operation.shift = plan.shift;
+  prepared.gain = plan.gain;
+  return prepared;
+}
+
+}  // namespace scree

@@ -1,0 +1,36 @@
+// A stamp worked out before it is applied: whoever plans one has its codes already, and apply() takes them,
+// when nothing has changed since, instead of working them out again. What apply() does is the same without.
+#pragma once
+
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+struct PreparedStamp {
+  StampOperation operation;
+  std::vector<std::shared_ptr<const Volume>> volumes;  ///< of the piece and of the others
+  uint64_t field_hash = 0;
+  Window after;  ///< empty for methods that prepare nothing but the operation
+  MassUnits gain = 0;
+
+  /// Whether applying that operation to this field, where the pieces have these volumes, gives `after`.
+  bool holds(const StampOperation& op, const Field& field,
+             const std::vector<std::shared_ptr<const Volume>>& volumes_now) const {
+    return !after.codes.empty() && operation == op && volumes == volumes_now && field_hash == field.hash();
+  }
+};
+
+/// Plans the merge of a piece at a pose, by a method: its operation's shift meets the budget as plan_stamp
+/// says. The piece must be in the table.
+PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
+                            StampMethod method, MassUnits budget);
+
+/// The same of several pieces in one pass, which can_merge_together; the method is `stamp`.
+PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
+                            MassUnits budget);
+
+/// All of the operation's pieces on the terrain's grid, as one; their volumes in its order.
+Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
+               float voxel_size_m);
+
+}  // namespace scree

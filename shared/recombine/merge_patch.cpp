@@ -1,0 +1,360 @@
+#include "shared/recombine/merge_patch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "shared/base/check.h"
+#include "shared/base/vector_clones.h"
+#include "shared/field/occupancy_byte.h"
+#include "shared/recombine/stamp.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int roundness_half = (stamp_roundness_max + 1) / 2;
+
+/// Edges and clefts give way by an eighth of the sum of the six differences at the most: 2^-8 a shift.
+constexpr int curvature_bits = 8;
+constexpr int curvature_max = 1016;  // its product with roundness_half fits 16 bits
+
+/// Half a voxel over the second half of the shifts: 11/16 code each.
+constexpr int uniform_sixteenths = 11;
+
+/// A voxel farther than this from the piece's surface has no part in its edges or clefts.
+constexpr int near_surface = 64;
+
+/// Codes whose occupancy is a ramp: ±21. Those up to here can be moved onto an end of it unseen.
+constexpr int ramp_end = 21;
+constexpr int ramp_end_reach = 30;
+
+uint64_t eight_marks(const uint8_t* marks) {
+  uint64_t eight = 0;
+  std::memcpy(&eight, marks, sizeof(eight));
+  return eight;
+}
+
+/// Negative where a neighbour lies on the other side.
+inline int8_t crossing_signs(const Code* c, ptrdiff_t step_x, ptrdiff_t step_y) {
+  const int8_t own = c[0];
+  return static_cast<int8_t>((own ^ c[-1]) | (own ^ c[1]) | (own ^ c[-step_y]) | (own ^ c[step_y]) |
+                             (own ^ c[-step_x]) | (own ^ c[step_x]));
+}
+
+SCREE_VECTOR_CLONES
+void unite(size_t count, const Code* __restrict terrain, const Code* __restrict piece,
+           Code* __restrict united, uint8_t* __restrict touched) {
+  for (size_t i = 0; i < count; ++i) {
+    touched[i] =
+        static_cast<uint8_t>((piece[i] < terrain[i] ? 0xFF : 0) & (piece[i] < near_surface ? 0xFF : 0));
+    united[i] = std::min(piece[i], terrain[i]);
+  }
+}
+
+/// Outside voxels next to what the piece changed that lie in a gap of less than a voxel, between rock on both
+/// sides along an axis, become rock, just inside. Width of the gap: h / (h − low) + h / (h − high) < 1, which
+/// is h² < low · high.
+SCREE_VECTOR_CLONES
+void fill_gaps(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+               const uint8_t* __restrict touched, Code* __restrict out) {
+  constexpr Code too_far = 43;  // a voxel from either side by its own account
+  const ptrdiff_t steps[3] = {1, step_y, step_x};
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = c[i];
+    const auto square = static_cast<int16_t>(own * own);
+    int8_t gap = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const ptrdiff_t step = steps[axis];
+      const int8_t low = c[i - step], high = c[i + step];
+      const auto product = static_cast<int16_t>(low * high);
+      const auto narrow = static_cast<int8_t>(square < product ? -1 : 0);
+      const auto touches = static_cast<int8_t>(touched[i - step] | touched[i] | touched[i + step]);
+      gap = static_cast<int8_t>(gap | (low & high & narrow & touches));
+    }
+    const auto close = static_cast<int8_t>(gap & (own >= 0 ? -1 : 0) & (own < too_far ? -1 : 0));
+    out[i] = close < 0 ? Code{-1} : own;
+  }
+}
+
+inline int16_t bend(const Code* c, ptrdiff_t step_x, ptrdiff_t step_y) {
+  return static_cast<int16_t>(c[-1] + c[1] + c[-step_y] + c[step_y] + c[-step_x] + c[step_x] - 6 * c[0]);
+}
+
+/// How much the piece's edges stand out, and the union's clefts lie back, near the surface.
+SCREE_VECTOR_CLONES
+void find_bends(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict piece,
+                const Code* __restrict united, const uint8_t* __restrict touched, int16_t* __restrict convex,
+                int16_t* __restrict concave) {
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = united[i];
+    const auto near = static_cast<int16_t>((own <= near_surface ? -1 : 0) & (own >= -near_surface ? -1 : 0) &
+                                           (piece[i] < near_surface ? -1 : 0));
+    const uint8_t* t = touched + i;
+    const auto touch =
+        static_cast<int8_t>(t[0] | t[-1] | t[1] | t[-step_y] | t[step_y] | t[-step_x] | t[step_x]);
+    const int16_t out = bend(piece + i, step_x, step_y);
+    // Twice: what is left of seams must close before the surface moves (measured: bench seams).
+    const auto back = static_cast<int16_t>(-2 * bend(united + i, step_x, step_y));
+    convex[i] = static_cast<int16_t>(std::clamp<int16_t>(out, 0, curvature_max) & near &
+                                     static_cast<int8_t>(touched[i]));
+    concave[i] = static_cast<int16_t>(std::clamp<int16_t>(back, 0, curvature_max) & near & touch);
+  }
+}
+
+struct Amounts {
+  int16_t curved;
+  int16_t uniform;  ///< codes
+};
+
+/// Clefts filled and the piece grown.
+SCREE_VECTOR_CLONES
+void grow(size_t count, Amounts by, const Code* __restrict united, const Code* __restrict piece,
+          const int16_t* __restrict concave, Code* __restrict out) {
+  for (size_t i = 0; i < count; ++i) {
+    const auto filled =
+        static_cast<int16_t>(united[i] - (static_cast<int16_t>(by.curved * concave[i]) >> curvature_bits));
+    const auto grown = static_cast<int16_t>(piece[i] == code_air ? code_air : piece[i] - by.uniform);
+    out[i] = static_cast<Code>(std::max<int16_t>(code_solid, std::min(filled, grown)));
+  }
+}
+
+/// Edges rounded and the piece shrunk, where it changed the terrain.
+SCREE_VECTOR_CLONES
+void shrink(size_t count, Amounts by, const Code* __restrict united, const Code* __restrict terrain,
+            const int16_t* __restrict convex, const uint8_t* __restrict touched, Code* __restrict out) {
+  for (size_t i = 0; i < count; ++i) {
+    const auto raise = static_cast<int16_t>((static_cast<int16_t>(by.curved * convex[i]) >> curvature_bits) +
+                                            (by.uniform & static_cast<int8_t>(touched[i])));
+    out[i] = static_cast<Code>(std::min<int16_t>(terrain[i], static_cast<int16_t>(united[i] + raise)));
+  }
+}
+
+/// Fills voxels just outside, near the piece, that lie between rock along two axes or all three: what is left
+/// of seams.
+SCREE_VECTOR_CLONES
+void fill_pits(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+               const uint8_t* __restrict core, Code* __restrict out) {
+  constexpr Code shallow = 15;  // a third of a voxel
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const auto along_z = static_cast<int8_t>(c[i - 1] & c[i + 1]);
+    const auto along_y = static_cast<int8_t>(c[i - step_y] & c[i + step_y]);
+    const auto along_x = static_cast<int8_t>(c[i - step_x] & c[i + step_x]);
+    const auto two = static_cast<int8_t>((along_x & along_y) | (along_y & along_z) | (along_x & along_z));
+    const int8_t own = c[i];
+    // By signs alone, not below zero and below shallow: comparisons became branches, four times the time.
+    const auto pit = static_cast<int8_t>(two & ~own & (own - shallow) & core[i]);
+    out[i] = pit < 0 ? Code{-1} : own;
+  }
+}
+
+/// Σ occupancy as it will be once redistanced, of the inner voxels: one that touches no zero crossing will be
+/// full, or empty.
+SCREE_VECTOR_CLONES
+int settled_sum(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+                const uint8_t* __restrict inner) {
+  int sum = 0;
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = c[i];
+    const int8_t signs = crossing_signs(c + i, step_x, step_y);
+    const auto settled = static_cast<int8_t>(own < 0 ? code_solid : code_air);
+    const int8_t code = signs < 0 ? own : settled;
+    sum += static_cast<uint8_t>(occupancy_byte(code) & inner[i]);
+  }
+  return sum;
+}
+
+/// All ones for core voxels near the piece that touch a zero crossing, else 0.
+SCREE_VECTOR_CLONES
+void find_surface(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+                  const Code* __restrict piece, const uint8_t* __restrict core, uint8_t* __restrict surface) {
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t signs = crossing_signs(c + i, step_x, step_y);
+    surface[i] =
+        static_cast<uint8_t>((signs < 0 ? 0xFF : 0) & (piece[i] < near_surface ? 0xFF : 0) & core[i]);
+  }
+}
+
+SCREE_VECTOR_CLONES
+int count_marks(size_t count, const uint8_t* __restrict marks) {
+  int sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += marks[i] & 1;
+  return sum;
+}
+
+/// Σ occupancy of the inner voxels.
+SCREE_VECTOR_CLONES
+int inner_sum(size_t count, const Code* __restrict codes, const uint8_t* __restrict inner) {
+  int sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += static_cast<uint8_t>(occupancy_byte(codes[i]) & inner[i]);
+  return sum;
+}
+
+/// All ones for every voxel but those of the outermost layers. The mask holds zeros.
+void mark_inner(const VoxelCoord& size, int layers, uint8_t* mask) {
+  const ptrdiff_t plane = static_cast<ptrdiff_t>(size.y) * size.z;
+  uint8_t* first = mask + layers * plane;
+  for (int y = layers; y + layers < size.y; ++y)
+    std::memset(first + static_cast<ptrdiff_t>(y) * size.z + layers, 0xFF,
+                static_cast<size_t>(size.z - 2 * layers));
+  for (int x = layers + 1; x + layers < size.x; ++x)
+    std::memcpy(mask + x * plane, first, static_cast<size_t>(plane));
+}
+
+}  // namespace
+
+MassUnits settling_gain(const Window& window) {
+  const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
+  const ptrdiff_t first = step_x + step_y + 1;
+  std::vector<uint8_t> inner(window.codes.size());
+  mark_inner(window.box.size(), 1, inner.data());
+  return settled_sum(static_cast<ptrdiff_t>(window.codes.size()) - 2 * first, step_x, step_y,
+                     window.codes.data() + first, inner.data() + first) -
+         inner_sum(inner.size(), window.codes.data(), inner.data());
+}
+
+MergePatch::MergePatch(const Window& terrain, const Window& piece)
+    : box_(terrain.box),
+      step_x_(static_cast<ptrdiff_t>(box_.size().y) * box_.size().z),
+      step_y_(box_.size().z),
+      all_(terrain.codes.size()),
+      first_(static_cast<size_t>(step_x_ + step_y_ + 1)),
+      count_(all_ - 2 * first_),
+      terrain_(terrain.codes.data()),
+      code_room_(3 * all_, code_air),
+      byte_room_(4 * all_ + sizeof(uint64_t)),  // marks are read eight at a time
+      bend_room_(2 * all_),
+      piece_(code_room_.data()),
+      united_(piece_ + all_),
+      shaped_(united_ + all_),
+      touched_(byte_room_.data()),
+      inner_(touched_ + all_),
+      core_(inner_ + all_),
+      marks_(core_ + all_),
+      convex_(bend_room_.data()),
+      concave_(convex_ + all_) {
+  CHECK(box_ == piece.box.grown(margin));
+  mark_inner(box_.size(), 1, inner_);
+  mark_inner(box_.size(), 2, core_);
+  before_ = inner_sum(all_, terrain_, inner_);
+  const VoxelCoord size = piece.box.size();
+  const Code* row = piece.codes.data();
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y, row += size.z)
+      std::memcpy(piece_ + (x + margin) * step_x_ + (y + margin) * step_y_ + margin, row,
+                  static_cast<size_t>(size.z));
+  unite(all_, terrain_, piece_, shaped_, touched_);
+  std::memcpy(united_, shaped_, all_);
+  const auto count = static_cast<ptrdiff_t>(count_);
+  fill_gaps(count, step_x_, step_y_, shaped_ + first_, touched_ + first_, united_ + first_);
+  find_bends(count, step_x_, step_y_, piece_ + first_, united_ + first_, touched_ + first_, convex_ + first_,
+             concave_ + first_);
+  codes_.assign(united_, united_ + all_);
+  mark_surface();
+  single_codes_ = MassUnits{3} * count_marks(all_, marks_);
+}
+
+MassUnits MergePatch::shape(int roundness) {
+  const int size = roundness < 0 ? -roundness : roundness;
+  const int curved = std::min(size, roundness_half);
+  const Amounts by{static_cast<int16_t>(curved),
+                   static_cast<int16_t>((size - curved) * uniform_sixteenths / 16)};
+  if (roundness >= 0)
+    grow(all_, by, united_, piece_, concave_, shaped_);
+  else
+    shrink(all_, by, united_, terrain_, convex_, touched_, shaped_);
+  const auto count = static_cast<ptrdiff_t>(count_);
+  fill_pits(count, step_x_, step_y_, shaped_ + first_, core_ + first_, codes_.data() + first_);
+  return settled_sum(count, step_x_, step_y_, codes_.data() + first_, inner_ + first_) - before_;
+}
+
+void MergePatch::mark_surface() {
+  find_surface(static_cast<ptrdiff_t>(count_), step_x_, step_y_, codes_.data() + first_, piece_ + first_,
+               core_ + first_, marks_ + first_);
+}
+
+/// Voxels of the surface near the piece, in order. Moving codes without changing their signs keeps it.
+void MergePatch::list_surface() {
+  mark_surface();
+  surface_.clear();
+  for (size_t i = 0; i < all_; i += sizeof(uint64_t))
+    for (uint64_t eight = eight_marks(marks_ + i); eight != 0;) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(eight));
+      surface_.push_back(static_cast<uint32_t>(i + bit / 8));
+      eight &= ~(uint64_t{0xFF} << bit);
+    }
+}
+
+/// Which voxels of the surface move first, and where these are spent the next, and the next.
+void MergePatch::list_movable(int direction, Tier tier) {
+  // Where filling, or rounding, lets it lie better: what is left of seams fades (measured: bench seams).
+  constexpr int bent_min = 10;
+  const Code near = tier == Tier::around ? near_surface : ramp_end + 1;
+  movable_.clear();
+  for (const uint32_t i : surface_) {
+    if (piece_[i] >= near) continue;
+    if (tier == Tier::bent && bend(codes_.data() + i, step_x_, step_y_) * direction > -bent_min) continue;
+    movable_.push_back(i);
+  }
+}
+
+/// Moves up to `count` of the movable voxels by one code each, spread evenly over all that can. Returns how
+/// many it moved.
+MassUnits MergePatch::move_some(int direction, MassUnits count) {
+  // Deeper from 21 to −20 and not across zero, or the same outward.
+  const auto can = [&](uint32_t i) {
+    const int c = codes_[i] * direction;
+    return c > -ramp_end && c <= ramp_end && codes_[i] != (direction > 0 ? 0 : -1);
+  };
+  const MassUnits able = std::ranges::count_if(movable_, can);
+  const MassUnits moved = std::min(able, count);
+  MassUnits due = 0;
+  for (const uint32_t i : movable_) {
+    if (!can(i)) continue;
+    due += moved;
+    if (due < able) continue;
+    due -= able;
+    codes_[i] = static_cast<Code>(codes_[i] - direction);
+  }
+  return moved;
+}
+
+/// Single units: voxels just beyond an end of the ramp move onto it, or its last step. Returns how many.
+int MergePatch::move_ramp_ends(int units) {
+  int moved = 0;
+  for (const uint32_t i : surface_) {
+    if (moved == units) break;
+    const int c = codes_[i];
+    if (c > ramp_end && c <= ramp_end_reach)
+      codes_[i] = ramp_end;
+    else if (c == -ramp_end)
+      codes_[i] = -ramp_end - 1;
+    else
+      continue;
+    ++moved;
+  }
+  return moved;
+}
+
+MassUnits MergePatch::place(MassUnits units) {
+  constexpr int step = 6;  // units a code on the ramp
+  list_surface();
+  const int direction = units < 0 ? -1 : 1;
+  // Rounded down: what is left is for single units, which only add.
+  MassUnits steps = units < 0 ? (step - 1 - units) / step : units / step;
+  MassUnits placed = 0;
+  for (const Tier tier : {Tier::bent, Tier::piece, Tier::around}) {
+    if (steps == 0) break;
+    list_movable(direction, tier);
+    const int moves_max = tier == Tier::around ? 8 : 4;  // of a voxel
+    for (int move = 0; move < moves_max && steps > 0; ++move) {
+      const MassUnits moved = move_some(direction, steps);
+      steps -= moved;
+      placed += direction * step * moved;
+    }
+  }
+  if (units - placed > 0 && units - placed < step) placed += move_ramp_ends(static_cast<int>(units - placed));
+  return placed;
+}
+
+}  // namespace scree

@@ -1,0 +1,98 @@
+#include "shared/recombine/specks.h"
+
+#include <algorithm>
+
+#include "shared/base/limits.h"
+#include "shared/falling/island.h"
+#include "shared/field/brick_bits.h"
+
+namespace scree {
+
+namespace {
+
+bool is_solid(Field& field, VoxelCoord v) {
+  return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
+}
+
+/// What connects to the voxel, in the order in which it was found; more than a speck holds when there is
+/// more.
+std::vector<VoxelCoord> connected(Field& field, VoxelCoord from) {
+  std::vector<VoxelCoord> found{from};
+  for (size_t i = 0; i < found.size(); ++i)
+    for (const BrickCoord& face : brick_faces) {
+      const VoxelCoord next = found[i] + VoxelCoord{face.x, face.y, face.z};
+      if (!is_solid(field, next) || std::ranges::find(found, next) != found.end()) continue;
+      found.push_back(next);
+      if (found.size() > static_cast<size_t>(speck_voxels_max)) return found;
+    }
+  return found;
+}
+
+Island island_of(const std::vector<VoxelCoord>& voxels) {
+  const VoxelCoord one{1, 1, 1};
+  Island island{{voxels.front(), voxels.front() + one}, *std::ranges::min_element(voxels), 0};
+  for (const VoxelCoord& v : voxels) {
+    VoxelBox& box = island.box;
+    box.lo = {std::min(box.lo.x, v.x), std::min(box.lo.y, v.y), std::min(box.lo.z, v.z)};
+    box.hi = {std::max(box.hi.x, v.x + 1), std::max(box.hi.y, v.y + 1), std::max(box.hi.z, v.z + 1)};
+  }
+  island.voxels = static_cast<int64_t>(voxels.size());
+  return island;
+}
+
+/// What the terrain would lose with it.
+MassUnits weight(Field& field, const Island& island) {
+  Window window = gather(field, lift_box(island.box));
+  return lift(window, island.box, island.seed).mass;
+}
+
+/// Those with all six neighbours solid, too, inside the brick. Seven such voxels weigh more than a speck
+/// wherever they hang, for nothing else lies nearer to them than across an edge.
+BrickBits interior(const BrickBits& solid) {
+  constexpr uint64_t inner_z = 0x7E7E7E7E7E7E7E7EULL;
+  BrickBits bits;
+  for (size_t x = 1; x + 1 < solid.words.size(); ++x) {
+    const uint64_t w = solid.words[x];
+    bits.words[x] =
+        w & solid.words[x - 1] & solid.words[x + 1] & (w << 8U) & (w >> 8U) & (w << 1U) & (w >> 1U) & inner_z;
+  }
+  return bits;
+}
+
+/// Components of the brick's solid voxels that hold one `among` these and are small within the brick.
+void add_specks_of(Field& field, BrickCoord brick, const BrickBits& among, std::vector<Island>& specks) {
+  const BrickBits solid = solid_bits(field.brick(brick));
+  // Most of the ground at once: a flood from one voxel took four times as long.
+  const BrickBits large = interior(solid);
+  const BrickBits rest = large.any() ? solid & ~flooded(large, solid) : solid;
+  for (BrickBits left = among & rest; left.any();) {
+    const BrickBits bits = flooded(first_of(left), solid);
+    left = left & ~bits;
+    if (bits.count() > speck_voxels_max) continue;
+    const auto voxels = connected(field, first_voxel(brick) + bounds_of(first_of(bits)).lo);
+    if (voxels.size() > static_cast<size_t>(speck_voxels_max)) continue;
+    const Island island = island_of(voxels);
+    if (weight(field, island) < limits::piece_mass_min) specks.push_back(island);
+  }
+}
+
+}  // namespace
+
+std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks) {
+  std::vector<Island> specks;
+  for (const BrickCoord brick : bricks) {
+    const BrickBits solid = solid_bits(field.brick(brick));
+    add_specks_of(field, brick, solid, specks);
+    for (size_t face = 0; face < brick_faces.size(); ++face) {
+      const BrickCoord beyond = brick + brick_faces[face];
+      if (std::ranges::binary_search(bricks, beyond)) continue;
+      const BrickBits bared = across(~solid, face);  // what may have held to it through this face
+      if (bared.any()) add_specks_of(field, beyond, bared, specks);
+    }
+  }
+  std::ranges::sort(specks, {}, &Island::seed);
+  specks.erase(std::unique(specks.begin(), specks.end()), specks.end());
+  return specks;
+}
+
+}  // namespace scree

@@ -1,0 +1,35 @@
+// The vertices of a surface, eight at a time: where they lie in their cells, and what they look like.
+// Pure, safe from any thread; a vertex depends on the codes around its cell alone, not on its batch.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/surface/surface_mesh.h"
+
+namespace scree {
+
+/// The vertex of one sheet of surface in a cell.
+struct SheetSeed {
+  int32_t cell = 0;             ///< index of the cell's lowest voxel in the window
+  uint16_t edges = 0;           ///< bit e: the sheet crosses edge e (surface_cells.h); at least one
+  std::array<uint8_t, 3> at{};  ///< the cell, from the mesh's origin
+};
+
+/// A vertex that lies at a known place.
+struct PlacedSeed {
+  int32_t cell = 0;
+  std::array<uint16_t, 3> position{};  ///< 1/256 voxel from the mesh's origin, for the vertex
+  glm::vec3 fraction{0.0F};            ///< from the cell's lowest voxel, 0..1
+};
+
+/// At the mean of the crossings of the sheet's edges (Gibson 1998), strictly inside the cell. Appends one
+/// vertex a seed. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
+void add_sheet_vertices(const Window& window, const Window* before, std::span<const SheetSeed> seeds,
+                        std::vector<SurfaceVertex>& vertices);
+void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedSeed> seeds,
+                         std::vector<SurfaceVertex>& vertices);
+
+}  // namespace scree
