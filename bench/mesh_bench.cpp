@@ -6,8 +6,8 @@
 #include "bench/drawing.h"
 #include "bench/peers_mesh.h"
 #include "bench/scenes.h"
-#include "client/render/block_windows.h"
-#include "client/render/mesh_scheduler.h"
+#include "client/render/levels/block_windows.h"
+#include "client/render/mesh/mesh_scheduler.h"
 #include "shared/base/timing.h"
 
 namespace scree {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "client/render/draw_method.h"
+#include "client/render/scene/draw_method.h"
 
 namespace scree::peers {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "client/render/renderer.h"
-#include "client/render/work_pool.h"
+#include "client/render/scene/work_pool.h"
 #include "client/viewer/egl_context.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-// The raymarcher's copy of the field (client/render/brick_world.h): levels of bricks around the camera,
+// The raymarcher's copy of the field (client/render/bricks/brick_world.h): levels of bricks around the camera,
 // each in a window of its own; level k has a voxel every 2^k. Points are metres from the eye, distances voxels.
 
 const int levels_max = 8;

@@ -1,4 +1,4 @@
-// Boxes around pieces, one instance each (client/render/piece_volumes.h). No buffer holds the corners.
+// Boxes around pieces, one instance each (client/render/pieces/piece_volumes.h). No buffer holds the corners.
 
 layout(location = 0) in vec4 a_place;     // metres; w: tint
 layout(location = 1) in vec4 a_rotation;  // quaternion x, y, z, w

@@ -1,4 +1,4 @@
-// The sun's light through the shadow map (client/render/shadow_map.h).
+// The sun's light through the shadow map (client/render/gl/shadow_map.h).
 
 uniform mat4 u_shadow_matrix;  // world to shadow map, 0..1
 uniform sampler2DShadow u_shadow_map;

@@ -1,5 +1,5 @@
 // What a ray may skip, against a search of every brick.
-#include "client/render/clip_window.h"
+#include "client/render/bricks/clip_window.h"
 
 #include <algorithm>
 #include <cstdlib>

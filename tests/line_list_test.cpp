@@ -1,11 +1,11 @@
 // Lines over the world: outlines lie on the shapes that they outline.
-#include "client/render/line_list.h"
+#include "client/render/scene/line_list.h"
 
 #include <cmath>
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "client/render/limits.h"
+#include "client/render/scene/limits.h"
 
 namespace scree {
 namespace {

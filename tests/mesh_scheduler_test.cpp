@@ -1,5 +1,5 @@
 // Which meshes are shown together, and when: without OpenGL.
-#include "client/render/mesh_scheduler.h"
+#include "client/render/mesh/mesh_scheduler.h"
 
 #include <chrono>
 #include <future>
@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "client/render/block_windows.h"
+#include "client/render/levels/block_windows.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
 

@@ -1,10 +1,10 @@
 // Nodes of all levels, meshed one by one: do they make one surface?
-#include "client/render/node_mesh.h"
+#include "client/render/mesh/node_mesh.h"
 
 #include <gtest/gtest.h>
 #include <map>
 
-#include "client/render/mesh_place.h"
+#include "client/render/scene/mesh_place.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
 

@@ -9,40 +9,49 @@
 namespace scree::style {
 namespace {
 
-/// A folder, and the folders beneath it in the layering that it may include, itself aside.
+/// A folder, and the folders directly beneath it in the layering. It may include those, what they may include, and
+/// itself with the rooms in it.
 struct Layer {
   std::string_view folder;
-  std::vector<std::string_view> may_include;
+  std::vector<std::string_view> beneath;
 };
 
+/// Rooms come before the folder that they lie in: the first match is a file's layer.
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = {
       {"shared/base/", {}},
       {"shared/field/", {"shared/base/"}},
-      {"shared/surface/", {"shared/base/", "shared/field/"}},
-      {"shared/falling/", {"shared/base/", "shared/field/"}},
-      {"shared/fracture/", {"shared/base/", "shared/field/", "shared/surface/"}},
-      {"shared/recombine/", {"shared/base/", "shared/field/", "shared/surface/", "shared/falling/"}},
-      {"shared/operation/", {"shared/"}},
-      {"proto/", {"shared/"}},
-      {"server/field/", {"shared/", "proto/"}},
-      {"server/fracture/", {"shared/", "proto/", "server/field/"}},
-      {"server/bodies/", {"shared/", "proto/", "server/field/"}},
-      {"server/recombine/", {"shared/", "proto/", "server/field/"}},
-      {"server/world/",
-       {"shared/", "proto/", "server/field/", "server/fracture/", "server/bodies/", "server/recombine/"}},
-      {"server/net/", {"shared/", "proto/", "server/world/"}},
-      {"server/store/", {"shared/", "proto/", "server/world/"}},
-      {"server/replay/", {"shared/", "proto/", "server/world/", "server/store/"}},
-      {"server/app/", {"shared/", "proto/", "server/"}},
-      {"client/mirror/", {"shared/", "proto/"}},
-      {"client/connection/", {"shared/", "proto/", "client/mirror/"}},
-      {"client/render/", {"shared/", "proto/", "client/mirror/"}},
-      {"client/bot/", {"shared/", "proto/", "client/mirror/", "client/connection/"}},
-      {"client/admin/", {"shared/", "proto/", "client/mirror/", "client/connection/"}},
-      {"client/viewer/", {"shared/", "proto/", "client/"}},
-      {"bench/", {"shared/", "proto/", "server/", "client/"}},
-      {"tests/", {"shared/", "proto/", "server/", "client/", "bench/"}},
+      {"shared/surface/", {"shared/field/"}},
+      {"shared/falling/", {"shared/field/"}},
+      {"shared/fracture/", {"shared/surface/"}},
+      {"shared/recombine/", {"shared/surface/", "shared/falling/"}},
+      {"shared/operation/", {"shared/fracture/", "shared/recombine/"}},
+      {"proto/", {"shared/operation/"}},
+      {"server/field/", {"proto/"}},
+      {"server/fracture/", {"server/field/"}},
+      {"server/bodies/", {"server/field/"}},
+      {"server/recombine/", {"server/field/"}},
+      {"server/world/", {"server/fracture/", "server/bodies/", "server/recombine/"}},
+      {"server/net/", {"proto/", "server/world/"}},
+      {"server/store/", {"proto/", "server/world/"}},
+      {"server/replay/", {"server/store/"}},
+      {"server/app/", {"server/net/", "server/replay/"}},
+      {"client/mirror/", {"proto/"}},
+      {"client/connection/", {"client/mirror/"}},
+      {"client/bot/", {"client/connection/"}},
+      {"client/admin/", {"client/connection/"}},
+      {"client/render/scene/", {"client/mirror/"}},
+      {"client/render/gl/", {"client/render/scene/"}},
+      {"client/render/levels/", {"client/render/scene/"}},
+      {"client/render/bricks/", {"client/render/gl/", "client/render/levels/"}},
+      {"client/render/pieces/", {"client/render/bricks/"}},
+      {"client/render/mesh/", {"client/render/pieces/"}},
+      {"client/render/raymarch/", {"client/render/pieces/"}},
+      {"client/render/grid/", {"client/render/pieces/"}},
+      {"client/render/", {"client/mirror/"}},
+      {"client/viewer/", {"client/"}},
+      {"bench/", {"server/", "client/"}},
+      {"tests/", {"bench/"}},
   };
   return table;
 }
@@ -95,13 +104,22 @@ bool is_header(std::string_view path) {
   return path.ends_with(".h");
 }
 
+/// Whether a file of `layer` may include `target`: down the table, through any number of layers.
+bool may_include(const Layer& layer, std::string_view target) {
+  if (target.starts_with(layer.folder)) return true;
+  for (const Layer& other : layers())
+    if (starts_with_any(other.folder, layer.beneath) && other.folder != layer.folder &&
+        may_include(other, target))
+      return true;
+  return false;
+}
+
 std::optional<std::string> layering_breach(const SourceFile& file, const Layer& layer,
                                            const std::string& target) {
-  const bool from_root = layer_of(target) != nullptr;
-  if (!from_root)
+  if (layer_of(target) == nullptr)
     return file.path + ": \"" + target +
            "\" is no path from the root; project includes are, libraries take <>";
-  if (target.starts_with(layer.folder) || starts_with_any(target, layer.may_include)) return std::nullopt;
+  if (may_include(layer, target)) return std::nullopt;
   return file.path + ": must not include \"" + target + "\": " + std::string(layer.folder) +
          " does not lie above it (docs/architecture.md, Layers)";
 }

@@ -206,7 +206,7 @@ TEST(StyleRules, an_upward_or_sideways_include_is_caught) {
 TEST(StyleRules, a_downward_include_is_allowed) {
   EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/bodies/bodies.h"), 0U);
   EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/world/world.h"), 0U);
-  EXPECT_EQ(layering_complaints("client/viewer/a.cpp", "client/render/camera.h"), 0U);
+  EXPECT_EQ(layering_complaints("client/viewer/a.cpp", "client/render/scene/camera.h"), 0U);
   EXPECT_EQ(layering_complaints("tests/a.cpp", "server/net/session.h"), 0U);
 }
 

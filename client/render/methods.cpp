@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "client/render/grid_method.h"
-#include "client/render/mesh_method.h"
-#include "client/render/raymarch_method.h"
+#include "client/render/grid/grid_method.h"
+#include "client/render/mesh/mesh_method.h"
+#include "client/render/raymarch/raymarch_method.h"
 
 namespace scree {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "client/render/draw_method.h"
-#include "client/render/work_pool.h"
+#include "client/render/scene/draw_method.h"
+#include "client/render/scene/work_pool.h"
 
 namespace scree {
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <optional>
 
-#include "client/render/gl.h"
-#include "client/render/gl_errors.h"
-#include "client/render/limits.h"
-#include "client/render/line_drawer.h"
-#include "client/render/shader_sources.h"
-#include "client/render/shadow_map.h"
+#include "client/render/gl/gl.h"
+#include "client/render/gl/gl_errors.h"
+#include "client/render/gl/line_drawer.h"
+#include "client/render/gl/shader_sources.h"
+#include "client/render/gl/shadow_map.h"
+#include "client/render/scene/limits.h"
 #include "shared/base/check.h"
 #include "shared/field/material.h"
 

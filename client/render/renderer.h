@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "client/render/draw_method.h"
-#include "client/render/gpu_timers.h"
-#include "client/render/line_list.h"
+#include "client/render/gl/gpu_timers.h"
+#include "client/render/scene/draw_method.h"
+#include "client/render/scene/line_list.h"
 
 namespace scree {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "client/render/camera.h"
+#include "client/render/scene/camera.h"
 #include "shared/base/result.h"
 
 namespace scree {

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "client/render/camera.h"
+#include "client/render/scene/camera.h"
 
 namespace scree {
 

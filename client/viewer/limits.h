@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "client/render/limits.h"
+#include "client/render/scene/limits.h"
 
 namespace scree::limits {
 

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "client/render/camera.h"
 #include "client/render/methods.h"
+#include "client/render/scene/camera.h"
 #include "client/viewer/camera_path.h"
 #include "client/viewer/overlay.h"
 #include "client/viewer/screenshots.h"

@@ -2,7 +2,7 @@
 // cursors.
 #pragma once
 
-#include "client/render/line_list.h"
+#include "client/render/scene/line_list.h"
 #include "client/viewer/session.h"
 
 namespace scree {

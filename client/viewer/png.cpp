@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <png.h>
 
-#include "client/render/limits.h"
+#include "client/render/scene/limits.h"
 
 namespace scree {
 

@@ -12,7 +12,7 @@
 
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
-#include "client/render/draw_method.h"
+#include "client/render/scene/draw_method.h"
 #include "client/viewer/playback.h"
 #include "client/viewer/tool.h"
 

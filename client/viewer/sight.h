@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "client/render/draw_method.h"
+#include "client/render/scene/draw_method.h"
 
 namespace scree {
 

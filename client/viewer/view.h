@@ -5,7 +5,7 @@
 
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
-#include "client/render/work_pool.h"
+#include "client/render/scene/work_pool.h"
 #include "client/viewer/session.h"
 
 namespace scree {

@@ -1,0 +1,49 @@
+// A copy of the field on the GPU, for rays and grids: one atlas of bricks, and one texture of entries that
+// holds the windows of all levels, which follow the camera. Needs the GL context current.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "client/render/bricks/clip_level.h"
+#include "client/render/scene/camera.h"
+#include "shared/base/memory_count.h"
+
+namespace scree {
+
+class BrickWorld {
+ public:
+  /// `pool` must outlive it.
+  BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);
+
+  /// Shows the edits of these bricks, and some of what is still to be loaded.
+  void update(Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);
+
+  /// Binds the textures to units 0 and 1 and sets the uniforms of shaders/bricks.glsl.
+  void use(const gl::Program& program, glm::vec3 eye_m) const;
+
+  /// What a box, metres, has in all of its bricks on one level: only air, or only rock. Nothing where it has
+  /// a surface, where that is not loaded, or where the level's window does not show it.
+  enum class Plain { air, rock };
+  std::optional<Plain> plain(glm::vec3 lo_m, glm::vec3 hi_m, int level) const;
+
+  BrickAtlas& atlas() { return atlas_; }
+  const BrickAtlas& atlas() const { return atlas_; }
+  bool loaded() const { return waiting() == 0; }
+  size_t waiting() const;
+  /// How far from the camera terrain is drawn at least.
+  float reach_m() const;
+  float voxel_m() const { return levels_.front().voxel_m(); }
+  MemoryCounts memory() const;
+
+ private:
+  void upload_entries(ClipLevel& level);
+
+  BrickAtlas atlas_;
+  gl::Texture entries_;
+  std::deque<ClipLevel> levels_;
+  int side_;
+};
+
+}  // namespace scree

@@ -1,0 +1,65 @@
+// One level of the raymarcher's world: follows the camera, generates and reads what comes into reach, and
+// reads afresh what an edit changed, at once.
+//
+// On the thread of the GL context; generating runs on the pool. An edit costs the bricks that it shows in.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "client/render/bricks/brick_atlas.h"
+#include "client/render/bricks/clip_window.h"
+#include "client/render/levels/level_bricks.h"
+#include "client/render/scene/work_pool.h"
+
+namespace scree {
+
+/// An entry's word for the field as generated. A brick of it goes into the atlas, if there is room.
+uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas);
+
+class ClipLevel {
+ public:
+  /// `side`: bricks along the window. `pool` must outlive it.
+  ClipLevel(WorkPool& pool, const TerrainSource& source, int level, int side);
+  ~ClipLevel();
+
+  /// Bricks that fall out give their slots back.
+  void follow(glm::vec3 eye_m, BrickAtlas& atlas);
+  /// Bricks of the field whose codes changed.
+  void changed(Field& field, const std::vector<BrickCoord>& bricks, BrickAtlas& atlas);
+  /// Reads up to that many chunks that have been generated, nearest first; returns how many it read.
+  size_t load(Field& field, size_t chunks_max, BrickAtlas& atlas);
+
+  bool loaded() const { return pending_.empty(); }
+  size_t waiting() const { return pending_.size(); }
+  /// Bricks that found no room in the atlas: a coarser level shows them.
+  size_t without_room() const { return without_room_; }
+  ClipWindow& window() { return window_; }
+  const ClipWindow& window() const { return window_; }
+  int level() const { return bricks_.level(); }
+  float voxel_m() const { return bricks_.source().voxel_size_m; }
+  size_t cpu_bytes() const;
+
+ private:
+  struct Inbox;
+
+  void take_generated(Field& field);
+  bool generated_around(const Field& field, ChunkCoord chunk);
+  void read(Field& field, BrickCoord brick, BrickAtlas& atlas);
+  void release(const ClipEntry& entry, BrickAtlas& atlas);
+  void list_pending(glm::vec3 eye_m);
+
+  WorkPool& pool_;
+  LevelBricks bricks_;
+  ClipWindow window_;
+  std::shared_ptr<Inbox> inbox_;
+  bool placed_ = false;
+  std::unordered_set<ChunkCoord, CoordHash> shown_;
+  std::unordered_set<ChunkCoord, CoordHash> generating_;
+  std::vector<ChunkCoord> pending_;  ///< nearest last
+  size_t without_room_ = 0;
+};
+
+}  // namespace scree

@@ -1,0 +1,64 @@
+#include "client/render/gl/gl.h"
+
+#include <string>
+
+namespace scree::gl {
+namespace {
+
+/// Desktop GL and ES differ in the version line and in ES's precisions.
+std::string preamble() {
+  if (epoxy_is_desktop_gl()) return "#version 330 core\n";
+  return "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n"
+         "precision highp sampler3D;\nprecision highp usampler3D;\nprecision highp usampler2D;\n";
+}
+
+Result<GLuint> compile(GLenum stage, std::string_view name, std::span<const std::string_view> parts) {
+  std::string source = preamble();
+  for (const std::string_view part : parts) source += part;
+  const GLuint shader = glCreateShader(stage);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint done = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  if (done == GL_TRUE) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<size_t>(length));
+  glDeleteShader(shader);
+  return fail("shader " + std::string(name) + " does not compile: " + log);
+}
+
+}  // namespace
+
+Result<void> Program::attach(GLenum stage, std::string_view name,
+                             std::span<const std::string_view> parts) const {
+  const Result<GLuint> shader = compile(stage, name, parts);
+  if (!shader) return fail(shader.error().message);
+  glAttachShader(name_, *shader);
+  glDeleteShader(*shader);
+  return {};
+}
+
+Result<Program> Program::link(std::string_view name, std::span<const std::string_view> vertex_parts,
+                              std::span<const std::string_view> fragment_parts,
+                              std::span<const std::string_view> geometry_parts) {
+  Program program(glCreateProgram());
+  Result<void> attached = program.attach(GL_VERTEX_SHADER, name, vertex_parts);
+  if (attached && !geometry_parts.empty())
+    attached = program.attach(GL_GEOMETRY_SHADER, name, geometry_parts);
+  if (attached) attached = program.attach(GL_FRAGMENT_SHADER, name, fragment_parts);
+  if (!attached) return fail(attached.error().message);
+  glLinkProgram(program.name_);
+  GLint done = GL_FALSE;
+  glGetProgramiv(program.name_, GL_LINK_STATUS, &done);
+  if (done == GL_TRUE) return program;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<size_t>(length));
+  return fail("shader " + std::string(name) + " does not link: " + log);
+}
+
+}  // namespace scree::gl

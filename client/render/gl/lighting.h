@@ -1,0 +1,13 @@
+// What the shaders of atmosphere.glsl, bricks.glsl, rock.glsl and shadow.glsl take: one light for all
+// methods.
+#pragma once
+
+#include "client/render/gl/gl.h"
+#include "client/render/scene/draw_method.h"
+
+namespace scree {
+
+/// Of the program in use. Binds the shadow map to that texture unit.
+void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_unit);
+
+}  // namespace scree

@@ -1,0 +1,25 @@
+// Draws a LineList over a picture that has its depths: what rock hides shows through faintly. Within OpenGL
+// ES 3.0's subset. Needs the GL context current, the destructor too.
+#pragma once
+
+#include "client/render/gl/gl.h"
+#include "client/render/scene/line_list.h"
+
+namespace scree {
+
+class LineDrawer {
+ public:
+  static Result<LineDrawer> create();
+
+  /// Into the framebuffer that is bound.
+  void draw(const LineList& lines, const glm::mat4& view_projection) const;
+
+ private:
+  explicit LineDrawer(gl::Program&& program);
+
+  gl::Program program_;
+  gl::VertexArray array_;
+  gl::Buffer vertices_;
+};
+
+}  // namespace scree

@@ -1,0 +1,51 @@
+#include "client/render/gl/surface_program.h"
+
+#include <array>
+#include <utility>
+
+#include "client/render/gl/shader_sources.h"
+
+namespace scree {
+namespace {
+
+Result<SurfaceProgram> link(std::string_view name, std::span<const std::string_view> fragment) {
+  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
+  Result<gl::Program> program = gl::Program::link(name, vertex, fragment);
+  if (!program) return fail(program.error().message);
+  return SurfaceProgram(std::move(*program));
+}
+
+}  // namespace
+
+SurfaceProgram::SurfaceProgram(gl::Program&& linked)
+    : program(std::move(linked)),
+      step(program.uniform("u_step")),
+      origin(program.uniform("u_origin")),
+      voxel_m(program.uniform("u_voxel_m")),
+      centre_m(program.uniform("u_centre_m")),
+      place_m(program.uniform("u_place_m")),
+      rotation(program.uniform("u_rotation")),
+      loose(program.uniform("u_loose")),
+      tint(program.uniform("u_tint")) {}
+
+void SurfaceProgram::set_place(const MeshPlace& place) const {
+  glUniform3f(origin, place.origin.x, place.origin.y, place.origin.z);
+  glUniform1f(step, place.step);
+}
+
+std::span<const std::string_view> surface_fragment_parts() {
+  static const std::array parts{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
+                                shader_source("noise.glsl"),    shader_source("rock.glsl"),
+                                shader_source("shadow.glsl"),   shader_source("surface.frag")};
+  return parts;
+}
+
+Result<SurfaceProgram> link_surface() {
+  return link("surface", surface_fragment_parts());
+}
+
+Result<SurfaceProgram> link_surface_shadow() {
+  return link("surface_shadow", std::array{shader_source("surface_shadow.frag")});
+}
+
+}  // namespace scree

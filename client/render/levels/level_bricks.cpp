@@ -1,0 +1,159 @@
+#include "client/render/levels/level_bricks.h"
+
+#include <algorithm>
+
+#include "client/render/levels/block_windows.h"
+
+namespace scree {
+namespace {
+
+/// Air farther from rock than this, in voxels, is empty: nearer air is kept for what asks for distances
+/// beside the surface (shadows, occlusion).
+constexpr float air_kept_voxels = 1.5F;
+
+/// Beyond this code either way, all looks the same (shaders/rock.glsl, cut_of and heap_of).
+constexpr Code code_far = 58;
+
+VoxelBox samples_of(BrickCoord brick) {
+  const VoxelCoord first = first_voxel(brick);
+  const VoxelCoord lo = first - VoxelCoord{atlas_apron_low, atlas_apron_low, atlas_apron_low};
+  return {lo, lo + VoxelCoord{atlas_brick_side, atlas_brick_side, atlas_brick_side}};
+}
+
+AtlasBrick as_brick(const Window& window) {
+  AtlasBrick brick;
+  std::ranges::copy(window.codes, brick.begin());
+  return brick;
+}
+
+}  // namespace
+
+TerrainSource spaced(TerrainSource source, int level) {
+  source.voxel_size_m *= static_cast<float>(1 << level);
+  return source;
+}
+
+void take_edits(Field& field, int level, Window& window) {
+  const int step = 1 << level;
+  const auto fine = [step](VoxelCoord v) { return VoxelCoord{v.x * step, v.y * step, v.z * step}; };
+  // The first sample not below.
+  const auto sample = [&](VoxelCoord v) {
+    return VoxelCoord{(v.x + step - 1) >> level, (v.y + step - 1) >> level, (v.z + step - 1) >> level};
+  };
+  const float scale = 1.0F / static_cast<float>(step);
+  for_each_chunk({fine(window.box.lo), fine(window.box.hi)}, [&](ChunkCoord chunk) {
+    if (!field.has_edits(chunk)) return;
+    for (const BrickCoord home : field.edited_bricks(chunk)) {
+      const VoxelCoord first = first_voxel(home);
+      const VoxelBox brick{first, first + VoxelCoord{brick_size, brick_size, brick_size}};
+      const VoxelBox part = common({sample(brick.lo), sample(brick.hi)}, window.box);
+      if (part.empty()) continue;
+      const Brick& codes = field.brick(home);
+      for (int x = part.lo.x; x < part.hi.x; ++x)
+        for (int y = part.lo.y; y < part.hi.y; ++y)
+          for (int z = part.lo.z; z < part.hi.z; ++z) {
+            const VoxelCoord in = fine({x, y, z}) - first;
+            const Code code = codes.codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
+            window.at(x, y, z) = encode(decode(code) * scale);
+          }
+    }
+  });
+}
+
+LevelBrick::Kind kind_of(const AtlasBrick& brick) {
+  constexpr int lo = atlas_apron_low;
+  constexpr int hi = lo + brick_size;
+  Code least = code_air;
+  Code most = code_solid;
+  for (int x = lo; x <= hi; ++x)
+    for (int y = lo; y <= hi; ++y) {
+      const Code* row = brick.data() + (x * atlas_brick_side + y) * atlas_brick_side;
+      for (int z = lo; z <= hi; ++z) {
+        least = std::min(least, row[z]);
+        most = std::max(most, row[z]);
+      }
+    }
+  if (most < 0) return LevelBrick::Kind::solid;
+  return least > encode(air_kept_voxels) ? LevelBrick::Kind::empty : LevelBrick::Kind::stored;
+}
+
+LevelBrick::Before before_kind_of(const AtlasBrick& brick) {
+  const auto [least, most] = std::ranges::minmax(brick);
+  if (least >= code_far) return LevelBrick::Before::air;
+  return most <= -code_far ? LevelBrick::Before::rock : LevelBrick::Before::mixed;
+}
+
+LevelBricks::LevelBricks(const TerrainSource& source, int level)
+    : level_(level), source_(spaced(source, level)) {
+  if (level > 0) coarse_ = std::make_unique<MapField>(source_);
+}
+
+bool LevelBricks::has_generated(const Field& field, ChunkCoord chunk) const {
+  return coarse_ ? coarse_->has_generated(chunk) : field.has_generated(chunk);
+}
+
+void LevelBricks::adopt_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated) {
+  generator(field).adopt_generated(chunk, std::move(generated));
+}
+
+/// The brick of nothing but air or rock that this one and those after it are, if they are.
+const Brick* LevelBricks::uniform_around(Field& field, BrickCoord brick) const {
+  const Brick* first = &generator(field).brick(brick);
+  if (first != &air_brick() && first != &solid_brick()) return nullptr;
+  for (int i = 1; i < 8; ++i) {
+    const BrickCoord other = brick + BrickCoord{i >> 2, (i >> 1) & 1, i & 1};
+    if (&generator(field).brick(other) != first) return nullptr;
+  }
+  return first;
+}
+
+bool LevelBricks::edited_around(const Field& field, BrickCoord brick) const {
+  const VoxelBox samples = samples_of(brick);
+  const auto fine = [this](VoxelCoord v) { return VoxelCoord{v.x * step(), v.y * step(), v.z * step()}; };
+  bool edited = false;
+  const VoxelBox box{fine(samples.lo), fine(samples.hi - VoxelCoord{1, 1, 1}) + VoxelCoord{1, 1, 1}};
+  for_each_chunk(box, [&](ChunkCoord chunk) { edited = edited || field.has_edits(chunk); });
+  if (!edited || level_ > 0) return edited;
+  edited = false;
+  for_each_brick(box, [&](BrickCoord coord) { edited = edited || field.is_edited(coord); });
+  return edited;
+}
+
+LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
+  const bool edited = edited_around(field, brick);
+  if (!edited) {
+    if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)
+      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}, 0};
+  }
+  Window window = gather(generator(field), samples_of(brick));
+  std::optional<Window> before;
+  if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
+  if (level_ > 0 && edited) take_edits(field, level_, window);
+  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, 0};
+  if (edited && level_ == 0) read.paint = paint_number(field.painted(brick));
+  read.kind = kind_of(read.field);
+  if (!before || before->codes == window.codes) return read;
+  read.before = as_brick(*before);
+  read.before_kind = before_kind_of(read.before);
+  return read;
+}
+
+LevelBricks::Range LevelBricks::shown_in(BrickCoord changed) const {
+  // A brick has the samples 8b − 1 … 8b + 9.
+  const auto lo = [this](int v) {
+    const int sample = (v * brick_size + step() - 1) >> level_;
+    return (sample - (atlas_brick_side - 1 - atlas_apron_low) + brick_size - 1) >> 3;
+  };
+  const auto hi = [this](int v) {
+    const int sample = (v * brick_size + brick_size - 1) >> level_;
+    return ((sample + atlas_apron_low) >> 3) + 1;
+  };
+  const VoxelCoord first = first_voxel(changed);
+  const auto skipped = [this](int v) {
+    return ((v + step() - 1) >> level_) > ((v + brick_size - 1) >> level_);
+  };
+  if (skipped(first.x) || skipped(first.y) || skipped(first.z)) return {};
+  return {{lo(changed.x), lo(changed.y), lo(changed.z)}, {hi(changed.x), hi(changed.y), hi(changed.z)}};
+}
+
+}  // namespace scree

@@ -1,0 +1,67 @@
+// The field at one level of detail, brick by brick, as the atlas takes it: level k has a sample every 2^k
+// voxels. Level 0 is the field itself; a coarser one is generated at that spacing, and takes the samples of
+// what was edited from the field.
+//
+// Nothing is kept that an edit could make stale: a brick read afresh is always the field's.
+#pragma once
+
+#include <memory>
+
+#include "client/render/levels/atlas_brick.h"
+#include "shared/field/field.h"
+
+namespace scree {
+
+struct LevelBrick {
+  enum class Kind { empty, solid, stored } kind = Kind::empty;
+  AtlasBrick field;  ///< when stored
+
+  /// As generated: the same where nothing was edited; else what fresh rock and rubble are told by.
+  enum class Before { same, mixed, air, rock } before_kind = Before::same;
+  AtlasBrick before;  ///< when mixed
+  uint8_t paint = 0;  ///< as SurfaceVertex::paint; on level 0 alone
+};
+
+/// By the samples of its own cells, not the rest of its apron.
+LevelBrick::Kind kind_of(const AtlasBrick& brick);
+/// Air or rock where all is so far from the surface that its looks do not change any more.
+LevelBrick::Before before_kind_of(const AtlasBrick& brick);
+
+/// The same terrain with a sample every 2^level voxels.
+TerrainSource spaced(TerrainSource source, int level);
+
+/// Puts what was edited of the field, of level 0, into a window of that level.
+void take_edits(Field& field, int level, Window& window);
+
+class LevelBricks {
+ public:
+  LevelBricks(const TerrainSource& source, int level);
+
+  int level() const { return level_; }
+  const TerrainSource& source() const { return source_; }  ///< with this level's spacing
+
+  /// Chunks of this level. `field` is always the world's, of level 0.
+  bool has_generated(const Field& field, ChunkCoord chunk) const;
+  void adopt_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated);
+
+  LevelBrick read(Field& field, BrickCoord brick);
+
+  /// Bricks of this level that a change of that brick of the field shows in: lo inside, hi outside.
+  struct Range {
+    BrickCoord lo;
+    BrickCoord hi;
+  };
+  Range shown_in(BrickCoord changed) const;
+
+ private:
+  int step() const { return 1 << level_; }
+  Field& generator(Field& field) const { return coarse_ ? *coarse_ : field; }
+  const Brick* uniform_around(Field& field, BrickCoord brick) const;
+  bool edited_around(const Field& field, BrickCoord brick) const;
+
+  int level_;
+  TerrainSource source_;
+  std::unique_ptr<MapField> coarse_;  ///< generates; none on level 0
+};
+
+}  // namespace scree

@@ -1,0 +1,163 @@
+#include "client/render/mesh/mesh_method.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "client/render/gl/lighting.h"
+#include "client/render/mesh/mesh_scheduler.h"
+#include "client/render/pieces/piece_views.h"
+
+namespace scree {
+namespace {
+
+class MeshMethod final : public DrawMethod {
+ public:
+  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, SurfaceProgram&& surface,
+             SurfaceProgram&& shadow)
+      : polygoniser_(polygoniser),
+        scheduler_(pool, view_radius_m, polygoniser),
+        surface_(std::move(surface)),
+        shadow_(std::move(shadow)) {}
+
+  std::string_view name() const override {
+    if (polygoniser_ == Polygoniser::cubes) return "cubes";
+    return polygoniser_ == Polygoniser::nets ? "mesh" : "dual";
+  }
+  void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
+  bool loaded() const override { return scheduler_.loaded(); }
+  bool complete() const override { return scheduler_.complete(); }
+  void update(const Scene& scene, const Camera& camera) override;
+  float reach_m() const override { return scheduler_.reach_m(); }
+  void draw(const DrawPass& pass) override;
+  DrawStats stats() const override;
+
+ private:
+  void show(MeshUpdate&& update);
+  void erase(const SurfaceNode& node);
+  void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
+  void count(const GpuMesh& mesh);
+
+  Polygoniser polygoniser_;
+  MeshScheduler scheduler_;
+  SurfaceProgram surface_;
+  SurfaceProgram shadow_;
+  float voxel_m_ = 0.0F;
+  struct Block {
+    GpuMesh mesh;
+    MeshPlace place;
+  };
+  std::unordered_map<SurfaceNode, Block, SurfaceNodeHash> blocks_;
+  PieceViews pieces_;
+  std::vector<std::pair<float, const Block*>> visible_;  ///< squared distance; kept for its memory
+  size_t gpu_bytes_ = 0;
+  DrawStats pass_;
+};
+
+void MeshMethod::update(const Scene& scene, const Camera& camera) {
+  voxel_m_ = scene.field.source().voxel_size_m;
+  show(scheduler_.update(scene, camera.eye_m));
+  // One that has merged stays where it was until the rock is shown.
+  pieces_.move(scene.pieces);
+}
+
+void MeshMethod::show(MeshUpdate&& update) {
+  for (const SurfaceNode& node : update.gone) erase(node);
+  for (const NodeMesh& node : update.nodes) {
+    erase(node.node);
+    if (node.mesh.empty()) continue;
+    Block block{GpuMesh(node.mesh), place_of(node.mesh.origin, node.level)};
+    gpu_bytes_ += blocks_.emplace(node.node, std::move(block)).first->second.mesh.bytes();
+  }
+  for (const PieceId id : update.removed_pieces) pieces_.remove(id);
+  for (const PieceMesh& piece : update.pieces) pieces_.show(piece, voxel_m_);
+}
+
+void MeshMethod::erase(const SurfaceNode& node) {
+  const auto found = blocks_.find(node);
+  if (found == blocks_.end()) return;
+  gpu_bytes_ -= found->second.mesh.bytes();
+  blocks_.erase(found);
+}
+
+void MeshMethod::draw(const DrawPass& pass) {
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  const SurfaceProgram& program = shadow ? shadow_ : surface_;
+  program.program.use();
+  program.program.set("u_view_projection", pass.view_projection);
+  if (!shadow) set_lighting(program.program, pass, 0);
+  pass_ = {};
+  const Frustum frustum(pass.view_projection);
+  draw_terrain(program, frustum, pass.eye_m);
+  pieces_.draw(program, frustum, voxel_m_, pass_);
+  glBindVertexArray(0);
+}
+
+void MeshMethod::count(const GpuMesh& mesh) {
+  mesh.draw();
+  ++pass_.draws;
+  pass_.triangles += mesh.triangles();
+}
+
+void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m) {
+  glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
+  glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
+  glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
+  glUniform1f(program.loose, 0.0F);
+  glUniform1f(program.voxel_m, voxel_m_);
+  // Near ones first: what they hide is not shaded.
+  visible_.clear();
+  for (const auto& [node, block] : blocks_) {
+    const float side_m = voxel_m_ * static_cast<float>(block_size << node.level);
+    const glm::vec3 centre_m = (glm::vec3(static_cast<float>(node.at.x), static_cast<float>(node.at.y),
+                                          static_cast<float>(node.at.z)) +
+                                0.5F) *
+                               side_m;
+    // Polygons reach into the cells about the node.
+    if (!frustum.touches(centre_m, side_m * (0.5F + 1.0F / block_size) * 1.7321F)) continue;
+    const glm::vec3 away = centre_m - eye_m;
+    visible_.emplace_back(glm::dot(away, away), &block);
+  }
+  std::ranges::sort(visible_);
+  for (const auto& [distance, block] : visible_) {
+    program.set_place(block->place);
+    count(block->mesh);
+  }
+}
+
+DrawStats MeshMethod::stats() const {
+  DrawStats stats = pass_;
+  stats.memory = {{"meshes", 0, gpu_bytes_ + pieces_.gpu_bytes()}};
+  stats.pieces = pieces_.count();
+  stats.kept = blocks_.size();
+  stats.waiting = scheduler_.waiting();
+  return stats;
+}
+
+Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m,
+                                                Polygoniser polygoniser) {
+  Result<SurfaceProgram> surface = link_surface();
+  if (!surface) return fail(surface.error().message);
+  Result<SurfaceProgram> shadow = link_surface_shadow();
+  if (!shadow) return fail(shadow.error().message);
+  return std::make_unique<MeshMethod>(pool, view_radius_m, polygoniser, std::move(*surface),
+                                      std::move(*shadow));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::nets);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::dual);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_cubes_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::cubes);
+}
+
+}  // namespace scree

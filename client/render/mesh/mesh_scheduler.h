@@ -1,0 +1,88 @@
+// Decides which meshes are built, when, and which of them are shown together. No GL: it can be tested alone.
+//
+// Terrain is meshed in nodes of all levels of detail (surface_forest.h). Work is done in batches, one at a
+// time: what the mirror changed and its pieces, or some splits and joins of the forest, nearest first. All
+// meshes of a batch are shown as one, when all of them are ready, and until then what was there stays. So
+// there is never a hole, never a crack between levels, and never a piece beside the rock that it has become.
+// What a batch does not hold is decided anew when it is done: nothing is built for where the eye no longer
+// is.
+//
+// Changes go first: the forest's growth is taken back for them as long as it waits for its terrain to be
+// generated. Growth that has its terrain takes turns with changes, so that it comes about under any number.
+//
+// Called from one thread; windows are copied out of the field there, generating and meshing run on the pool.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <unordered_set>
+#include <vector>
+
+#include "client/render/mesh/node_mesh.h"
+#include "client/render/pieces/piece_mesh.h"
+#include "client/render/scene/draw_method.h"
+#include "client/render/scene/work_pool.h"
+
+namespace scree {
+
+/// What to show from now on, as one.
+struct MeshUpdate {
+  std::vector<NodeMesh> nodes;  ///< replace what the node showed; empty ones show nothing
+  std::vector<SurfaceNode> gone;
+  std::vector<PieceMesh> pieces;
+  std::vector<PieceId> removed_pieces;
+};
+
+class MeshScheduler {
+ public:
+  MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser);
+  ~MeshScheduler();
+
+  void changed(const MirrorChanges& changes);
+  /// Work that is done comes back; work that is needed begins.
+  MeshUpdate update(const Scene& scene, glm::vec3 eye_m);
+  /// All about the eye is shown at the detail that belongs there, and all that was changed before the first
+  /// update().
+  bool loaded() const { return caught_up_ && grown_; }
+  bool complete() const { return loaded() && waiting() == 0; }
+  /// Nodes and changes not yet shown.
+  size_t waiting() const;
+  /// Terrain is drawn that far, metres.
+  float reach_m() const;
+
+ private:
+  struct Inbox;  ///< results, filled by the workers
+  struct Batch;
+  struct LevelChunk {
+    int level;
+    ChunkCoord chunk;
+    auto operator<=>(const LevelChunk&) const = default;
+  };
+
+  void start(const TerrainSource& source);
+  void take_results(Field& field);
+  bool has_changes() const;
+  void begin_batch(const Scene& scene, glm::vec3 eye_m);
+  void begin_growth(Field& field, glm::vec3 eye_m);
+  void begin_changes(const Scene& scene);
+  void give_way();
+  void ask_for_terrain(Field& field);
+  void begin_meshes(Field& field);
+  void submit_piece(Field& field, PieceId id, const ScenePiece& piece);
+
+  WorkPool& pool_;
+  float view_radius_m_;
+  Polygoniser polygoniser_;
+  std::shared_ptr<Inbox> inbox_;
+  std::optional<SurfaceLevels> levels_;
+  std::optional<SurfaceForest> forest_;
+  bool caught_up_ = false;      ///< the first changes are shown
+  bool grown_ = false;          ///< the forest is as the eye wants it
+  bool growth_is_due_ = false;  ///< changes had their turn
+  std::set<LevelChunk> generating_;
+  MirrorChanges collected_;       ///< since the batch in the works was begun
+  std::unique_ptr<Batch> batch_;  ///< in the works, or null
+};
+
+}  // namespace scree

@@ -1,0 +1,27 @@
+// The mesh of one piece. A job owns all that it touches: it may run on any thread.
+#pragma once
+
+#include "client/render/levels/block_windows.h"
+#include "client/render/scene/draw_method.h"
+
+namespace scree {
+
+struct PieceMesh {
+  PieceId id = 0;
+  ScenePiece piece;  ///< as it was when the mesh was begun
+  SurfaceMesh mesh;
+};
+
+struct PieceJob {
+  PieceId id = 0;
+  ScenePiece piece;
+  uint8_t paint = 0;  ///< as SurfaceVertex has it
+  /// A piece lies in the voxel frame of the rock that it was cut from: there it learns which of its faces are
+  /// fresh.
+  Window before;
+};
+
+PieceJob gather_piece(Field& field, PieceId id, const ScenePiece& piece);
+PieceMesh mesh_piece(const PieceJob& job);
+
+}  // namespace scree

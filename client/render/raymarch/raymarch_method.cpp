@@ -1,0 +1,235 @@
+#include "client/render/raymarch/raymarch_method.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "client/render/bricks/brick_world.h"
+#include "client/render/gl/gl.h"
+#include "client/render/gl/gpu_timers.h"
+#include "client/render/gl/lighting.h"
+#include "client/render/gl/shader_sources.h"
+#include "client/render/pieces/piece_volumes.h"
+#include "client/render/raymarch/march_targets.h"
+
+namespace scree {
+namespace {
+
+/// Texture units: 0 and 1 are BrickWorld's, 2 the tiles' or the pieces' entries.
+constexpr int shadow_unit = 3;
+
+struct Programs {
+  gl::Program cone;
+  gl::Program march;
+  gl::Program piece;
+  gl::Program piece_shadow;
+  gl::Program composite;
+};
+
+/// Links a program of shaders/ files.
+Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
+                         std::initializer_list<std::string_view> fragment) {
+  const auto sources = [](std::initializer_list<std::string_view> files) {
+    std::vector<std::string_view> texts;
+    for (const std::string_view file : files) texts.push_back(shader_source(file));
+    return texts;
+  };
+  return gl::Program::link(name, sources(vertex), sources(fragment));
+}
+
+Result<Programs> link_programs() {
+  Result<gl::Program> cone =
+      link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
+  if (!cone) return fail(cone.error().message);
+  Result<gl::Program> march = link("raymarch", {"raymarch.vert"},
+                                   {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "rock.glsl",
+                                    "shadow.glsl", "raymarch.frag"});
+  if (!march) return fail(march.error().message);
+  Result<gl::Program> piece = link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+                                   {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl",
+                                    "noise.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+  if (!piece) return fail(piece.error().message);
+  Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+                                    {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});
+  if (!shadow) return fail(shadow.error().message);
+  Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"});
+  if (!composite) return fail(composite.error().message);
+  return Programs{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
+                  std::move(*composite)};
+}
+
+/// Radius that a pixel covers at one metre: half of what lies between two rays.
+float pixel_at_one_metre(const glm::mat4& inverse, int height) {
+  const auto ray = [&](float y) {
+    const glm::vec4 far = inverse * glm::vec4(0.0F, y, 1.0F, 1.0F);
+    const glm::vec4 near = inverse * glm::vec4(0.0F, y, -1.0F, 1.0F);
+    return glm::normalize(glm::vec3(far) / far.w - glm::vec3(near) / near.w);
+  };
+  return glm::length(ray(1.0F / static_cast<float>(height)) - ray(-1.0F / static_cast<float>(height)));
+}
+
+class RaymarchMethod final : public DrawMethod {
+ public:
+  RaymarchMethod(WorkPool& pool, float view_radius_m, Programs&& programs)
+      : pool_(pool), view_radius_m_(view_radius_m), programs_(std::move(programs)) {}
+
+  std::string_view name() const override { return "raymarch"; }
+  void changed(const MirrorChanges& changes) override {
+    bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
+  }
+  void update(const Scene& scene, const Camera& camera) override;
+  bool loaded() const override { return world_ && world_->loaded(); }
+  bool complete() const override { return loaded() && bricks_.empty(); }
+  float reach_m() const override { return world_ ? world_->reach_m() : view_radius_m_; }
+  void draw(const DrawPass& pass) override;
+  DrawStats stats() const override;
+
+ private:
+  void draw_cones(const DrawPass& pass, const glm::mat4& inverse, float pixel);
+  void draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel);
+  void draw_pieces(const DrawPass& pass);
+  void composite(glm::ivec2 size);
+
+  WorkPool& pool_;
+  float view_radius_m_;
+  Programs programs_;
+  MarchTargets targets_;
+  gl::VertexArray nothing_;  ///< core profiles draw with an array bound only
+  std::optional<BrickWorld> world_;
+  PieceVolumes pieces_;
+  std::vector<BrickCoord> bricks_;  ///< changed since the last update
+};
+
+void RaymarchMethod::update(const Scene& scene, const Camera& camera) {
+  if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_);
+  world_->update(scene.field, bricks_, camera.eye_m);
+  bricks_.clear();
+  pieces_.update(scene.field, scene.pieces, world_->atlas());
+}
+
+void RaymarchMethod::draw(const DrawPass& pass) {
+  if (!world_) return;
+  if (pass.kind == DrawPass::Kind::shadow) return draw_pieces(pass);
+  GLint framebuffer = 0;
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  const glm::ivec2 size(viewport[2], viewport[3]);
+  const glm::vec2 marched = glm::vec2(size) * pass.render_scale + 0.5F;
+  targets_.resize(glm::max(glm::ivec2(marched), glm::ivec2(1)));
+  const glm::mat4 inverse = glm::inverse(pass.view_projection);
+  const float pixel = pixel_at_one_metre(inverse, targets_.size().y);
+  glBindVertexArray(nothing_.name());
+  draw_cones(pass, inverse, pixel);
+  draw_pixels(pass, inverse, pixel);
+  draw_pieces(pass);
+  glBindVertexArray(nothing_.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  composite(size);
+}
+
+void RaymarchMethod::draw_cones(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
+  const GpuTimers::Part part(pass.timers, "cones");
+  const gl::Program& program = programs_.cone;
+  program.use();
+  world_->use(program, pass.eye_m);
+  program.set("u_inverse_view_projection", inverse);
+  program.set("u_eye", pass.eye_m);
+  const glm::vec2 span = glm::vec2(targets_.tiles() * MarchTargets::tile) / glm::vec2(targets_.size());
+  glUniform2f(program.uniform("u_span"), span.x, span.y);
+  // To a tile's corner, and a little more.
+  program.set("u_cone", pixel * static_cast<float>(MarchTargets::tile) * 0.5F * 1.5F);
+  targets_.draw_tiles();
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
+  const GpuTimers::Part part(pass.timers, "march");
+  const gl::Program& program = programs_.march;
+  program.use();
+  world_->use(program, pass.eye_m);
+  program.set("u_inverse_view_projection", inverse);
+  program.set("u_view_projection", pass.view_projection);
+  set_lighting(program, pass, shadow_unit);
+  program.set("u_pieces", pieces_.count() > 0 ? 1 : 0);
+  program.set("u_pixel", pixel);
+  program.set("u_tile", MarchTargets::tile);
+  program.set("u_tiles", 2);
+  glUniform2f(program.uniform("u_span"), 1.0F, 1.0F);
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, targets_.tile_texture());
+  glActiveTexture(GL_TEXTURE0);
+  targets_.draw_pixels();
+  glDepthFunc(GL_ALWAYS);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_LESS);
+}
+
+void RaymarchMethod::draw_pieces(const DrawPass& pass) {
+  if (pieces_.count() == 0) return;
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece;
+  const GpuTimers::Part part(pass.timers, "pieces");
+  program.use();
+  world_->use(program, pass.eye_m);
+  set_lighting(program, pass, shadow_unit);
+  program.set("u_view_projection", pass.view_projection);
+  const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
+  glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);
+  program.set("u_piece_entries", 2);
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, pieces_.entry_texture());
+  glActiveTexture(GL_TEXTURE0);
+  pieces_.draw();
+}
+
+void RaymarchMethod::composite(glm::ivec2 size) {
+  const gl::Program& program = programs_.composite;
+  program.use();
+  program.set("u_colour", 0);
+  program.set("u_depth", 1);
+  glUniform2f(program.uniform("u_texel"), 1.0F / static_cast<float>(size.x),
+              1.0F / static_cast<float>(size.y));
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, targets_.depth_texture());
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, targets_.colour_texture());
+  glDepthFunc(GL_ALWAYS);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_LESS);
+}
+
+DrawStats RaymarchMethod::stats() const {
+  DrawStats stats;
+  stats.draws = pieces_.count() > 0 ? 4 : 3;
+  stats.triangles = 3 + 12 * pieces_.count();
+  stats.pieces = pieces_.count();
+  if (world_) {
+    stats.memory = world_->memory();
+    stats.kept = world_->atlas().bricks();
+  }
+  stats.memory.push_back({"targets", 0, targets_.bytes()});
+  stats.memory.push_back({"pieces", pieces_.cpu_bytes(), pieces_.gpu_bytes()});
+  stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);
+  return stats;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DrawMethod>> make_raymarch_method(WorkPool& pool, float view_radius_m) {
+  Result<Programs> programs = link_programs();
+  if (!programs) return fail(programs.error().message);
+  return std::make_unique<RaymarchMethod>(pool, view_radius_m, std::move(*programs));
+}
+
+}  // namespace scree

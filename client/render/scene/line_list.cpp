@@ -1,0 +1,71 @@
+#include "client/render/scene/line_list.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "client/render/scene/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr int circle_sides = 32;
+
+/// Any unit vector at a right angle.
+glm::vec3 across(glm::vec3 axis) {
+  const glm::vec3 other = std::abs(axis.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
+  return glm::normalize(glm::cross(axis, other));
+}
+
+}  // namespace
+
+void LineList::line(glm::vec3 from_m, glm::vec3 to_m, LineColour colour) {
+  if (vertices_.size() + 2 > 2 * limits::lines_max) return;
+  vertices_.push_back({from_m, colour});
+  vertices_.push_back({to_m, colour});
+}
+
+void LineList::box(glm::vec3 lo_m, glm::vec3 hi_m, LineColour colour, glm::quat turn, glm::vec3 move_m) {
+  const auto corner = [&](int i) {
+    const glm::vec3 at((i & 1) != 0 ? hi_m.x : lo_m.x, (i & 2) != 0 ? hi_m.y : lo_m.y,
+                       (i & 4) != 0 ? hi_m.z : lo_m.z);
+    return turn * at + move_m;
+  };
+  for (int i = 0; i < 8; ++i)
+    for (const int axis : {1, 2, 4})
+      if ((i & axis) == 0) line(corner(i), corner(i | axis), colour);
+}
+
+void LineList::circle(glm::vec3 centre_m, glm::vec3 axis, float radius_m, LineColour colour) {
+  const glm::vec3 u = across(axis) * radius_m;
+  const glm::vec3 v = glm::cross(axis, u);
+  const auto at = [&](int i) {
+    const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / circle_sides;
+    return centre_m + u * std::cos(angle) + v * std::sin(angle);
+  };
+  for (int i = 0; i < circle_sides; ++i) line(at(i), at(i + 1), colour);
+}
+
+void LineList::shape(const Shape& shape, LineColour colour) {
+  const auto ball = [&](glm::vec3 centre_m) {
+    circle(centre_m, {1.0F, 0.0F, 0.0F}, shape.radius_m, colour);
+    circle(centre_m, {0.0F, 1.0F, 0.0F}, shape.radius_m, colour);
+    circle(centre_m, {0.0F, 0.0F, 1.0F}, shape.radius_m, colour);
+  };
+  if (shape.kind == ShapeKind::box) return box(shape.a - shape.b, shape.a + shape.b, colour);
+  ball(shape.a);
+  if (shape.kind == ShapeKind::sphere || shape.a == shape.b) return;
+  ball(shape.b);
+  const glm::vec3 axis = glm::normalize(shape.b - shape.a);
+  const glm::vec3 u = across(axis) * shape.radius_m;
+  const glm::vec3 v = glm::cross(axis, u);
+  for (const glm::vec3 side : {u, v, -u, -v}) line(shape.a + side, shape.b + side, colour);
+  for (const glm::vec3 end_m : {shape.a, shape.b}) circle(end_m, axis, shape.radius_m, colour);
+}
+
+void LineList::cross(glm::vec3 place_m, float half_m, LineColour colour) {
+  for (const glm::vec3 axis : {glm::vec3(half_m, 0, 0), glm::vec3(0, half_m, 0), glm::vec3(0, 0, half_m)})
+    line(place_m - axis, place_m + axis, colour);
+}
+
+}  // namespace scree
