@@ -14,8 +14,8 @@
 
 #include "bench/stage.h"
 #include "client/render/methods.h"
-#include "client/viewer/overlay.h"
-#include "client/viewer/png.h"
+#include "client/viewer/pictures/png.h"
+#include "client/viewer/session/overlay.h"
 #include "server/world/world.h"
 
 namespace scree {

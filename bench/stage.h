@@ -6,7 +6,7 @@
 
 #include "client/render/renderer.h"
 #include "client/render/scene/work_pool.h"
-#include "client/viewer/egl_context.h"
+#include "client/viewer/pictures/egl_context.h"
 
 namespace scree {
 

@@ -1,5 +1,5 @@
 // Camera paths, pictures' differences and frame times: what --path, --reference and --timedemo are made of.
-#include "client/viewer/camera_path.h"
+#include "client/viewer/pictures/camera_path.h"
 
 #include <array>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client/viewer/frame_times.h"
-#include "client/viewer/limits.h"
-#include "client/viewer/picture_difference.h"
+#include "client/viewer/base/limits.h"
+#include "client/viewer/pictures/frame_times.h"
+#include "client/viewer/pictures/picture_difference.h"
 
 namespace scree {
 namespace {

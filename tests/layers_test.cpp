@@ -4,7 +4,7 @@
 #include <string>
 
 #include "client/render/methods.h"
-#include "client/viewer/png.h"
+#include "client/viewer/pictures/png.h"
 #include "shared/field/layer_depths.h"
 #include "shared/field/paint.h"
 #include "tests/offscreen_fixture.h"

@@ -9,7 +9,7 @@
 
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
-#include "client/viewer/egl_context.h"
+#include "client/viewer/pictures/egl_context.h"
 #include "shared/operation/operation.h"
 #include "tests/loaded_libraries.h"
 

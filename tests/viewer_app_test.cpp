@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "client/viewer/app.h"
-#include "client/viewer/egl_context.h"
-#include "client/viewer/png.h"
+#include "client/viewer/pictures/egl_context.h"
+#include "client/viewer/pictures/png.h"
 #include "server/app/live_server.h"
 #include "tests/loaded_libraries.h"
 

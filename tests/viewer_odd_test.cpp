@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "client/viewer/egl_context.h"
-#include "client/viewer/hud_facts.h"
-#include "client/viewer/picture_difference.h"
+#include "client/viewer/pictures/egl_context.h"
+#include "client/viewer/pictures/picture_difference.h"
+#include "client/viewer/window/hud_facts.h"
 #include "server/app/live_server.h"
 #include "tests/loaded_libraries.h"
 #include "tests/run_viewer.h"

@@ -2,12 +2,12 @@
 #include <array>
 #include <gtest/gtest.h>
 
-#include "client/viewer/fly_camera.h"
-#include "client/viewer/limits.h"
-#include "client/viewer/options.h"
-#include "client/viewer/playback.h"
-#include "client/viewer/screenshots.h"
-#include "client/viewer/sight.h"
+#include "client/viewer/base/limits.h"
+#include "client/viewer/input/fly_camera.h"
+#include "client/viewer/pictures/screenshots.h"
+#include "client/viewer/session/playback.h"
+#include "client/viewer/session/sight.h"
+#include "client/viewer/viewing/options.h"
 
 namespace scree {
 namespace {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-#include "client/viewer/gamepad.h"
-#include "client/viewer/history.h"
-#include "client/viewer/settings.h"
+#include "client/viewer/input/gamepad.h"
+#include "client/viewer/viewing/settings.h"
+#include "client/viewer/window/history.h"
 #include "shared/base/limits.h"
 
 namespace scree {

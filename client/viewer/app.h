@@ -1,7 +1,7 @@
 // The viewer's two ways to run. Each returns the program's exit status and says what went wrong on stderr.
 #pragma once
 
-#include "client/viewer/options.h"
+#include "client/viewer/viewing/options.h"
 
 namespace scree {
 

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "client/viewer/app.h"
-#include "client/viewer/egl_context.h"
-#include "client/viewer/flight.h"
+#include "client/viewer/pictures/egl_context.h"
+#include "client/viewer/viewing/flight.h"
 
 namespace scree {
 namespace {

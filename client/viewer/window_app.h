@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "client/viewer/app_window.h"
-#include "client/viewer/hud.h"
-#include "client/viewer/settings.h"
-#include "client/viewer/viewing.h"
+#include "client/viewer/viewing/settings.h"
+#include "client/viewer/viewing/viewing.h"
+#include "client/viewer/window/app_window.h"
+#include "client/viewer/window/hud.h"
 
 namespace scree {
 

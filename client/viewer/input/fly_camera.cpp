@@ -1,0 +1,33 @@
+#include "client/viewer/input/fly_camera.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "client/viewer/base/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr float speed_m_s = 9.0F;
+constexpr float fast_factor = 4.0F;
+constexpr float radians_per_pixel = 0.0025F;
+constexpr float pitch_max = 1.55F;
+/// After a stall one does not leap.
+constexpr float step_max_s = 0.1F;
+
+}  // namespace
+
+void fly(Camera& camera, const FlyInput& input, float elapsed_s) {
+  camera.yaw -= input.look.x * radians_per_pixel;
+  camera.pitch = glm::clamp(camera.pitch - input.look.y * radians_per_pixel, -pitch_max, pitch_max);
+  const glm::vec3 move = camera.right() * input.move.x + glm::vec3(0.0F, 1.0F, 0.0F) * input.move.y +
+                         camera.forward() * input.move.z;
+  if (glm::dot(move, move) < 1e-6F) return;
+  const float speed = speed_m_s * (input.fast ? fast_factor : 1.0F);
+  const float part = glm::min(glm::length(move), 1.0F);
+  camera.eye_m += glm::normalize(move) * (part * speed * glm::min(elapsed_s, step_max_s));
+  const glm::vec3 half(limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m);
+  camera.eye_m = glm::clamp(camera.eye_m, -half, half);
+}
+
+}  // namespace scree

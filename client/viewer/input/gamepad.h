@@ -1,0 +1,35 @@
+// From a gamepad's sticks and buttons to what the viewer does with them. No window.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "client/viewer/input/actions.h"
+#include "client/viewer/input/fly_camera.h"
+
+namespace scree {
+
+/// At some moment. Axes from −1 to 1, right and down are positive; triggers −1 released, 1 pressed.
+struct PadState {
+  float left_x = 0.0F;
+  float left_y = 0.0F;
+  float right_x = 0.0F;
+  float right_y = 0.0F;
+  float left_trigger = -1.0F;
+  float right_trigger = -1.0F;
+  uint32_t buttons = 0;  ///< bit i: GLFW's gamepad button i is down
+};
+
+class Gamepad {
+ public:
+  /// Adds to `fly` what the sticks say; returns what the buttons ask for that went down since the last step.
+  std::vector<Action> step(const PadState& now, float elapsed_s, FlyInput& fly);
+  /// The right trigger went down in the last step.
+  bool struck() const { return struck_; }
+
+ private:
+  PadState before_;
+  bool struck_ = false;
+};
+
+}  // namespace scree

@@ -1,0 +1,132 @@
+#include "client/viewer/input/tool.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr std::array<std::string_view, 3> kinds{"sphere", "box", "tunnel"};
+constexpr std::array<std::string_view, 4> patterns{"uniform", "radial", "clustered", "authored"};
+constexpr float growth = 1.12F;  ///< a notch
+constexpr float speed_step_m_s = 2.0F;
+constexpr float seeds_growth = 1.5F;
+constexpr uint32_t seeds_min = 2;
+constexpr uint32_t seeds_by_volume_min = 6;
+constexpr uint32_t seeds_by_volume_max = 192;
+constexpr float tunnel_length_in_radii = 6.0F;
+
+/// Volume, in spheres of the radius.
+float spheres_of(ToolKind kind) {
+  switch (kind) {
+    case ToolKind::sphere:
+      return 1.0F;
+    case ToolKind::box:
+      return 8.0F / 4.19F;
+    case ToolKind::tunnel:
+      break;
+  }
+  return 1.0F + 0.75F * (tunnel_length_in_radii - 2.0F);
+}
+
+uint32_t scaled(uint32_t seeds, float factor) {
+  const float wanted = std::round(static_cast<float>(seeds) * factor);
+  return static_cast<uint32_t>(
+      std::clamp(wanted, static_cast<float>(seeds_min), static_cast<float>(tool_seeds_max)));
+}
+
+}  // namespace
+
+std::string_view name_of(ToolKind kind) {
+  return kinds.at(static_cast<size_t>(kind));
+}
+
+std::string_view name_of(SeedPattern pattern) {
+  return patterns.at(static_cast<size_t>(pattern));
+}
+
+Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
+  const glm::vec3 centre_m = hit_m + direction * (tool.radius_m * carve_depth_in_radii);
+  switch (tool.kind) {
+    case ToolKind::sphere:
+      return sphere(centre_m, tool.radius_m);
+    case ToolKind::box:
+      return box(centre_m, glm::vec3(tool.radius_m));
+    case ToolKind::tunnel:
+      break;
+  }
+  // Half the longest extent, the rounded ends included, must not be over the server's limit.
+  const float length_m = std::min(tunnel_length_in_radii * tool.radius_m, 2.0F * limits::edit_reach_max_m) -
+                         2.0F * tool.radius_m;
+  return capsule(centre_m, centre_m + direction * length_m, tool.radius_m);
+}
+
+uint32_t seeds_of(const Tool& tool) {
+  if (tool.seeds > 0) return tool.seeds;
+  const float wanted = 8.0F * tool.radius_m * tool.radius_m * spheres_of(tool.kind);
+  return std::clamp(static_cast<uint32_t>(wanted), seeds_by_volume_min, seeds_by_volume_max);
+}
+
+CarveMessage strike_with(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t request) {
+  CarveMessage carve;
+  carve.request = request;
+  carve.shape = shape_of(tool, hit_m, direction);
+  carve.pattern = tool.pattern;
+  carve.seeds = seeds_of(tool);
+  carve.random_seed = request * 0x9E3779B1U;
+  carve.impact_m = hit_m;
+  carve.blast_speed_m_s = tool.blast_speed_m_s;
+  return carve;
+}
+
+void grow(Tool& tool, float notches) {
+  tool.radius_m = std::clamp(tool.radius_m * std::pow(growth, notches), tool_radius_min_m, tool_radius_max_m);
+}
+
+void change(Tool& tool, Action action) {
+  const auto faster = [&](float by_m_s) {
+    tool.blast_speed_m_s = std::clamp(tool.blast_speed_m_s + by_m_s, 0.0F, limits::blast_speed_max_m_s);
+  };
+  switch (action) {
+    case Action::sphere:
+      tool.kind = ToolKind::sphere;
+      break;
+    case Action::box:
+      tool.kind = ToolKind::box;
+      break;
+    case Action::tunnel:
+      tool.kind = ToolKind::tunnel;
+      break;
+    case Action::next_tool:
+      tool.kind = static_cast<ToolKind>((static_cast<size_t>(tool.kind) + 1) % tool_kinds.size());
+      break;
+    case Action::next_pattern:
+      tool.pattern = static_cast<SeedPattern>((static_cast<size_t>(tool.pattern) + 1) % tool_patterns.size());
+      break;
+    case Action::larger:
+      grow(tool, 1.0F);
+      break;
+    case Action::smaller:
+      grow(tool, -1.0F);
+      break;
+    case Action::stronger:
+      faster(speed_step_m_s);
+      break;
+    case Action::weaker:
+      faster(-speed_step_m_s);
+      break;
+    case Action::more_seeds:
+      tool.seeds = scaled(seeds_of(tool), seeds_growth);
+      break;
+    case Action::fewer_seeds:
+      tool.seeds = scaled(seeds_of(tool), 1.0F / seeds_growth);
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace scree

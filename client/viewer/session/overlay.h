@@ -1,0 +1,34 @@
+// What there is beside the picture, as lines over it: borders, interest, bodies, contacts, other persons'
+// cursors.
+#pragma once
+
+#include "client/render/scene/line_list.h"
+#include "client/viewer/session/session.h"
+
+namespace scree {
+
+/// What of it is shown. Interest, chunks and pieces are what the client knows; physics is what the server
+/// tells.
+struct OverlayChoice {
+  bool shown = false;
+  bool interest = true;
+  bool chunks = true;
+  bool pieces = true;
+  bool physics = true;
+
+  bool operator==(const OverlayChoice&) const = default;
+};
+
+/// Green: chunks that follow the server and hold edits; grey: the chunk around the eye. White: interest, as a
+/// circle at the eye's height. Yellow: boxes of pieces' volumes, air and all.
+void add_borders(LineList& lines, Session& session, const OverlayChoice& choice, glm::vec3 eye_m,
+                 double now_s);
+
+/// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their
+/// normals, the longer the stronger. Magenta: bricks around which islands are looked for.
+void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m);
+
+/// A cross where each person aims, and a ring at their eye.
+void add_cursors(LineList& lines, const std::vector<PlayerCursor>& cursors);
+
+}  // namespace scree

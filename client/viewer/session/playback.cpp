@@ -1,0 +1,62 @@
+#include "client/viewer/session/playback.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "client/viewer/base/limits.h"
+
+namespace scree {
+
+void Playback::start(const WelcomeMessage& welcome) {
+  *this = Playback{};
+  rate_hz_ = std::max(1.0, static_cast<double>(welcome.tick_rate_hz));
+  transform_ticks_ = static_cast<double>(welcome.ticks_per_transform);
+}
+
+void Playback::push(ServerMessage message, double now_s) {
+  if (const auto* frame = std::get_if<FrameMessage>(&message)) note_arrival(frame->tick, now_s);
+  waiting_.push_back(std::move(message));
+}
+
+void Playback::note_arrival(Tick tick, double now_s) {
+  const double start_s = now_s - static_cast<double>(tick) / rate_hz_;
+  // A jump: a replay that was moved, or a machine that slept. Begin anew.
+  if (start_s_ && std::abs(start_s - *start_s_) > limits::playback_jump_s) {
+    start_s_.reset();
+    clock_ = 0.0;
+  }
+  if (!start_s_ || start_s < *start_s_) {
+    start_s_ = start_s;
+  } else {
+    *start_s_ += (start_s - *start_s_) * limits::playback_drift;
+  }
+  newest_ = tick;
+}
+
+double Playback::clock(double now_s) {
+  if (!start_s_) return clock_;
+  const double behind_s = limits::playback_delay_s - transform_ticks_ / rate_hz_;
+  const double wanted = (now_s - *start_s_ - std::max(behind_s, 0.0)) * rate_hz_;
+  clock_ = std::clamp(wanted, clock_, std::max(clock_, static_cast<double>(newest_)));
+  return clock_;
+}
+
+std::vector<ServerMessage> Playback::take_due(double now_s) {
+  std::vector<ServerMessage> due;
+  const double until = clock(now_s);
+  const bool overfull = waiting_.size() > limits::playback_messages_max;
+  while (!waiting_.empty()) {
+    const auto* frame = std::get_if<FrameMessage>(&waiting_.front());
+    if (frame != nullptr && static_cast<double>(frame->tick) > until && !overfull) break;
+    due.push_back(std::move(waiting_.front()));
+    waiting_.pop_front();
+  }
+  return due;
+}
+
+double Playback::draw_tick(double now_s) {
+  return clock(now_s) - transform_ticks_;
+}
+
+}  // namespace scree

@@ -1,0 +1,213 @@
+#include "client/viewer/session/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "client/viewer/base/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr std::chrono::seconds connect_within{3};
+constexpr double notice_s = 5.0;
+constexpr double rate_window_s = 1.0;
+
+double seconds_of(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+void append(MirrorChanges& to, const MirrorChanges& from) {
+  to.bricks.insert(to.bricks.end(), from.bricks.begin(), from.bricks.end());
+  to.pieces_added.insert(to.pieces_added.end(), from.pieces_added.begin(), from.pieces_added.end());
+  to.pieces_removed.insert(to.pieces_removed.end(), from.pieces_removed.begin(), from.pieces_removed.end());
+}
+
+}  // namespace
+
+double steady_now_s() {
+  return seconds_of(std::chrono::steady_clock::now());
+}
+
+Session::Session(std::string host, uint16_t port, float interest_radius_m, std::string name)
+    : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
+
+SessionStep Session::step(double now_s, const Camera& camera) {
+  const glm::vec3 eye_m = camera.eye_m;
+  SessionStep step;
+  if (!connection_) {
+    if (!connecting_.valid() && now_s >= next_try_s_) begin_connecting(now_s, eye_m);
+    step.new_world = finish_connecting(now_s);
+  }
+  if (connection_) receive(now_s, step);
+  if (connection_) report(now_s, eye_m);
+  if (connection_) report_cursor(now_s, camera);
+  return step;
+}
+
+void Session::begin_connecting(double now_s, glm::vec3 eye_m) {
+  next_try_s_ = now_s + limits::reconnect_interval_s;
+  reported_eye_m_ = eye_m;
+  HelloMessage hello;
+  hello.client = "scree-viewer";
+  hello.eye_m = eye_m;
+  hello.interest_radius_m = interest_radius_m_;
+  hello.name = name_;
+  connecting_ = std::async(std::launch::async, [host = host_, port = port_, hello] {
+    Result<std::unique_ptr<Connection>> made = Connection::connect(host, port, hello, connect_within);
+    Attempt attempt;
+    if (made) {
+      attempt.connection = std::move(*made);
+    } else {
+      attempt.error = std::move(made.error().message);
+    }
+    return attempt;
+  });
+}
+
+bool Session::finish_connecting(double now_s) {
+  if (!connecting_.valid() || connecting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return false;
+  Attempt attempt = connecting_.get();
+  if (!attempt.connection) {
+    lose(now_s, attempt.error);
+    return false;
+  }
+  connection_ = std::move(attempt.connection);
+  mirror_ = std::make_unique<Mirror>(connection_->welcome());
+  playback_.start(connection_->welcome());
+  pieces_.clear();
+  trouble_.clear();
+  acknowledged_ = 0;
+  reported_cursor_ = {};
+  watching_ = false;
+  last_chunk_s_ = now_s;
+  saw_pieces_ = false;
+  rate_since_s_ = now_s;
+  rate_bytes_ = 0;
+  return true;
+}
+
+void Session::lose(double now_s, const std::string& reason) {
+  connection_.reset();
+  cursors_.clear();
+  physics_.reset();
+  trouble_ = reason;
+  next_try_s_ = now_s + limits::reconnect_interval_s;
+  bytes_per_s_ = 0.0;
+}
+
+void Session::receive(double now_s, SessionStep& step) {
+  const bool open = connection_->connected();
+  std::vector<Received> arrived = connection_->poll();
+  const bool last = !open && arrived.empty();
+  for (Received& received : arrived) {
+    rate_bytes_ += received.bytes;
+    playback_.push(std::move(received.message), seconds_of(received.arrived));
+  }
+  for (const ServerMessage& message : playback_.take_due(now_s)) {
+    apply(message, now_s, step);
+    if (!connection_) return;
+  }
+  while (const std::optional<RepairRequest> repair = mirror_->take_repair_request())
+    connection_->send(*repair);
+  if (now_s - rate_since_s_ >= rate_window_s) {
+    bytes_per_s_ = static_cast<double>(rate_bytes_) / (now_s - rate_since_s_);
+    rate_since_s_ = now_s;
+    rate_bytes_ = 0;
+  }
+  if (last) lose(now_s, connection_->close_reason());
+}
+
+void Session::apply(const ServerMessage& message, double now_s, SessionStep& step) {
+  if (std::holds_alternative<ChunkMessage>(message)) last_chunk_s_ = now_s;
+  if (const auto* reply = std::get_if<ReplyMessage>(&message); reply != nullptr && !reply->refusal.empty()) {
+    notice_ = reply->refusal;
+    notice_until_s_ = now_s + notice_s;
+  }
+  if (const auto* cursors = std::get_if<CursorsMessage>(&message)) cursors_ = cursors->cursors;
+  if (const auto* physics = std::get_if<PhysicsMessage>(&message)) physics_ = *physics;
+  const Result<MirrorChanges> changes = mirror_->apply(message);
+  if (!changes) {
+    lose(now_s, "what the server sent cannot be applied: " + changes.error().message);
+    return;
+  }
+  saw_pieces_ = saw_pieces_ || !changes->pieces_added.empty();
+  append(step.changes, *changes);
+}
+
+void Session::report(double now_s, glm::vec3 eye_m) {
+  if (now_s < next_report_s_) return;
+  next_report_s_ = now_s + limits::report_interval_s;
+  if (mirror_->tick() > acknowledged_) {
+    acknowledged_ = mirror_->tick();
+    connection_->send(AckMessage{acknowledged_});
+  }
+  if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m) return;
+  reported_eye_m_ = eye_m;
+  connection_->send(InterestMessage{eye_m, interest_radius_m_});
+}
+
+void Session::report_cursor(double now_s, const Camera& camera) {
+  if (watch_ != watching_) {
+    watching_ = watch_;
+    if (!watch_) physics_.reset();
+    connection_->send(WatchMessage{watch_});
+  }
+  if (now_s < next_cursor_s_) return;
+  next_cursor_s_ = now_s + limits::cursor_interval_s;
+  const glm::vec3 ahead_m = camera.eye_m + camera.forward() * limits::carve_reach_m;
+  const CursorMessage cursor{camera.eye_m, aim(camera.eye_m, camera.forward()).value_or(ahead_m)};
+  const float moved_m = glm::distance(cursor.eye_m, reported_cursor_.eye_m) +
+                        glm::distance(cursor.aim_m, reported_cursor_.aim_m);
+  if (moved_m < limits::cursor_distance_m) return;
+  reported_cursor_ = cursor;
+  connection_->send(cursor);
+}
+
+const ScenePieces& Session::pieces(double now_s) {
+  pieces_.clear();
+  if (!mirror_) return pieces_;
+  const double tick = playback_.draw_tick(now_s);
+  for (const auto& [id, motion] : mirror_->pieces())
+    pieces_.emplace_hint(pieces_.end(), id, ScenePiece{motion.volume, mirror_->pose_at(motion, tick)});
+  return pieces_;
+}
+
+bool Session::joined(double now_s) const {
+  return connection_ != nullptr && mirror_->tick() > 0 && now_s - last_chunk_s_ >= limits::join_quiet_s;
+}
+
+bool Session::carved() const {
+  const bool made = mirror_ != nullptr && mirror_->status() && mirror_->status()->pieces_made > 0;
+  return saw_pieces_ || made;
+}
+
+std::optional<glm::vec3> Session::aim(glm::vec3 from_m, glm::vec3 direction) {
+  if (!mirror_) return std::nullopt;
+  const float voxel_m = mirror_->terrain().voxel_size_m;
+  const std::optional<float> hit =
+      trace(mirror_->field(), from_m / voxel_m, direction, limits::carve_reach_m / voxel_m);
+  if (!hit) return std::nullopt;
+  return from_m + direction * (*hit * voxel_m);
+}
+
+void Session::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction) {
+  if (!connection_) return;
+  if (const std::optional<glm::vec3> hit_m = aim(from_m, direction))
+    connection_->send(strike_with(tool, *hit_m, direction, ++requests_));
+}
+
+std::string Session::description() const {
+  const std::string where = host_ + ":" + std::to_string(port_);
+  if (connection_) return where + (connection_->welcome().replay ? " (a recording)" : "");
+  if (trouble_.empty()) return "connecting to " + where + " ...";
+  return trouble_ + " - trying again";
+}
+
+std::string Session::notice(double now_s) const {
+  return now_s < notice_until_s_ ? notice_ : std::string();
+}
+
+}  // namespace scree

@@ -1,0 +1,112 @@
+// The viewer's side of a server: connects, and again when the server is gone; plays back what it sends into a
+// mirror; reports where the camera is. The last world stays to be looked at while there is no connection.
+//
+// Main thread only (connecting runs on another). Time comes in as seconds of std::chrono::steady_clock.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client/connection/connection.h"
+#include "client/mirror/mirror.h"
+#include "client/render/scene/draw_method.h"
+#include "client/viewer/input/tool.h"
+#include "client/viewer/session/playback.h"
+
+namespace scree {
+
+/// std::chrono::steady_clock's time, seconds.
+double steady_now_s();
+
+struct SessionStep {
+  bool new_world = false;  ///< the mirror is another one; nothing of the last one's holds
+  MirrorChanges changes;
+};
+
+class Session {
+ public:
+  /// `name`: the person's, for others to see.
+  Session(std::string host, uint16_t port, float interest_radius_m, std::string name);
+
+  SessionStep step(double now_s, const Camera& camera);
+
+  /// Null until the first welcome.
+  Mirror* mirror() { return mirror_.get(); }
+  /// The pieces where they are to be drawn now.
+  const ScenePieces& pieces(double now_s);
+  bool connected() const { return connection_ != nullptr; }
+  /// What was edited around the camera has arrived: no chunk came for a while.
+  bool joined(double now_s) const;
+  /// Pieces were made in this world at some time.
+  bool carved() const;
+
+  /// Where a ray (unit direction) meets rock within reach, metres.
+  std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
+  /// Asks for what the tool takes out where the ray meets rock; nothing happens if it meets none.
+  void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction);
+
+  /// The other persons within interest.
+  const std::vector<PlayerCursor>& cursors() const { return cursors_; }
+  /// Whether the server is to tell what the bodies do; and what it told last, null while it has not.
+  void watch(bool physics) { watch_ = physics; }
+  const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
+  /// Where interest was last reported, and its radius.
+  glm::vec3 interest_m() const { return reported_eye_m_; }
+  float interest_radius_m() const { return interest_radius_m_; }
+
+  /// For people: the state of the connection, in one line; the server's last refusal, for a while.
+  std::string description() const;
+  std::string notice(double now_s) const;
+  double received_bytes_per_s() const { return bytes_per_s_; }
+  /// Memory of what was received and has not been looked at.
+  size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
+
+ private:
+  /// One of the two.
+  struct Attempt {
+    std::unique_ptr<Connection> connection;
+    std::string error;
+  };
+
+  void begin_connecting(double now_s, glm::vec3 eye_m);
+  bool finish_connecting(double now_s);
+  void receive(double now_s, SessionStep& step);
+  void apply(const ServerMessage& message, double now_s, SessionStep& step);
+  void report(double now_s, glm::vec3 eye_m);
+  void report_cursor(double now_s, const Camera& camera);
+  void lose(double now_s, const std::string& reason);
+
+  std::string host_;
+  uint16_t port_;
+  float interest_radius_m_;
+  std::string name_;
+  std::future<Attempt> connecting_;
+  std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Mirror> mirror_;
+  Playback playback_;
+  ScenePieces pieces_;
+  std::string trouble_;  ///< why there is no connection
+  double next_try_s_ = 0.0;
+  double next_report_s_ = 0.0;
+  glm::vec3 reported_eye_m_{0.0F};
+  Tick acknowledged_ = 0;
+  double next_cursor_s_ = 0.0;
+  CursorMessage reported_cursor_;
+  std::vector<PlayerCursor> cursors_;
+  bool watch_ = false;
+  bool watching_ = false;  ///< as the server was told
+  std::optional<PhysicsMessage> physics_;
+  double last_chunk_s_ = 0.0;
+  bool saw_pieces_ = false;
+  uint32_t requests_ = 0;
+  std::string notice_;
+  double notice_until_s_ = 0.0;
+  double rate_since_s_ = 0.0;
+  uint64_t rate_bytes_ = 0;
+  double bytes_per_s_ = 0.0;
+};
+
+}  // namespace scree

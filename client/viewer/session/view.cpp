@@ -1,0 +1,31 @@
+#include "client/viewer/session/view.h"
+
+#include <utility>
+
+namespace scree {
+
+Result<std::unique_ptr<View>> View::create(const MethodEntry& method, float view_radius_m) {
+  Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
+  if (!renderer) return fail(renderer.error().message);
+  std::unique_ptr<View> view(new View(std::move(*renderer), method, view_radius_m));
+  if (Result<void> chosen = view->methods_.choose(method); !chosen) return fail(chosen.error().message);
+  return view;
+}
+
+View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m)
+    : renderer_(std::move(renderer)),
+      pool_(default_worker_threads()),
+      methods_(pool_, view_radius_m, method) {}
+
+View::~View() = default;
+
+Result<void> View::follow(const SessionStep& step, Session& session, const Camera& camera, double now_s) {
+  if (step.new_world) {
+    methods_.begin_world();
+    renderer_->set_terrain(session.mirror()->terrain());
+  }
+  if (session.mirror() == nullptr) return {};
+  return methods_.follow(step.changes, Scene{session.mirror()->field(), session.pieces(now_s)}, camera);
+}
+
+}  // namespace scree

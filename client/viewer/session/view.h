@@ -1,0 +1,33 @@
+// What is drawn of a session: the renderer and the method that draws its world. Needs the GL context current.
+#pragma once
+
+#include <memory>
+
+#include "client/render/method_switch.h"
+#include "client/render/renderer.h"
+#include "client/render/scene/work_pool.h"
+#include "client/viewer/session/session.h"
+
+namespace scree {
+
+class View {
+ public:
+  /// Fails when there is no fit OpenGL, or not what the method needs.
+  static Result<std::unique_ptr<View>> create(const MethodEntry& method, float view_radius_m);
+  ~View();
+
+  /// Takes in a step of the session.
+  Result<void> follow(const SessionStep& step, Session& session, const Camera& camera, double now_s);
+
+  MethodSwitch& methods() { return methods_; }
+  Renderer& renderer() { return *renderer_; }
+
+ private:
+  View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m);
+
+  std::unique_ptr<Renderer> renderer_;
+  WorkPool pool_;
+  MethodSwitch methods_;
+};
+
+}  // namespace scree

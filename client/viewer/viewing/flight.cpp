@@ -1,0 +1,56 @@
+#include "client/viewer/viewing/flight.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "client/viewer/pictures/png.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+namespace {
+
+Result<void> write_frame(Viewing& viewing, size_t frame, double now_s) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06zu.png", frame);
+  const Result<Image> image = viewing.picture(now_s);
+  if (!image) return fail(image.error().message);
+  return write_png((std::filesystem::path(viewing.options.frames) / name).string(), *image);
+}
+
+}  // namespace
+
+bool Flight::over(const ViewerOptions& options) const {
+  return static_cast<double>(frame_) > path_.duration_s() * options.frames_per_s;
+}
+
+Result<bool> Flight::turn(Viewing& viewing, double now_s) {
+  const ViewerOptions& options = viewing.options;
+  viewing.camera = path_.at(static_cast<double>(frame_) / options.frames_per_s);
+  Stopwatch watch;
+  if (Result<void> stepped = viewing.step(now_s); !stepped) return fail(stepped.error().message);
+  FrameTime time;
+  time.update_ms = watch.lap_ms();
+  if (options.time_demo) {
+    const Result<void> drawn = viewing.view->renderer().draw_unseen(
+        *viewing.view->methods().shown(), viewing.camera, options.width, options.height);
+    if (!drawn) return fail(drawn.error().message);
+    time.draw_ms = watch.lap_ms();
+    time.frame_ms = time.update_ms + time.draw_ms;
+    times_.push_back(time);
+  } else if (!viewing.view->methods().loaded()) {
+    return false;
+  }
+  if (!options.frames.empty())
+    if (Result<void> written = write_frame(viewing, frame_, now_s); !written)
+      return fail(written.error().message);
+  ++frame_;
+  return true;
+}
+
+std::string Flight::times(const Viewing& viewing) const {
+  const ViewerOptions& options = viewing.options;
+  return to_json({options.path_file, std::string(options.method->name),
+                  viewing.view->renderer().description(), options.width, options.height, times_});
+}
+
+}  // namespace scree

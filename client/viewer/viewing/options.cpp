@@ -1,0 +1,198 @@
+#include "client/viewer/viewing/options.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "client/viewer/base/limits.h"
+#include "client/viewer/input/actions.h"
+#include "proto/messages.h"
+
+namespace scree {
+namespace {
+
+/// Over the canyon floor, looking at the cliff and the arch.
+constexpr const char* default_camera = "30,9,19,63,-7";
+
+Result<void> parse_size(const std::string& text, ViewerOptions& options) {
+  std::istringstream in(text);
+  char x = 0;
+  if (!(in >> options.width >> x >> options.height) || x != 'x' || !in.eof() || options.width < 1 ||
+      options.height < 1)
+    return fail("--size: '" + text + "' is no size; write it as 1280x720");
+  if (std::max(options.width, options.height) > limits::image_side_max)
+    return fail("--size: '" + text + "' is over " + std::to_string(limits::image_side_max) +
+                " pixels a side (limits.image_side_max)");
+  return {};
+}
+
+Result<void> parse_camera(const std::string& text, Camera& camera) {
+  std::istringstream in(text);
+  std::array<float, 5> values{};
+  for (size_t i = 0; i < values.size(); ++i) {
+    char comma = ',';
+    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
+      return fail("--camera: '" + text +
+                  "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
+  }
+  if (in.peek() != std::istringstream::traits_type::eof())
+    return fail("--camera: '" + text + "' has more than x,y,z,yaw,pitch");
+  const Result<Camera> place = camera_of(values);
+  if (!place) return fail("--camera: '" + text + "': " + place.error().message);
+  camera = *place;
+  return {};
+}
+
+/// The options as text, before they are understood.
+struct Texts {
+  std::string size = "1280x720";
+  std::string camera = default_camera;
+  std::string method{all_methods().front().name};
+  std::string grid_spacing{name_of(GridShape().spacing)};
+  std::vector<std::string> screenshots;
+};
+
+void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
+  app.add_option("--host", options.host, "Server's name or address")->envname("SCREE_HOST");
+  app.add_option("--port", options.port, "Server's TCP port")
+      ->envname("SCREE_PORT")
+      ->check(CLI::Range(1, 65535));
+  app.add_option("--name", options.name, "Your name, as others see it at your cursor")->envname("SCREE_NAME");
+  app.add_option("--size", texts.size, "Window or image, WIDTHxHEIGHT")->envname("SCREE_SIZE");
+  app.add_option("--camera", texts.camera,
+                 "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left")
+      ->envname("SCREE_CAMERA");
+  app.add_option("--method", texts.method, "How it is drawn:\n" + describe_methods())
+      ->envname("SCREE_METHOD");
+  app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres")
+      ->envname("SCREE_VIEW_RADIUS")
+      ->check(CLI::Range(limits::view_radius_min_m, limits::view_radius_max_m));
+  app.add_option("--render-scale", options.render_scale,
+                 "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast")
+      ->envname("SCREE_RENDER_SCALE")
+      ->check(CLI::Range(limits::render_scale_min, limits::render_scale_max));
+  app.add_option("--grid-resolution", options.grid.resolution,
+                 "Of grid: cells along a side, a multiple of " + std::to_string(limits::grid_resolution_step))
+      ->envname("SCREE_GRID_RESOLUTION")
+      ->check(CLI::Range(limits::grid_resolution_min, limits::grid_resolution_max));
+  app.add_option("--grid-scale", options.grid.scale, "Of grid: voxels between two points, a power of two")
+      ->envname("SCREE_GRID_SCALE")
+      ->check(CLI::Range(1, limits::grid_scale_max));
+  app.add_option("--grid-spacing", texts.grid_spacing,
+                 "Of grid: uniform, or growing with the distance from the camera, to eight times as much")
+      ->envname("SCREE_GRID_SPACING");
+  app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
+      ->envname("SCREE_OFFSCREEN");
+  app.add_option(
+         "--screenshot", texts.screenshots,
+         "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), pieces>=N (that many pieces are in sight), "
+         "settled (something was carved, and all pieces are terrain again)")
+      ->envname("SCREE_SCREENSHOT");
+  app.add_option(
+         "--path", options.path_file,
+         "FILE with key frames of the camera (JSON, client/viewer/pictures/camera_path.h): fly along it")
+      ->envname("SCREE_PATH");
+  app.add_option("--frames", options.frames, "Offscreen: DIR for every frame of the path, as PNG")
+      ->envname("SCREE_FRAMES");
+  app.add_option("--fps", options.frames_per_s, "Offscreen: frames a second of the path")
+      ->envname("SCREE_FPS")
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_flag("--timedemo", options.time_demo,
+               "Offscreen: draw the path's frames as fast as possible, print their times as a line of JSON")
+      ->envname("SCREE_TIMEDEMO");
+  app.add_option("--reference", options.reference,
+                 "Offscreen: PNG to compare the screenshot with; prints the difference, exits with 3 above "
+                 "--threshold")
+      ->envname("SCREE_REFERENCE");
+  app.add_option("--threshold", options.threshold,
+                 "Root mean square of the difference of all colour values, 0 (equal) to 1")
+      ->envname("SCREE_THRESHOLD")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_flag("--overlay", options.overlay.shown,
+               "Show borders, interest, bodies, contacts and other persons' cursors over the picture")
+      ->envname("SCREE_OVERLAY");
+  app.add_option("--timeout", options.timeout_s,
+                 "Offscreen: seconds to wait for the next picture or frame before giving up")
+      ->envname("SCREE_TIMEOUT")
+      ->check(CLI::PositiveNumber);
+  app.add_option(
+         "--trace", options.trace_file,
+         "FILE to write what took how long to, at the end; chrome://tracing and ui.perfetto.dev open it")
+      ->envname("SCREE_TRACE");
+  app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
+      ->envname("SCREE_GL_DEBUG");
+  app.footer("Keys, mouse and gamepad:\n" + describe_controls());
+}
+
+Result<void> understand_grid(const std::string& spacing, GridShape& grid) {
+  const std::optional<GridSpacing> known = grid_spacing_named(spacing);
+  if (!known) return fail("--grid-spacing: there is no '" + spacing + "'; there are uniform and growing");
+  grid.spacing = *known;
+  if (is_valid(grid)) return {};
+  return fail("--grid-resolution must be a multiple of " + std::to_string(limits::grid_resolution_step) +
+              ", --grid-scale a power of two");
+}
+
+Result<void> understand_pictures(ViewerOptions& options) {
+  const bool every_frame = !options.frames.empty() || options.time_demo;
+  if (every_frame && (!options.offscreen || options.path_file.empty()))
+    return fail("--frames and --timedemo need --offscreen and --path FILE");
+  if (!options.reference.empty() && (!options.offscreen || options.screenshots.size() != 1))
+    return fail("--reference needs --offscreen and exactly one --screenshot FILE to compare");
+  if (options.offscreen && options.screenshots.empty() && !every_frame)
+    return fail("--offscreen without --screenshot FILE, --frames DIR or --timedemo shows nothing to anyone");
+  if (options.path_file.empty()) return {};
+  Result<CameraPath> path = CameraPath::read(options.path_file);
+  if (!path) return fail(path.error().message);
+  options.path = std::move(*path);
+  return {};
+}
+
+Result<void> understand(const Texts& texts, ViewerOptions& options) {
+  if (Result<void> size = parse_size(texts.size, options); !size) return size;
+  if (Result<void> camera = parse_camera(texts.camera, options.camera); !camera) return camera;
+  options.method = method_named(texts.method);
+  if (options.method == nullptr)
+    return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
+  if (Result<void> grid = understand_grid(texts.grid_spacing, options.grid); !grid) return grid;
+  for (const std::string& text : texts.screenshots) {
+    Result<ScreenshotOrder> order = parse_screenshot(text);
+    if (!order) return fail(order.error().message);
+    options.screenshots.push_back(std::move(*order));
+  }
+  return understand_pictures(options);
+}
+
+}  // namespace
+
+std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* argv) {
+  ViewerOptions options;
+  options.port = default_port;
+  options.view_radius_m = 96.0F;
+  if (const char* user = std::getenv("USER")) options.name = user;
+  options.timeout_s = 120.0;
+  options.frames_per_s = 30.0;
+  options.threshold = 0.01;
+  Texts texts;
+  CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
+  app.option_defaults()->always_capture_default();
+  declare(app, options, texts);
+  try {
+    app.parse(argc, argv);
+    const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+    options.given = {given("--size"),        given("--method"),
+                     given("--view-radius"), given("--grid-resolution"),
+                     given("--grid-scale"),  given("--grid-spacing")};
+  } catch (const CLI::ParseError& error) {
+    return ExitNow{app.exit(error) == 0 ? 0 : 2};
+  }
+  if (const Result<void> understood = understand(texts, options); !understood) {
+    std::fprintf(stderr, "scree-viewer: %s\n", understood.error().message.c_str());
+    return ExitNow{2};
+  }
+  return options;
+}
+
+}  // namespace scree

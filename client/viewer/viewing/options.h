@@ -1,0 +1,60 @@
+// What the viewer was asked for, on the command line and in the environment.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "client/render/methods.h"
+#include "client/render/scene/camera.h"
+#include "client/viewer/pictures/camera_path.h"
+#include "client/viewer/pictures/screenshots.h"
+#include "client/viewer/session/overlay.h"
+
+namespace scree {
+
+struct ViewerOptions {
+  std::string host = "127.0.0.1";
+  uint16_t port = 0;
+  std::string name;  ///< the person's
+  int width = 1280;
+  int height = 720;
+  Camera camera;
+  /// Said by a flag or by the environment.
+  struct Given {
+    bool size = false;
+    bool method = false;
+    bool view_radius = false;
+    bool grid_resolution = false;
+    bool grid_scale = false;
+    bool grid_spacing = false;
+  } given;
+  OverlayChoice overlay;                ///< shown from the start, and in pictures
+  const MethodEntry* method = nullptr;  ///< never null once parsed
+  float view_radius_m = 0.0F;
+  float render_scale = 1.0F;  ///< of methods that draw pixel by pixel
+  GridShape grid;             ///< of the method grid
+  bool offscreen = false;
+  bool gl_debug = false;
+  double timeout_s = 0.0;
+  std::vector<ScreenshotOrder> screenshots;
+  std::string path_file;           ///< empty: none
+  std::optional<CameraPath> path;  ///< of that file
+  double frames_per_s = 0.0;       ///< of the path, offscreen
+  std::string frames;              ///< folder for every frame of the path as a picture; empty: none
+  bool time_demo = false;
+  std::string reference;  ///< picture to compare the screenshot with; empty: none
+  double threshold = 0.0;
+  std::string trace_file;  ///< of what took how long; empty: none
+};
+
+/// The program should end now, with this status; what there was to say is printed.
+struct ExitNow {
+  int status = 0;
+};
+
+std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* argv);
+
+}  // namespace scree

@@ -1,0 +1,188 @@
+#include "client/viewer/viewing/settings.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "client/viewer/base/files.h"
+#include "client/viewer/base/limits.h"
+
+namespace scree {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reads one field after the other; the first that is wrong is remembered.
+class Reader {
+ public:
+  explicit Reader(const Json& json) : json_(json) {}
+
+  void flag(const char* name, bool& value) {
+    if (const Json* found = find(name, &Json::is_boolean)) value = found->get<bool>();
+  }
+  template <typename T>
+  void number(const char* name, T& value, T min, T max) {
+    const Json* found = find(name, &Json::is_number);
+    if (found == nullptr) return;
+    const auto given = found->get<double>();
+    if (!(given >= static_cast<double>(min) && given <= static_cast<double>(max)))
+      return wrong(name, "is out of range");
+    value = static_cast<T>(given);
+  }
+  /// The place in `names`.
+  template <typename E, size_t n>
+  void choice(const char* name, E& value, const std::array<E, n>& all) {
+    const Json* found = find(name, &Json::is_string);
+    if (found == nullptr) return;
+    for (const E one : all) {
+      if (name_of(one) != found->get<std::string>()) continue;
+      value = one;
+      return;
+    }
+    wrong(name, "has no such value");
+  }
+  void text(const char* name, std::string& value) {
+    if (const Json* found = find(name, &Json::is_string)) value = found->get<std::string>();
+  }
+  void wrong(const char* name, const char* how) {
+    if (error_.empty()) error_ = std::string(name) + " " + how;
+  }
+  const std::string& error() const { return error_; }
+
+ private:
+  const Json* find(const char* name, bool (Json::*is_right)() const noexcept) {
+    const auto found = json_.find(name);
+    if (found == json_.end()) return nullptr;
+    if (((*found).*is_right)()) return &*found;
+    wrong(name, "is of another kind");
+    return nullptr;
+  }
+
+  const Json& json_;
+  std::string error_;
+};
+
+/// What changed from `start` to `end`, else what was loaded.
+template <typename T>
+T merged(const T& loaded, const T& start, const T& end) {
+  return start == end ? loaded : end;
+}
+
+}  // namespace
+
+std::string settings_file() {
+  const auto folder = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  // The XDG base directory specification: a path that is not absolute is to be ignored.
+  const std::filesystem::path config = folder("XDG_CONFIG_HOME");
+  if (config.is_absolute()) return (config / "scree" / "viewer.json").string();
+  const std::filesystem::path home = folder("HOME");
+  return home.is_absolute() ? (home / ".config" / "scree" / "viewer.json").string() : std::string();
+}
+
+Result<Settings> parse_settings(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return fail("it is no JSON object");
+  Settings settings;
+  Reader reader(json);
+  reader.number("width", settings.width, 1, limits::image_side_max);
+  reader.number("height", settings.height, 1, limits::image_side_max);
+  reader.text("method", settings.method);
+  if (!settings.method.empty() && method_named(settings.method) == nullptr)
+    reader.wrong("method", "has no such value");
+  reader.number("view_radius_m", settings.view_radius_m, limits::view_radius_min_m,
+                limits::view_radius_max_m);
+  reader.number("grid_resolution", settings.grid.resolution, limits::grid_resolution_min,
+                limits::grid_resolution_max);
+  reader.number("grid_scale", settings.grid.scale, 1, limits::grid_scale_max);
+  reader.choice("grid_spacing", settings.grid.spacing, grid_spacings);
+  if (!is_valid(settings.grid)) reader.wrong("grid_resolution or grid_scale", "is no such multiple");
+  reader.flag("help", settings.hud.help);
+  reader.flag("graphs", settings.hud.graphs);
+  reader.flag("panel", settings.hud.panel);
+  reader.flag("overlay", settings.overlay.shown);
+  reader.flag("overlay_interest", settings.overlay.interest);
+  reader.flag("overlay_chunks", settings.overlay.chunks);
+  reader.flag("overlay_pieces", settings.overlay.pieces);
+  reader.flag("overlay_physics", settings.overlay.physics);
+  reader.choice("tool", settings.tool.kind, tool_kinds);
+  reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
+  reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
+  reader.choice("pattern", settings.tool.pattern, tool_patterns);
+  reader.number("seeds", settings.tool.seeds, 0U, tool_seeds_max);
+  if (!reader.error().empty()) return fail(reader.error());
+  return settings;
+}
+
+std::string to_text(const Settings& settings) {
+  const Json json{{"width", settings.width},
+                  {"height", settings.height},
+                  {"method", settings.method},
+                  {"view_radius_m", settings.view_radius_m},
+                  {"grid_resolution", settings.grid.resolution},
+                  {"grid_scale", settings.grid.scale},
+                  {"grid_spacing", name_of(settings.grid.spacing)},
+                  {"help", settings.hud.help},
+                  {"graphs", settings.hud.graphs},
+                  {"panel", settings.hud.panel},
+                  {"overlay", settings.overlay.shown},
+                  {"overlay_interest", settings.overlay.interest},
+                  {"overlay_chunks", settings.overlay.chunks},
+                  {"overlay_pieces", settings.overlay.pieces},
+                  {"overlay_physics", settings.overlay.physics},
+                  {"tool", name_of(settings.tool.kind)},
+                  {"radius_m", settings.tool.radius_m},
+                  {"blast_speed_m_s", settings.tool.blast_speed_m_s},
+                  {"pattern", name_of(settings.tool.pattern)},
+                  {"seeds", settings.tool.seeds}};
+  return json.dump(2) + "\n";
+}
+
+void apply_settings(const Settings& settings, ViewerOptions& options) {
+  if (!options.given.size) {
+    options.width = settings.width;
+    options.height = settings.height;
+  }
+  if (!options.given.view_radius) options.view_radius_m = settings.view_radius_m;
+  if (!options.given.grid_resolution) options.grid.resolution = settings.grid.resolution;
+  if (!options.given.grid_scale) options.grid.scale = settings.grid.scale;
+  if (!options.given.grid_spacing) options.grid.spacing = settings.grid.spacing;
+  const MethodEntry* method = method_named(settings.method);
+  if (!options.given.method && method != nullptr) options.method = method;
+}
+
+KeptSettings::KeptSettings(std::string file) : file_(std::move(file)) {
+  if (file_.empty() || !std::filesystem::exists(file_)) return;
+  const Result<std::string> text = read_text(file_);
+  const Result<Settings> settings = text ? parse_settings(*text) : fail(text.error().message);
+  if (settings) {
+    loaded_ = *settings;
+    return;
+  }
+  std::fprintf(stderr, "scree-viewer: warning: settings %s are ignored, and kept as they are: %s\n",
+               file_.c_str(), settings.error().message.c_str());
+  file_.clear();
+}
+
+void KeptSettings::keep(const Settings& start, const Settings& end) const {
+  if (file_.empty() || start == end) return;
+  Settings kept;
+  kept.width = merged(loaded_.width, start.width, end.width);
+  kept.height = merged(loaded_.height, start.height, end.height);
+  kept.method = merged(loaded_.method, start.method, end.method);
+  kept.view_radius_m = merged(loaded_.view_radius_m, start.view_radius_m, end.view_radius_m);
+  kept.grid.resolution = merged(loaded_.grid.resolution, start.grid.resolution, end.grid.resolution);
+  kept.grid.scale = merged(loaded_.grid.scale, start.grid.scale, end.grid.scale);
+  kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);
+  kept.hud = end.hud;
+  kept.overlay = end.overlay;
+  kept.tool = end.tool;
+  if (const Result<void> written = write_text(file_, to_text(kept)); !written)
+    std::fprintf(stderr, "scree-viewer: warning: %s\n", written.error().message.c_str());
+}
+
+}  // namespace scree

@@ -1,0 +1,110 @@
+#include "client/viewer/viewing/viewing.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "client/viewer/pictures/picture_difference.h"
+#include "client/viewer/pictures/png.h"
+#include "client/viewer/session/sight.h"
+
+namespace scree {
+
+Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
+  Result<std::unique_ptr<View>> view = View::create(*options.method, options.view_radius_m);
+  if (!view) return fail(view.error().message);
+  return std::unique_ptr<Viewing>(new Viewing(options, std::move(*view)));
+}
+
+Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
+    : options(given),
+      trace(given.trace_file.empty() ? nullptr : std::make_unique<Trace>()),
+      session(given.host, given.port, given.view_radius_m, given.name),
+      view(std::move(drawn)),
+      camera(given.camera),
+      screenshots(given.screenshots) {
+  view->renderer().set_trace(trace.get());
+  view->renderer().set_render_scale(options.render_scale);
+  view->renderer().set_grid(options.grid);
+  session.watch(given.overlay.shown && given.overlay.physics);
+}
+
+Result<void> Viewing::step(double now_s) {
+  const SessionStep step = [&] {
+    const TraceSpan span(trace.get(), "viewer", "messages");
+    return session.step(now_s, camera);
+  }();
+  const TraceSpan span(trace.get(), "viewer", "update");
+  if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
+  return check_gl_errors();
+}
+
+Result<void> Viewing::check_gl_errors() {
+  if (!options.gl_debug || view->renderer().gl_errors() == 0) return {};
+  return fail(std::to_string(view->renderer().gl_errors()) +
+              " OpenGL errors; the first: " + view->renderer().first_gl_error());
+}
+
+Result<void> Viewing::finish() {
+  return trace ? trace->write(options.trace_file) : Result<void>{};
+}
+
+bool Viewing::joined(double now_s) {
+  return view->methods().loaded() && session.joined(now_s);
+}
+
+Moment Viewing::moment(double now_s) {
+  Moment moment;
+  moment.now_s = now_s;
+  moment.current = view->methods().complete();
+  moment.joined = joined(now_s);
+  moment.carved = session.carved();
+  if (Mirror* mirror = session.mirror()) {
+    const Scene scene{mirror->field(), session.pieces(now_s)};
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    moment.pieces = pieces_in_sight(scene, camera, aspect, options.view_radius_m);
+    const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;
+    moment.alive = !mirror->pieces().empty() || elsewhere;
+  }
+  return moment;
+}
+
+Result<Image> Viewing::picture(double now_s) {
+  LineList lines;
+  if (options.overlay.shown) {
+    add_overlay(lines, options.overlay, now_s);
+    add_cursors(lines, session.cursors());
+  }
+  return view->renderer().draw_image(*view->methods().shown(), camera, options.width, options.height, lines);
+}
+
+void Viewing::add_overlay(LineList& lines, const OverlayChoice& choice, double now_s) {
+  session.watch(choice.shown && choice.physics);
+  if (!choice.shown || session.mirror() == nullptr) return;
+  add_borders(lines, session, choice, camera.eye_m, now_s);
+  if (const PhysicsMessage* physics = session.physics())
+    add_physics(lines, *physics, session.pieces(now_s), session.mirror()->terrain().voxel_size_m);
+}
+
+Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
+  const Result<Image> image = picture(now_s);
+  if (!image) return fail(image.error().message);
+  if (Result<void> written = write_png(order.file, *image); !written) return written;
+  // Standard output is for figures alone.
+  std::fprintf(stderr, "wrote %s\n", order.description().c_str());
+  if (options.reference.empty()) return {};
+  const Result<Image> reference = read_png(options.reference);
+  if (!reference) return fail("--reference: " + reference.error().message);
+  const Result<double> measured = picture_difference(*image, *reference);
+  if (!measured) return fail("--reference: " + measured.error().message);
+  difference = *measured;
+  return {};
+}
+
+Result<void> Viewing::take_due(double now_s) {
+  if (screenshots.empty()) return {};
+  for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s)))
+    if (Result<void> taken = take(order, now_s); !taken) return taken;
+  return {};
+}
+
+}  // namespace scree

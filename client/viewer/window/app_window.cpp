@@ -1,0 +1,177 @@
+#include "client/viewer/window/app_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui/imgui.h>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+constexpr int samples = 4;
+constexpr double minimised_pause_s = 0.02;  ///< about a tick: the world goes on
+
+std::string last_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text == nullptr ? "no reason given" : text;
+}
+
+GLFWwindow* open_with(int api, int major, int minor, int width, int height, bool debug) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CLIENT_API, api);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+  if (api == GLFW_OPENGL_API) glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_SAMPLES, samples);
+  return glfwCreateWindow(width, height, "Scree", nullptr, nullptr);
+}
+
+}  // namespace
+
+/// GLFW calls these; it hands back the window's pointer.
+struct AppWindowEvents {
+  static AppWindow& of(GLFWwindow* window) {
+    return *static_cast<AppWindow*>(glfwGetWindowUserPointer(window));
+  }
+
+  static void on_key(GLFWwindow* window, int key, int, int action, int) {
+    if (action != GLFW_PRESS) return;
+    for (const Binding& binding : bindings())
+      if (binding.key == key) of(window).act(binding.action);
+  }
+  static void on_button(GLFWwindow* window, int button, int action, int) {
+    if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
+    // On the panel the mouse is the panel's.
+    if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse) return;
+    // The first click takes the mouse; only the following ones carve.
+    if (of(window).holds_mouse_) {
+      of(window).strike_ = true;
+    } else {
+      of(window).hold_mouse(true);
+    }
+  }
+  static void on_scroll(GLFWwindow* window, double, double notches) {
+    of(window).wheel_ += static_cast<float>(notches);
+  }
+};
+
+Result<std::unique_ptr<AppWindow>> AppWindow::open(int width, int height, bool debug) {
+  if (glfwInit() != GLFW_TRUE)
+    return fail("no window can be opened (" + last_error() +
+                "); use --offscreen --screenshot FILE without one");
+  GLFWwindow* window = open_with(GLFW_OPENGL_API, 3, 3, width, height, debug);
+  if (window == nullptr) window = open_with(GLFW_OPENGL_ES_API, 3, 0, width, height, debug);
+  if (window == nullptr) {
+    const std::string reason = last_error();
+    glfwTerminate();
+    return fail("no window with OpenGL 3.3 or OpenGL ES 3.0 can be opened (" + reason +
+                "); install a newer driver, or Mesa's software one (libgl1-mesa-dri)");
+  }
+  return std::unique_ptr<AppWindow>(new AppWindow(window));
+}
+
+AppWindow::AppWindow(GLFWwindow* window) : window_(window) {
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, AppWindowEvents::on_key);
+  glfwSetMouseButtonCallback(window_, AppWindowEvents::on_button);
+  glfwSetScrollCallback(window_, AppWindowEvents::on_scroll);
+  last_s_ = glfwGetTime();
+}
+
+AppWindow::~AppWindow() {
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+bool AppWindow::should_close() const {
+  return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void AppWindow::hold_mouse(bool hold) {
+  holds_mouse_ = hold;
+  glfwSetInputMode(window_, GLFW_CURSOR, hold ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  glfwGetCursorPos(window_, &mouse_.x, &mouse_.y);
+}
+
+void AppWindow::act(Action action) {
+  if (action == Action::end) {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+  } else if (action == Action::free_mouse) {
+    hold_mouse(!holds_mouse_);
+  } else {
+    actions_.push_back(action);
+  }
+}
+
+AppInput AppWindow::poll() {
+  glfwPollEvents();
+  glfwGetFramebufferSize(window_, &width_, &height_);
+  AppInput input;
+  const double now_s = glfwGetTime();
+  input.elapsed_s = static_cast<float>(now_s - std::exchange(last_s_, now_s));
+  poll_keys(input);
+  poll_gamepad(input);
+  input.wheel = std::exchange(wheel_, 0.0F);
+  input.strike = std::exchange(strike_, false);
+  input.actions = std::exchange(actions_, {});
+  return input;
+}
+
+void AppWindow::poll_keys(AppInput& input) {
+  const auto axis = [this](int plus, int minus) {
+    return static_cast<float>((glfwGetKey(window_, plus) == GLFW_PRESS) -
+                              (glfwGetKey(window_, minus) == GLFW_PRESS));
+  };
+  input.fly.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_SPACE, GLFW_KEY_C),
+                    axis(GLFW_KEY_W, GLFW_KEY_S)};
+  input.fly.fast = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
+  if (!holds_mouse_) return;
+  glm::dvec2 mouse;
+  glfwGetCursorPos(window_, &mouse.x, &mouse.y);
+  input.fly.look = glm::vec2(mouse - std::exchange(mouse_, mouse));
+}
+
+/// The first gamepad that GLFW knows a mapping for.
+void AppWindow::poll_gamepad(AppInput& input) {
+  int pad = GLFW_JOYSTICK_1;
+  while (pad <= GLFW_JOYSTICK_LAST && glfwJoystickIsGamepad(pad) != GLFW_TRUE) ++pad;
+  GLFWgamepadstate state;
+  if (pad > GLFW_JOYSTICK_LAST || glfwGetGamepadState(pad, &state) != GLFW_TRUE) return;
+  PadState now{state.axes[GLFW_GAMEPAD_AXIS_LEFT_X],
+               state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y],
+               state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER],
+               state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER],
+               0};
+  for (unsigned button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
+    if (state.buttons[button] == GLFW_PRESS) now.buttons |= 1U << button;
+  for (const Action action : pad_.step(now, input.elapsed_s, input.fly)) act(action);
+  strike_ = strike_ || pad_.struck();
+}
+
+bool AppWindow::minimised() const {
+  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || width_ == 0 || height_ == 0;
+}
+
+std::pair<int, int> AppWindow::window_size() const {
+  std::pair<int, int> size;
+  glfwGetWindowSize(window_, &size.first, &size.second);
+  return size;
+}
+
+void AppWindow::show_frame() {
+  if (minimised()) {
+    // Buffers of a window that is not shown may be swapped without any wait.
+    glfwWaitEventsTimeout(minimised_pause_s);
+  } else {
+    glfwSwapBuffers(window_);
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,71 @@
+// A window with an OpenGL context, its keys, its mouse, and the first gamepad if there is one. One at a time;
+// on the main thread only.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/viewer/input/actions.h"
+#include "client/viewer/input/fly_camera.h"
+#include "client/viewer/input/gamepad.h"
+#include "shared/base/result.h"
+
+struct GLFWwindow;
+
+namespace scree {
+
+/// What the person did since the last frame.
+struct AppInput {
+  FlyInput fly;
+  float elapsed_s = 0.0F;
+  float wheel = 0.0F;   ///< notches, up is positive
+  bool strike = false;  ///< left button went down, with the mouse held by the window; or the right trigger
+  std::vector<Action> actions;  ///< in order; free_mouse and end are the window's own
+};
+
+class AppWindow {
+ public:
+  /// Fails without a display or a driver of OpenGL 3.3 or OpenGL ES 3.0.
+  static Result<std::unique_ptr<AppWindow>> open(int width, int height, bool debug);
+  ~AppWindow();
+  AppWindow(const AppWindow&) = delete;
+  AppWindow& operator=(const AppWindow&) = delete;
+
+  bool should_close() const;
+  AppInput poll();
+  bool holds_mouse() const { return holds_mouse_; }
+  /// Pixels; nothing while minimised.
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool minimised() const;
+  /// As the desktop counts: what --size asked for.
+  std::pair<int, int> window_size() const;
+  /// While minimised, it waits a little instead: nobody sees anything.
+  void show_frame();
+
+  /// For Dear ImGui's backend.
+  GLFWwindow* handle() const { return window_; }
+
+ private:
+  explicit AppWindow(GLFWwindow* window);
+  void hold_mouse(bool hold);
+  void act(Action action);
+  void poll_keys(AppInput& input);
+  void poll_gamepad(AppInput& input);
+
+  GLFWwindow* window_;
+  int width_ = 0;
+  int height_ = 0;
+  double last_s_ = 0.0;
+  glm::dvec2 mouse_{0.0};
+  bool holds_mouse_ = false;
+  float wheel_ = 0.0F;
+  bool strike_ = false;
+  std::vector<Action> actions_;
+  Gamepad pad_;
+  friend struct AppWindowEvents;
+};
+
+}  // namespace scree

@@ -1,0 +1,50 @@
+#include "client/viewer/window/hud_facts.h"
+
+#include "client/viewer/base/limits.h"
+
+namespace scree {
+
+HudFacts FactFinder::find(Viewing& viewing, double now_s) {
+  Session& session = viewing.session;
+  const Mirror* mirror = session.mirror();
+  if (mirror != nullptr && now_s >= next_count_s_) {
+    next_count_s_ = now_s + limits::count_interval_s;
+    count(*mirror, session);
+  }
+  HudFacts facts = counted_;
+  facts.connection = session.description();
+  facts.lost = !session.connected();
+  facts.bytes_per_s = session.received_bytes_per_s();
+  facts.notice = session.notice(now_s);
+  facts.driver = viewing.view->renderer().description();
+  if (mirror != nullptr) {
+    facts.tick = mirror->tick();
+    facts.pieces = mirror->pieces().size();
+    facts.status = mirror->status();
+    facts.mismatches = mirror->mismatches();
+  }
+  if (DrawMethod* method = viewing.view->methods().shown()) {
+    facts.method = method->name();
+    facts.draw = method->stats();
+    facts.gpu_times = viewing.view->renderer().gpu_times();
+    facts.memory = facts.draw.memory;
+  }
+  facts.memory.insert(facts.memory.end(), mirror_memory_.begin(), mirror_memory_.end());
+  return facts;
+}
+
+void FactFinder::count(const Mirror& mirror, const Session& session) {
+  counted_ = {};
+  counted_.held_chunks = mirror.held_chunks().size();
+  for (const ChunkCoord chunk : mirror.field().edited_chunks()) {
+    ++counted_.edited_chunks;
+    counted_.edited_bricks += mirror.field().edited_bricks(chunk).size();
+  }
+  size_t volume_bytes = 0;
+  for (const auto& [id, motion] : mirror.pieces()) volume_bytes += motion.volume->window.codes.size();
+  mirror_memory_ = {{"edited bricks", counted_.edited_bricks * sizeof(Brick), 0},
+                    {"volumes", volume_bytes, 0},
+                    {"to be applied", session.waiting_bytes(), 0}};
+}
+
+}  // namespace scree

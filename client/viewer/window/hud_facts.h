@@ -1,0 +1,44 @@
+// What the HUD shows of a session and its view.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "client/viewer/viewing/viewing.h"
+
+namespace scree {
+
+struct HudFacts {
+  std::string connection;  ///< one line
+  bool lost = false;       ///< the connection is gone: say so loudly
+  Tick tick = 0;
+  size_t pieces = 0;
+  std::optional<StatusMessage> status;  ///< the server's last
+  double bytes_per_s = 0.0;
+  uint64_t mismatches = 0;
+  std::string notice;  ///< the server's last refusal, for a while
+  std::string method;
+  std::string driver;
+  DrawStats draw;
+  std::vector<GpuTime> gpu_times;
+  size_t held_chunks = 0;    ///< that follow the server
+  size_t edited_chunks = 0;  ///< of them with edits
+  size_t edited_bricks = 0;
+  MemoryCounts memory;  ///< of the drawing method, of the mirror, and of what waits to be applied
+};
+
+/// Keeps what is costly to count for a while.
+class FactFinder {
+ public:
+  HudFacts find(Viewing& viewing, double now_s);
+
+ private:
+  void count(const Mirror& mirror, const Session& session);
+
+  MemoryCounts mirror_memory_;
+  double next_count_s_ = 0.0;
+  HudFacts counted_;
+};
+
+}  // namespace scree

@@ -1,0 +1,86 @@
+// The HUD's panel: which method draws, and what a strike does.
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "client/viewer/base/limits.h"
+#include "client/viewer/window/hud.h"
+#include "client/viewer/window/hud_style.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+template <typename E, size_t n>
+void choose(E& value, const std::array<E, n>& all) {
+  for (size_t i = 0; i < n; ++i) {
+    if (i > 0) ImGui::SameLine();
+    const std::string name(name_of(all[i]));
+    if (ImGui::RadioButton(name.c_str(), value == all[i])) value = all[i];
+  }
+}
+
+/// Those that this driver cannot draw by are grey, and say why.
+const MethodEntry* choose_method(const MethodEntry& chosen) {
+  const MethodEntry* picked = nullptr;
+  for (const MethodEntry& entry : all_methods()) {
+    const std::optional<std::string> missing = entry.missing();
+    const std::string name(entry.name);
+    ImGui::BeginDisabled(missing.has_value());
+    if (ImGui::RadioButton(name.c_str(), &entry == &chosen) && &entry != &chosen) picked = &entry;
+    ImGui::EndDisabled();
+    if (missing) ImGui::TextDisabled("    %s", missing->c_str());
+  }
+  return picked;
+}
+
+/// Resolutions and scales go by steps, so that the shape stays valid.
+void choose_grid(GridShape& grid) {
+  int steps = grid.resolution / limits::grid_resolution_step;
+  const std::string cells = std::to_string(grid.resolution);
+  if (ImGui::SliderInt("grid cells", &steps, limits::grid_resolution_min / limits::grid_resolution_step,
+                       limits::grid_resolution_max / limits::grid_resolution_step, cells.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
+    grid.resolution = steps * limits::grid_resolution_step;
+  constexpr int doublings_max = std::bit_width(static_cast<unsigned>(limits::grid_scale_max)) - 1;
+  int doublings = std::bit_width(static_cast<unsigned>(grid.scale)) - 1;
+  const std::string voxels = std::to_string(grid.scale) + " voxels";
+  if (ImGui::SliderInt("spacing", &doublings, 0, doublings_max, voxels.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    grid.scale = 1 << doublings;
+  choose(grid.spacing, grid_spacings);
+}
+
+}  // namespace
+
+const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay,
+                              GridShape& grid) {
+  begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
+                mouse_is_free_);
+  ImGui::PushItemWidth(150.0F);
+  const MethodEntry* picked = choose_method(chosen);
+  if (chosen.name == "grid") choose_grid(grid);
+  ImGui::Separator();
+  choose(tool.kind, tool_kinds);
+  ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
+  ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
+  choose(tool.pattern, tool_patterns);
+  auto seeds = static_cast<int>(tool.seeds);
+  const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
+  if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
+    tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
+  ImGui::PopItemWidth();
+  ImGui::Separator();
+  ImGui::Checkbox("overlay", &overlay.shown);
+  ImGui::BeginDisabled(!overlay.shown);
+  ImGui::Checkbox("interest", &overlay.interest);
+  ImGui::SameLine();
+  ImGui::Checkbox("chunks", &overlay.chunks);
+  ImGui::SameLine();
+  ImGui::Checkbox("pieces", &overlay.pieces);
+  ImGui::Checkbox("bodies, contacts, islands (by the server)", &overlay.physics);
+  ImGui::EndDisabled();
+  ImGui::End();
+  return picked;
+}
+
+}  // namespace scree
