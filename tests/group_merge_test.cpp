@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "client/mirror/mirror.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"

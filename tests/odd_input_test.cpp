@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "client/mirror/mirror.h"
 #include "server/replay/verify.h"
 #include "server/store/recorder.h"

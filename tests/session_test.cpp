@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "server/replay/verify.h"
 #include "tests/session_support.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"

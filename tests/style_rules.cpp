@@ -56,7 +56,12 @@ const std::vector<Layer>& layers() {
       {"client/viewer/viewing/", {"client/viewer/session/", "client/viewer/pictures/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
-      {"bench/", {"server/", "client/"}},
+      {"bench/support/", {"server/", "client/"}},
+      {"bench/peers/", {"server/", "client/"}},
+      {"bench/simulation/", {"bench/support/", "bench/peers/"}},
+      {"bench/drawing/", {"bench/support/", "bench/peers/"}},
+      {"bench/wire/", {"bench/support/"}},
+      {"bench/programs/", {"bench/support/"}},
       {"tests/", {"bench/"}},
   };
   return table;
@@ -71,15 +76,15 @@ struct Library {
 
 const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
-      // bench/peers_*: its own tools are what ours are measured beside.
-      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers_"}},
+      // bench/peers/: its own tools are what ours are measured beside.
+      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers/"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/"}},
-      {"voro++", std::regex("voro\\+\\+.*"), {"bench/peers_"}},
+      {"voro++", std::regex("voro\\+\\+.*"), {"bench/peers/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
-      {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/"}},
+      {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/window/"}},
       {"EGL", std::regex("(epoxy/egl|EGL/).*"), {"client/render/", "client/viewer/"}},
-      {"OpenGL", std::regex("(epoxy/gl|GL/|GLES).*"), {"client/render/", "client/viewer/", "bench/peers_"}},
+      {"OpenGL", std::regex("(epoxy/gl|GL/|GLES).*"), {"client/render/", "client/viewer/", "bench/peers/"}},
       {"Asio", std::regex("(boost/)?asio.*"), {"server/net/", "client/connection/", "tests/", "bench/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/"}},
   };

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "server/app/server_report.h"
 #include "server/world/limits.h"
 #include "server/world/world.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 #include "server/world/published_state.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-#include "bench/peers_csg_list.h"
+#include "bench/peers/csg_list.h"
 
 #include <array>
 #include <epoxy/gl.h>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench/stage.h"
+#include "bench/support/stage.h"
 #include "client/render/method_switch.h"
 #include "shared/operation/operation.h"
 

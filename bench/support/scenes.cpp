@@ -1,4 +1,4 @@
-#include "bench/scenes.h"
+#include "bench/support/scenes.h"
 
 #include "shared/base/random.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "bench/benches.h"
-#include "bench/scenes.h"
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
 #include "server/bodies/terrain_collider.h"
 #include "server/world/settings.h"
 #include "shared/base/check.h"

@@ -2,10 +2,10 @@
 // whole scene beside those of OpenVDB's volumeToMesh, and the time from a change to its picture.
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/drawing.h"
-#include "bench/peers_mesh.h"
-#include "bench/scenes.h"
+#include "bench/peers/volume_to_mesh.h"
+#include "bench/support/benches.h"
+#include "bench/support/drawing.h"
+#include "bench/support/scenes.h"
 #include "client/render/levels/block_windows.h"
 #include "client/render/mesh/mesh_scheduler.h"
 #include "shared/base/timing.h"

@@ -1,4 +1,4 @@
-#include "bench/peers_grid.h"
+#include "bench/peers/level_set.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "bench/benches.h"
+#include "bench/support/benches.h"
 #include "shared/operation/operation.h"
 #include "shared/recombine/posed_piece.h"
 #include "shared/recombine/stamp.h"

@@ -1,8 +1,8 @@
-#include "bench/peers_islands.h"
+#include "bench/peers/segment_sdf.h"
 
 #include <openvdb/tools/LevelSetUtil.h>
 
-#include "bench/peers_grid.h"
+#include "bench/peers/level_set.h"
 #include "shared/base/timing.h"
 
 namespace scree {

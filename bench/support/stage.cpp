@@ -1,4 +1,4 @@
-#include "bench/stage.h"
+#include "bench/support/stage.h"
 
 namespace scree {
 

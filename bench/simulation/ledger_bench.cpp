@@ -1,8 +1,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/scenes.h"
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
 
 namespace scree {
 

@@ -1,8 +1,8 @@
-#include "bench/drawing.h"
+#include "bench/support/drawing.h"
 
 #include <thread>
 
-#include "bench/bench.h"
+#include "bench/support/bench.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
 

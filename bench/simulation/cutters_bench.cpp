@@ -5,9 +5,9 @@
 #include <set>
 #include <tuple>
 
-#include "bench/benches.h"
-#include "bench/heap.h"
-#include "bench/scenes.h"
+#include "bench/support/benches.h"
+#include "bench/support/heap.h"
+#include "bench/support/scenes.h"
 #include "server/fracture/hull.h"
 #include "shared/base/timing.h"
 #include "shared/field/edit.h"

@@ -1,4 +1,4 @@
-#include "bench/peers_stock.h"
+#include "bench/peers/stock_fracture.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>

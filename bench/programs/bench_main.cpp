@@ -6,7 +6,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include "bench/bench.h"
+#include "bench/support/bench.h"
 
 namespace {
 

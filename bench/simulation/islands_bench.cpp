@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "bench/benches.h"
-#include "bench/peers_islands.h"
-#include "bench/scenes.h"
+#include "bench/peers/segment_sdf.h"
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
 #include "server/field/vdb_field.h"
 #include "server/world/limits.h"
 #include "shared/base/random.h"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "bench/stage.h"
+#include "bench/support/stage.h"
 #include "client/render/methods.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/overlay.h"

@@ -2,9 +2,9 @@
 // picture is that of an atlas built afresh from the same field.
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/drawing.h"
-#include "bench/peers_csg_list.h"
+#include "bench/peers/csg_list.h"
+#include "bench/support/benches.h"
+#include "bench/support/drawing.h"
 
 namespace scree {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/peers_stock.h"
-#include "bench/scenes.h"
+#include "bench/peers/stock_fracture.h"
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
 
 namespace scree {
 

@@ -1,9 +1,9 @@
-#include "bench/bench.h"
+#include "bench/support/bench.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/benches.h"
+#include "bench/support/benches.h"
 #include "shared/base/check.h"
 
 namespace scree {

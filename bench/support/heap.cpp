@@ -1,4 +1,4 @@
-#include "bench/heap.h"
+#include "bench/support/heap.h"
 
 #include <cstdlib>
 #include <malloc.h>

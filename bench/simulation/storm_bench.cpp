@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/scenes.h"
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -1,7 +1,7 @@
 // The benchmarks, one function each; all_benches() names them.
 #pragma once
 
-#include "bench/bench.h"
+#include "bench/support/bench.h"
 
 namespace scree {
 

@@ -1,9 +1,9 @@
-#include "bench/peers_mesh.h"
+#include "bench/peers/volume_to_mesh.h"
 
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/global_control.h>
 
-#include "bench/peers_grid.h"
+#include "bench/peers/level_set.h"
 
 namespace scree::peers {
 

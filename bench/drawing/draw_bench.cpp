@@ -4,8 +4,8 @@
 #include <array>
 #include <fmt/format.h>
 
-#include "bench/benches.h"
-#include "bench/drawing.h"
+#include "bench/support/benches.h"
+#include "bench/support/drawing.h"
 
 namespace scree {
 

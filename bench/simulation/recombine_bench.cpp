@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "bench/benches.h"
-#include "bench/peers_stock.h"
+#include "bench/peers/stock_fracture.h"
+#include "bench/support/benches.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
 #include "shared/field/edit.h"
