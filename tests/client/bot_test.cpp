@@ -1,0 +1,171 @@
+// The bot against a whole server in the same process, stepped by hand: what it asks, sees, survives and
+// reports.
+#include "client/bot/bot.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/app/live_server.h"
+#include "tests/support/raw_server.h"
+
+namespace scree {
+namespace {
+
+using namespace std::chrono_literals;
+
+class BotTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    LiveConfig config;
+    config.world.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.pacing = Pacing::by_hand;
+    auto started = LiveServer::start(config);
+    ASSERT_TRUE(started) << started.error().message;
+    server_ = std::move(*started);
+  }
+
+  BotConfig config(uint32_t carves) const {
+    BotConfig bot;
+    bot.port = server_->port();
+    bot.carves = carves;
+    bot.rate_hz = 0.0;
+    bot.carver.area_m = 6.0F;
+    bot.carver.radius_m = 1.0F;
+    bot.carver.seeds = 12;
+    return bot;
+  }
+
+  /// Server and bot in turns until the condition holds; false when that takes too long or the bot gives up.
+  template <typename F>
+  bool go_on_until(Bot& bot, F&& condition) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end || !server_->step_once()) return false;
+      if (!bot.step(1ms)) return false;
+    }
+    return true;
+  }
+  bool finish(Bot& bot) {
+    return go_on_until(bot, [&] { return bot.finished(); });
+  }
+
+  std::unique_ptr<LiveServer> server_;
+};
+
+TEST_F(BotTest, carves_until_everything_has_settled_and_the_hashes_are_equal) {
+  BotConfig with_linger = config(4);
+  with_linger.linger = true;
+  Bot bot(with_linger);
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(finish(bot));
+  const BotReport report = bot.report();
+  EXPECT_EQ(report.failure, "");
+  EXPECT_EQ(report.carves_asked, 4U);
+  EXPECT_EQ(report.carves_accepted, 4U);
+  EXPECT_TRUE(report.settled);
+  EXPECT_TRUE(report.hash.equal);
+  EXPECT_GT(report.seen.pieces_made, 4U);
+  EXPECT_EQ(report.seen.pieces_merged + report.seen.discards, report.seen.pieces_made);
+  EXPECT_EQ(report.pieces_alive, 0U);
+  EXPECT_EQ(report.seen.mismatches, 0U);
+  EXPECT_EQ(report.edit_latencies_ms.size(), 4U);
+  EXPECT_EQ(report.connections, 1U);
+  EXPECT_LE(report.carve_cost.bytes_worst, 200.0);
+  EXPECT_LE(report.merge_cost.bytes_worst, 32.0);
+}
+
+TEST_F(BotTest, authored_and_clustered_seeds_leave_both_sides_the_same_terrain) {
+  for (const SeedPattern pattern : {SeedPattern::authored, SeedPattern::clustered}) {
+    BotConfig patterned = config(2);
+    patterned.carver.pattern = pattern;
+    Bot bot(patterned);
+    ASSERT_TRUE(bot.join());
+    ASSERT_TRUE(finish(bot));
+    EXPECT_EQ(bot.report().failure, "");
+    EXPECT_EQ(bot.report().carves_accepted, 2U);
+    EXPECT_GT(bot.report().seen.pieces_made, 2U);
+    EXPECT_TRUE(bot.report().hash.equal);
+  }
+}
+
+TEST_F(BotTest, no_carves_is_a_check_that_the_server_answers) {
+  Bot bot(config(0));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(finish(bot));
+  EXPECT_EQ(bot.report().failure, "");
+  EXPECT_EQ(bot.report().carves_asked, 0U);
+}
+
+TEST_F(BotTest, refusals_are_counted_by_reason) {
+  BotConfig too_large = config(3);
+  too_large.carver.radius_m = 100.0F;
+  Bot bot(too_large);
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_refused == 3; }));
+  const BotReport report = bot.report();
+  EXPECT_EQ(report.carves_accepted, 0U);
+  ASSERT_EQ(report.refusals.size(), 1U);
+  EXPECT_NE(report.refusals.begin()->first.find("limits.edit_reach_max_m"), std::string::npos);
+}
+
+TEST_F(BotTest, a_cut_connection_is_made_anew_and_ends_with_the_same_hash) {
+  Bot bot(config(6));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_accepted >= 3; }));
+  bot.connection()->cut();
+  ASSERT_TRUE(finish(bot));
+  const BotReport report = bot.report();
+  EXPECT_EQ(report.connections, 2U);
+  EXPECT_EQ(report.carves_accepted + report.carves_lost, 6U);
+  EXPECT_TRUE(report.hash.equal);
+  EXPECT_EQ(report.seen.mismatches, 0U);
+  EXPECT_GT(report.seen.chunks, 0U) << "what had been edited before came whole";
+}
+
+TEST_F(BotTest, damage_in_the_copy_is_found_by_the_checks_and_repaired) {
+  Bot bot(config(20));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_accepted >= 2; }));
+  Field& field = bot.mirror()->field();
+  for (const ChunkCoord chunk : field.edited_chunks())
+    field.set_brick(field.edited_bricks(chunk).front(), solid_brick());
+  ASSERT_TRUE(finish(bot));
+  const BotReport report = bot.report();
+  EXPECT_GT(report.seen.mismatches, 0U);
+  EXPECT_GT(report.seen.repairs_arrived, 0U);
+  EXPECT_EQ(report.connections, 1U);
+}
+
+TEST_F(BotTest, the_report_is_json_that_programs_can_read) {
+  Bot bot(config(1));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(finish(bot));
+  const auto json = nlohmann::json::parse(to_json(bot.report()));
+  EXPECT_TRUE(json.at("ok").get<bool>());
+  EXPECT_EQ(json.at("carves").at("accepted"), 1);
+  EXPECT_EQ(json.at("hash").at("equal"), true);
+  EXPECT_EQ(json.at("ledger").at("error"), 0);
+  EXPECT_EQ(json.at("terrain").at("kind"), "flat");
+  EXPECT_GT(json.at("bytes").at("received").get<uint64_t>(), 0U);
+}
+
+TEST(Bot, a_server_that_is_not_there_is_a_failure_in_words) {
+  BotConfig nobody;
+  {
+    const RawServer closed;
+    nobody.port = closed.port();
+  }
+  const BotReport report = Bot(nobody).run();
+  EXPECT_NE(report.failure.find("cannot connect"), std::string::npos) << report.failure;
+  EXPECT_NE(to_json(report).find("\"ok\": false"), std::string::npos);
+}
+
+TEST(Bot, quantiles_are_values_of_the_list) {
+  EXPECT_EQ(quantile({}, 0.5), 0.0);
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.0), 1.0);
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 1.0), 3.0);
+}
+
+}  // namespace
+}  // namespace scree

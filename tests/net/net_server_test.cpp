@@ -1,0 +1,269 @@
+// Misbehaving clients on loopback: each is told what was wrong, and the well-behaved one beside it goes on.
+#include "server/net/net_server.h"
+
+#include <gtest/gtest.h>
+#include <string>
+
+#include "server/net/limits.h"
+#include "tests/support/raw_client.h"
+#include "tests/support/tick_source.h"
+
+namespace scree {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
+
+HelloMessage hello(uint32_t protocol = protocol_version) {
+  return {protocol, "test", {0.0F, 2.0F, 0.0F}, 64.0F};
+}
+
+CarveMessage carve(uint32_t request) {
+  CarveMessage message;
+  message.request = request;
+  message.shape = sphere({}, 1.0F);
+  return message;
+}
+
+class NetServerTest : public ::testing::Test {
+ protected:
+  void start(const std::function<void(NetConfig&)>& change = {}) {
+    NetConfig config;
+    config.terrain = flat;
+    if (change) change(config);
+    auto listening = NetServer::listen(config, commands);
+    ASSERT_TRUE(listening.has_value()) << listening.error().message;
+    server = std::move(*listening);
+    witness = std::make_unique<RawClient>(server->port());
+    ASSERT_TRUE(witness->send(hello()));
+    ASSERT_TRUE(witness->receive_as<WelcomeMessage>().has_value());
+  }
+  void tick(const std::vector<Operation>& operations = {}) { server->publish(source.step(operations)); }
+
+  /// The well-behaved client still gets every tick.
+  void expect_witness_unmoved() {
+    tick();
+    const Tick wanted = source.tick();
+    for (;;) {
+      const auto frame = witness->receive_as<FrameMessage>();
+      ASSERT_TRUE(frame.has_value());
+      ASSERT_EQ(frame->tick, ++seen);
+      if (frame->tick == wanted) return;
+    }
+  }
+  void expect_refused(RawClient& client, const std::string& because) {
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal.has_value());
+    EXPECT_NE(refusal->reason.find(because), std::string::npos) << refusal->reason;
+    EXPECT_TRUE(client.closed_within(seconds(10)));
+    expect_witness_unmoved();
+  }
+
+  CommandQueue commands{4};
+  TickSource source{flat};
+  std::unique_ptr<NetServer> server;
+  std::unique_ptr<RawClient> witness;
+  Tick seen = 0;
+};
+
+TEST_F(NetServerTest, welcome_says_what_a_client_needs_to_know) {
+  start([](NetConfig& config) { config.tick_rate_hz = 30; });
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  const auto welcome = client.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome.has_value());
+  EXPECT_EQ(welcome->protocol, protocol_version);
+  EXPECT_EQ(welcome->tick_rate_hz, 30U);
+  EXPECT_EQ(welcome->terrain, flat);
+  EXPECT_FLOAT_EQ(welcome->interest_radius_m, 64.0F);
+  tick({source.carve({0.0F, 0.0F, 0.0F}, 1.0F, 4)});
+  const auto frame = client.receive_as<FrameMessage>();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_EQ(frame->operations.size(), 1U);
+}
+
+TEST_F(NetServerTest, wrong_protocol_version_is_refused_naming_both) {
+  start();
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello(77)));
+  const auto refusal = client.receive_as<RefusalMessage>();
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_NE(refusal->reason.find("77"), std::string::npos);
+  EXPECT_NE(refusal->reason.find("version " + std::to_string(protocol_version)), std::string::npos);
+  EXPECT_TRUE(client.closed_within(seconds(10)));
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, garbage_is_refused) {
+  start();
+  RawClient client(server->port());
+  const std::vector<uint8_t> garbage{12, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 2, 3, 4, 5, 6, 7, 8};
+  ASSERT_TRUE(client.send_bytes(garbage));
+  expect_refused(client, "not a protobuf of this protocol");
+}
+
+TEST_F(NetServerTest, oversized_message_is_refused_naming_the_limit) {
+  start();
+  RawClient client(server->port());
+  const std::vector<uint8_t> length{0xFF, 0xFF, 0xFF, 0x7F};
+  ASSERT_TRUE(client.send_bytes(length));
+  expect_refused(client, std::to_string(limits::message_bytes_max));
+}
+
+TEST_F(NetServerTest, message_cut_short_is_refused) {
+  start();
+  RawClient client(server->port());
+  const std::vector<uint8_t> whole = encode(ClientMessage(hello()));
+  ASSERT_TRUE(client.send_bytes(std::span(whole).first(whole.size() - 3)));
+  client.finish_sending();
+  expect_refused(client, "middle of a message");
+}
+
+TEST_F(NetServerTest, silent_connection_is_refused_in_the_end) {
+  start([](NetConfig& config) { config.hello_seconds = 0.2; });
+  RawClient client(server->port());
+  expect_refused(client, "no hello within");
+}
+
+TEST_F(NetServerTest, request_before_hello_is_refused) {
+  start();
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(CarveMessage{}));
+  expect_refused(client, "must be a hello");
+}
+
+TEST_F(NetServerTest, second_hello_is_refused) {
+  start();
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  ASSERT_TRUE(client.send(hello()));
+  expect_refused(client, "joined already");
+}
+
+TEST_F(NetServerTest, too_many_sessions_are_refused_naming_the_limit) {
+  start([](NetConfig& config) { config.sessions_max = 2; });
+  RawClient second(server->port());
+  ASSERT_TRUE(second.send(hello()));
+  ASSERT_TRUE(second.receive_as<WelcomeMessage>().has_value());
+  RawClient third(server->port());
+  ASSERT_TRUE(third.send(hello()));
+  expect_refused(third, "2 sessions");
+}
+
+TEST_F(NetServerTest, port_in_use_is_said_in_words) {
+  start();
+  NetConfig config;
+  config.port = server->port();
+  const auto second = NetServer::listen(config, commands);
+  ASSERT_FALSE(second.has_value());
+  EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;
+  EXPECT_NE(second.error().message.find(std::to_string(config.port)), std::string::npos);
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, bind_address_that_is_none_is_said_in_words) {
+  NetConfig config;
+  config.bind = "nowhere";
+  const auto listening = NetServer::listen(config, commands);
+  ASSERT_FALSE(listening.has_value());
+  EXPECT_NE(listening.error().message.find("nowhere"), std::string::npos);
+}
+
+TEST_F(NetServerTest, requests_over_the_rate_get_a_reply_each) {
+  start([](NetConfig& config) { config.requests_per_second = 1.0; });
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  for (uint32_t i = 1; i <= 8; ++i) ASSERT_TRUE(client.send(carve(i)));
+  const auto reply = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(reply.has_value());
+  EXPECT_NE(reply->refusal.find("1 requests a second"), std::string::npos) << reply->refusal;
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, full_command_queue_is_answered_naming_the_limit) {
+  start();
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  for (uint32_t i = 1; i <= 5; ++i) ASSERT_TRUE(client.send(FillMessage{i, sphere({}, 1.0F)}));
+  const auto reply = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(reply.has_value());
+  EXPECT_EQ(reply->request, 5U);
+  EXPECT_NE(reply->refusal.find("4 commands"), std::string::npos) << reply->refusal;
+  const std::vector<Command> waiting = commands.drain();
+  ASSERT_EQ(waiting.size(), 4U);
+  EXPECT_EQ(waiting[3].request, 4U);
+  EXPECT_NE(waiting[0].session, 0U);
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, carve_of_a_replay_is_refused_by_a_reply) {
+  start([](NetConfig& config) { config.replay = true; });
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  const auto welcome = client.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome.has_value());
+  EXPECT_TRUE(welcome->replay);
+  ASSERT_TRUE(client.send(carve(3)));
+  const auto reply = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(reply.has_value());
+  EXPECT_NE(reply->refusal.find("recording"), std::string::npos);
+}
+
+TEST_F(NetServerTest, client_that_never_reads_is_cut_off_and_no_other_notices) {
+  start([](NetConfig& config) { config.stall_seconds = 0.3; });
+  RawClient deaf(server->port(), 4096);
+  ASSERT_TRUE(deaf.send(hello()));
+  tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 64)});
+  const auto deadline = std::chrono::steady_clock::now() + seconds(30);
+  while (server->stats().sessions_cut == 0 && std::chrono::steady_clock::now() < deadline) {
+    for (PieceId piece = 1; piece <= 64; ++piece)
+      if (source.pieces().contains(piece)) source.move(piece, {0.0F, 0.0625F, 0.0F});
+    for (int i = 0; i < 3; ++i) expect_witness_unmoved();
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_EQ(server->stats().sessions_cut, 1U);
+  EXPECT_EQ(server->stats().sessions, 1U);
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, message_flood_is_refused) {
+  start();
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  std::vector<uint8_t> flood;
+  const std::vector<uint8_t> ack = encode(ClientMessage(AckMessage{1}));
+  for (int i = 0; i < 20000; ++i) flood.insert(flood.end(), ack.begin(), ack.end());
+  client.send_bytes(flood);
+  expect_refused(client, "messages a second");
+}
+
+TEST_F(NetServerTest, stopping_says_goodbye) {
+  start();
+  server->stop();
+  const auto refusal = witness->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_EQ(refusal->reason, "the server stops");
+  server->publish(source.step());  // harmless
+}
+
+TEST_F(NetServerTest, clients_that_come_and_go_leave_nothing_behind) {
+  start();
+  for (int i = 0; i < 50; ++i) {
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send(hello()));
+    ASSERT_TRUE(client.receive_as<WelcomeMessage>().has_value());
+    tick();
+  }
+  const auto deadline = std::chrono::steady_clock::now() + seconds(10);
+  const auto settled = [&] { return server->stats().sessions_joined == 51 && server->stats().sessions == 1; };
+  while (!settled() && std::chrono::steady_clock::now() < deadline) {
+    expect_witness_unmoved();
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_TRUE(settled());
+}
+
+}  // namespace
+}  // namespace scree

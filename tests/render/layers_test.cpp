@@ -1,0 +1,106 @@
+// What the ground is made of is seen by every method alike: layers in cuts, and paint.
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "client/render/methods.h"
+#include "client/viewer/pictures/png.h"
+#include "shared/field/layer_depths.h"
+#include "shared/field/paint.h"
+#include "tests/support/offscreen_fixture.h"
+
+namespace scree {
+namespace {
+
+constexpr float voxel_m = 0.25F;
+/// A wall that faces the camera, from the ground down.
+constexpr float wall_z_m = -4.0F, pit_depth_m = 4.0F;
+
+struct Colour {
+  float red = 0.0F;
+  float green = 0.0F;
+  float blue = 0.0F;
+  float bright() const { return red + green + blue; }
+};
+
+/// A pit in flat ground, whose uppermost metre is soil.
+class Layers : public OffscreenTest, public testing::WithParamInterface<std::string> {
+ protected:
+  Layers() : OffscreenTest(GetParam(), {TerrainKind::flat, 3, voxel_m}, 16.0F) {}
+
+  void SetUp() override {
+    OffscreenTest::SetUp();
+    if (method_ == nullptr) return;
+    renderer_->set_terrain(field_.source());
+    finish();
+    PieceTable table;
+    const CarveOperation pit{box({0.0F, 0.0F, 0.0F}, {4.0F, pit_depth_m, -wall_z_m}), {}, 1, 5, {}, 1};
+    changes_.bricks = apply(Operation(pit), field_, table).changed;
+    camera_.eye_m = {0.0F, -0.5F, 2.5F};
+    camera_.pitch = -0.2F;
+  }
+
+  Image show() {
+    method_->changed(changes_);
+    finish();
+    return draw();
+  }
+
+  /// Of the wall between two depths, m below the ground.
+  Colour wall(const Image& image, float from_m, float to_m) const {
+    const float half = std::tan(camera_.field_of_view * 0.5F);
+    const auto row = [&](float depth_m) {
+      const float up = std::atan((-depth_m - camera_.eye_m.y) / (camera_.eye_m.z - wall_z_m)) - camera_.pitch;
+      return static_cast<int>((0.5F - 0.5F * std::tan(up) / half) * static_cast<float>(image.height));
+    };
+    Colour sum;
+    int count = 0;
+    for (int y = row(from_m); y < row(to_m); ++y)
+      for (int x = image.width / 2 - 8; x < image.width / 2 + 8; ++x, ++count) {
+        const uint8_t* pixel = &image.rgb[static_cast<size_t>(3 * (y * image.width + x))];
+        sum.red += pixel[0], sum.green += pixel[1], sum.blue += pixel[2];
+      }
+    const auto n = static_cast<float>(count);
+    return {sum.red / n, sum.green / n, sum.blue / n};
+  }
+
+  /// For whoever wants to look: SCREE_PICTURES names a folder.
+  void keep(const Image& image, const std::string& name) {
+    const char* folder = std::getenv("SCREE_PICTURES");
+    if (folder == nullptr) return;
+    EXPECT_TRUE(write_png(std::string(folder) + "/" + GetParam() + "_" + name + ".png", image));
+  }
+
+  MirrorChanges changes_;
+};
+
+TEST_P(Layers, a_cut_lays_the_soil_bare) {
+  const Image image = show();
+  keep(image, "soil");
+  // A cell of the grid is half a metre.
+  const Colour soil = wall(image, 0.5F, soil_depth_m - 0.2F);
+  const Colour rock = wall(image, soil_depth_m + 0.5F, 2.5F);
+  EXPECT_LT(soil.bright(), 0.75F * rock.bright());
+}
+
+TEST_P(Layers, paint_is_seen) {
+  const std::vector<BrickCoord> painted =
+      paint(field_, in_voxels(box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.5F, 3.0F}), voxel_m), Material::ice);
+  changes_.bricks.insert(changes_.bricks.end(), painted.begin(), painted.end());
+  const Image image = show();
+  keep(image, "paint");
+  const Colour ice = wall(image, 2.3F, 3.0F), soil = wall(image, 0.5F, soil_depth_m - 0.2F);
+  EXPECT_GT(ice.blue, 0.85F * ice.red);
+  EXPECT_LT(soil.blue, 0.75F * soil.red) << "above the paint";
+}
+
+std::vector<std::string> methods_here() {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : all_methods()) names.emplace_back(entry.name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(methods, Layers, testing::ValuesIn(methods_here()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,220 @@
+#include "tests/style/style_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+namespace scree::style {
+namespace {
+
+/// A folder, and the folders directly beneath it in the layering. It may include those, what they may
+/// include, and itself with the rooms in it.
+struct Layer {
+  std::string_view folder;
+  std::vector<std::string_view> beneath;
+};
+
+/// Rooms come before the folder that they lie in: the first match is a file's layer.
+const std::vector<Layer>& layers() {
+  static const std::vector<Layer> table = {
+      {"shared/base/", {}},
+      {"shared/field/", {"shared/base/"}},
+      {"shared/surface/", {"shared/field/"}},
+      {"shared/falling/", {"shared/field/"}},
+      {"shared/fracture/", {"shared/surface/"}},
+      {"shared/recombine/", {"shared/surface/", "shared/falling/"}},
+      {"shared/operation/", {"shared/fracture/", "shared/recombine/"}},
+      {"proto/", {"shared/operation/"}},
+      {"server/field/", {"proto/"}},
+      {"server/fracture/", {"server/field/"}},
+      {"server/bodies/", {"server/field/"}},
+      {"server/recombine/", {"server/field/"}},
+      {"server/world/", {"server/fracture/", "server/bodies/", "server/recombine/"}},
+      {"server/net/", {"proto/", "server/world/"}},
+      {"server/store/", {"proto/", "server/world/"}},
+      {"server/replay/", {"server/store/"}},
+      {"server/app/", {"server/net/", "server/replay/"}},
+      {"client/mirror/", {"proto/"}},
+      {"client/connection/", {"client/mirror/"}},
+      {"client/bot/", {"client/connection/"}},
+      {"client/admin/", {"client/connection/"}},
+      {"client/render/scene/", {"client/mirror/"}},
+      {"client/render/gl/", {"client/render/scene/"}},
+      {"client/render/levels/", {"client/render/scene/"}},
+      {"client/render/bricks/", {"client/render/gl/", "client/render/levels/"}},
+      {"client/render/pieces/", {"client/render/bricks/"}},
+      {"client/render/mesh/", {"client/render/pieces/"}},
+      {"client/render/raymarch/", {"client/render/pieces/"}},
+      {"client/render/grid/", {"client/render/pieces/"}},
+      {"client/render/", {"client/mirror/"}},
+      {"client/viewer/base/", {"client/render/"}},
+      {"client/viewer/input/", {"client/viewer/base/"}},
+      {"client/viewer/session/", {"client/viewer/input/", "client/connection/"}},
+      {"client/viewer/pictures/", {"client/viewer/base/"}},
+      {"client/viewer/viewing/", {"client/viewer/session/", "client/viewer/pictures/"}},
+      {"client/viewer/window/", {"client/viewer/viewing/"}},
+      {"client/viewer/", {"client/viewer/window/"}},
+      {"bench/support/", {"server/", "client/"}},
+      {"bench/peers/", {"server/", "client/"}},
+      {"bench/simulation/", {"bench/support/", "bench/peers/"}},
+      {"bench/drawing/", {"bench/support/", "bench/peers/"}},
+      {"bench/wire/", {"bench/support/"}},
+      {"bench/programs/", {"bench/support/"}},
+      {"tests/", {"bench/"}},
+  };
+  return table;
+}
+
+/// A library, the includes that it is known by, and where it may be included.
+struct Library {
+  std::string_view name;
+  std::regex includes;
+  std::vector<std::string_view> homes;
+};
+
+const std::vector<Library>& libraries() {
+  static const std::vector<Library> table = {
+      // bench/peers/: its own tools are what ours are measured beside.
+      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers/"}},
+      {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/"}},
+      {"voro++", std::regex("voro\\+\\+.*"), {"bench/peers/"}},
+      {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
+      {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/"}},
+      {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/window/"}},
+      {"EGL", std::regex("(epoxy/egl|EGL/).*"), {"client/render/", "client/viewer/"}},
+      {"OpenGL", std::regex("(epoxy/gl|GL/|GLES).*"), {"client/render/", "client/viewer/", "bench/peers/"}},
+      {"Asio", std::regex("(boost/)?asio.*"), {"server/net/", "client/connection/", "tests/", "bench/"}},
+      {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/"}},
+  };
+  return table;
+}
+
+bool starts_with_any(std::string_view text, const std::vector<std::string_view>& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](auto p) { return text.starts_with(p); });
+}
+
+const Layer* layer_of(std::string_view path) {
+  for (const Layer& layer : layers())
+    if (path.starts_with(layer.folder)) return &layer;
+  return nullptr;
+}
+
+const Library* library_of(const std::string& include) {
+  for (const Library& library : libraries())
+    if (std::regex_match(include, library.includes)) return &library;
+  return nullptr;
+}
+
+std::string_view folder_of(std::string_view path) {
+  return path.substr(0, path.rfind('/') + 1);
+}
+
+bool is_header(std::string_view path) {
+  return path.ends_with(".h");
+}
+
+/// Whether a file of `layer` may include `target`: down the table, through any number of layers.
+bool may_include(const Layer& layer, std::string_view target) {
+  if (target.starts_with(layer.folder)) return true;
+  for (const Layer& other : layers())
+    if (starts_with_any(other.folder, layer.beneath) && other.folder != layer.folder &&
+        may_include(other, target))
+      return true;
+  return false;
+}
+
+std::optional<std::string> layering_breach(const SourceFile& file, const Layer& layer,
+                                           const std::string& target) {
+  if (layer_of(target) == nullptr)
+    return file.path + ": \"" + target +
+           "\" is no path from the root; project includes are, libraries take <>";
+  if (may_include(layer, target)) return std::nullopt;
+  return file.path + ": must not include \"" + target + "\": " + std::string(layer.folder) +
+         " does not lie above it (docs/architecture.md, Layers)";
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(const SourceFile& file) {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
+  std::vector<Include> found;
+  std::istringstream lines(file.text);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("include") != std::string::npos && std::regex_search(line, match, pattern))
+      found.push_back({match[2].str(), match[1].str() == "<"});
+  return found;
+}
+
+Complaints check_file_length(const SourceFile& file) {
+  const auto lines = static_cast<size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
+  if (lines <= file_lines_max) return {};
+  return {file.path + ": " + std::to_string(lines) + " lines, over the " + std::to_string(file_lines_max) +
+          " of a file; split it by concept"};
+}
+
+Complaints check_pragma_once(const SourceFile& file) {
+  static const std::regex pattern(R"((^|\n)#pragma once\n)");
+  if (!is_header(file.path) || std::regex_search(file.text, pattern)) return {};
+  return {file.path + ": has no #pragma once"};
+}
+
+Complaints check_layering(const SourceFile& file) {
+  const Layer* layer = layer_of(file.path);
+  if (layer == nullptr)
+    return {file.path + ": its folder is in no layer; give it one in tests/style/style_rules.cpp"};
+  Complaints complaints;
+  for (const Include& include : includes_of(file)) {
+    if (include.angled) continue;
+    if (auto breach = layering_breach(file, *layer, include.target)) complaints.push_back(*breach);
+  }
+  return complaints;
+}
+
+Complaints check_library_homes(const SourceFile& file) {
+  static const std::regex known_to_shared(R"([a-z_0-9]+|glm/.*|tl/expected\.hpp|xxhash\.h)");
+  Complaints complaints;
+  for (const Include& include : includes_of(file)) {
+    const Library* library = library_of(include.target);
+    if (library != nullptr && !starts_with_any(file.path, library->homes))
+      complaints.push_back(file.path + ": includes <" + include.target + ">, but " +
+                           std::string(library->name) + " belongs to " + std::string(library->homes.front()));
+    if (include.angled && file.path.starts_with("shared/") &&
+        !std::regex_match(include.target, known_to_shared))
+      complaints.push_back(file.path + ": includes <" + include.target +
+                           ">, but shared/ knows only GLM, xxHash and tl::expected");
+  }
+  return complaints;
+}
+
+Complaints check_library_leaks(const std::vector<SourceFile>& files) {
+  std::map<std::string, std::string> leaky;  // header → library that it shows
+  for (const SourceFile& file : files)
+    for (const Include& include : includes_of(file))
+      if (const Library* library = library_of(include.target); library != nullptr && is_header(file.path))
+        leaky[file.path] = library->name;
+  Complaints complaints;
+  for (const SourceFile& file : files)
+    for (const Include& include : includes_of(file))
+      if (auto it = leaky.find(include.target);
+          it != leaky.end() && folder_of(it->first) != folder_of(file.path))
+        complaints.push_back(file.path + ": includes \"" + it->first + "\", which shows " + it->second +
+                             " to others; hide it behind a pointer to its implementation");
+  return complaints;
+}
+
+Complaints check_kernel_arithmetic(const SourceFile& file) {
+  static const std::regex inexact(
+      R"(\b(std|glm)::(a?(sin|cos|tan)h?f?|atan2f?|exp[2m1]*f?|log[210p]*f?|powf?|cbrtf?|hypotf?|fmaf?|slerp|angleAxis|rotate)\s*\()");
+  if (!file.path.starts_with("shared/")) return {};
+  const std::string code = without_comments_and_literals(file.text);
+  Complaints complaints;
+  for (std::sregex_iterator it(code.begin(), code.end(), inexact), end; it != end; ++it)
+    complaints.push_back(file.path + ": calls " + it->str() +
+                         "…), whose last bits differ between math libraries; kernels use + - * / and sqrt");
+  return complaints;
+}
+
+}  // namespace scree::style

@@ -1,0 +1,158 @@
+#include "tests/support/session_support.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <thread>
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+/// Far beyond what anything here takes, under a sanitizer and beside other tests, too.
+constexpr auto patience = 30s;
+
+/// Ticks without a change after which a session is at rest.
+constexpr int calm_ticks = 60;
+
+/// Ticks within which a request is answered: it is on its way while the server steps.
+constexpr int reply_ticks_max = 2000;
+
+}  // namespace
+
+CarveMessage carve_message(const CarveRequest& carve, uint32_t request) {
+  return {request,           carve.shape,    carve.pattern,        carve.seeds,
+          carve.random_seed, carve.impact_m, carve.blast_speed_m_s};
+}
+
+float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) {
+  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
+  const glm::vec3 lo = glm::vec3(chunk.x, chunk.y, chunk.z) * side_m;
+  return glm::length(glm::clamp(eye_m, lo, lo + side_m) - eye_m);
+}
+
+SessionClient::SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m)
+    : eye_m_(eye_m), radius_m_(radius_m) {
+  const HelloMessage hello{protocol_version, "session test", eye_m, radius_m};
+  auto connected = Connection::connect("127.0.0.1", port, hello, patience);
+  if (!connected) {
+    failure = connected.error().message;
+    return;
+  }
+  connection_ = std::move(*connected);
+  mirror_ = std::make_unique<Mirror>(connection_->welcome());
+}
+
+bool SessionClient::fail_with(const std::string& why) {
+  if (failure.empty()) failure = why;
+  return false;
+}
+
+bool SessionClient::apply(const ServerMessage& message) {
+  if (const auto* reply = std::get_if<ReplyMessage>(&message)) replies[reply->request] = *reply;
+  if (const auto* frame = std::get_if<FrameMessage>(&message))
+    if (frame->tick != mirror_->tick() + 1)
+      return fail_with("tick " + std::to_string(frame->tick) + " came after " +
+                       std::to_string(mirror_->tick()));
+  if (const auto applied = mirror_->apply(message); !applied) return fail_with(applied.error().message);
+  while (const auto repair = mirror_->take_repair_request()) connection_->send(*repair);
+  return true;
+}
+
+bool SessionClient::follow_to(Tick tick) {
+  if (!failure.empty()) return false;
+  const auto deadline = Clock::now() + patience;
+  while (mirror_->tick() < tick) {
+    const auto arrived = connection_->wait(100ms);
+    for (const Received& received : arrived)
+      if (!apply(received.message)) return false;
+    if (arrived.empty() && !connection_->connected()) return fail_with(connection_->close_reason());
+    if (Clock::now() > deadline) return fail_with("tick " + std::to_string(tick) + " does not come");
+  }
+  return true;
+}
+
+bool SessionClient::ends() {
+  const auto deadline = Clock::now() + patience;
+  while (connection_->connected() && Clock::now() < deadline)
+    for (const Received& received : connection_->wait(100ms)) apply(received.message);
+  return !connection_->connected();
+}
+
+void SessionClient::look_from(glm::vec3 eye_m) {
+  eye_m_ = eye_m;
+  send(InterestMessage{eye_m, radius_m_});
+}
+
+LoopbackSession::LoopbackSession(LiveConfig config) {
+  config.net.port = 0;
+  config.pacing = Pacing::by_hand;
+  auto started = LiveServer::start(config);
+  if (!started) {
+    failure = started.error().message;
+    return;
+  }
+  server_ = std::move(*started);
+}
+
+SessionClient& LoopbackSession::join(glm::vec3 eye_m, float radius_m) {
+  clients_.push_back(std::make_unique<SessionClient>(server_->port(), eye_m, radius_m));
+  if (!clients_.back()->failure.empty()) failure = clients_.back()->failure;
+  return *clients_.back();
+}
+
+void LoopbackSession::cut(const SessionClient& client) {
+  const auto found = std::ranges::find(clients_, &client, &std::unique_ptr<SessionClient>::get);
+  (*found)->cut();
+  clients_.erase(found);
+  const auto deadline = Clock::now() + patience;
+  while (server_->report().net.sessions != clients_.size() && Clock::now() < deadline)
+    std::this_thread::yield();
+  if (server_->report().net.sessions != clients_.size()) failure = "the server does not notice the cut";
+}
+
+bool LoopbackSession::step() {
+  if (!failure.empty()) return false;
+  if (!server_->step_once()) {
+    failure = "there is no tick after " + std::to_string(tick_);
+    return false;
+  }
+  tick_ = server_->last_delta()->tick;
+  for (const auto& client : clients_)
+    if (!client->follow_to(tick_)) failure = client->failure;
+  return failure.empty();
+}
+
+bool LoopbackSession::steps(int count) {
+  for (int i = 0; i < count; ++i)
+    if (!step()) return false;
+  return true;
+}
+
+bool LoopbackSession::settle(int ticks_max) {
+  int calm = 0;
+  for (int i = 0; i < ticks_max && calm < calm_ticks; ++i) {
+    if (!step()) return false;
+    const auto delta = server_->last_delta();
+    calm = delta->pieces.empty() && delta->operations.empty() ? calm + 1 : 0;
+  }
+  if (calm < calm_ticks)
+    failure = std::to_string(server_->last_delta()->pieces.size()) + " pieces are alive after " +
+              std::to_string(ticks_max) + " ticks";
+  return failure.empty();
+}
+
+const ReplyMessage* LoopbackSession::ask(SessionClient& client, const CarveMessage& carve) {
+  client.send(carve);
+  for (int i = 0; i < reply_ticks_max && !client.replies.contains(carve.request); ++i)
+    if (!step()) return nullptr;
+  const auto reply = client.replies.find(carve.request);
+  if (reply != client.replies.end()) return &reply->second;
+  failure = "request " + std::to_string(carve.request) + " is not answered";
+  return nullptr;
+}
+
+}  // namespace scree

@@ -1,0 +1,151 @@
+// The viewer's window, on an X server of the test's own that shows nothing to anyone (Xvfb).
+#include <csignal>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "client/viewer/window_app.h"
+#include "server/app/live_server.h"
+#include "tests/support/loaded_libraries.h"
+#include "tests/support/run_viewer.h"
+
+namespace scree {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 60s;
+
+/// An X server on a display that is free; ends with the object.
+class VirtualScreen {
+ public:
+  VirtualScreen() {
+    int ends[2];
+    if (::pipe(ends) != 0) return;
+    process_ = ::fork();
+    if (process_ == 0) {
+      ::close(ends[0]);
+      const std::string descriptor = std::to_string(ends[1]);
+      ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "640x480x24", "-nolisten",
+               "tcp", static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+    char digit = 0;
+    while (::read(ends[0], &digit, 1) == 1 && digit != '\n') display_ += digit;
+    ::close(ends[0]);
+    if (!display_.empty()) ::setenv("DISPLAY", (":" + display_).c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+  }
+  ~VirtualScreen() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGTERM);
+    ::waitpid(process_, nullptr, 0);
+  }
+  bool runs() const { return !display_.empty(); }
+
+ private:
+  pid_t process_ = -1;
+  std::string display_;
+};
+
+class ViewerWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(screen_.runs()) << "Xvfb does not start (package xvfb)";
+    LiveConfig config;
+    config.net.port = 0;
+    config.world.terrain.kind = TerrainKind::flat;
+    auto server = LiveServer::start(config);
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+    options_.host = "127.0.0.1";
+    options_.port = server_->port();
+    options_.view_radius_m = 12.0F;
+    options_.camera.eye_m = {0.0F, 3.0F, 6.0F};
+    options_.camera.pitch = -0.45F;
+    options_.method = &all_methods().front();
+    options_.gl_debug = true;
+  }
+
+  void open(int width, int height) {
+    Result<std::unique_ptr<AppWindow>> window = AppWindow::open(width, height, true);
+    ASSERT_TRUE(window) << window.error().message;
+    window_ = std::move(*window);
+    keep_libraries_loaded();
+    Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options_);
+    ASSERT_TRUE(viewing) << viewing.error().message;
+    viewing_ = std::move(*viewing);
+    Settings settings;
+    settings.hud = {true, true, true};
+    settings.overlay.shown = true;
+    app_ = std::make_unique<WindowApp>(*window_, *viewing_, settings);
+  }
+  void TearDown() override {
+    app_.reset();
+    viewing_.reset();
+    window_.reset();
+  }
+
+  template <typename Condition>
+  void run_until(const Condition& condition, const char* what) {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << what << " does not come";
+      const Result<void> done = app_->frame();
+      ASSERT_TRUE(done) << done.error().message;
+    }
+  }
+
+  VirtualScreen screen_;
+  ViewerOptions options_;
+  std::unique_ptr<LiveServer> server_;
+  std::unique_ptr<AppWindow> window_;
+  std::unique_ptr<Viewing> viewing_;
+  std::unique_ptr<WindowApp> app_;
+};
+
+TEST_F(ViewerWindow, draws_with_all_of_the_hud_and_goes_on_without_a_server) {
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  EXPECT_EQ(app_->settings().width, 320);
+  EXPECT_EQ(app_->settings().method, options_.method->name);
+  server_.reset();
+  run_until([&] { return !viewing_->session.connected(); }, "the loss");
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(app_->frame());
+  EXPECT_NE(viewing_->view->methods().shown(), nullptr) << "the last field stays";
+}
+
+TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward());
+  run_until(
+      [&] {
+        const PhysicsMessage* physics = viewing_->session.physics();
+        return physics != nullptr && !physics->bodies.empty();
+      },
+      "what the bodies do");
+  LineList lines;
+  OverlayChoice choice;
+  viewing_->add_overlay(lines, choice, steady_now_s());
+  EXPECT_TRUE(lines.vertices().empty()) << "nothing is shown that was not asked for";
+}
+
+TEST_F(ViewerWindow, opengl_that_is_too_old_is_said_with_the_way_out) {
+  const auto [status, said] =
+      run_viewer("MESA_GL_VERSION_OVERRIDE=2.1 MESA_GLES_VERSION_OVERRIDE=2.0", "--port 1");
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(said.find("OpenGL 3.3"), std::string::npos) << said;
+  EXPECT_NE(said.find("libgl1-mesa-dri"), std::string::npos) << said;
+}
+
+TEST_F(ViewerWindow, may_be_one_pixel) {
+  open(1, 1);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+}
+
+}  // namespace
+}  // namespace scree

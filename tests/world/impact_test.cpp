@@ -1,0 +1,260 @@
+// Impacts: what falls hard breaks where it struck and dents soft ground; mass and momentum stay.
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "server/store/recorder.h"
+#include "server/world/impact_stage.h"
+#include "server/world/limits.h"
+#include "server/world/published_state.h"
+#include "server/world/spawn.h"
+#include "tests/support/verify_recording.h"
+
+namespace scree {
+namespace {
+
+WorldConfig flat_world() {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  return config;
+}
+
+std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
+  return world.step(commands);
+}
+
+/// A block of rock in the air, cut loose at once: it falls from there.
+std::vector<Command> hang_block(glm::vec3 centre_m, float half_m, uint32_t seeds) {
+  CarveRequest carve;
+  carve.shape = box(centre_m, glm::vec3(half_m + 0.6F));
+  carve.pattern = SeedPattern::uniform;
+  carve.seeds = seeds;
+  carve.impact_m = centre_m - glm::vec3(0.0F, 20.0F, 0.0F);
+  carve.blast_speed_m_s = 0.0F;
+  return {{1, 1, FillRequest{box(centre_m, glm::vec3(half_m))}}, {1, 2, carve}};
+}
+
+template <typename T>
+const T* find_operation(const TickDelta& delta) {
+  for (const AppliedOperation& applied : delta.operations)
+    if (const auto* found = std::get_if<T>(&applied.operation)) return found;
+  return nullptr;
+}
+
+/// Steps until an operation of that kind happens; null when none does.
+template <typename T>
+std::shared_ptr<const TickDelta> step_until(World& world, int ticks = 240) {
+  for (int i = 0; i < ticks; ++i) {
+    auto delta = step(world);
+    EXPECT_EQ(delta->ledger.error(), 0);
+    if (find_operation<T>(*delta) != nullptr) return delta;
+  }
+  return nullptr;
+}
+
+MassUnits mass_of(const TickDelta& delta) {
+  MassUnits mass = 0;
+  for (const SpawnedPiece& piece : delta.spawned) mass += piece.volume->mass;
+  return mass;
+}
+
+TEST(impact, a_hard_fall_breaks_a_piece_where_it_struck) {
+  WorldConfig config = flat_world();
+  config.methods.dents = false;
+  World world(config);
+  const auto born = step(world, hang_block({0.0F, 20.0F, 0.0F}, 0.75F, 1));
+  ASSERT_EQ(born->spawned.size(), 1U) << born->replies.back().refusal;
+  const Volume& parent = *born->spawned.front().volume;
+  const auto broken = step_until<ShatterOperation>(world);
+  ASSERT_NE(broken, nullptr);
+  const auto* shatter = find_operation<ShatterOperation>(*broken);
+  EXPECT_EQ(shatter->piece, born->spawned.front().id);
+  EXPECT_GE(broken->spawned.size(), 2U);
+  EXPECT_LT(shatter->impact_voxels.y, parent.centre_voxels.y) << "the piece's lower side struck";
+  EXPECT_EQ(mass_of(*broken), parent.mass);
+  EXPECT_EQ(broken->ledger.pieces, parent.mass);
+}
+
+TEST(material, soil_lies_on_rock_and_ice_on_the_heights) {
+  const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
+  EXPECT_EQ(material_at(flat, {3.0F, -0.5F, 8.0F}), Material::soil);
+  EXPECT_EQ(material_at(flat, {3.0F, -1.5F, 8.0F}), Material::rock);
+  EXPECT_EQ(material_at(flat, {3.0F, 0.5F, 8.0F}), Material::rock) << "what is poured above the ground";
+  const TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
+  uint32_t seen[3] = {0, 0, 0};
+  for (int x = -40; x < 40; x += 2)
+    for (int z = -40; z < 40; z += 2) {
+      const glm::vec3 p(static_cast<float>(x), 0.0F, static_cast<float>(z));
+      const float ground_m = ground_height_m(canyon, p.x, p.z);
+      ++seen[static_cast<size_t>(material_at(canyon, {p.x, ground_m - 0.3F, p.z}))];
+      EXPECT_EQ(material_at(canyon, {p.x, -30.0F, p.z}), Material::rock);
+    }
+  for (const uint32_t count : seen) EXPECT_GT(count, 0U);
+}
+
+TEST(impact, a_piece_weighs_what_its_material_weighs_and_its_children_do_too) {
+  World::State state(flat_world());
+  TickDelta delta;
+  const Applied cut = state.apply_and_record(
+      CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 0.8F), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+  const auto born = [](PieceId, const Volume&) {
+    Newborn piece;
+    piece.body.pose.position_m = {8.0F, 20.0F, 0.0F};  // not back into its hole
+    return piece;
+  };
+  spawn(state, cut, born, delta);
+  const auto weighs_as = [&](PieceId id) {
+    const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel / 64.0F;
+    return state.bodies.mass_kg(id) / size_m3;
+  };
+  EXPECT_NEAR(weighs_as(1), traits_of(Material::soil).density_kg_m3, 1.0F);
+  for (int i = 0; i < 240 && state.pieces.contains(1); ++i) {
+    state.bodies.step();
+    apply_impacts(state, delta);
+  }
+  ASSERT_FALSE(state.pieces.contains(1)) << "it did not break";
+  for (const auto& [id, volume] : state.pieces)
+    EXPECT_NEAR(weighs_as(id), traits_of(Material::soil).density_kg_m3, 1.0F);
+}
+
+TEST(impact, a_soft_fall_breaks_nothing) {
+  World world(flat_world());
+  ASSERT_EQ(step(world, hang_block({0.0F, 2.0F, 0.0F}, 0.75F, 1))->spawned.size(), 1U);
+  EXPECT_EQ(step_until<ShatterOperation>(world), nullptr);
+  EXPECT_EQ(world.measure_terrain(), step(world)->ledger.terrain);
+}
+
+TEST(impact, switched_off_nothing_breaks_and_nothing_dents) {
+  WorldConfig config = flat_world();
+  config.methods.impacts = config.methods.dents = false;
+  World world(config);
+  ASSERT_EQ(step(world, hang_block({0.0F, 20.0F, 0.0F}, 0.75F, 1))->spawned.size(), 1U);
+  for (int i = 0; i < 300; ++i) {
+    const auto delta = step(world);
+    ASSERT_EQ(find_operation<ShatterOperation>(*delta), nullptr);
+    ASSERT_EQ(find_operation<CarveOperation>(*delta), nullptr);
+  }
+}
+
+/// Σ m v of some pieces, in units of mass · m/s.
+glm::dvec3 momentum(const World::State& state, const PieceTable& pieces) {
+  glm::dvec3 sum(0.0);
+  for (const auto& [id, volume] : pieces)
+    sum += glm::dvec3(state.bodies.state(id).velocity_m_s) * static_cast<double>(volume->mass);
+  return sum;
+}
+
+TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
+  World::State state(flat_world());
+  // A fast, spinning block just above the ground, so that its next step is an impact.
+  apply(FillOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(0.75F))}, state.field, state.pieces);
+  TickDelta delta;
+  const Applied cut = state.apply_and_record(
+      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(1.5F)), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+  ASSERT_EQ(cut.created.size(), 1U);
+  const auto born = [](PieceId, const Volume&) {
+    Newborn piece;
+    piece.body.pose.position_m = {0.0F, 0.76F, 0.0F};
+    piece.body.velocity_m_s = {3.0F, -24.0F, 1.0F};
+    piece.body.spin_rad_s = {0.5F, 1.0F, 2.0F};
+    return piece;
+  };
+  spawn(state, cut, born, delta);
+  state.methods.dents = false;
+  bool broke = false;
+  for (int i = 0; i < 30 && !broke; ++i) {
+    state.bodies.step();
+    const glm::dvec3 before = momentum(state, state.pieces);
+    const glm::vec3 spin = state.bodies.states().front().spin_rad_s;
+    apply_impacts(state, delta);
+    broke = state.pieces.size() > 1;
+    const glm::dvec3 change = momentum(state, state.pieces) - before;
+    EXPECT_LT(glm::length(change), 1e-5 * glm::length(before) + 1e-3);
+    if (!broke) continue;
+    for (const BodyState& child : state.bodies.states()) EXPECT_EQ(child.spin_rad_s, spin);
+  }
+  EXPECT_TRUE(broke);
+}
+
+TEST(impact, soft_ground_dents_and_rock_does_not) {
+  World soft(flat_world());
+  step(soft, hang_block({0.0F, 20.0F, 0.0F}, 1.0F, 1));
+  const auto dented = step_until<CarveOperation>(soft);
+  ASSERT_NE(dented, nullptr);
+  EXPECT_FALSE(dented->bricks.empty());
+  EXPECT_EQ(soft.measure_terrain(), dented->ledger.terrain);
+
+  // The same fall onto a slab, which is rock as all that is poured.
+  World hard(flat_world());
+  step(hard, {{1, 1, FillRequest{box({0.0F, 1.0F, 0.0F}, {5.0F, 2.0F, 5.0F})}}});
+  step(hard, hang_block({0.0F, 23.0F, 0.0F}, 1.0F, 1));
+  EXPECT_EQ(step_until<CarveOperation>(hard), nullptr);
+}
+
+TEST(impact, caps_on_generations_size_and_count_keep_the_mass) {
+  WorldConfig config = flat_world();
+  config.pieces_max = 40;
+  World world(config);
+  auto delta = step(world, hang_block({0.0F, 30.0F, 0.0F}, 2.0F, 24));
+  ASSERT_GT(delta->spawned.size(), 12U);
+  uint64_t shatters = 0;
+  for (int i = 0; i < 600; ++i) {
+    delta = step(world);
+    ASSERT_LE(delta->pieces.size(), config.pieces_max);
+    ASSERT_EQ(delta->ledger.error(), 0);
+    uint32_t in_tick = 0;
+    for (const AppliedOperation& applied : delta->operations)
+      in_tick += std::holds_alternative<ShatterOperation>(applied.operation) ? 1U : 0U;
+    EXPECT_LE(in_tick, limits::breaks_per_tick_max);
+    shatters += in_tick;
+  }
+  EXPECT_GT(shatters, 0U);
+  EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+}
+
+TEST(impact, two_worlds_with_impacts_agree_at_every_tick) {
+  World one(flat_world()), other(flat_world());
+  for (int tick = 0; tick < 300; ++tick) {
+    std::vector<Command> commands;
+    if (tick % 60 == 0) commands = hang_block({static_cast<float>(tick) * 0.05F, 18.0F, 0.0F}, 1.0F, 2);
+    const auto a = step(one, commands), b = step(other, commands);
+    ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
+  }
+}
+
+TEST(impact, a_recorded_session_with_impacts_verifies) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scree_impact_" + std::to_string(::getpid()) + ".scree");
+  World world(flat_world());
+  uint64_t shatters = 0;
+  {
+    auto recorder = Recorder::create(path.string(), {"test", world.config()});
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    for (int tick = 0; tick < 240; ++tick) {
+      std::vector<Command> commands;
+      if (tick == 3) commands = hang_block({0.0F, 18.0F, 0.0F}, 1.0F, 2);
+      const auto delta = step(world, commands);
+      shatters += find_operation<ShatterOperation>(*delta) != nullptr ? 1 : 0;
+      (*recorder)->push(delta, commands);
+    }
+    ASSERT_TRUE((*recorder)->finish().has_value());
+  }
+  EXPECT_GT(shatters, 0U);
+  expect_verifies(path);
+}
+
+TEST(impact, a_follower_of_the_deltas_ends_with_the_same_pieces) {
+  World world(flat_world());
+  PublishedState published;
+  auto delta = step(world, hang_block({0.0F, 18.0F, 0.0F}, 1.0F, 2));
+  for (int tick = 0; tick < 200; ++tick) {
+    published.apply(*delta);
+    ASSERT_EQ(published.pieces().size(), delta->pieces.size());
+    delta = step(world);
+  }
+}
+
+}  // namespace
+}  // namespace scree
