@@ -94,7 +94,7 @@ void NetHost::accept() {
 void NetHost::accepted(asio::ip::tcp::socket socket) {
   const uint64_t id = next_session_++;
   const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
-  const auto session = std::make_shared<Session>(std::move(socket), id, *this, times, steady_now_s());
+  const auto session = std::make_shared<ClientSession>(std::move(socket), id, *this, times, steady_now_s());
   const size_t pending = sessions_.size() - joined_count();
   const double burst = std::max(
       1.0, config_.requests_per_second * limits::requests_burst_max / limits::requests_per_second_max);
@@ -110,7 +110,7 @@ void NetHost::tick_timer() {
   timer_.async_wait([this](asio::error_code error) {
     if (error) return;
     const double now_s = steady_now_s();
-    std::vector<std::shared_ptr<Session>> sessions;
+    std::vector<std::shared_ptr<ClientSession>> sessions;
     for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
     for (const auto& session : sessions) session->check_time(now_s);
     if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
@@ -122,11 +122,12 @@ void NetHost::tick_timer() {
 }
 
 uint32_t NetHost::joined_count() const {
-  return static_cast<uint32_t>(std::ranges::count_if(
-      sessions_, [](const auto& entry) { return entry.second.session->phase() == Session::Phase::joined; }));
+  return static_cast<uint32_t>(std::ranges::count_if(sessions_, [](const auto& entry) {
+    return entry.second.session->phase() == ClientSession::Phase::joined;
+  }));
 }
 
-Result<WelcomeMessage> NetHost::admit(Session& session, const HelloMessage& hello) {
+Result<WelcomeMessage> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
   if (hello.protocol != protocol_version)
     return fail("this server speaks protocol version " + std::to_string(protocol_version) +
                 ", the client version " + std::to_string(hello.protocol) +
@@ -154,7 +155,7 @@ Result<WelcomeMessage> NetHost::admit(Session& session, const HelloMessage& hell
   return welcome;
 }
 
-Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
+Result<void> NetHost::receive(ClientSession& session, const ClientMessage& message) {
   if (const auto* carve = std::get_if<CarveMessage>(&message)) {
     request(session, command_of(session.id(), *carve));
   } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
@@ -179,7 +180,7 @@ Result<void> NetHost::receive(Session& session, const ClientMessage& message) {
   return {};
 }
 
-void NetHost::request(Session& session, const Command& command) {
+void NetHost::request(ClientSession& session, const Command& command) {
   ++counts_.requests;
   std::string refusal;
   if (config_.replay)
@@ -193,13 +194,13 @@ void NetHost::request(Session& session, const Command& command) {
   if (!refusal.empty()) refuse_request(session, command.request, refusal);
 }
 
-void NetHost::refuse_request(Session& session, uint32_t request, const std::string& reason) {
+void NetHost::refuse_request(ClientSession& session, uint32_t request, const std::string& reason) {
   ++counts_.requests_refused;
   session.send(ServerMessage(ReplyMessage{request, reason, 0}));
 }
 
 /// One guess at the token a connection.
-Result<void> NetHost::administer(Session& session, const AdminMessage& message) {
+Result<void> NetHost::administer(ClientSession& session, const AdminMessage& message) {
   if (config_.admin_token.empty()) {
     ++counts_.requests;
     refuse_request(session, message.request,
@@ -215,14 +216,14 @@ Result<void> NetHost::administer(Session& session, const AdminMessage& message) 
   return {};
 }
 
-void NetHost::refused(Session& session, const std::string& reason) {
+void NetHost::refused(ClientSession& session, const std::string& reason) {
   ++counts_.sessions_refused;
   spdlog::warn("session {}: {} refused: {}", session.id(), session.peer(), reason);
   publisher_.leave(session.id());
   update_stats();
 }
 
-void NetHost::closed(Session& session, const std::string& reason) {
+void NetHost::closed(ClientSession& session, const std::string& reason) {
   if (session.was_cut()) {
     ++counts_.sessions_cut;
     spdlog::warn("session {}: {} cut off: {}", session.id(), session.peer(), reason);
@@ -254,7 +255,7 @@ void NetHost::shut_down() {
   stop_deadline_s_ = steady_now_s() + stop_seconds_max;
   asio::error_code ignored;
   acceptor_.close(ignored);
-  std::vector<std::shared_ptr<Session>> sessions;
+  std::vector<std::shared_ptr<ClientSession>> sessions;
   for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
   for (const auto& session : sessions) session->refuse("the server stops");
   timer_.cancel();

@@ -10,8 +10,8 @@
 #include <memory>
 #include <mutex>
 
+#include "server/net/client_session.h"
 #include "server/net/net_server.h"
-#include "server/net/session.h"
 
 namespace scree {
 
@@ -35,22 +35,22 @@ class NetHost final : public SessionHost {
   bool is_watched() const { return watched_; }
 
  private:
-  Result<WelcomeMessage> admit(Session& session, const HelloMessage& hello) override;
-  Result<void> receive(Session& session, const ClientMessage& message) override;
-  void refused(Session& session, const std::string& reason) override;
-  void closed(Session& session, const std::string& reason) override;
+  Result<WelcomeMessage> admit(ClientSession& session, const HelloMessage& hello) override;
+  Result<void> receive(ClientSession& session, const ClientMessage& message) override;
+  void refused(ClientSession& session, const std::string& reason) override;
+  void closed(ClientSession& session, const std::string& reason) override;
 
   void accept();
   void accepted(asio::ip::tcp::socket socket);
   void tick_timer();
-  void request(Session& session, const Command& command);
-  Result<void> administer(Session& session, const AdminMessage& message);
-  void refuse_request(Session& session, uint32_t request, const std::string& reason);
+  void request(ClientSession& session, const Command& command);
+  Result<void> administer(ClientSession& session, const AdminMessage& message);
+  void refuse_request(ClientSession& session, uint32_t request, const std::string& reason);
   uint32_t joined_count() const;
   void update_stats();
 
   struct Entry {
-    std::shared_ptr<Session> session;
+    std::shared_ptr<ClientSession> session;
     RateLimit requests;
     std::string name;  ///< the person's
   };

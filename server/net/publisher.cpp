@@ -31,7 +31,7 @@ Publisher::Publisher(const PublisherConfig& config) : config_(config), clock_(co
 
 void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m) {
   clients_.erase(session);
-  clients_.emplace(session, Client{ClientView(eye_m, radius_m)});
+  clients_.emplace(session, Client{session, ClientView(eye_m, radius_m)});
 }
 
 void Publisher::leave(uint64_t session) {
@@ -98,7 +98,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
-  for (auto& [session, client] : clients_) serve(session, client, changes, backlog_bytes(session));
+  for (auto& [session, client] : clients_) serve(client, changes, backlog_bytes(session));
   send_replies(delta);
   return std::exchange(out_, {});
 }
@@ -116,7 +116,7 @@ void Publisher::count_operations(const TickDelta& delta) {
 }
 
 /// Whether the client takes frames at all in this tick; a client that fell behind comes back here.
-bool Publisher::ready(uint64_t session, Client& client, size_t backlog_bytes) {
+bool Publisher::ready(Client& client, size_t backlog_bytes) {
   if (!client.stopped && backlog_bytes > limits::outbox_resync_bytes) client.stopped = true;
   if (client.stopped) {
     if (backlog_bytes != 0) return false;
@@ -127,26 +127,26 @@ bool Publisher::ready(uint64_t session, Client& client, size_t backlog_bytes) {
   if (client.reset_due) {
     client.reset_due = false;
     client.view.reset();
-    send(session, client, bytes_of(ResetMessage{}));
+    send(client, bytes_of(ResetMessage{}));
   }
   return true;
 }
 
-void Publisher::serve(uint64_t session, Client& client, const TickChanges& changes, size_t backlog_bytes) {
-  if (!ready(session, client, backlog_bytes)) return;
+void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog_bytes) {
+  if (!ready(client, backlog_bytes)) return;
   const Tick tick = changes.delta.tick;
   const bool reads_along = backlog_bytes <= limits::outbox_soft_bytes;
   const bool with_poses = reads_along && tick % config_.ticks_per_transform == 0;
-  if (!send_frame(session, client, changes, with_poses)) return;
-  if (reads_along) stream_chunks(session, client, changes);
-  if (with_poses) stream_pieces(session, client);
-  if (tick % config_.tick_rate_hz == 0) send_status(session, client);
+  if (!send_frame(client, changes, with_poses)) return;
+  if (reads_along) stream_chunks(client, changes);
+  if (with_poses) stream_pieces(client);
+  if (tick % config_.tick_rate_hz == 0) send_status(client);
   if (!reads_along) return;
-  if (tick % ticks_per_watch == 0) send_cursors(session, client);
-  if (client.watches && changes.delta.physics) send_physics(session, client, *changes.delta.physics);
+  if (tick % ticks_per_watch == 0) send_cursors(client);
+  if (client.watches && changes.delta.physics) send_physics(client, *changes.delta.physics);
 }
 
-bool Publisher::send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses) {
+bool Publisher::send_frame(Client& client, const TickChanges& changes, bool with_poses) {
   const EncodeCache::Frame& frame = cache_.frame(client.view.select_frame(changes, with_poses), changes);
   if (frame.bytes->size() > limits::message_bytes_max) {
     // No frame of this size may cross the wire: the client starts afresh and gets it all in small messages.
@@ -155,11 +155,11 @@ bool Publisher::send_frame(uint64_t session, Client& client, const TickChanges& 
   }
   stats_.frame_bytes += frame.bytes->size();
   stats_.transform_bytes += frame.transform_bytes;
-  send(session, client, frame.bytes);
+  send(client, frame.bytes);
   return true;
 }
 
-void Publisher::stream_chunks(uint64_t session, Client& client, const TickChanges& changes) {
+void Publisher::stream_chunks(Client& client, const TickChanges& changes) {
   client.chunk_credit_bytes =
       std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
@@ -169,11 +169,11 @@ void Publisher::stream_chunks(uint64_t session, Client& client, const TickChange
     client.chunk_credit_bytes -= size_of(bytes);
     stats_.chunk_bytes += bytes->size();
     client.view.sent_chunk(coord);
-    send(session, client, bytes);
+    send(client, bytes);
   }
 }
 
-void Publisher::stream_pieces(uint64_t session, Client& client) {
+void Publisher::stream_pieces(Client& client) {
   const int64_t budget = limits::piece_bytes_per_tick * config_.ticks_per_transform;
   client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
   if (client.piece_credit_bytes <= 0) return;
@@ -185,32 +185,33 @@ void Publisher::stream_pieces(uint64_t session, Client& client) {
     client.piece_credit_bytes -= size_of(bytes);
     stats_.piece_bytes += bytes->size();
     client.view.sent_piece(id, piece.pose);
-    send(session, client, bytes);
+    send(client, bytes);
   }
 }
 
-void Publisher::send_cursors(uint64_t session, Client& client) {
-  std::vector<PlayerCursor> now = cursors_for(session, cursors_, client.view.eye_m(), client.view.radius_m());
+void Publisher::send_cursors(Client& client) {
+  std::vector<PlayerCursor> now =
+      cursors_for(client.session, cursors_, client.view.eye_m(), client.view.radius_m());
   if (now == client.cursors) return;
   client.cursors = now;
-  send(session, client, bytes_of(CursorsMessage{std::move(now)}));
+  send(client, bytes_of(CursorsMessage{std::move(now)}));
 }
 
-void Publisher::send_physics(uint64_t session, Client& client, const PhysicsMessage& physics) {
+void Publisher::send_physics(Client& client, const PhysicsMessage& physics) {
   const PhysicsMessage part =
       physics_for(physics, state_, config_.voxel_size_m, client.view.eye_m(), client.view.radius_m());
-  send(session, client, bytes_of(part));
+  send(client, bytes_of(part));
 }
 
 void Publisher::send_replies(const TickDelta& delta) {
   for (const Reply& reply : delta.replies) {
     const auto client = clients_.find(reply.session);
     if (client == clients_.end()) continue;
-    send(reply.session, client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces}));
+    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces}));
   }
 }
 
-void Publisher::send_status(uint64_t session, Client& client) {
+void Publisher::send_status(Client& client) {
   StatusMessage status;
   status.tick = state_.tick();
   status.clients = static_cast<uint32_t>(clients_.size());
@@ -230,13 +231,13 @@ void Publisher::send_status(uint64_t session, Client& client) {
   status.field_hash = state_.field_hash();
   status.repairs = client.repairs;
   status.settings = state_.settings();
-  send(session, client, bytes_of(status));
+  send(client, bytes_of(status));
 }
 
-void Publisher::send(uint64_t session, Client& client, SharedBytes bytes) {
+void Publisher::send(Client& client, SharedBytes bytes) {
   client.sent_bytes += bytes->size();
   stats_.sent_bytes += bytes->size();
-  out_.push_back({session, std::move(bytes)});
+  out_.push_back({client.session, std::move(bytes)});
 }
 
 }  // namespace scree

@@ -78,6 +78,7 @@ class Publisher {
 
  private:
   struct Client {
+    uint64_t session;
     ClientView view;
     int64_t chunk_credit_bytes = 0;
     int64_t piece_credit_bytes = 0;
@@ -89,16 +90,16 @@ class Publisher {
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
   };
   void count_operations(const TickDelta& delta);
-  void serve(uint64_t session, Client& client, const TickChanges& changes, size_t backlog_bytes);
-  bool ready(uint64_t session, Client& client, size_t backlog_bytes);
-  bool send_frame(uint64_t session, Client& client, const TickChanges& changes, bool with_poses);
-  void stream_chunks(uint64_t session, Client& client, const TickChanges& changes);
-  void stream_pieces(uint64_t session, Client& client);
-  void send_cursors(uint64_t session, Client& client);
-  void send_physics(uint64_t session, Client& client, const PhysicsMessage& physics);
+  void serve(Client& client, const TickChanges& changes, size_t backlog_bytes);
+  bool ready(Client& client, size_t backlog_bytes);
+  bool send_frame(Client& client, const TickChanges& changes, bool with_poses);
+  void stream_chunks(Client& client, const TickChanges& changes);
+  void stream_pieces(Client& client);
+  void send_cursors(Client& client);
+  void send_physics(Client& client, const PhysicsMessage& physics);
   void send_replies(const TickDelta& delta);
-  void send_status(uint64_t session, Client& client);
-  void send(uint64_t session, Client& client, SharedBytes bytes);
+  void send_status(Client& client);
+  void send(Client& client, SharedBytes bytes);
 
   PublisherConfig config_;
   PublishedState state_;

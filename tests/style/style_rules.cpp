@@ -205,6 +205,22 @@ Complaints check_library_leaks(const std::vector<SourceFile>& files) {
   return complaints;
 }
 
+Complaints check_class_names(const std::vector<SourceFile>& files) {
+  static const std::regex definition(R"((?:^|\n)(?:class|struct|enum class) (\w+)(?:\s[^;\n]*)?\{)");
+  std::map<std::string, std::string> defined_in;
+  Complaints complaints;
+  for (const SourceFile& file : files) {
+    if (!is_header(file.path)) continue;
+    for (std::sregex_iterator it(file.text.begin(), file.text.end(), definition), end; it != end; ++it) {
+      const auto [first, fresh] = defined_in.emplace((*it)[1].str(), file.path);
+      if (!fresh)
+        complaints.push_back(file.path + ": defines " + first->first + ", as " + first->second +
+                             " does; name both for what they are");
+    }
+  }
+  return complaints;
+}
+
 Complaints check_kernel_arithmetic(const SourceFile& file) {
   static const std::regex inexact(
       R"(\b(std|glm)::(a?(sin|cos|tan)h?f?|atan2f?|exp[2m1]*f?|log[210p]*f?|powf?|cbrtf?|hypotf?|fmaf?|slerp|angleAxis|rotate)\s*\()");

@@ -41,6 +41,9 @@ Complaints check_layering(const SourceFile& file);
 Complaints check_library_homes(const SourceFile& file);
 /// A header that includes a homed library is included from its own folder only.
 Complaints check_library_leaks(const std::vector<SourceFile>& files);
+/// No two headers define a class of the same name in `scree`: linked together, each would be used for the
+/// other.
+Complaints check_class_names(const std::vector<SourceFile>& files);
 /// Kernels use + − × ÷ and sqrt only: a math library's other functions differ from system to system.
 Complaints check_kernel_arithmetic(const SourceFile& file);
 

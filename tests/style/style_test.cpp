@@ -113,6 +113,9 @@ TEST(Style, libraries_stay_in_their_homes) {
 TEST(Style, headers_hide_libraries) {
   expect_clean(check_library_leaks(source_files()));
 }
+TEST(Style, no_two_headers_define_a_class_of_the_same_name) {
+  expect_clean(check_class_names(source_files()));
+}
 TEST(Style, kernels_use_exact_arithmetic) {
   expect_clean(over_tree(check_kernel_arithmetic, true));
 }
@@ -196,7 +199,7 @@ TEST(StyleRules, an_upward_or_sideways_include_is_caught) {
   EXPECT_EQ(layering_complaints("shared/field/a.cpp", "proto/messages.h"), 1U);
   EXPECT_EQ(layering_complaints("proto/a.cpp", "server/world/world.h"), 1U);
   EXPECT_EQ(layering_complaints("server/bodies/a.cpp", "server/fracture/hull.h"), 1U);
-  EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/net/session.h"), 1U);
+  EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/net/client_session.h"), 1U);
   EXPECT_EQ(layering_complaints("server/app/a.cpp", "client/mirror/mirror.h"), 1U);
   EXPECT_EQ(layering_complaints("client/viewer/a.cpp", "server/world/world.h"), 1U);
   EXPECT_EQ(layering_complaints("client/mirror/a.cpp", "client/connection/connection.h"), 1U);
@@ -207,7 +210,7 @@ TEST(StyleRules, a_downward_include_is_allowed) {
   EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/bodies/bodies.h"), 0U);
   EXPECT_EQ(layering_complaints("server/world/a.cpp", "server/world/world.h"), 0U);
   EXPECT_EQ(layering_complaints("client/viewer/a.cpp", "client/render/scene/camera.h"), 0U);
-  EXPECT_EQ(layering_complaints("tests/a.cpp", "server/net/session.h"), 0U);
+  EXPECT_EQ(layering_complaints("tests/a.cpp", "server/net/client_session.h"), 0U);
 }
 
 TEST(StyleRules, an_include_that_is_no_path_from_the_root_is_caught) {
@@ -248,6 +251,16 @@ TEST(StyleRules, a_header_that_shows_a_library_to_another_folder_is_caught) {
   const SourceFile outside{"server/world/world.cpp", "#include \"server/bodies/shapes.h\"\n"};
   EXPECT_TRUE(check_library_leaks({header, inside}).empty());
   EXPECT_EQ(check_library_leaks({header, inside, outside}).size(), 1U);
+}
+
+TEST(StyleRules, a_class_of_two_headers_is_caught) {
+  const SourceFile server{"server/net/a.h", "namespace scree {\nclass Link final : public Base {\n};\n}\n"};
+  const SourceFile client{"client/viewer/b.h", "namespace scree {\nstruct Link {\n};\n}\n"};
+  const SourceFile declares{"client/viewer/c.h",
+                            "namespace scree {\nclass Link;\nstruct A {\n  struct Link {};\n};\n"};
+  const SourceFile member{"client/viewer/d.h", "struct Link::State {\n};\n"};
+  EXPECT_TRUE(check_class_names({server, declares, member}).empty());
+  EXPECT_EQ(check_class_names({server, client}).size(), 1U);
 }
 
 TEST(StyleRules, a_library_function_in_a_kernel_is_caught) {

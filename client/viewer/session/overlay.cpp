@@ -53,7 +53,7 @@ void add_hull(LineList& lines, const WatchedBody& body, const Pose& pose, LineCo
 
 }  // namespace
 
-void add_borders(LineList& lines, Session& session, const OverlayChoice& choice, glm::vec3 eye_m,
+void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& choice, glm::vec3 eye_m,
                  double now_s) {
   Mirror* mirror = session.mirror();
   if (mirror == nullptr) return;

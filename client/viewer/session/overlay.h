@@ -3,7 +3,7 @@
 #pragma once
 
 #include "client/render/scene/line_list.h"
-#include "client/viewer/session/session.h"
+#include "client/viewer/session/viewer_session.h"
 
 namespace scree {
 
@@ -21,7 +21,7 @@ struct OverlayChoice {
 
 /// Green: chunks that follow the server and hold edits; grey: the chunk around the eye. White: interest, as a
 /// circle at the eye's height. Yellow: boxes of pieces' volumes, air and all.
-void add_borders(LineList& lines, Session& session, const OverlayChoice& choice, glm::vec3 eye_m,
+void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& choice, glm::vec3 eye_m,
                  double now_s);
 
 /// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their

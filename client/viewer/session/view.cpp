@@ -19,7 +19,8 @@ View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float 
 
 View::~View() = default;
 
-Result<void> View::follow(const SessionStep& step, Session& session, const Camera& camera, double now_s) {
+Result<void> View::follow(const SessionStep& step, ViewerSession& session, const Camera& camera,
+                          double now_s) {
   if (step.new_world) {
     methods_.begin_world();
     renderer_->set_terrain(session.mirror()->terrain());

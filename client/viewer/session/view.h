@@ -6,7 +6,7 @@
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/render/scene/work_pool.h"
-#include "client/viewer/session/session.h"
+#include "client/viewer/session/viewer_session.h"
 
 namespace scree {
 
@@ -17,7 +17,7 @@ class View {
   ~View();
 
   /// Takes in a step of the session.
-  Result<void> follow(const SessionStep& step, Session& session, const Camera& camera, double now_s);
+  Result<void> follow(const SessionStep& step, ViewerSession& session, const Camera& camera, double now_s);
 
   MethodSwitch& methods() { return methods_; }
   Renderer& renderer() { return *renderer_; }

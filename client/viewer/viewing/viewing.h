@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "client/viewer/session/overlay.h"
-#include "client/viewer/session/session.h"
 #include "client/viewer/session/view.h"
+#include "client/viewer/session/viewer_session.h"
 #include "client/viewer/viewing/options.h"
 #include "shared/base/trace.h"
 
@@ -33,7 +33,7 @@ class Viewing {
 
   const ViewerOptions& options;
   std::unique_ptr<Trace> trace;  ///< null: not asked for
-  Session session;
+  ViewerSession session;
   std::unique_ptr<View> view;
   Camera camera;
   ScreenshotQueue screenshots;

@@ -5,7 +5,7 @@
 namespace scree {
 
 HudFacts FactFinder::find(Viewing& viewing, double now_s) {
-  Session& session = viewing.session;
+  ViewerSession& session = viewing.session;
   const Mirror* mirror = session.mirror();
   if (mirror != nullptr && now_s >= next_count_s_) {
     next_count_s_ = now_s + limits::count_interval_s;
@@ -33,7 +33,7 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
   return facts;
 }
 
-void FactFinder::count(const Mirror& mirror, const Session& session) {
+void FactFinder::count(const Mirror& mirror, const ViewerSession& session) {
   counted_ = {};
   counted_.held_chunks = mirror.held_chunks().size();
   for (const ChunkCoord chunk : mirror.field().edited_chunks()) {

@@ -34,7 +34,7 @@ class FactFinder {
   HudFacts find(Viewing& viewing, double now_s);
 
  private:
-  void count(const Mirror& mirror, const Session& session);
+  void count(const Mirror& mirror, const ViewerSession& session);
 
   MemoryCounts mirror_memory_;
   double next_count_s_ = 0.0;

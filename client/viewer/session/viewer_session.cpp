@@ -1,4 +1,4 @@
-#include "client/viewer/session/session.h"
+#include "client/viewer/session/viewer_session.h"
 
 #include <algorithm>
 #include <chrono>
@@ -30,10 +30,10 @@ double steady_now_s() {
   return seconds_of(std::chrono::steady_clock::now());
 }
 
-Session::Session(std::string host, uint16_t port, float interest_radius_m, std::string name)
+ViewerSession::ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name)
     : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
 
-SessionStep Session::step(double now_s, const Camera& camera) {
+SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
   SessionStep step;
   if (!connection_) {
@@ -46,7 +46,7 @@ SessionStep Session::step(double now_s, const Camera& camera) {
   return step;
 }
 
-void Session::begin_connecting(double now_s, glm::vec3 eye_m) {
+void ViewerSession::begin_connecting(double now_s, glm::vec3 eye_m) {
   next_try_s_ = now_s + limits::reconnect_interval_s;
   reported_eye_m_ = eye_m;
   HelloMessage hello;
@@ -66,7 +66,7 @@ void Session::begin_connecting(double now_s, glm::vec3 eye_m) {
   });
 }
 
-bool Session::finish_connecting(double now_s) {
+bool ViewerSession::finish_connecting(double now_s) {
   if (!connecting_.valid() || connecting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return false;
   Attempt attempt = connecting_.get();
@@ -89,7 +89,7 @@ bool Session::finish_connecting(double now_s) {
   return true;
 }
 
-void Session::lose(double now_s, const std::string& reason) {
+void ViewerSession::lose(double now_s, const std::string& reason) {
   connection_.reset();
   cursors_.clear();
   physics_.reset();
@@ -98,7 +98,7 @@ void Session::lose(double now_s, const std::string& reason) {
   bytes_per_s_ = 0.0;
 }
 
-void Session::receive(double now_s, SessionStep& step) {
+void ViewerSession::receive(double now_s, SessionStep& step) {
   const bool open = connection_->connected();
   std::vector<Received> arrived = connection_->poll();
   const bool last = !open && arrived.empty();
@@ -120,7 +120,7 @@ void Session::receive(double now_s, SessionStep& step) {
   if (last) lose(now_s, connection_->close_reason());
 }
 
-void Session::apply(const ServerMessage& message, double now_s, SessionStep& step) {
+void ViewerSession::apply(const ServerMessage& message, double now_s, SessionStep& step) {
   if (std::holds_alternative<ChunkMessage>(message)) last_chunk_s_ = now_s;
   if (const auto* reply = std::get_if<ReplyMessage>(&message); reply != nullptr && !reply->refusal.empty()) {
     notice_ = reply->refusal;
@@ -137,7 +137,7 @@ void Session::apply(const ServerMessage& message, double now_s, SessionStep& ste
   append(step.changes, *changes);
 }
 
-void Session::report(double now_s, glm::vec3 eye_m) {
+void ViewerSession::report(double now_s, glm::vec3 eye_m) {
   if (now_s < next_report_s_) return;
   next_report_s_ = now_s + limits::report_interval_s;
   if (mirror_->tick() > acknowledged_) {
@@ -149,7 +149,7 @@ void Session::report(double now_s, glm::vec3 eye_m) {
   connection_->send(InterestMessage{eye_m, interest_radius_m_});
 }
 
-void Session::report_cursor(double now_s, const Camera& camera) {
+void ViewerSession::report_cursor(double now_s, const Camera& camera) {
   if (watch_ != watching_) {
     watching_ = watch_;
     if (!watch_) physics_.reset();
@@ -166,7 +166,7 @@ void Session::report_cursor(double now_s, const Camera& camera) {
   connection_->send(cursor);
 }
 
-const ScenePieces& Session::pieces(double now_s) {
+const ScenePieces& ViewerSession::pieces(double now_s) {
   pieces_.clear();
   if (!mirror_) return pieces_;
   const double tick = playback_.draw_tick(now_s);
@@ -175,16 +175,16 @@ const ScenePieces& Session::pieces(double now_s) {
   return pieces_;
 }
 
-bool Session::joined(double now_s) const {
+bool ViewerSession::joined(double now_s) const {
   return connection_ != nullptr && mirror_->tick() > 0 && now_s - last_chunk_s_ >= limits::join_quiet_s;
 }
 
-bool Session::carved() const {
+bool ViewerSession::carved() const {
   const bool made = mirror_ != nullptr && mirror_->status() && mirror_->status()->pieces_made > 0;
   return saw_pieces_ || made;
 }
 
-std::optional<glm::vec3> Session::aim(glm::vec3 from_m, glm::vec3 direction) {
+std::optional<glm::vec3> ViewerSession::aim(glm::vec3 from_m, glm::vec3 direction) {
   if (!mirror_) return std::nullopt;
   const float voxel_m = mirror_->terrain().voxel_size_m;
   const std::optional<float> hit =
@@ -193,20 +193,20 @@ std::optional<glm::vec3> Session::aim(glm::vec3 from_m, glm::vec3 direction) {
   return from_m + direction * (*hit * voxel_m);
 }
 
-void Session::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction) {
+void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction) {
   if (!connection_) return;
   if (const std::optional<glm::vec3> hit_m = aim(from_m, direction))
     connection_->send(strike_with(tool, *hit_m, direction, ++requests_));
 }
 
-std::string Session::description() const {
+std::string ViewerSession::description() const {
   const std::string where = host_ + ":" + std::to_string(port_);
   if (connection_) return where + (connection_->welcome().replay ? " (a recording)" : "");
   if (trouble_.empty()) return "connecting to " + where + " ...";
   return trouble_ + " - trying again";
 }
 
-std::string Session::notice(double now_s) const {
+std::string ViewerSession::notice(double now_s) const {
   return now_s < notice_until_s_ ? notice_ : std::string();
 }
 

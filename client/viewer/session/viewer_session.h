@@ -26,10 +26,10 @@ struct SessionStep {
   MirrorChanges changes;
 };
 
-class Session {
+class ViewerSession {
  public:
   /// `name`: the person's, for others to see.
-  Session(std::string host, uint16_t port, float interest_radius_m, std::string name);
+  ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name);
 
   SessionStep step(double now_s, const Camera& camera);
 

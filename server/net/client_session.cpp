@@ -1,4 +1,4 @@
-#include "server/net/session.h"
+#include "server/net/client_session.h"
 
 #include <array>
 #include <asio/buffer.hpp>
@@ -27,8 +27,8 @@ double steady_now_s() {
 
 }  // namespace
 
-Session::Session(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, const SessionTimes& times,
-                 double now_s)
+ClientSession::ClientSession(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host,
+                             const SessionTimes& times, double now_s)
     : socket_(std::move(socket)),
       id_(id),
       host_(host),
@@ -43,11 +43,11 @@ Session::Session(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, c
   socket_.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
 }
 
-void Session::start() {
+void ClientSession::start() {
   read();
 }
 
-void Session::read() {
+void ClientSession::read() {
   socket_.async_read_some(asio::buffer(incoming_),
                           [self = shared_from_this()](asio::error_code error, size_t bytes) {
                             if (self->phase_ == Phase::closed) return;
@@ -58,7 +58,7 @@ void Session::read() {
                           });
 }
 
-void Session::read_failed(bool orderly, const std::string& why) {
+void ClientSession::read_failed(bool orderly, const std::string& why) {
   if (phase_ == Phase::refused) return close("refused before");
   peer_ended_ = true;
   if (orderly && reader_.buffered_bytes() != 0)
@@ -67,7 +67,7 @@ void Session::read_failed(bool orderly, const std::string& why) {
   close(orderly ? "left" : why);
 }
 
-void Session::read_done(size_t bytes) {
+void ClientSession::read_done(size_t bytes) {
   now_s_ = steady_now_s();
   if (phase_ != Phase::refused) {
     reader_.push(std::span<const uint8_t>(incoming_.data(), bytes));
@@ -84,7 +84,7 @@ void Session::read_done(size_t bytes) {
 }
 
 /// False when the session was ended by it.
-bool Session::take_message(std::span<const uint8_t> body) {
+bool ClientSession::take_message(std::span<const uint8_t> body) {
   const auto fail_with = [&](const std::string& reason) {
     refuse(reason);
     return false;
@@ -110,11 +110,11 @@ bool Session::take_message(std::span<const uint8_t> body) {
   return phase_ == Phase::joined;
 }
 
-void Session::send(const ServerMessage& message) {
+void ClientSession::send(const ServerMessage& message) {
   send(std::make_shared<const std::vector<uint8_t>>(encode(message)));
 }
 
-void Session::send(SharedBytes bytes) {
+void ClientSession::send(SharedBytes bytes) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
   if (backlog_bytes_ == 0) progress_s_ = steady_now_s();
   backlog_bytes_ += bytes->size();
@@ -127,7 +127,7 @@ void Session::send(SharedBytes bytes) {
   write();
 }
 
-void Session::write() {
+void ClientSession::write() {
   if (writing_ || outbox_.empty() || phase_ == Phase::closed) return;
   writing_ = true;
   std::vector<asio::const_buffer> buffers;
@@ -144,7 +144,7 @@ void Session::write() {
   });
 }
 
-void Session::write_done(size_t bytes) {
+void ClientSession::write_done(size_t bytes) {
   progress_s_ = steady_now_s();
   backlog_bytes_ -= bytes;
   size_t sent = front_sent_bytes_ + bytes;
@@ -157,7 +157,7 @@ void Session::write_done(size_t bytes) {
   write();
 }
 
-void Session::refuse(const std::string& reason) {
+void ClientSession::refuse(const std::string& reason) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
   send(ServerMessage(RefusalMessage{reason}));
   if (phase_ == Phase::closed) return;
@@ -168,13 +168,13 @@ void Session::refuse(const std::string& reason) {
 
 /// Closing a socket with unread bytes resets the connection, and the refusal could be lost: so the sending
 /// half is closed first, and the rest when the client has closed, too, or its time is over.
-void Session::finish_sending() {
+void ClientSession::finish_sending() {
   if (peer_ended_) return close("refused before");
   asio::error_code ignored;
   socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
 
-void Session::close(const std::string& reason) {
+void ClientSession::close(const std::string& reason) {
   if (phase_ == Phase::closed) return;
   const auto self = shared_from_this();
   phase_ = Phase::closed;
@@ -185,7 +185,7 @@ void Session::close(const std::string& reason) {
   host_.closed(*this, reason);
 }
 
-void Session::check_time(double now_s) {
+void ClientSession::check_time(double now_s) {
   if (phase_ == Phase::hello && now_s - phase_since_s_ > times_.hello_s)
     return refuse("no hello within " + std::to_string(times_.hello_s) + " s of connecting");
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");

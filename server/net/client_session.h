@@ -19,19 +19,19 @@
 
 namespace scree {
 
-class Session;
+class ClientSession;
 
 /// Who owns the sessions, and hears from them.
 class SessionHost {
  public:
   virtual ~SessionHost() = default;
   /// The first message. What it returns is sent: the welcome, or why the client is refused.
-  virtual Result<WelcomeMessage> admit(Session& session, const HelloMessage& hello) = 0;
+  virtual Result<WelcomeMessage> admit(ClientSession& session, const HelloMessage& hello) = 0;
   /// Any later message but a hello. An error is sent as a refusal, and ends the session.
-  virtual Result<void> receive(Session& session, const ClientMessage& message) = 0;
-  virtual void refused(Session& session, const std::string& reason) = 0;
+  virtual Result<void> receive(ClientSession& session, const ClientMessage& message) = 0;
+  virtual void refused(ClientSession& session, const std::string& reason) = 0;
   /// The last call for this session.
-  virtual void closed(Session& session, const std::string& reason) = 0;
+  virtual void closed(ClientSession& session, const std::string& reason) = 0;
 };
 
 struct SessionTimes {
@@ -40,12 +40,12 @@ struct SessionTimes {
   double linger_s = 0.0;
 };
 
-class Session : public std::enable_shared_from_this<Session> {
+class ClientSession : public std::enable_shared_from_this<ClientSession> {
  public:
   enum class Phase { hello, joined, refused, closed };
 
-  Session(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, const SessionTimes& times,
-          double now_s);
+  ClientSession(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, const SessionTimes& times,
+                double now_s);
 
   void start();
   void send(SharedBytes bytes);
