@@ -62,13 +62,21 @@ inline BrickCoord brick_in_chunk(ChunkCoord c, int index) {
           c.z * chunk_bricks + (index & 3)};
 }
 
+/// 64 bits that depend on nothing but the coordinates, on any platform: kernels and hashes of fields use
+/// them.
+template <typename Tag>
+uint64_t mixed_bits(const Coord<Tag>& c) {
+  uint64_t h = static_cast<uint32_t>(c.x) * 0x9E3779B97F4A7C15ULL;
+  h = (h ^ (h >> 29U) ^ static_cast<uint32_t>(c.y)) * 0xBF58476D1CE4E5B9ULL;
+  h = (h ^ (h >> 32U) ^ static_cast<uint32_t>(c.z)) * 0x94D049BB133111EBULL;
+  return h ^ (h >> 31U);
+}
+
+/// For unordered containers alone: as wide as size_t, so not the same on every platform.
 struct CoordHash {
   template <typename Tag>
   size_t operator()(const Coord<Tag>& c) const {
-    uint64_t h = static_cast<uint32_t>(c.x) * 0x9E3779B97F4A7C15ULL;
-    h = (h ^ (h >> 29U) ^ static_cast<uint32_t>(c.y)) * 0xBF58476D1CE4E5B9ULL;
-    h = (h ^ (h >> 32U) ^ static_cast<uint32_t>(c.z)) * 0x94D049BB133111EBULL;
-    return h ^ (h >> 31U);
+    return static_cast<size_t>(mixed_bits(c));
   }
 };
 

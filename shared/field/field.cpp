@@ -78,7 +78,7 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material
   uint64_t hash = brick_hash(coord, brick);
   if (!paint) return hash;
   // SplitMix64's finaliser, so that neighbours painted alike do not add up to something else painted alike.
-  uint64_t mixed = CoordHash{}(coord) + 0x9E3779B97F4A7C15ULL * (static_cast<uint64_t>(*paint) + 1);
+  uint64_t mixed = mixed_bits(coord) + 0x9E3779B97F4A7C15ULL * (static_cast<uint64_t>(*paint) + 1);
   mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
   mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
   hash += mixed ^ (mixed >> 31U);

@@ -115,7 +115,7 @@ std::vector<Drawn> drawn_voxels(const std::vector<uint8_t>& slices, const VoxelB
         const uint8_t* s = slices.data() + row + z;
         const int beside = s[-1] | s[1] | s[-step_y] | s[step_y] | s[-step_x] | s[step_x];
         if ((s[0] | beside) == 0) continue;
-        const auto rounding = static_cast<uint32_t>(CoordHash{}(VoxelCoord{x, y, z}) % shifts);
+        const auto rounding = static_cast<uint32_t>(mixed_bits(VoxelCoord{x, y, z}) % shifts);
         drawn.push_back({static_cast<uint32_t>(row + z), rounding, s[0] != 0});
       }
     }
