@@ -81,7 +81,7 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   CHECK(shape.hull_m.size() >= 4 && shape.mass_kg > 0.0F);
   Body& body = s.bodies[state.id];
   body.shape = make_convex_shape(shape.hull_m);
-  body.reach_m = reach_of(shape.hull_m);
+  body.reach_m = radius_of(shape.hull_m);
   body.mass_kg = shape.mass_kg;
   body.inertia_kg_m2 = stable_inertia(shape.inertia_kg_m2);
   const float spin_travel_m = 0.2F * limits::travel_max_voxels * s.voxel_size_m / s.tick_s;

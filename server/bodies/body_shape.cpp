@@ -75,7 +75,7 @@ std::vector<glm::vec3> corners_of(const btConvexHullShape& shape) {
 
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m) {
   std::vector<glm::vec3> points = hull_m;
-  if (reach_of(hull_m) <= 2.0F * spacing_m) return points;  // its corners are near enough to each other
+  if (radius_of(hull_m) <= 2.0F * spacing_m) return points;  // its corners are near enough to each other
   btConvexHullComputer computer;
   computer.compute(&hull_m[0].x, sizeof(glm::vec3), static_cast<int>(hull_m.size()), 0.0F, 0.0F);
   const auto corner = [&](int i) {
@@ -98,7 +98,7 @@ std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, floa
   }
 }
 
-float reach_of(const std::vector<glm::vec3>& points_m) {
+float radius_of(const std::vector<glm::vec3>& points_m) {
   float reach2 = 0.0F;
   for (const glm::vec3& p : points_m) reach2 = std::max(reach2, glm::dot(p, p));
   return std::sqrt(reach2);

@@ -21,6 +21,6 @@ std::vector<glm::vec3> corners_of(const btConvexHullShape& shape);
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m);
 
 /// Radius about the origin that holds the points.
-float reach_of(const std::vector<glm::vec3>& points_m);
+float radius_of(const std::vector<glm::vec3>& points_m);
 
 }  // namespace scree

@@ -61,7 +61,7 @@ void CollisionHulls::add(const btConvexHullShape& shape) {
   const glm::vec3 middle = 0.5F * (lo + hi);
   std::vector<glm::vec3> about = corners;
   for (glm::vec3& p : about) p -= middle;
-  parts_.push_back({&shape, HullCorners(corners), middle, middle, reach_of(about) + shape.getMargin()});
+  parts_.push_back({&shape, HullCorners(corners), middle, middle, radius_of(about) + shape.getMargin()});
 }
 
 void CollisionHulls::turn(const glm::mat3& rotation) {

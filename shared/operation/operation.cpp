@@ -103,7 +103,7 @@ Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, M
   const Volume& volume = *volumes.front();
   const bool whole = op.method != StampMethod::stamp;
   const Window laid = whole ? Window() : lay_all(op, volumes, dx);
-  Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : reach_of(laid));
+  Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : merge_box(laid));
   const MassUnits before = mass_of(window);
   if (whole) {
     stamp(op.method, window, volume, op.pose, dx, op.shift);

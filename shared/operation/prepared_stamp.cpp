@@ -26,7 +26,7 @@ PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<co
     mass += prepared.volumes.back()->mass;
   }
   const Window laid = lay_all(op, prepared.volumes, field.source().voxel_size_m);
-  prepared.after = gather(field, reach_of(laid));
+  prepared.after = gather(field, merge_box(laid));
   const StampPlan plan = plan_laid(prepared.after, laid, mass, budget);
   op.shift = plan.shift;
   prepared.gain = plan.gain;

@@ -82,7 +82,7 @@ Window together(std::vector<Window> laid) {
   return all;
 }
 
-VoxelBox reach_of(const Window& laid) {
+VoxelBox merge_box(const Window& laid) {
   return laid.box.grown(MergePatch::margin);
 }
 
@@ -109,7 +109,7 @@ StampPlan plan_laid(Window& window, const Window& laid, MassUnits piece_mass, Ma
 
 void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift) {
   const Window laid = lay(volume, pose, voxel_size_m);
-  Window part = part_of(window, reach_of(laid));
+  Window part = part_of(window, merge_box(laid));
   stamp_laid(part, laid, volume.mass, shift);
   put(part, window);
 }
@@ -117,7 +117,7 @@ void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, floa
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget) {
   const Window laid = lay(volume, pose, voxel_size_m);
-  Window part = part_of(window, reach_of(laid));
+  Window part = part_of(window, merge_box(laid));
   return plan_laid(part, laid, volume.mass, budget);
 }
 

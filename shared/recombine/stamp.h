@@ -37,9 +37,9 @@ Window together(std::vector<Window> laid);
 
 /// The voxels around such a piece that stamping it reads; all that it may change lie at least one voxel
 /// inside.
-VoxelBox reach_of(const Window& laid);
+VoxelBox merge_box(const Window& laid);
 
-/// `window` is the terrain in reach_of(laid), united with the piece as that shift says.
+/// `window` is the terrain in merge_box(laid), united with the piece as that shift says.
 void stamp_laid(Window& window, const Window& laid, MassUnits piece_mass, int shift);
 
 struct StampPlan {

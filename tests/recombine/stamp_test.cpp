@@ -51,7 +51,7 @@ TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
     const Window laid = lay(*rubble.pieces.at(id), pose, dx);
-    const Window terrain = gather(rubble.field, reach_of(laid));
+    const Window terrain = gather(rubble.field, merge_box(laid));
     for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
       MergePatch patch(terrain, laid);
       const MassUnits shaped = patch.shape(20);
@@ -71,7 +71,7 @@ TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
     const Window laid = lay(*rubble.pieces.at(id), pose, dx);
-    const VoxelBox reach = reach_of(laid);
+    const VoxelBox reach = merge_box(laid);
     EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, dx)), reach);
     const Window terrain = gather(rubble.field, reach);
     Window after = terrain;
