@@ -39,7 +39,7 @@ class Builder {
     }
     for (int x = 0; x < cells_.x; ++x)
       for (int y = 0; y < cells_.y; ++y) add_row(x, y);
-    add_placed_vertices(window_, before_, seeds_, mesh_.vertices);
+    add_placed_vertices(window_, before_, vertices_, mesh_.vertices);
     return std::move(mesh_);
   }
 
@@ -102,14 +102,14 @@ class Builder {
                       : axis == 1 ? window_.at(p.x, p.y + 1, p.z)
                                   : window_.at(p.x, p.y, p.z + 1);
     const int along = crossing_steps(window_.at(p.x, p.y, p.z), next);
-    PlacedSeed seed;
-    seed.cell = static_cast<int32_t>(window_.index(p.x, p.y, p.z));
-    for (size_t i = 0; i < 3; ++i) seed.position[i] = static_cast<uint16_t>(at[i] * steps_per_side);
-    seed.position[static_cast<size_t>(axis)] =
+    PlacedVertex vertex;
+    vertex.cell = static_cast<int32_t>(window_.index(p.x, p.y, p.z));
+    for (size_t i = 0; i < 3; ++i) vertex.position[i] = static_cast<uint16_t>(at[i] * steps_per_side);
+    vertex.position[static_cast<size_t>(axis)] =
         static_cast<uint16_t>(at[static_cast<size_t>(axis)] * steps_per_side + along);
-    seed.fraction[axis] = static_cast<float>(along) / surface_steps_per_voxel;
-    seeds_.push_back(seed);
-    return static_cast<uint32_t>(seeds_.size() - 1);
+    vertex.fraction[axis] = static_cast<float>(along) / surface_steps_per_voxel;
+    vertices_.push_back(vertex);
+    return static_cast<uint32_t>(vertices_.size() - 1);
   }
 
   const Window& window_;
@@ -122,7 +122,7 @@ class Builder {
   std::vector<uint64_t> rows_;   ///< of signs, y fastest
   std::vector<uint32_t> slots_;  ///< vertices of the edges, by slot()
   std::array<size_t, cell_edges> slot_offsets_{};
-  std::vector<PlacedSeed> seeds_;
+  std::vector<PlacedVertex> vertices_;
   SurfaceMesh mesh_;
 };
 

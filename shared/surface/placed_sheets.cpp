@@ -12,7 +12,7 @@ VoxelCoord corner(int i) {
 }
 
 /// The sheet's crossings, in the order in which surface_nets sums them.
-std::vector<LeafCrossing> crossings_of(const Window& window, const SheetSeed& seed, VoxelCoord cell) {
+std::vector<LeafCrossing> crossings_of(const Window& window, const CrossedSheet& sheet, VoxelCoord cell) {
   const CellTables& tables = cell_tables();
   std::vector<LeafCrossing> crossings;
   const auto code_at = [&](int i) {
@@ -20,7 +20,7 @@ std::vector<LeafCrossing> crossings_of(const Window& window, const SheetSeed& se
     return static_cast<float>(window.at(p.x, p.y, p.z));
   };
   for (size_t e = 0; e < cell_edges; ++e) {
-    if (((seed.edges >> e) & 1U) == 0) continue;
+    if (((sheet.edges >> e) & 1U) == 0) continue;
     const auto axis = static_cast<int>(e / 4);
     const VoxelCoord from = corner(tables.edges[e].from);
     const float a = code_at(tables.edges[e].from), b = code_at(tables.edges[e].to);
@@ -46,22 +46,22 @@ CellSteps steps_inside(glm::vec3 place, std::span<const CellSteps> sheets_before
   return steps;
 }
 
-std::vector<PlacedSeed> placed_sheets(const Window& window, VoxelCoord origin,
-                                      std::span<const SheetSeed> seeds, const SheetPlace& place) {
+std::vector<PlacedVertex> placed_sheets(const Window& window, VoxelCoord origin,
+                                        std::span<const CrossedSheet> sheets, const SheetPlace& place) {
   constexpr int side = static_cast<int>(surface_steps_per_voxel);
-  std::vector<PlacedSeed> placed;
-  placed.reserve(seeds.size());
+  std::vector<PlacedVertex> placed;
+  placed.reserve(sheets.size());
   std::vector<CellSteps> in_cell;
-  for (size_t i = 0; i < seeds.size(); ++i) {
-    const SheetSeed& seed = seeds[i];
-    if (i > 0 && seeds[i - 1].cell != seed.cell) in_cell.clear();
-    const VoxelCoord cell = origin + VoxelCoord{seed.at[0], seed.at[1], seed.at[2]};
-    const CellSteps steps = steps_inside(place(cell, crossings_of(window, seed, cell)), in_cell);
+  for (size_t i = 0; i < sheets.size(); ++i) {
+    const CrossedSheet& sheet = sheets[i];
+    if (i > 0 && sheets[i - 1].cell != sheet.cell) in_cell.clear();
+    const VoxelCoord cell = origin + VoxelCoord{sheet.at[0], sheet.at[1], sheet.at[2]};
+    const CellSteps steps = steps_inside(place(cell, crossings_of(window, sheet, cell)), in_cell);
     in_cell.push_back(steps);
-    PlacedSeed& to = placed.emplace_back();
-    to.cell = seed.cell;
+    PlacedVertex& to = placed.emplace_back();
+    to.cell = sheet.cell;
     for (size_t axis = 0; axis < 3; ++axis) {
-      to.position[axis] = static_cast<uint16_t>(seed.at[axis] * side + steps[axis]);
+      to.position[axis] = static_cast<uint16_t>(sheet.at[axis] * side + steps[axis]);
       to.fraction[static_cast<int>(axis)] = static_cast<float>(steps[axis]) / surface_steps_per_voxel;
     }
   }

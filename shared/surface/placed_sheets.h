@@ -16,8 +16,8 @@ namespace scree {
 using SheetPlace = std::function<glm::vec3(VoxelCoord cell, std::span<const LeafCrossing> crossings)>;
 
 /// `origin` is the mesh's. Of each cell, its sheets follow one another.
-std::vector<PlacedSeed> placed_sheets(const Window& window, VoxelCoord origin,
-                                      std::span<const SheetSeed> seeds, const SheetPlace& place);
+std::vector<PlacedVertex> placed_sheets(const Window& window, VoxelCoord origin,
+                                        std::span<const CrossedSheet> sheets, const SheetPlace& place);
 
 /// 1/256 of the cell's side from its lowest corner, strictly inside, so that two cells' vertices never
 /// coincide; nor do those of sheets of one cell, of which this one has that many before it.

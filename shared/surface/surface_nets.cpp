@@ -36,11 +36,12 @@ class Builder {
     for (int z = 0; z < cells_.z; z += segment_cells) segments_.push_back(read_signs(z));
     for (const Segment& segment : segments_)
       if (segment.crossed) find_sheets(segment);
-    if (seeds_.empty()) return std::move(mesh_);
+    if (sheets_.empty()) return std::move(mesh_);
     if (place_ == nullptr) {
-      add_sheet_vertices(window_, before_, seeds_, mesh_.vertices);
+      add_sheet_vertices(window_, before_, sheets_, mesh_.vertices);
     } else {
-      add_placed_vertices(window_, before_, placed_sheets(window_, origin_, seeds_, *place_), mesh_.vertices);
+      add_placed_vertices(window_, before_, placed_sheets(window_, origin_, sheets_, *place_),
+                          mesh_.vertices);
     }
     mesh_.indices.resize(quads_ * 6);
     next_index_ = mesh_.indices.data();
@@ -114,7 +115,7 @@ class Builder {
     if (!slots_) {
       slots_ = std::make_unique_for_overwrite<uint32_t[]>(static_cast<size_t>(cells_.x) *
                                                           static_cast<size_t>(cells_.y * cells_.z));
-      seeds_.reserve(512);
+      sheets_.reserve(512);
     }
     for (int x = 0; x < cells_.x; ++x) {
       for (int y = 0; y < cells_.y; ++y) {
@@ -126,16 +127,16 @@ class Builder {
         for (; left != 0; left &= left - 1) {
           const int i = std::countr_zero(left);
           const uint32_t signs = rows.signs(i);
-          const SheetSeed seed{
+          const CrossedSheet sheet{
               static_cast<int32_t>(row + i),
               tables_.only_sheet[signs],
               {static_cast<uint8_t>(x), static_cast<uint8_t>(y), static_cast<uint8_t>(segment.z + i)}};
-          slots[segment.z + i] = static_cast<uint32_t>(seeds_.size());
+          slots[segment.z + i] = static_cast<uint32_t>(sheets_.size());
           quads_ += tables_.first_edges[signs];
-          if (seed.edges != 0) {
-            seeds_.push_back(seed);
+          if (sheet.edges != 0) {
+            sheets_.push_back(sheet);
           } else {
-            slots[segment.z + i] = add_sheets(seed, signs);
+            slots[segment.z + i] = add_sheets(sheet, signs);
           }
         }
       }
@@ -143,30 +144,30 @@ class Builder {
   }
 
   /// Of a cell that holds several, or shares a pinched face. Returns what its slot must hold.
-  uint32_t add_sheets(SheetSeed seed, uint32_t signs) {
-    const CellCase& sheets = case_of(seed, signs);
-    const auto first = static_cast<uint32_t>(seeds_.size());
-    for (size_t s = 0; s < sheets.sheets; ++s) {
-      seed.edges = sheets.edges_of_sheet[s];
-      seeds_.push_back(seed);
+  uint32_t add_sheets(CrossedSheet sheet, uint32_t signs) {
+    const CellCase& split = case_of(sheet, signs);
+    const auto first = static_cast<uint32_t>(sheets_.size());
+    for (size_t s = 0; s < split.sheets; ++s) {
+      sheet.edges = split.edges_of_sheet[s];
+      sheets_.push_back(sheet);
     }
-    if (sheets.sheets == 1) return first;
-    many_.push_back({first, &sheets});
+    if (split.sheets == 1) return first;
+    many_.push_back({first, &split});
     return several | static_cast<uint32_t>(many_.size() - 1);
   }
 
-  const CellCase& case_of(const SheetSeed& seed, uint32_t signs) const {
+  const CellCase& case_of(const CrossedSheet& sheet, uint32_t signs) const {
     const CellCase& joined = tables_.joined[signs];
     if (joined.pinched_face == no_face) return joined;
     const size_t axis = joined.pinched_face / 2U;
     const int step = joined.pinched_face % 2U == 1 ? 1 : -1;
     if (mask_ != nullptr) {
-      std::array<int, 3> across{seed.at[0], seed.at[1], seed.at[2]};
+      std::array<int, 3> across{sheet.at[0], sheet.at[1], sheet.at[2]};
       across[axis] += step;
       if (!mask_->holds(origin_ + VoxelCoord{across[0], across[1], across[2]})) return joined;
     }
     const std::array<std::ptrdiff_t, 3> strides{stride_x_, stride_y_, 1};
-    const Code* neighbour = window_.codes.data() + seed.cell + step * strides[axis];
+    const Code* neighbour = window_.codes.data() + sheet.cell + step * strides[axis];
     uint32_t across = 0;
     for (int i = 0; i < cell_corners; ++i) {
       const std::ptrdiff_t corner = (i >> 2) * stride_x_ + ((i >> 1) & 1) * stride_y_ + (i & 1);
@@ -256,7 +257,7 @@ class Builder {
   std::vector<Segment> segments_;
   uint32_t* next_index_ = nullptr;
   size_t quads_ = 0;  ///< at most
-  std::vector<SheetSeed> seeds_;
+  std::vector<CrossedSheet> sheets_;
   std::vector<ManySheets> many_;
   std::unique_ptr<uint32_t[]> slots_;  ///< only those of crossed cells are written, and read
 };

@@ -211,26 +211,26 @@ SCREE_INLINE void store(const Source& source, const Batch& b, SurfaceVertex* ver
   }
 }
 
-SCREE_INLINE void load(const Source& source, const SheetSeed* seeds, Batch& b) {
+SCREE_INLINE void load(const Source& source, const CrossedSheet* sheets, Batch& b) {
   for (int i = 0; i < batch; ++i) {
-    b.cells[i] = seeds[i].cell;
-    b.edges[i] = seeds[i].edges;
-    b.x[i] = seeds[i].at[0];
-    b.y[i] = seeds[i].at[1];
-    b.z[i] = seeds[i].at[2];
+    b.cells[i] = sheets[i].cell;
+    b.edges[i] = sheets[i].edges;
+    b.x[i] = sheets[i].at[0];
+    b.y[i] = sheets[i].at[1];
+    b.z[i] = sheets[i].at[2];
     source.rows.load(source.now + b.cells[i], i, b.rows);
   }
 }
 
-SCREE_INLINE void load(const Source& source, const PlacedSeed* seeds, Batch& b) {
+SCREE_INLINE void load(const Source& source, const PlacedVertex* placed, Batch& b) {
   for (int i = 0; i < batch; ++i) {
-    b.cells[i] = seeds[i].cell;
-    b.x[i] = seeds[i].position[0];
-    b.y[i] = seeds[i].position[1];
-    b.z[i] = seeds[i].position[2];
-    b.f.x[i] = seeds[i].fraction.x;
-    b.f.y[i] = seeds[i].fraction.y;
-    b.f.z[i] = seeds[i].fraction.z;
+    b.cells[i] = placed[i].cell;
+    b.x[i] = placed[i].position[0];
+    b.y[i] = placed[i].position[1];
+    b.z[i] = placed[i].position[2];
+    b.f.x[i] = placed[i].fraction.x;
+    b.f.y[i] = placed[i].fraction.y;
+    b.f.z[i] = placed[i].fraction.z;
     source.rows.load(source.now + b.cells[i], i, b.rows);
   }
 }
@@ -247,9 +247,10 @@ SCREE_INLINE void step_into(const Lanes& part, Ints& whole) {
 constexpr size_t together = 4;
 constexpr size_t group = together * batch;
 
-SCREE_VECTOR_CLONES void place_sheets(const Source& source, const SheetSeed* seeds, SurfaceVertex* vertices) {
+SCREE_VECTOR_CLONES void place_sheets(const Source& source, const CrossedSheet* sheets,
+                                      SurfaceVertex* vertices) {
   Batch batches[together];
-  for (size_t i = 0; i < together; ++i) load(source, seeds + i * batch, batches[i]);
+  for (size_t i = 0; i < together; ++i) load(source, sheets + i * batch, batches[i]);
   for (Batch& b : batches) {
     mean_crossing(b.rows, b.edges, b.f);
     step_into(b.f.x, b.x);
@@ -261,47 +262,47 @@ SCREE_VECTOR_CLONES void place_sheets(const Source& source, const SheetSeed* see
   for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch);
 }
 
-SCREE_VECTOR_CLONES void shade_placed(const Source& source, const PlacedSeed* seeds,
+SCREE_VECTOR_CLONES void shade_placed(const Source& source, const PlacedVertex* placed,
                                       SurfaceVertex* vertices) {
   Batch batches[together];
-  for (size_t i = 0; i < together; ++i) load(source, seeds + i * batch, batches[i]);
+  for (size_t i = 0; i < together; ++i) load(source, placed + i * batch, batches[i]);
   for (Batch& b : batches) aim(source, b);
   for (Batch& b : batches) load_above_and_before(source, b);
   for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch);
 }
 
 /// Whole groups in place, what is left over by way of a padded copy.
-template <typename Seed, typename Kernel>
-void in_groups(const Window& window, const Window* before, std::span<const Seed> seeds,
+template <typename Item, typename Kernel>
+void in_groups(const Window& window, const Window* before, std::span<const Item> items,
                std::vector<SurfaceVertex>& vertices, Kernel&& kernel) {
   const VoxelCoord size = window.box.size();
   const Source source{window.codes.data(),
                       before == nullptr ? nullptr : before->codes.data(),
                       {static_cast<std::ptrdiff_t>(size.y) * size.z, size.z}};
   const size_t first = vertices.size();
-  vertices.resize(first + seeds.size());
+  vertices.resize(first + items.size());
   SurfaceVertex* to = vertices.data() + first;
   size_t i = 0;
-  for (; i + group <= seeds.size(); i += group) kernel(source, seeds.data() + i, to + i);
-  if (i == seeds.size()) return;
-  std::array<Seed, group> padded;
+  for (; i + group <= items.size(); i += group) kernel(source, items.data() + i, to + i);
+  if (i == items.size()) return;
+  std::array<Item, group> padded;
   std::array<SurfaceVertex, group> done;
-  padded.fill(seeds[i]);
-  std::ranges::copy(seeds.subspan(i), padded.begin());
+  padded.fill(items[i]);
+  std::ranges::copy(items.subspan(i), padded.begin());
   kernel(source, padded.data(), done.data());
-  std::copy_n(done.begin(), seeds.size() - i, to + i);
+  std::copy_n(done.begin(), items.size() - i, to + i);
 }
 
 }  // namespace
 
-void add_sheet_vertices(const Window& window, const Window* before, std::span<const SheetSeed> seeds,
+void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
                         std::vector<SurfaceVertex>& vertices) {
-  in_groups(window, before, seeds, vertices, place_sheets);
+  in_groups(window, before, sheets, vertices, place_sheets);
 }
 
-void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedSeed> seeds,
+void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedVertex> placed,
                          std::vector<SurfaceVertex>& vertices) {
-  in_groups(window, before, seeds, vertices, shade_placed);
+  in_groups(window, before, placed, vertices, shade_placed);
 }
 
 }  // namespace scree

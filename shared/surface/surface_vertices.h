@@ -12,24 +12,24 @@
 namespace scree {
 
 /// The vertex of one sheet of surface in a cell.
-struct SheetSeed {
+struct CrossedSheet {
   int32_t cell = 0;             ///< index of the cell's lowest voxel in the window
   uint16_t edges = 0;           ///< bit e: the sheet crosses edge e (surface_cells.h); at least one
   std::array<uint8_t, 3> at{};  ///< the cell, from the mesh's origin
 };
 
 /// A vertex that lies at a known place.
-struct PlacedSeed {
+struct PlacedVertex {
   int32_t cell = 0;
   std::array<uint16_t, 3> position{};  ///< 1/256 voxel from the mesh's origin, for the vertex
   glm::vec3 fraction{0.0F};            ///< from the cell's lowest voxel, 0..1
 };
 
 /// At the mean of the crossings of the sheet's edges (Gibson 1998), strictly inside the cell. Appends one
-/// vertex a seed. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
-void add_sheet_vertices(const Window& window, const Window* before, std::span<const SheetSeed> seeds,
+/// vertex each. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
+void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
                         std::vector<SurfaceVertex>& vertices);
-void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedSeed> seeds,
+void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedVertex> placed,
                          std::vector<SurfaceVertex>& vertices);
 
 }  // namespace scree

@@ -193,22 +193,22 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
   mesh.origin = origin;
   mesh.indices = leaves.indices;
   constexpr auto steps = static_cast<int>(surface_steps_per_voxel);
-  std::vector<PlacedSeed> seeds;
-  seeds.reserve(leaves.points.size());
+  std::vector<PlacedVertex> vertices;
+  vertices.reserve(leaves.points.size());
   for (const LeafPoint& point : leaves.points) {
-    PlacedSeed seed;
+    PlacedVertex placed;
     std::array<int, 3> cell{};
     const std::array<int, 3> lo{origin.x, origin.y, origin.z};
     for (size_t i = 0; i < 3; ++i) {
       cell[i] = point.steps[i] >> 8;
-      seed.fraction[static_cast<int>(i)] =
+      placed.fraction[static_cast<int>(i)] =
           static_cast<float>(point.steps[i] - cell[i] * steps) / surface_steps_per_voxel;
-      seed.position[i] = static_cast<uint16_t>(point.steps[i] - lo[i] * steps);
+      placed.position[i] = static_cast<uint16_t>(point.steps[i] - lo[i] * steps);
     }
-    seed.cell = static_cast<int32_t>(windows.now.index(cell[0], cell[1], cell[2]));
-    seeds.push_back(seed);
+    placed.cell = static_cast<int32_t>(windows.now.index(cell[0], cell[1], cell[2]));
+    vertices.push_back(placed);
   }
-  add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, seeds, mesh.vertices);
+  add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh.vertices);
   windows.put_paint_on(mesh);
   return mesh;
 }
