@@ -105,10 +105,10 @@ struct Writing {
   }
   void operator()(const IslandOperation& island) const {
     write_head(writer, kind_island, island.piece);
-    const VoxelCoord size = island.box.size(), seed = island.seed - island.box.lo;
+    const VoxelCoord size = island.box.size(), start = island.start - island.box.lo;
     for (const int32_t low : {island.box.lo.x, island.box.lo.y, island.box.lo.z}) writer.zigzag(low);
     for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
-    for (const int32_t at : {seed.x, seed.y, seed.z}) writer.varint(static_cast<uint64_t>(at));
+    for (const int32_t at : {start.x, start.y, start.z}) writer.varint(static_cast<uint64_t>(at));
   }
 };
 
@@ -194,7 +194,7 @@ IslandOperation read_island(ByteReader& reader, PieceId id) {
   island.piece = id;
   island.box.lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "place of an island");
   island.box.hi = island.box.lo + voxels("side of an island");
-  island.seed = island.box.lo + voxels("seed of an island");
+  island.start = island.box.lo + voxels("start of an island");
   return island;
 }
 

@@ -129,7 +129,7 @@ struct Samples {
     found += large == expected ? 1 : 0;
     Stopwatch watch;
     for (const Island& island : search.islands)
-      scene.apply(IslandOperation{island.box, island.seed, scene.next_piece});
+      scene.apply(IslandOperation{island.box, island.start, scene.next_piece});
     if (!search.islands.empty()) lift_ms.push_back(watch.lap_ms());
     scene.pieces.clear();
   }

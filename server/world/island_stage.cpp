@@ -14,14 +14,14 @@ namespace {
 
 /// Whether the island is still there: an earlier one of this tick may have been the same.
 bool still_there(Field& field, const Island& island) {
-  const VoxelCoord v = island.seed;
+  const VoxelCoord v = island.start;
   return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
 }
 
 void drop(World::State& state, const Island& island, TickDelta& delta) {
   if (!still_there(state.field, island)) return;
   const Applied applied =
-      state.apply_and_record(IslandOperation{island.box, island.seed, state.next_piece}, delta);
+      state.apply_and_record(IslandOperation{island.box, island.start, state.next_piece}, delta);
   state.enter_taken(applied);
   state.islands.fell(applied.changed);
   const float dx = state.config.terrain.voxel_size_m;
@@ -81,9 +81,9 @@ void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   fell(bricks);
   std::erase_if(falling_, [&](const Falling& falling) {
     if (!has_seen(*falling.search, bricks)) return false;
-    std::vector<BrickCoord> seeds;
-    for (const Island& island : falling.islands) seeds.push_back(brick_of(island.seed));
-    push(std::move(seeds));
+    std::vector<BrickCoord> starts;
+    for (const Island& island : falling.islands) starts.push_back(brick_of(island.start));
+    push(std::move(starts));
     return true;
   });
 }
@@ -103,7 +103,7 @@ bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
   too_large += static_cast<uint32_t>(falling.search->too_large());
   // From the ground up, so that none falls on one that waits.
   std::ranges::sort(falling.islands, std::ranges::greater{},
-                    [](const Island& island) { return std::pair(island.box.lo.y, island.seed); });
+                    [](const Island& island) { return std::pair(island.box.lo.y, island.start); });
   if (!falling.islands.empty()) falling_.push_back(std::move(falling));
   return true;
 }

@@ -30,8 +30,8 @@ void for_each_voxel(const VoxelBox& box, F&& f) {
       for (int z = box.lo.z; z < box.hi.z; ++z) f(x, y, z);
 }
 
-/// Marks what connects to the seed by faces of solid voxels, within the box.
-Marks component(const Window& window, const VoxelBox& box, VoxelCoord seed) {
+/// Marks what connects to the start by faces of solid voxels, within the box.
+Marks component(const Window& window, const VoxelBox& box, VoxelCoord start) {
   Marks marks(window.codes.size(), 0);
   std::vector<VoxelCoord> ahead;
   const auto reach = [&](VoxelCoord v) {
@@ -40,7 +40,7 @@ Marks component(const Window& window, const VoxelBox& box, VoxelCoord seed) {
     marks[at] = 1;
     ahead.push_back(v);
   };
-  reach(seed);
+  reach(start);
   while (!ahead.empty()) {
     const VoxelCoord v = ahead.back();
     ahead.pop_back();
@@ -206,11 +206,11 @@ VoxelBox lift_box(const VoxelBox& island) {
   return island.grown(margin);
 }
 
-Volume lift(Window& window, const VoxelBox& box, VoxelCoord seed) {
+Volume lift(Window& window, const VoxelBox& box, VoxelCoord start) {
   CHECK(window.codes.size() >= Window::count(lift_box(box)));
   Volume volume;
-  if (window.at(seed.x, seed.y, seed.z) >= 0) return volume;
-  const Marks marks = component(window, box, seed);
+  if (window.at(start.x, start.y, start.z) >= 0) return volume;
+  const Marks marks = component(window, box, start);
   volume.window = alone(window, box, marks);
   volume.centre_voxels = centre_of_mass(volume.window);
   volume.mass = mass_of(window);

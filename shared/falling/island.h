@@ -10,10 +10,10 @@ namespace scree {
 /// The voxels that lifting an island with that box may read; all that it may change lie inside.
 VoxelBox lift_box(const VoxelBox& island);
 
-/// Takes the solid voxels (code < 0) that connect to `seed` within `box` out of the window, and the mass in
+/// Takes the solid voxels (code < 0) that connect to `start` within `box` out of the window, and the mass in
 /// the voxels around that belong to them alone. The distances that these had to the island become those to
 /// what remains; everything else keeps its code. Returns the island, whose mass is exactly what the window
-/// lost; mass 0 when the seed is not solid. `window` must cover lift_box(box), and `box` hold the seed.
-Volume lift(Window& window, const VoxelBox& box, VoxelCoord seed);
+/// lost; mass 0 when the start is not solid. `window` must cover lift_box(box), and `box` hold the start.
+Volume lift(Window& window, const VoxelBox& box, VoxelCoord start);
 
 }  // namespace scree

@@ -51,14 +51,14 @@ struct Found {
     const VoxelCoord origin = first_voxel(brick);
     const VoxelBox inner = bounds_of(bits);
     const VoxelBox box{inner.lo + origin, inner.hi + origin};
-    const VoxelCoord seed = origin + bounds_of(first_of(bits)).lo;
+    const VoxelCoord start = origin + bounds_of(first_of(bits)).lo;
     const bool is_new = island.voxels == 0;
     const VoxelBox& b = is_new ? box : island.box;
     island.box = {{std::min(b.lo.x, box.lo.x), std::min(b.lo.y, box.lo.y), std::min(b.lo.z, box.lo.z)},
                   {std::max(b.hi.x, box.hi.x), std::max(b.hi.y, box.hi.y), std::max(b.hi.z, box.hi.z)}};
-    if (is_new || brick < first || (brick == first && seed < island.seed)) {
+    if (is_new || brick < first || (brick == first && start < island.start)) {
       first = brick;
-      island.seed = seed;
+      island.start = start;
     }
     island.voxels += bits.count();
   }
@@ -69,7 +69,7 @@ struct Found {
 IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max)
     : field_(field), ground_(field), parts_max_(parts_max) {
   sites_.reserve(changed.size() * 4);
-  start(changed);
+  begin(changed);
 }
 
 IslandSearch::Site& IslandSearch::site(BrickCoord brick) {
@@ -85,7 +85,7 @@ BrickBits IslandSearch::taken(const Site& site) const {
 }
 
 /// A flood from each component, within the brick, of what is solid `among` these voxels.
-void IslandSearch::seed(BrickCoord brick, BrickBits among) {
+void IslandSearch::add_floods(BrickCoord brick, BrickBits among) {
   const Site& here = site(brick);
   for (among = among & here.solid & ~taken(here); among.any();) {
     const BrickBits bits = flooded(first_of(among), here.solid);
@@ -97,13 +97,13 @@ void IslandSearch::seed(BrickCoord brick, BrickBits among) {
   }
 }
 
-void IslandSearch::start(std::span<const BrickCoord> changed) {
+void IslandSearch::begin(std::span<const BrickCoord> changed) {
   for (const BrickCoord brick : changed) {
     const BrickBits solid = site(brick).solid;
-    seed(brick, solid);
+    add_floods(brick, solid);
     for (size_t face = 0; face < brick_faces.size(); ++face) {
       const BrickBits bared = across(~solid, face);  // what may have leant on the brick through this face
-      if (bared.any()) seed(brick + brick_faces[face], bared);
+      if (bared.any()) add_floods(brick + brick_faces[face], bared);
     }
   }
 }
@@ -246,7 +246,7 @@ std::vector<Island> IslandSearch::islands(const BlockLimits& limits) const {
   for (const uint32_t part : parts) found[group(part)].add(parts_[part].brick, parts_[part].bits);
   std::vector<Island> islands;
   for (const auto& [first, entry] : found) islands.push_back(entry.island);
-  std::ranges::sort(islands, {}, &Island::seed);
+  std::ranges::sort(islands, {}, &Island::start);
   return islands;
 }
 

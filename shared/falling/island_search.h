@@ -29,7 +29,7 @@ namespace scree {
 /// An island, or a block of one that is longer than a piece may be.
 struct Island {
   VoxelBox box;     ///< smallest that holds its solid voxels
-  VoxelCoord seed;  ///< the first of them, by x, y, z within the first brick
+  VoxelCoord start;  ///< the first of them, by x, y, z within the first brick
   int64_t voxels = 0;
 
   bool operator==(const Island&) const = default;
@@ -54,7 +54,7 @@ class IslandSearch {
   bool visited(BrickCoord brick) const { return sites_.contains(brick); }
   size_t bricks_visited() const { return sites_.size(); }
 
-  /// Of a finished search, ordered by seed. An island over the limits comes in blocks: halves along its
+  /// Of a finished search, ordered by start. An island over the limits comes in blocks: halves along its
   /// longest side, halved again, cut along the faces of bricks; what connects within a block is one entry.
   std::vector<Island> islands(const BlockLimits& limits = {}) const;
   /// Components that count as ground because there is too much of them.
@@ -84,8 +84,8 @@ class IslandSearch {
 
   Site& site(BrickCoord brick);
   BrickBits taken(const Site& site) const;
-  void seed(BrickCoord brick, BrickBits among);
-  void start(std::span<const BrickCoord> changed);
+  void add_floods(BrickCoord brick, BrickBits among);
+  void begin(std::span<const BrickCoord> changed);
   bool is_later(uint32_t a, uint32_t b) const;
   uint32_t root(uint32_t flood) const;
   void add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood);

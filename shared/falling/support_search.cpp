@@ -109,7 +109,7 @@ class Search {
       if (!flow_.overloaded(i)) continue;
       const SupportPart& part = parts_.parts()[i];
       Overload& overload = masses[root(i)];
-      if (overload.voxels == 0) overload.seed = first_voxel(part.brick) + bounds_of(first_of(part.bits)).lo;
+      if (overload.voxels == 0) overload.start = first_voxel(part.brick) + bounds_of(first_of(part.bits)).lo;
       overload.voxels += part.voxels;
       if (changed_.contains(part.brick)) touched.insert(root(i));
     }

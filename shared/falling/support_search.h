@@ -40,7 +40,7 @@ struct Neck {
 
 struct Overload {
   int64_t voxels = 0;  ///< of the mass beyond the necks, as far as it was looked at
-  VoxelCoord seed;     ///< one of them
+  VoxelCoord start;    ///< one of them
   std::vector<Neck> necks;
 };
 

@@ -142,7 +142,7 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
 
 Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
   Window window = gather(field, lift_box(op.box));
-  Volume volume = lift(window, op.box, op.seed);
+  Volume volume = lift(window, op.box, op.start);
   volume.material = material_at(field, volume.centre_voxels * field.source().voxel_size_m);
   Applied applied;
   applied.terrain_gain = -volume.mass;
@@ -255,7 +255,7 @@ struct Validator {
     if (std::max({size.x, size.y, size.z}) > limits::island_side_max_bricks * brick_size)
       return fail("the island is longer than " + std::to_string(limits::island_side_max_bricks) +
                   " bricks (limits.island_side_max_bricks)");
-    if (!op.box.holds(op.seed)) return fail("the island's seed is outside its box");
+    if (!op.box.holds(op.start)) return fail("the island's start is outside its box");
     if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
     return {};
   }

@@ -81,12 +81,12 @@ struct ShatterOperation {
   bool operator==(const ShatterOperation&) const = default;
 };
 
-/// Terrain that hangs loose leaves the field: the solid voxels that connect to `seed` within `box` become a
-/// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and seed in
+/// Terrain that hangs loose leaves the field: the solid voxels that connect to `start` within `box` become a
+/// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and start in
 /// voxels, which are exact.
 struct IslandOperation {
   VoxelBox box;
-  VoxelCoord seed;
+  VoxelCoord start;
   PieceId piece = 0;
 
   bool operator==(const IslandOperation&) const = default;

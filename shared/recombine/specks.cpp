@@ -43,7 +43,7 @@ Island island_of(const std::vector<VoxelCoord>& voxels) {
 /// What the terrain would lose with it.
 MassUnits weight(Field& field, const Island& island) {
   Window window = gather(field, lift_box(island.box));
-  return lift(window, island.box, island.seed).mass;
+  return lift(window, island.box, island.start).mass;
 }
 
 /// Those with all six neighbours solid, too, inside the brick. Seven such voxels weigh more than a speck
@@ -90,7 +90,7 @@ std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks
       if (bared.any()) add_specks_of(field, beyond, bared, specks);
     }
   }
-  std::ranges::sort(specks, {}, &Island::seed);
+  std::ranges::sort(specks, {}, &Island::start);
   specks.erase(std::unique(specks.begin(), specks.end()), specks.end());
   return specks;
 }

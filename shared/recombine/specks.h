@@ -17,7 +17,7 @@ namespace scree {
 inline constexpr int speck_voxels_max = 32;
 
 /// Components lighter than limits::piece_mass_min that have a voxel in one of these bricks (in order), or
-/// against their faces, ordered by seed: what an IslandOperation turns into dust.
+/// against their faces, ordered by start: what an IslandOperation turns into dust.
 std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks);
 
 }  // namespace scree

@@ -285,7 +285,7 @@ void print_islands() {
     for (size_t bricks = 5; !search.advance(bricks); bricks = 5) {
     }
     for (const Island& island : search.islands()) {
-      const Applied lifted = apply(IslandOperation{island.box, island.seed, id * 10 + 5}, field, pieces);
+      const Applied lifted = apply(IslandOperation{island.box, island.start, id * 10 + 5}, field, pieces);
       digest.add(static_cast<uint64_t>(lifted.terrain_gain));
       for (const CreatedPiece& piece : lifted.created) digest.add(*pieces.at(piece.id));
     }

@@ -103,11 +103,11 @@ std::vector<Island> islands_by_brute_force(Field& field, const std::vector<Brick
           b.lo = {std::min(b.lo.x, v.x), std::min(b.lo.y, v.y), std::min(b.lo.z, v.z)};
           b.hi = {std::max(b.hi.x, v.x + 1), std::max(b.hi.y, v.y + 1), std::max(b.hi.z, v.z + 1)};
         }
-        island.seed = *std::ranges::min_element(component.voxels, {},
+        island.start = *std::ranges::min_element(component.voxels, {},
                                                 [](VoxelCoord v) { return std::pair(brick_of(v), v); });
         islands.push_back(island);
       }
-  std::ranges::sort(islands, {}, &Island::seed);
+  std::ranges::sort(islands, {}, &Island::start);
   return islands;
 }
 
@@ -121,8 +121,8 @@ std::vector<Island> search(Field& field, const std::vector<BrickCoord>& changed,
 
 void print(std::ostream& out, const std::vector<Island>& islands) {
   for (const Island& island : islands)
-    out << "  " << island.voxels << " voxels from " << island.seed.x << ' ' << island.seed.y << ' '
-        << island.seed.z << '\n';
+    out << "  " << island.voxels << " voxels from " << island.start.x << ' ' << island.start.y << ' '
+        << island.start.z << '\n';
 }
 
 TEST(island, the_search_finds_what_brute_force_finds_in_random_fields) {
@@ -209,9 +209,9 @@ std::vector<Island> split_by_brute_force(Field& field, const Island& whole,
   const Window window = gather(field, whole.box);
   std::vector<uint8_t> seen(window.codes.size(), 0);
   for (const Island& block : blocks) {
-    Island own{block.box, block.seed, 0};
-    std::vector<VoxelCoord> ahead{block.seed};
-    seen[window.index(block.seed.x, block.seed.y, block.seed.z)] = 1;
+    Island own{block.box, block.start, 0};
+    std::vector<VoxelCoord> ahead{block.start};
+    seen[window.index(block.start.x, block.start.y, block.start.z)] = 1;
     while (!ahead.empty()) {
       const VoxelCoord v = ahead.back();
       ahead.pop_back();
@@ -296,7 +296,7 @@ TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_
   const Island& ball = *std::ranges::min_element(islands, {}, &Island::voxels);
   Window window = gather(field, lift_box(ball.box));
   const MassUnits before = mass_of(window);
-  const Volume volume = lift(window, ball.box, ball.seed);
+  const Volume volume = lift(window, ball.box, ball.start);
   EXPECT_EQ(volume.mass, before - mass_of(window));
   EXPECT_EQ(volume.mass, mass_of(volume.window));
   scatter(field, window);

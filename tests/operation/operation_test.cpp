@@ -263,8 +263,8 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");
   const VoxelBox island{{0, 0, 0}, {8, 8, 8}};
   EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none).has_value());
-  refused(IslandOperation{island, {8, 0, 0}, 1}, "seed is outside its box");
-  refused(IslandOperation{{{0, 0, 0}, {0, 8, 8}}, {0, 0, 0}, 1}, "seed is outside its box");
+  refused(IslandOperation{island, {8, 0, 0}, 1}, "start is outside its box");
+  refused(IslandOperation{{{0, 0, 0}, {0, 8, 8}}, {0, 0, 0}, 1}, "start is outside its box");
   refused(IslandOperation{{{0, 0, 0}, {8, 113, 8}}, {0, 0, 0}, 1}, "island_side_max_bricks");
   refused(IslandOperation{{{1 << 24, 0, 0}, {(1 << 24) + 8, 8, 8}}, {1 << 24, 0, 0}, 1}, "outside the world");
 }

@@ -49,9 +49,9 @@ std::vector<Island> specks_by_brute_force(Field& field, const VoxelBox& box) {
         if (!inside || std::ranges::max({island.box.size().x, island.box.size().y, island.box.size().z}) > 16)
           continue;
         Window around = gather(field, lift_box(island.box));
-        if (lift(around, island.box, island.seed).mass < limits::piece_mass_min) specks.push_back(island);
+        if (lift(around, island.box, island.start).mass < limits::piece_mass_min) specks.push_back(island);
       }
-  std::ranges::sort(specks, {}, &Island::seed);
+  std::ranges::sort(specks, {}, &Island::start);
   return specks;
 }
 
@@ -96,7 +96,7 @@ TEST(specks, what_an_odd_stamp_leaves_in_the_air_becomes_dust_to_the_unit) {
   ASSERT_EQ(specks.size(), 1U);
   EXPECT_EQ(specks, specks_by_brute_force(field, around));
   const MassUnits before = mass_of(gather(field, around));
-  const Applied swept = apply(IslandOperation{specks[0].box, specks[0].seed, 2}, field, pieces);
+  const Applied swept = apply(IslandOperation{specks[0].box, specks[0].start, 2}, field, pieces);
   EXPECT_TRUE(pieces.empty());
   EXPECT_GT(swept.dust, 0);
   EXPECT_EQ(swept.terrain_gain, -swept.dust);
