@@ -74,11 +74,11 @@ bool ByteReader::take(size_t count, const char* what) {
 
 uint64_t ByteReader::varint(const char* what, uint64_t max) {
   uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
+  for (unsigned low_bit = 0; low_bit < 64; low_bit += 7) {
     if (!take(1, what)) return 0;
     const uint8_t byte = bytes_[next_ - 1];
-    if (shift == 63 && byte > 1) break;
-    value |= static_cast<uint64_t>(byte & 0x7FU) << shift;
+    if (low_bit == 63 && byte > 1) break;
+    value |= static_cast<uint64_t>(byte & 0x7FU) << low_bit;
     if ((byte & 0x80U) != 0) continue;
     if (value <= max) return value;
     refuse(std::string(what) + " is " + std::to_string(value) + ", over the limit of " + std::to_string(max));

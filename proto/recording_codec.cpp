@@ -76,7 +76,7 @@ std::vector<uint8_t> encode(const RecordedHeader& header) {
   to.set_format(header.format);
   to.set_program(clean_text(header.program, program_bytes_max));
   to.set_terrain_kind(static_cast<uint32_t>(header.terrain.kind));
-  to.set_terrain_seed(header.terrain.seed);
+  to.set_terrain_seed(header.terrain.random_seed);
   to.set_voxel_size_m(header.terrain.voxel_size_m);
   to.set_tick_rate_hz(header.tick_rate_hz);
   to.set_pieces_max(header.pieces_max);
@@ -96,7 +96,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   header.program = check.text(from->program(), program_bytes_max, "program");
   header.terrain.kind = static_cast<TerrainKind>(
       check.within(from->terrain_kind(), 0, static_cast<uint32_t>(TerrainKind::canyon), "terrain_kind"));
-  header.terrain.seed = from->terrain_seed();
+  header.terrain.random_seed = from->terrain_seed();
   header.terrain.voxel_size_m = check.finite(from->voxel_size_m(), "voxel_size_m");
   if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||
       header.terrain.voxel_size_m > limits::voxel_size_max_m)

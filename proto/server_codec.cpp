@@ -115,7 +115,7 @@ struct Writing {
     welcome.set_tick_rate_hz(from.tick_rate_hz);
     welcome.set_ticks_per_transform(from.ticks_per_transform);
     welcome.mutable_terrain()->set_kind(static_cast<wire::TerrainKind>(from.terrain.kind));
-    welcome.mutable_terrain()->set_seed(from.terrain.seed);
+    welcome.mutable_terrain()->set_random_seed(from.terrain.random_seed);
     welcome.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
     welcome.set_interest_radius_m(from.interest_radius_m);
     welcome.set_replay(from.replay);
@@ -161,7 +161,7 @@ WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
   welcome.ticks_per_transform = check.within(from.ticks_per_transform(), 1, rate_max, "ticks_per_transform");
   welcome.terrain.kind =
       static_cast<TerrainKind>(check.choice(from.terrain().kind(), wire::CANYON, "kind of terrain"));
-  welcome.terrain.seed = from.terrain().seed();
+  welcome.terrain.random_seed = from.terrain().random_seed();
   const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
   if (voxel_size_m < limits::voxel_size_min_m || voxel_size_m > limits::voxel_size_max_m)
     check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");

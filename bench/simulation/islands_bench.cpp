@@ -36,8 +36,8 @@ struct Scene {
         CarveOperation{shape, SeedPattern::uniform, seeds, next_piece, centre_of(shape), next_piece});
   }
   /// Blows all over a square; their pieces are of no interest here.
-  void spread_edits(float half_width_m, int count, uint64_t seed) {
-    ScatteredBlows blows(terrain, half_width_m, 2.0F, 1, seed);
+  void spread_edits(float half_width_m, int count, uint64_t random_seed) {
+    ScatteredBlows blows(terrain, half_width_m, 2.0F, 1, random_seed);
     for (int i = 0; i < count; ++i) carve(blows.next().shape, 1);
     pieces.clear();
   }

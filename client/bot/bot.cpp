@@ -21,7 +21,7 @@ double ms_between(std::chrono::steady_clock::time_point from, std::chrono::stead
 Bot::Bot(BotConfig config, Log log)
     : config_(std::move(config)),
       log_(std::move(log)),
-      carver_(config_.carver, config_.seed),
+      carver_(config_.carver, config_.random_seed),
       eye_m_(config_.carver.centre_m) {
   report_.server = config_.host + ":" + std::to_string(config_.port);
 }

@@ -23,7 +23,7 @@ struct BotConfig {
   std::string host = "127.0.0.1";
   uint16_t port = 0;
   uint32_t carves = 20;  ///< 0: a handshake and one frame will do
-  uint64_t seed = 1;
+  uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
   std::optional<Material> paint;    ///< what the rock of each carve is painted before

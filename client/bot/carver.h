@@ -25,7 +25,7 @@ struct CarverConfig {
 
 class Carver {
  public:
-  Carver(const CarverConfig& config, uint64_t seed) : config_(config), random_(seed) {}
+  Carver(const CarverConfig& config, uint64_t random_seed) : config_(config), random_(random_seed) {}
 
   CarveMessage next(Field& field, uint32_t request);
 

@@ -76,7 +76,7 @@ std::string to_json(const BotReport& report) {
   json["protocol"] = report.welcome.protocol;
   json["replay"] = report.welcome.replay;
   json["terrain"] = {{"kind", name_of(report.welcome.terrain.kind)},
-                     {"seed", report.welcome.terrain.seed},
+                     {"seed", report.welcome.terrain.random_seed},
                      {"voxel_size_m", report.welcome.terrain.voxel_size_m}};
   json["duration_s"] = report.duration_s;
   json["connections"] = report.connections;

@@ -40,7 +40,7 @@ void add_world(CLI::App& app, Raw& raw) {
   app.add_option("--terrain", raw.terrain, "flat, noise or canyon")
       ->check(CLI::IsMember({"flat", "noise", "canyon"}))
       ->capture_default_str();
-  app.add_option("--seed", world.terrain.seed, "of the terrain")->capture_default_str();
+  app.add_option("--seed", world.terrain.random_seed, "of the terrain")->capture_default_str();
   app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres")
       ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m))
       ->capture_default_str();

@@ -12,12 +12,12 @@ namespace scree {
 namespace {
 
 /// A block is so many voxels on each side: smaller ones would read mostly their surroundings.
-constexpr int block_shift = 4;
-constexpr int block_voxels = 1 << block_shift;
+constexpr int block_bits = 4;
+constexpr int block_voxels = 1 << block_bits;
 
 /// Block of a voxel, on one axis.
 int block_of(int voxel) {
-  return voxel >> block_shift;
+  return voxel >> block_bits;
 }
 
 VoxelBox box_of_block(VoxelCoord block) {

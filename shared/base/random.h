@@ -8,14 +8,14 @@ namespace scree {
 
 class Random {
  public:
-  explicit Random(uint64_t seed) : state_(seed + increment) { next(); }
+  explicit Random(uint64_t random_seed) : state_(random_seed + increment) { next(); }
 
   uint32_t next() {
     const uint64_t old = state_;
     state_ = old * 6364136223846793005ULL + increment;
-    const auto shifted = static_cast<uint32_t>(((old >> 18U) ^ old) >> 27U);
+    const auto mixed = static_cast<uint32_t>(((old >> 18U) ^ old) >> 27U);
     const auto rotation = static_cast<uint32_t>(old >> 59U);
-    return (shifted >> rotation) | (shifted << ((32U - rotation) & 31U));
+    return (mixed >> rotation) | (mixed << ((32U - rotation) & 31U));
   }
 
   /// Uniform in [0, bound); bound > 0. The bias of at most bound / 2^32 is accepted.

@@ -38,11 +38,11 @@ Pose dequantise(const QuantisedPose& pose) {
   const uint32_t largest = pose.rotation >> 30U;
   float c[4] = {};
   float sum = 0.0F;
-  uint32_t shift = 20;
+  uint32_t low_bit = 20;
   for (uint32_t i = 0; i < 4; ++i) {
     if (i == largest) continue;
-    const auto step = static_cast<float>((pose.rotation >> shift) & 1023U);
-    shift -= 10;
+    const auto step = static_cast<float>((pose.rotation >> low_bit) & 1023U);
+    low_bit -= 10;
     c[i] = (step / static_cast<float>(component_steps) * 2.0F - 1.0F) * component_max;
     sum += c[i] * c[i];
   }

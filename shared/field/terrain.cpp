@@ -30,8 +30,8 @@ constexpr float arch_radius_m = 7.5F;
 constexpr float arch_thickness_m = 1.9F;
 
 /// A value in [-1, 1) of a lattice point; repeats every 64 points, as the paper's noise texture does.
-float lattice_value(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
-  uint32_t h = ((x & 63U) | ((y & 63U) << 6U) | ((z & 63U) << 12U)) * 0x9E3779B1U + seed * 0x85EBCA77U;
+float lattice_value(uint32_t x, uint32_t y, uint32_t z, uint32_t random_seed) {
+  uint32_t h = ((x & 63U) | ((y & 63U) << 6U) | ((z & 63U) << 12U)) * 0x9E3779B1U + random_seed * 0x85EBCA77U;
   h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
   h = (h ^ (h >> 12U)) * 0x297A2D39U;
   h ^= h >> 15U;
@@ -46,12 +46,12 @@ float blend(float t) {
 /// for all the points in it. Interpolates along x, then y, then z.
 class NoiseColumn {
  public:
-  NoiseColumn(float x, float y, uint32_t seed)
+  NoiseColumn(float x, float y, uint32_t random_seed)
       : x_(floor_to_int(x)),
         y_(floor_to_int(y)),
         u_(blend(x - static_cast<float>(x_))),
         v_(blend(y - static_cast<float>(y_))),
-        seed_(seed) {}
+        random_seed_(random_seed) {}
 
   float at(float z) {
     const int cell = floor_to_int(z);
@@ -68,7 +68,7 @@ class NoiseColumn {
   float face(int z) const {
     const auto corner = [&](int i, int j) {
       return lattice_value(static_cast<uint32_t>(x_ + i), static_cast<uint32_t>(y_ + j),
-                           static_cast<uint32_t>(z), seed_);
+                           static_cast<uint32_t>(z), random_seed_);
     };
     const float a = corner(0, 0), b = corner(0, 1);
     const float near = a + (corner(1, 0) - a) * u_;
@@ -80,7 +80,7 @@ class NoiseColumn {
   int y_;
   float u_;
   float v_;
-  uint32_t seed_;
+  uint32_t random_seed_;
   bool started_ = false;
   int cell_ = 0;
   float low_ = 0.0F;
@@ -90,8 +90,9 @@ class NoiseColumn {
 /// The octaves' sum along z at one (x, y), metres.
 class RoughColumn {
  public:
-  RoughColumn(float x_m, float y_m, uint32_t seed)
-      : columns_{column(x_m, y_m, seed, 0), column(x_m, y_m, seed, 1), column(x_m, y_m, seed, 2)} {}
+  RoughColumn(float x_m, float y_m, uint32_t random_seed)
+      : columns_{column(x_m, y_m, random_seed, 0), column(x_m, y_m, random_seed, 1),
+                 column(x_m, y_m, random_seed, 2)} {}
 
   float at(float z_m) {
     float sum = 0.0F;
@@ -101,8 +102,8 @@ class RoughColumn {
   }
 
  private:
-  static NoiseColumn column(float x_m, float y_m, uint32_t seed, uint32_t octave) {
-    return {x_m / octaves[octave].cell_m, y_m / octaves[octave].cell_m, seed * 31U + octave};
+  static NoiseColumn column(float x_m, float y_m, uint32_t random_seed, uint32_t octave) {
+    return {x_m / octaves[octave].cell_m, y_m / octaves[octave].cell_m, random_seed * 31U + octave};
   }
 
   std::array<NoiseColumn, std::size(octaves)> columns_;
@@ -172,7 +173,7 @@ struct Lattice {
           return static_cast<float>(first + steps * lattice_step) * source.voxel_size_m;
         };
         const float x_m = metres(box.lo.x, x), y_m = metres(box.lo.y, y);
-        RoughColumn rough(x_m, y_m, source.seed);
+        RoughColumn rough(x_m, y_m, source.random_seed);
         for (int z = 0; z < n[2]; ++z) {
           const float z_m = metres(box.lo.z, z);
           values.push_back(density(source.kind, {x_m, y_m, z_m}, rough.at(z_m)));
@@ -270,7 +271,7 @@ float floor_m(const TerrainSource& source) {
 }
 
 float ground_density(const TerrainSource& source, glm::vec3 p_m) {
-  return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.seed).at(p_m.z));
+  return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.random_seed).at(p_m.z));
 }
 
 float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
@@ -278,7 +279,7 @@ float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
   const Heights bounds = heights(source.kind);
   float y = bounds.top_m + step_m;
   const auto level = [&](float y_m) {
-    return density(source.kind, {x_m, y_m, z_m}, RoughColumn(x_m, y_m, source.seed).at(z_m));
+    return density(source.kind, {x_m, y_m, z_m}, RoughColumn(x_m, y_m, source.random_seed).at(z_m));
   };
   while (y > bounds.bottom_m && level(y) >= 0.0F) y -= step_m;
   return y;

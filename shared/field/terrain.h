@@ -18,7 +18,7 @@ enum class TerrainKind : uint8_t { flat = 0, noise = 1, canyon = 2 };
 
 struct TerrainSource {
   TerrainKind kind = TerrainKind::canyon;
-  uint32_t seed = 1;
+  uint32_t random_seed = 1;
   float voxel_size_m = 0.25F;
 
   bool operator==(const TerrainSource&) const = default;

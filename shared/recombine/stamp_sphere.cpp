@@ -24,7 +24,7 @@ Shape ball_of(const Volume& volume, const QuantisedPose& pose, float voxel_size_
   return sphere(dequantise(pose).position_m / voxel_size_m, cube_root(voxels * volume_to_cube));
 }
 
-Shape shifted(Shape ball, int shift) {
+Shape resized(Shape ball, int shift) {
   const float share = static_cast<float>(shift) / static_cast<float>(stamp_shift_max);
   ball.radius_m *= 1.0F + (shift < 0 ? share : (growth_max - 1.0F) * share);
   return ball;
@@ -34,13 +34,13 @@ Shape shifted(Shape ball, int shift) {
 
 VoxelBox stamp_sphere_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
   // One more layer, which redistancing keeps.
-  return band_box(shifted(ball_of(volume, pose, voxel_size_m), stamp_shift_max)).grown(1);
+  return band_box(resized(ball_of(volume, pose, voxel_size_m), stamp_shift_max)).grown(1);
 }
 
 void stamp_sphere(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
                   int shift) {
   if (shift == -stamp_shift_max) return;
-  fill(window, codes_of(shifted(ball_of(volume, pose, voxel_size_m), shift), window.box));
+  fill(window, codes_of(resized(ball_of(volume, pose, voxel_size_m), shift), window.box));
   redistance(window);
 }
 
@@ -51,7 +51,7 @@ StampPlan plan_sphere(const Window& window, const Volume& volume, const Quantise
   const auto gain_of = [&](int shift) -> MassUnits {
     if (shift == -stamp_shift_max) return 0;
     Window filled = window;
-    fill(filled, codes_of(shifted(ball, shift), window.box));
+    fill(filled, codes_of(resized(ball, shift), window.box));
     return mass_of(filled) + settling_gain(filled) - before;
   };
   return search_shift(-stamp_shift_max, stamp_shift_max, budget, gain_of);

@@ -84,8 +84,8 @@ std::vector<std::pair<std::string, Shape>> shapes_around(glm::vec3 c) {
 
 void print_generate() {
   for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon}) {
-    for (const uint32_t seed : {1U, 77U}) {
-      const TerrainSource source{kind, seed, 0.25F};
+    for (const uint32_t random_seed : {1U, 77U}) {
+      const TerrainSource source{kind, random_seed, 0.25F};
       Digest digest;
       for (const ChunkCoord chunk : {ChunkCoord{0, 0, 0}, ChunkCoord{-1, 0, 2}, ChunkCoord{3, -1, -4},
                                      ChunkCoord{-7, 1, 5}, ChunkCoord{120, 0, -333}}) {
@@ -95,7 +95,7 @@ void print_generate() {
       }
       for (int i = 0; i < 8; ++i)
         digest.add(ground_height_m(source, 13.7F * static_cast<float>(i), -5.3F * static_cast<float>(i)));
-      digest.print("generate_" + std::string(name_of(kind)) + "_" + std::to_string(seed));
+      digest.print("generate_" + std::string(name_of(kind)) + "_" + std::to_string(random_seed));
     }
   }
 }

@@ -29,8 +29,8 @@ struct Network {
   std::vector<Link> links;
   uint32_t grounded = 0;  ///< bits
 
-  explicit Network(uint64_t seed) {
-    Random random(seed);
+  explicit Network(uint64_t random_seed) {
+    Random random(random_seed);
     const auto below = [&](uint32_t n) {
       return static_cast<uint32_t>(random.unit() * static_cast<float>(n));
     };
@@ -63,18 +63,18 @@ struct Network {
 
 TEST(support, the_flow_of_loads_finds_the_most_overloaded_of_all_sets) {
   int overloaded = 0;
-  for (uint64_t seed = 0; seed < 500; ++seed) {
-    const Network network(seed);
+  for (uint64_t random_seed = 0; random_seed < 500; ++random_seed) {
+    const Network network(random_seed);
     LoadFlow flow;
     for (const int64_t load : network.loads) flow.add_node(load);
     for (uint32_t i = 0; i < network.loads.size(); ++i)
       if ((network.grounded >> i & 1U) != 0) flow.ground(i);
     for (const auto& link : network.links) flow.link(link.a, link.b, link.forth, link.back);
-    ASSERT_TRUE(flow.run(1'000'000)) << seed;
+    ASSERT_TRUE(flow.run(1'000'000)) << random_seed;
     uint32_t set = 0;
     for (uint32_t i = 0; i < network.loads.size(); ++i) set |= flow.overloaded(i) ? 1U << i : 0U;
-    ASSERT_EQ(set & network.grounded, 0U) << seed;
-    ASSERT_EQ(network.excess(set), network.most_excess()) << seed;
+    ASSERT_EQ(set & network.grounded, 0U) << random_seed;
+    ASSERT_EQ(network.excess(set), network.most_excess()) << random_seed;
     overloaded += network.most_excess() > 0 ? 1 : 0;
   }
   EXPECT_GT(overloaded, 50);

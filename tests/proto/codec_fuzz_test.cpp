@@ -59,10 +59,10 @@ TEST(CodecFuzz, every_damaged_byte_is_survived) {
 
 TEST(CodecFuzz, seeded_noise_is_survived) {
   const char* given = std::getenv("SCREE_FUZZ_SEED");
-  const uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : 20160501;
-  RecordProperty("seed", std::to_string(seed));
-  std::printf("fuzz seed %llu (SCREE_FUZZ_SEED)\n", static_cast<unsigned long long>(seed));
-  Random random(seed);
+  const uint64_t random_seed = given != nullptr ? std::strtoull(given, nullptr, 10) : 20160501;
+  RecordProperty("random_seed", std::to_string(random_seed));
+  std::printf("fuzz random seed %llu (SCREE_FUZZ_SEED)\n", static_cast<unsigned long long>(random_seed));
+  Random random(random_seed);
   std::vector<std::vector<uint8_t>> bodies = corpus();
   bodies.push_back(encode_operations(samples::frame().operations));
   bodies.push_back(samples::frame().transforms);

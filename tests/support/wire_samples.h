@@ -9,8 +9,8 @@
 
 namespace scree::samples {
 
-inline Brick noisy_brick(uint32_t seed) {
-  Random random(seed);
+inline Brick noisy_brick(uint32_t random_seed) {
+  Random random(random_seed);
   Brick brick;
   for (Code& code : brick.codes) code = static_cast<Code>(static_cast<int>(random.below(255)) - 127);
   return brick;

@@ -89,22 +89,22 @@ int open_edges(const LeafMesh& mesh) {
 }
 
 TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
-  for (uint64_t seed = 1; seed <= 10; ++seed) {
-    Random random(seed);
+  for (uint64_t random_seed = 1; random_seed <= 10; ++random_seed) {
+    Random random(random_seed);
     const glm::vec3 centre(random.unit() * 2.0F, random.unit() * 2.0F, random.unit() * 2.0F);
     const LeafGrid grid = random_octree(random, [&](VoxelCoord p) {
       return encode((glm::length(glm::vec3(p.x, p.y, p.z) - centre) - 6.7F) * 0.3F);
     });
     const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
     EXPECT_GT(mesh.indices.size(), 300U);
-    EXPECT_EQ(open_edges(mesh), 0) << "seed " << seed;
+    EXPECT_EQ(open_edges(mesh), 0) << "random seed " << random_seed;
   }
 }
 
 /// Every corner of ambiguity at once: no smooth field has as many.
-LeafGrid noisy_octree(uint64_t seed) {
-  Random random(seed);
-  const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
+LeafGrid noisy_octree(uint64_t random_seed) {
+  Random random(random_seed);
+  const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(random_seed % 7);
   return random_octree(random, [&](VoxelCoord) {
     const int depth = 1 + static_cast<int>(random.below(126));
     return static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
@@ -112,18 +112,18 @@ LeafGrid noisy_octree(uint64_t seed) {
 }
 
 TEST(LeafSurface, every_edge_has_two_triangles_even_in_noise) {
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const LeafGrid grid = noisy_octree(seed);
-    EXPECT_EQ(open_edges(leaf_surface(grid, all_leaves(grid), Mean())), 0) << "seed " << seed;
+  for (uint64_t random_seed = 1; random_seed <= 20; ++random_seed) {
+    const LeafGrid grid = noisy_octree(random_seed);
+    EXPECT_EQ(open_edges(leaf_surface(grid, all_leaves(grid), Mean())), 0) << "random seed " << random_seed;
   }
 }
 
 TEST(LeafCubes, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet_even_in_noise) {
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const LeafGrid grid = noisy_octree(seed);
+  for (uint64_t random_seed = 1; random_seed <= 20; ++random_seed) {
+    const LeafGrid grid = noisy_octree(random_seed);
     const LeafMesh mesh = leaf_cubes(grid, all_leaves(grid));
     EXPECT_GT(mesh.indices.size(), 3000U);
-    EXPECT_EQ(open_edges(mesh), 0) << "seed " << seed;
+    EXPECT_EQ(open_edges(mesh), 0) << "random seed " << random_seed;
   }
 }
 

@@ -31,15 +31,15 @@ void count(const SurfaceMesh& mesh, Edges& uses) {
 }
 
 /// Every corner of ambiguity at once, with air all around.
-Window noise(const VoxelBox& box, uint64_t seed) {
-  Random random(seed);
+Window noise(const VoxelBox& box, uint64_t random_seed) {
+  Random random(random_seed);
   Window window(box);
   const VoxelBox inner = box.grown(-surface_nets_apron - 1);
   for (int x = inner.lo.x; x < inner.hi.x; ++x)
     for (int y = inner.lo.y; y < inner.hi.y; ++y)
       for (int z = inner.lo.z; z < inner.hi.z; ++z) {
         const int depth = static_cast<int>(random.below(128));
-        window.at(x, y, z) = static_cast<Code>(random.below(8) < 1 + seed % 7 ? -depth : depth);
+        window.at(x, y, z) = static_cast<Code>(random.below(8) < 1 + random_seed % 7 ? -depth : depth);
       }
   return window;
 }
@@ -54,19 +54,19 @@ Window ball(const VoxelBox& box, float radius) {
 }
 
 TEST(MarchingCubes, every_edge_has_two_triangles_within_boxes_and_from_box_to_box) {
-  for (uint64_t seed = 1; seed <= 7; ++seed) {
-    const Window window = noise(cube(-20, 20), seed);
+  for (uint64_t random_seed = 1; random_seed <= 7; ++random_seed) {
+    const Window window = noise(cube(-20, 20), random_seed);
     Edges whole, parts;
     count(marching_cubes(window, cube(-16, 16)), whole);
     EXPECT_GT(whole.size(), 10000U);
-    EXPECT_EQ(open_edges(whole), 0) << "seed " << seed;
+    EXPECT_EQ(open_edges(whole), 0) << "random seed " << random_seed;
     // Sides that are no power of two, and rows of less than eight codes.
     for (int i = 0; i < 8; ++i) {
       const auto lo = [&](int bit) { return (i & bit) != 0 ? -11 : -16; };
       const auto hi = [&](int bit) { return (i & bit) != 0 ? 16 : -11; };
       count(marching_cubes(window, {{lo(4), lo(2), lo(1)}, {hi(4), hi(2), hi(1)}}), parts);
     }
-    EXPECT_EQ(parts, whole) << "seed " << seed;
+    EXPECT_EQ(parts, whole) << "random seed " << random_seed;
   }
 }
 

@@ -96,10 +96,10 @@ TEST(SurfaceNets, watertight_across_blocks_after_random_edits) {
 /// Every corner of ambiguity at once: no smooth field has as many. Sheets of one cell that come out at the
 /// same place are told apart by their index, so within one mesh edges are counted by index.
 TEST(SurfaceNets, every_edge_has_two_triangles_even_in_noise) {
-  for (uint64_t seed = 1; seed <= 40; ++seed) {
-    Random random(seed);
+  for (uint64_t random_seed = 1; random_seed <= 40; ++random_seed) {
+    Random random(random_seed);
     Window noise(cube(0, 20));
-    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(seed % 7);
+    const uint32_t rock_in_8 = 1 + static_cast<uint32_t>(random_seed % 7);
     for (Code& code : noise.codes) {
       const int depth = 1 + static_cast<int>(random.below(126));
       code = static_cast<Code>(random.below(8) < rock_in_8 ? -depth : depth);
@@ -113,7 +113,7 @@ TEST(SurfaceNets, every_edge_has_two_triangles_even_in_noise) {
       const auto back = uses.find({edge.second, edge.first});
       if (count != 1 || back == uses.end() || back->second != 1) ++open;
     }
-    EXPECT_EQ(open, 0) << "seed " << seed;
+    EXPECT_EQ(open, 0) << "random seed " << random_seed;
   }
 }
 

@@ -41,7 +41,9 @@ void add_carving(CLI::App& app, Options& options) {
       ->envname("SCREE_CARVES")
       ->check(CLI::Range(0U, 1000000U))
       ->capture_default_str();
-  app.add_option("--seed", bot.seed, "of the random choices")->envname("SCREE_SEED")->capture_default_str();
+  app.add_option("--seed", bot.random_seed, "of the random choices")
+      ->envname("SCREE_SEED")
+      ->capture_default_str();
   app.add_option("--rate", bot.rate_hz, "carves a second; 0: as fast as the replies come")
       ->envname("SCREE_RATE")
       ->check(CLI::Range(0.0, 1000.0))

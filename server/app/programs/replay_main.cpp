@@ -86,7 +86,7 @@ int info(const Options& options) {
          {"format", recording_format},
          {"recorded_by", header.program},
          {"terrain", std::string(name_of(world.terrain.kind))},
-         {"seed", world.terrain.seed},
+         {"seed", world.terrain.random_seed},
          {"voxel_size_m", world.terrain.voxel_size_m},
          {"tick_rate_hz", world.tick_rate_hz},
          {"pieces_max", world.pieces_max},
