@@ -22,8 +22,8 @@ bool overlap(const VoxelBox& a, const VoxelBox& b) {
 }
 
 VoxelBox box_around(glm::vec3 lo, glm::vec3 hi) {
-  return {{floor_to_voxel(lo.x), floor_to_voxel(lo.y), floor_to_voxel(lo.z)},
-          {floor_to_voxel(hi.x) + 2, floor_to_voxel(hi.y) + 2, floor_to_voxel(hi.z) + 2}};
+  return {{floor_to_int(lo.x), floor_to_int(lo.y), floor_to_int(lo.z)},
+          {floor_to_int(hi.x) + 2, floor_to_int(hi.y) + 2, floor_to_int(hi.z) + 2}};
 }
 
 }  // namespace scree

@@ -75,7 +75,7 @@ TriangleBins::TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBo
 int TriangleBins::bin(int axis, float x) const {
   const int lo = axis == 0 ? box_.lo.x : axis == 1 ? box_.lo.y : box_.lo.z;
   const int count = axis == 0 ? size_.x : axis == 1 ? size_.y : size_.z;
-  const int at = floor_to_voxel((x - static_cast<float>(lo)) / static_cast<float>(bin_voxels));
+  const int at = floor_to_int((x - static_cast<float>(lo)) / static_cast<float>(bin_voxels));
   return std::clamp(at, 0, count - 1);
 }
 

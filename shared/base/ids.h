@@ -1,4 +1,4 @@
-// Names of things that cross module borders.
+// Identifiers that cross module borders.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How much memory is whose, for people: bytes on the CPU's side and on the GPU's, by category.
+// Memory use by category, for reports: bytes on the CPU's side and on the GPU's.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ inline size_t gpu_bytes_of(const MemoryCounts& counts) {
   return sum;
 }
 
-/// What this process occupies in all (its resident set); 0 where the system does not say.
+/// Resident set of this process, bytes; 0 where the system does not say.
 size_t process_memory_bytes();
 
 }  // namespace scree

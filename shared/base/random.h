@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 class Random {
@@ -20,6 +22,7 @@ class Random {
 
   /// Uniform in [0, bound); bound > 0. The bias of at most bound / 2^32 is accepted.
   uint32_t below(uint32_t bound) {
+    CHECK_DEBUG(bound > 0);
     return static_cast<uint32_t>((static_cast<uint64_t>(next()) * bound) >> 32U);
   }
 

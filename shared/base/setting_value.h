@@ -1,5 +1,5 @@
-// A setting as people and programs write it: its name and its value, both text. Which there are, and what
-// they mean, the server's table says (server/world/settings.h).
+// A setting as people and programs write it: its name and its value, both text. The server's table of
+// settings (server/world/settings.h) lists them and says their meaning.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A stopwatch for instrumentation. Its readings are reported, never used by the simulation.
+// A stopwatch for instrumentation. The simulation never uses its readings.
 #pragma once
 
 #include <chrono>

@@ -8,13 +8,15 @@
 
 namespace scree {
 
-/// The first line of a file, without its end.
+/// The first line of a file, without its line end. Refused when check_token refuses it.
 Result<std::string> read_token(const std::string& path);
 
-/// Whether a token can be one: within limits::token_bytes_min … token_bytes_max, printable ASCII, no spaces.
+/// Refuses a token shorter than limits::token_bytes_min, longer than token_bytes_max, or with anything but
+/// printable ASCII characters; a space is refused, too.
 Result<void> check_token(std::string_view token);
 
-/// Takes as long for any two of the same lengths, so that the time to refuse a guess tells nothing of it.
+/// Takes equally long for all tokens of the same lengths, so the time to refuse a guess tells nothing about
+/// the wanted token.
 bool same_token(std::string_view given, std::string_view wanted);
 
 }  // namespace scree

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <map>
 
+#include "shared/base/check.h"
+
 namespace scree {
 namespace {
 
@@ -32,6 +34,7 @@ void append_track_names(std::string& text, const std::map<std::string_view, int>
 }  // namespace
 
 void Trace::add(const Event& event) {
+  CHECK(!event.name.empty());
   const std::lock_guard lock(mutex_);
   if (events_.size() < trace_spans_max) {
     events_.push_back(event);
@@ -42,6 +45,7 @@ void Trace::add(const Event& event) {
 }
 
 void Trace::span(std::string_view track, std::string_view name, Clock::time_point begin, double duration_ms) {
+  CHECK(!track.empty());  // an event without a track is a value
   add({track, name, begin, duration_ms});
 }
 

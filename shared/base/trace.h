@@ -1,8 +1,8 @@
-// What took how long, on which track, kept to be looked at: written as a Chrome trace, which chrome://tracing
-// and ui.perfetto.dev open. One API for the server's stages, the viewer's and the GPU's.
+// Durations of stages, by track, written as a Chrome trace, which chrome://tracing and ui.perfetto.dev open.
+// One API for the server's stages, the viewer's and the GPU's.
 //
-// Safe from any thread. Keeps the newest trace_spans_max spans; older ones are overwritten. A null Trace*
-// records nothing: code measures always, and is asked to keep it or not.
+// Safe from any thread. Keeps the newest trace_spans_max spans and values; older ones are overwritten. A null
+// Trace* records nothing, so code measures always and its caller decides whether to keep the result.
 #pragma once
 
 #include <chrono>
@@ -49,7 +49,7 @@ class Trace {
 
   mutable std::mutex mutex_;
   std::vector<Event> events_;
-  size_t next_ = 0;  ///< to be overwritten, once full
+  size_t next_ = 0;  ///< the oldest event, overwritten next once events_ is full
 };
 
 /// Measures from here to the end of its block.

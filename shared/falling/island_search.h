@@ -28,7 +28,7 @@ namespace scree {
 
 /// An island, or a block of one that is longer than a piece may be.
 struct Island {
-  VoxelBox box;     ///< smallest that holds its solid voxels
+  VoxelBox box;      ///< smallest that holds its solid voxels
   VoxelCoord start;  ///< the first of them, by x, y, z within the first brick
   int64_t voxels = 0;
 

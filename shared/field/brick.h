@@ -1,12 +1,14 @@
 // Bricks of codes: how the field is stored, hashed and sent.
 //
 // A code c is a signed distance of c · 3/127 voxels, negative inside, saturating at ±127 (±3 voxels, the
-// narrow band). The code is the truth: every edit ends in codes, on the server and on every client.
+// narrow band); −128 is no code. Codes are the only state of the field: every edit ends in codes, with the
+// same bits on the server and on every client.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "shared/base/check.h"
 #include "shared/field/coord.h"
 
 namespace scree {
@@ -24,11 +26,15 @@ struct Brick {
   std::array<Code, brick_voxels> codes;
 
   bool operator==(const Brick&) const = default;
-  static constexpr int index(int x, int y, int z) { return (x << 6) | (y << 3) | z; }
+  static constexpr int index(int x, int y, int z) {
+    CHECK_DEBUG(((x | y | z) & ~(brick_size - 1)) == 0);
+    return (x << 6) | (y << 3) | z;
+  }
 };
 
-/// Nearest code of a distance in voxels; halves round away from zero.
+/// Nearest code of a distance in voxels, which may be infinite; halves round away from zero.
 inline Code encode(float distance_voxels) {
+  CHECK_DEBUG(distance_voxels == distance_voxels);  // not NaN
   const float scaled = distance_voxels * codes_per_voxel;
   const float clamped = scaled < -127.0F ? -127.0F : (scaled > 127.0F ? 127.0F : scaled);
   return static_cast<Code>(static_cast<int>(clamped + (clamped < 0.0F ? -0.5F : 0.5F)));
@@ -39,11 +45,11 @@ inline float decode(Code code) {
   return static_cast<float>(code) * (band_voxels / 127.0F);
 }
 
-/// The shared bricks of nothing but air, and of nothing but rock.
+/// The shared bricks that hold only air, or only rock.
 const Brick& air_brick();
 const Brick& solid_brick();
 
-/// air_brick or solid_brick when every code saturates that way, else nullptr.
+/// air_brick when every code is code_air, solid_brick when every code is code_solid, else nullptr.
 const Brick* uniform_equivalent(const Brick& brick);
 
 /// XXH3 of the coordinate and the codes.

@@ -34,6 +34,7 @@ BrickBits solid_bits(const Brick& brick) {
 }
 
 BrickBits across(const BrickBits& bits, size_t face) {
+  CHECK_DEBUG(face < brick_faces.size());
   BrickBits out;
   for (size_t i = 0; i < bits.words.size(); ++i) {
     const uint64_t word = bits.words[i];
@@ -89,6 +90,7 @@ BrickBits first_of(const BrickBits& bits) {
 }
 
 VoxelBox bounds_of(const BrickBits& bits) {
+  CHECK_DEBUG(bits.any());
   VoxelBox box{{brick_size, brick_size, brick_size}, {0, 0, 0}};
   for (int x = 0; x < brick_size; ++x) {
     const uint64_t word = bits.words[static_cast<size_t>(x)];

@@ -45,19 +45,19 @@ struct BrickBits {
 inline constexpr std::array<BrickCoord, 6> brick_faces = {
     {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
-/// The voxels of the brick beyond that face which touch one of `bits`.
+/// The voxels of the neighbouring brick beyond a face (an index of brick_faces) that touch one of `bits`.
 BrickBits across(const BrickBits& bits, size_t face);
 
 /// Voxels of code < 0.
 BrickBits solid_bits(const Brick& brick);
 
-/// Those of `solid` that `from` reaches inside the brick, by faces of voxels.
+/// The voxels of `solid` that connect to `from` inside the brick, by faces of voxels.
 BrickBits flooded(const BrickBits& from, const BrickBits& solid);
 
 /// The lowest bit alone; `bits` must not be empty.
 BrickBits first_of(const BrickBits& bits);
 
-/// Smallest box, relative to the brick, that holds the bits, which must not be empty.
+/// Smallest box that holds the bits, relative to the brick's first voxel; `bits` must not be empty.
 VoxelBox bounds_of(const BrickBits& bits);
 
 }  // namespace scree

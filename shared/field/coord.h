@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 inline constexpr int brick_size = 8;                          ///< voxels a side; an OpenVDB leaf
@@ -28,8 +30,9 @@ using VoxelCoord = Coord<struct VoxelTag>;
 using BrickCoord = Coord<struct BrickTag>;
 using ChunkCoord = Coord<struct ChunkTag>;
 
-/// Largest integer not above x, which must fit an int; without libm, so the same everywhere.
+/// Largest integer not above x, which must fit an int. Without libm, so the same everywhere.
 inline int floor_to_int(float x) {
+  CHECK_DEBUG(x >= -2147483648.0F && x < 2147483648.0F);
   const int i = static_cast<int>(x);
   return x < static_cast<float>(i) ? i - 1 : i;
 }
@@ -58,6 +61,7 @@ inline int index_in_chunk(BrickCoord b) {
   return ((b.x & 3) << 4) | ((b.y & 3) << 2) | (b.z & 3);
 }
 inline BrickCoord brick_in_chunk(ChunkCoord c, int index) {
+  CHECK_DEBUG(index >= 0 && index < chunk_bricks * chunk_bricks * chunk_bricks);
   return {c.x * chunk_bricks + (index >> 4), c.y * chunk_bricks + ((index >> 2) & 3),
           c.z * chunk_bricks + (index & 3)};
 }
@@ -90,13 +94,18 @@ struct VoxelBox {
   bool holds(VoxelCoord v) const {
     return v.x >= lo.x && v.y >= lo.y && v.z >= lo.z && v.x < hi.x && v.y < hi.y && v.z < hi.z;
   }
+  /// Whether all of another box, which may be empty, lies in this one.
+  bool covers(const VoxelBox& o) const {
+    return o.lo.x >= lo.x && o.lo.y >= lo.y && o.lo.z >= lo.z && o.hi.x <= hi.x && o.hi.y <= hi.y &&
+           o.hi.z <= hi.z;
+  }
   bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
   VoxelBox grown(int by) const {
     return {{lo.x - by, lo.y - by, lo.z - by}, {hi.x + by, hi.y + by, hi.z + by}};
   }
 };
 
-/// What lies in both; its sides may be negative where that is nothing.
+/// The intersection of two boxes; its sides may be negative where they do not meet.
 inline VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
   return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
           {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};

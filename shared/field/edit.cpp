@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -39,16 +41,19 @@ Window codes_of(const Shape& shape_voxels, const VoxelBox& box) {
 }
 
 void carve(Window& window, const Window& shape) {
+  CHECK(window.box == shape.box);
   for (size_t i = 0; i < window.codes.size(); ++i)
     window.codes[i] = std::max(window.codes[i], static_cast<Code>(-shape.codes[i]));
 }
 
 void fill(Window& window, const Window& shape) {
+  CHECK(window.box == shape.box);
   for (size_t i = 0; i < window.codes.size(); ++i)
     window.codes[i] = std::min(window.codes[i], shape.codes[i]);
 }
 
 Window extract(const Window& window, const Window& shape) {
+  CHECK(window.box == shape.box);
   Window volume = window;
   for (size_t i = 0; i < volume.codes.size(); ++i)
     volume.codes[i] = std::max(volume.codes[i], shape.codes[i]);

@@ -7,16 +7,16 @@
 
 namespace scree {
 
-/// The shape's own field over a box. A shape in voxels (in_voxels).
+/// The shape's distances over a box, as codes. The shape is in voxels (in_voxels).
 Window codes_of(const Shape& shape_voxels, const VoxelBox& box);
 
-/// window := window − shape. Keeps the field a lower bound of the distance outside.
+/// window := window − shape. Distances outside stay lower bounds of the true ones.
 void carve(Window& window, const Window& shape);
 
 /// window := window ∪ shape.
 void fill(Window& window, const Window& shape);
 
-/// window ∩ shape: what a carve of the same shape would take out.
+/// window ∩ shape: the solid that a carve with the same shape takes out.
 Window extract(const Window& window, const Window& shape);
 
 }  // namespace scree

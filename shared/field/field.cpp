@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -62,6 +63,7 @@ void for_each_row(BrickCoord brick, const Window& window, F&& f) {
   const Overlap part = overlap(brick, window.box);
   const VoxelCoord first = first_voxel(brick);
   const auto count = static_cast<size_t>(part.hi.z - part.lo.z);
+  CHECK_DEBUG(count > 0 && count <= brick_size);
   const VoxelCoord size = window.box.size();
   const auto step_y = static_cast<size_t>(size.z), step_x = static_cast<size_t>(size.y) * step_y;
   size_t plane = window.index(first.x + part.lo.x, first.y + part.lo.y, first.z + part.lo.z);
@@ -85,12 +87,15 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material
   return hash;
 }
 
-Field::Field(const TerrainSource& source) : source_(source) {}
+Field::Field(const TerrainSource& source) : source_(source) {
+  CHECK(source.voxel_size_m > 0.0F);
+}
 
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   const auto found = generated_.find(chunk);
   if (found != generated_.end()) return found->second;
   if (generated_.size() >= limits::generated_chunks_max) forget_generated();
+  CHECK_DEBUG(generated_.size() < limits::generated_chunks_max);
   return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
 }
 
@@ -124,12 +129,15 @@ Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
 
 const Brick& Field::brick(BrickCoord coord) {
   const bool edited = ((last_chunk(chunk_of(coord)).edited >> index_in_chunk(coord)) & 1U) != 0;
+  CHECK_DEBUG(edited == is_edited(coord));
   return edited ? *find_edited(coord) : generated_brick(coord);
 }
 
 void Field::set_brick(BrickCoord coord, const Brick& brick) {
+  CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
   EditedChunk& chunk = edited_[chunk_of(coord)];
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
+  CHECK_DEBUG(((chunk.bricks & bit) != 0) == is_edited(coord));
   uint64_t change = brick_hash(coord, brick);
   if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
   store_edited(coord, brick);
@@ -166,9 +174,15 @@ void Field::forget_chunk(ChunkCoord chunk) {
   const auto found = edited_.find(chunk);
   if (found == edited_.end()) return;
   last_.reset();
+  uint64_t hash_left = found->second.hash;
+  for (const BrickCoord coord : edited_bricks(chunk)) {
+    hash_left -= brick_hash(coord, *find_edited(coord), painted(coord));
+    erase_edited(coord);
+  }
+  CHECK(hash_left == 0);  // a chunk's hash is the sum over its edited bricks
   hash_ -= found->second.hash;
-  for (const BrickCoord coord : edited_bricks(chunk)) erase_edited(coord);
   edited_.erase(found);
+  CHECK(!edited_.empty() || hash_ == 0);
 }
 
 uint64_t Field::chunk_hash(ChunkCoord chunk) const {
@@ -194,6 +208,7 @@ std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
 }
 
 void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
+  CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (generated_.size() >= limits::generated_chunks_max) forget_generated();
   generated_.try_emplace(chunk, std::move(generated));
 }
@@ -219,6 +234,7 @@ void MapField::erase_edited(BrickCoord coord) {
 }
 
 Window gather(Field& field, const VoxelBox& box) {
+  CHECK(!box.empty());
   Window window(box);
   for_each_brick(box, [&](BrickCoord coord) {
     const Brick& brick = field.brick(coord);
@@ -231,6 +247,7 @@ Window gather(Field& field, const VoxelBox& box) {
 
 std::vector<BrickCoord> scatter(Field& field, const Window& window) {
   std::vector<BrickCoord> changed;
+  CHECK_EQ(window.codes.size(), Window::count(window.box));
   for_each_brick(window.box, [&](BrickCoord coord) {
     const Brick& old = field.brick(coord);
     uint64_t difference = 0;
@@ -245,6 +262,7 @@ std::vector<BrickCoord> scatter(Field& field, const Window& window) {
     field.set_brick(coord, brick);
     changed.push_back(coord);
   });
+  CHECK_DEBUG(std::ranges::is_sorted(changed));
   return changed;
 }
 
@@ -278,10 +296,12 @@ FieldSample sample(Field& field, glm::vec3 p_voxels) {
       glm::vec3(low_x + (high_x - low_x) * fz, (x10 - x00) * (1 - fz) + (x11 - x01) * fz, y1 - y0) * scale};
 }
 
-std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction, float reach_voxels) {
+std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction,
+                           float distance_max_voxels) {
   constexpr float close_enough = 0.02F;
+  CHECK(std::abs(glm::dot(direction, direction) - 1.0F) < 1e-3F);
   float along = 0.0F;
-  while (along <= reach_voxels) {
+  while (along <= distance_max_voxels) {
     const float distance = sample(field, from_voxels + direction * along).distance_voxels;
     if (distance < close_enough) return along;
     along += distance * 0.9F;

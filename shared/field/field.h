@@ -1,8 +1,8 @@
 // The field: every voxel of the world, of which only the edited bricks are stored.
 //
-// Reading any brick always answers: edited ones from the store, others generated and cached. Not thread-safe.
-// Invariant: hash() is the sum of brick_hash over the edited bricks, with what they are painted; chunk_hash
-// the same of one chunk.
+// Any brick can be read: edited ones come from the store, others are generated and cached. Not thread-safe.
+// Invariants: hash() is the sum of brick_hash over the edited bricks with their paint, chunk_hash() the same
+// sum over one chunk; painted bricks are edited ones.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@
 
 namespace scree {
 
-/// As brick.h's; a brick that is painted has another hash than one that is not.
+/// Hash of a brick with its paint; without paint it is brick.h's.
 uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint);
 
 class Field {
@@ -31,11 +31,11 @@ class Field {
 
   const TerrainSource& source() const { return source_; }
 
-  /// The reference holds until the next call that is not const.
+  /// The codes of a brick. The reference stays valid until the next call that is not const.
   const Brick& brick(BrickCoord coord);
-  /// As generated, whether edited since or not; same lifetime.
+  /// The codes as generated, whether the brick was edited since or not; same lifetime.
   const Brick& generated_brick(BrickCoord coord);
-  /// Bit i of `edited`: brick i of the chunk is. The same lifetime as brick()'s.
+  /// A chunk as generated, and which of its bricks are edited: bit i of `edited` for brick i. Same lifetime.
   struct ChunkBricks {
     const GeneratedChunk& generated;
     uint64_t edited;
@@ -46,23 +46,23 @@ class Field {
   bool has_edits(ChunkCoord chunk) const { return edited_.contains(chunk); }
   /// Marks the brick as edited, even when the codes are those generated.
   void set_brick(BrickCoord coord, const Brick& brick);
-  /// What the brick is painted, if anything.
+  /// The material that the brick is painted with, if any.
   std::optional<Material> painted(BrickCoord coord) const;
-  /// Paints the brick, or takes its paint off; marks it as edited. Its codes stay.
+  /// Paints the brick, or removes its paint; marks it as edited. Its codes stay.
   void paint_brick(BrickCoord coord, std::optional<Material> paint);
   /// Forgets the edits of a chunk: it reads as generated again.
   void forget_chunk(ChunkCoord chunk);
 
   uint64_t hash() const { return hash_; }
   uint64_t chunk_hash(ChunkCoord chunk) const;
-  /// Edited chunks, in order; and one's edited bricks, in order.
+  /// The chunks with edited bricks, and the edited bricks of one chunk, both in order.
   std::vector<ChunkCoord> edited_chunks() const;
   std::vector<BrickCoord> edited_bricks(ChunkCoord chunk) const;
 
-  /// Hands over a chunk that another thread generated, so that brick() need not.
+  /// Takes a chunk that another thread generated, so that brick() need not generate it.
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
   bool has_generated(ChunkCoord chunk) const { return generated_.contains(chunk); }
-  /// How many it keeps; it drops them all at limits::generated_chunks_max.
+  /// Number of generated chunks kept; at limits::generated_chunks_max all are dropped.
   size_t generated_chunks() const { return generated_.size(); }
 
  protected:
@@ -76,7 +76,7 @@ class Field {
     uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
     std::map<int, Material> paint;  ///< by index in the chunk
   };
-  /// The chunk that was asked for last: most questions in a row are about the same one.
+  /// The chunk of the last call: most calls in a row are about the same one.
   struct LastChunk {
     ChunkCoord coord;
     uint64_t edited;  ///< as EditedChunk::bricks
@@ -114,7 +114,7 @@ class MapField final : public Field {
 /// Copies a box of voxels out of the field.
 Window gather(Field& field, const VoxelBox& box);
 
-/// Writes a window back; bricks whose codes do not change are left alone. Returns the changed ones, in order.
+/// Writes a window back. Returns the bricks whose codes changed, in order; the others are left alone.
 std::vector<BrickCoord> scatter(Field& field, const Window& window);
 
 /// Trilinear distance and gradient at a point (voxels); gradient is not normalised, zero where the codes
@@ -125,8 +125,10 @@ struct FieldSample {
 };
 FieldSample sample(Field& field, glm::vec3 p_voxels);
 
-/// Sphere traces from `from` (voxels) along unit `direction`; the distance to the surface in voxels, or
-/// nothing within `reach_voxels`. Starts inside rock: 0.
-std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction, float reach_voxels);
+/// Distance in voxels from a point (voxels) along a direction of unit length to the surface, by sphere
+/// tracing (Hart 1996); nothing when the ray meets none within `distance_max_voxels`; 0 when it starts inside
+/// rock.
+std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction,
+                           float distance_max_voxels);
 
 }  // namespace scree

@@ -21,7 +21,7 @@ inline constexpr int occupancy(int code) {
   return ramp < 0 ? 0 : (ramp > units_per_voxel ? units_per_voxel : ramp);
 }
 
-/// What so many voxels hold. At most 2^23.
+/// Mass of `count` voxels, at most 2^23 of them: the sum then fits an int.
 MassUnits mass_of(const Code* codes, size_t count);
 
 inline MassUnits brick_mass(const Brick& brick) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -21,6 +23,7 @@ std::vector<BrickCoord> bricks_of(const Shape& shape_voxels) {
     const glm::vec3 centre = glm::vec3(first.x, first.y, first.z) + half;
     if (brick == middle || distance(shape_voxels, centre) <= 0.0F) bricks.push_back(brick);
   });
+  CHECK(std::ranges::binary_search(bricks, middle));
   return bricks;
 }
 

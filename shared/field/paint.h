@@ -1,5 +1,6 @@
-// Bricks painted with a material, over what the generator's layers say. Paint stays where it is: what a carve
-// takes out keeps it as the pieces' material, what is poured or merged into a painted brick takes it on.
+// Bricks painted with a material, which takes precedence over the generator's layers. Paint stays in its
+// bricks: pieces carved out of a painted brick are of that material, and material poured or merged into a
+// painted brick takes the paint's.
 #pragma once
 
 #include <vector>
@@ -9,17 +10,17 @@
 
 namespace scree {
 
-/// A shape (voxels) rounded to bricks: those whose centres lie in it, and the one that holds its own centre.
-/// In order.
+/// A shape (voxels) rounded to bricks: the bricks whose centres lie in the shape, and the brick that holds
+/// the shape's centre. In order; never empty.
 std::vector<BrickCoord> bricks_of(const Shape& shape_voxels);
 
-/// The voxels of those bricks, and of what lies between them.
+/// The smallest box of voxels that holds those bricks.
 VoxelBox paint_box(const Shape& shape_voxels);
 
-/// Returns the bricks that were of another paint before, in order.
+/// Paints the shape's bricks. Returns the bricks whose paint changed, in order.
 std::vector<BrickCoord> paint(Field& field, const Shape& shape_voxels, Material material);
 
-/// What the terrain is made of at a place (metres): what its brick is painted, else as generated.
+/// The terrain's material at a place (metres): the paint of its brick, else the generated layer.
 Material material_at(const Field& field, glm::vec3 p_m);
 
 }  // namespace scree

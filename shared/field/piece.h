@@ -16,7 +16,7 @@ namespace scree {
 /// A piece's shape, in the voxel frame of the terrain that it was cut from. Outside the window is air.
 struct Volume {
   Window window;
-  MassUnits mass = 0;                  ///< what the terrain lost to it; never changes
+  MassUnits mass = 0;                  ///< mass that the terrain lost to the piece; never changes
   glm::vec3 centre_voxels{0.0F};       ///< centre of mass, in the window's frame, voxels
   Material material = Material::rock;  ///< of the place where it was cut; its fragments keep it
 };
@@ -41,9 +41,9 @@ struct QuantisedPose {
 
 inline constexpr float pose_steps_per_m = 1024.0F;
 
-/// Positions must lie within ±2^20 m.
+/// Positions must lie within ±2^20 m, rotations must have unit length.
 QuantisedPose quantise(const Pose& pose);
-/// Bit for bit the same everywhere. Any bits give a unit rotation.
+/// The same bits everywhere. Any bits give a rotation of unit length.
 Pose dequantise(const QuantisedPose& pose);
 
 /// Where a piece is after a tick.

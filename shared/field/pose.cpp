@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/base/check.h"
 #include "shared/field/piece.h"
 
 namespace scree {
@@ -9,8 +10,10 @@ namespace {
 
 constexpr float component_max = 0.70710678F;  ///< of the three smallest
 constexpr int component_steps = 1023;
+constexpr float position_max_m = 1048576.0F;  ///< its steps are near the largest int32_t
 
 int32_t quantise_length(float metres) {
+  CHECK_DEBUG(std::abs(metres) <= position_max_m);
   const float steps = metres * pose_steps_per_m;
   return static_cast<int32_t>(steps + (steps < 0.0F ? -0.5F : 0.5F));
 }
@@ -22,6 +25,7 @@ QuantisedPose quantise(const Pose& pose) {
   uint32_t largest = 0;
   for (uint32_t i = 1; i < 4; ++i)
     if (std::abs(c[i]) > std::abs(c[largest])) largest = i;
+  CHECK_DEBUG(std::abs(c[largest]) >= 0.49F && std::abs(c[largest]) <= 1.01F);  // of a unit quaternion
   const float sign = c[largest] < 0.0F ? -1.0F : 1.0F;
   uint32_t bits = largest;
   for (uint32_t i = 0; i < 4; ++i) {
@@ -48,6 +52,7 @@ Pose dequantise(const QuantisedPose& pose) {
   }
   c[largest] = std::sqrt(std::max(0.0F, 1.0F - sum));
   const float length = std::sqrt(sum + c[largest] * c[largest]);
+  CHECK_DEBUG(length > 0.99F);
   Pose out;
   out.position_m = {static_cast<float>(pose.x) / pose_steps_per_m,
                     static_cast<float>(pose.y) / pose_steps_per_m,

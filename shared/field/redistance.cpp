@@ -47,9 +47,9 @@ void relax_rows(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float
   }
 }
 
-/// The update of all voxels but the outermost layer, which must be fixed, or out of use: voxels that are far
-/// from any source are skipped, plane by plane. Others run in one go, rows and all, for a row is shorter than
-/// a few vectors; what that reads across the ends of rows belongs to the outermost layer.
+/// Updates all voxels but those of the outermost layer, which must be fixed or unused. Voxels far from any
+/// source are skipped, plane by plane. The rows of a plane are updated in one loop, as a row is shorter than
+/// a few vectors; values computed across the ends of rows fall in the outermost layer.
 class Solver {
  public:
   explicit Solver(const VoxelCoord& size)
@@ -66,6 +66,7 @@ class Solver {
 
   /// Row y of plane x holds voxels that others measure from.
   void add_source(int x, int y) {
+    CHECK_DEBUG(x >= 0 && x < size_.x && y >= 0 && y < size_.y);
     Rows& rows = sources_[static_cast<size_t>(x)];
     rows = {std::min(rows.first, y), std::max(rows.last, y)};
   }
@@ -84,7 +85,7 @@ class Solver {
     int last = std::numeric_limits<int>::min() / 2;
   };
 
-  /// Rows of a plane that sources reach within so many steps.
+  /// Rows of a plane that lie within so many steps of a source.
   Rows reached(int x, int steps) const {
     Rows rows;
     for (int i = std::max(0, x - steps); i <= std::min(size_.x - 1, x + steps); ++i) {
@@ -95,10 +96,11 @@ class Solver {
     return {std::max(1, rows.first), std::min(size_.y - 2, rows.last)};
   }
 
-  void relax(std::vector<float>& to, int reach) const {
+  void relax(std::vector<float>& to, int steps) const {
     for (int x = 1; x + 1 < size_.x; ++x) {
-      const Rows rows = reached(x, reach);
+      const Rows rows = reached(x, steps);
       if (rows.first > rows.last) continue;
+      CHECK_DEBUG(rows.first >= 1 && rows.last + 1 < size_.y);
       const auto first = static_cast<size_t>(x * step_x_ + rows.first * step_y_);
       relax_rows((rows.last - rows.first + 1) * step_y_, step_x_, step_y_, magnitudes_.data() + first,
                  floors_.data() + first, to.data() + first);
@@ -113,8 +115,8 @@ class Solver {
   std::vector<Rows> sources_;
 };
 
-/// Distance to the zero set along the axes that cross it, from level `here` at `index`; as fast marching
-/// starts.
+/// Distance to the zero set from the voxel at `index`, by the crossings along the axes: the start of fast
+/// marching (Sethian 1996).
 float crossing_distance(const std::vector<float>& levels, const VoxelCoord& size, int x, int y, int z,
                         size_t index) {
   const auto nz = static_cast<size_t>(size.z);
@@ -147,7 +149,7 @@ bool row_crosses(const std::vector<uint8_t>& sides, const VoxelCoord& size, int 
          differs(x + 1 < size.x, step_x) || differs(y > 0, -step_y) || differs(y + 1 < size.y, step_y);
 }
 
-/// What redistancing starts from: voxels next to a zero crossing keep their magnitudes, others have none yet.
+/// The start of redistancing: voxels next to a zero crossing keep their magnitudes, others have none yet.
 SCREE_VECTOR_CLONES
 void keep_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
                     float* __restrict magnitudes, float* __restrict floors) {
@@ -166,6 +168,7 @@ void keep_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const C
 SCREE_VECTOR_CLONES
 void encode_magnitudes(size_t count, const float* __restrict magnitudes, Code* __restrict codes) {
   for (size_t i = 0; i < count; ++i) {
+    CHECK_DEBUG(magnitudes[i] >= 0.0F);
     const float clamped = std::min(magnitudes[i], band_voxels);
     const auto code = static_cast<int8_t>(static_cast<int>(clamped * codes_per_voxel + 0.5F));
     codes[i] = codes[i] < 0 ? static_cast<Code>(-code) : code;
@@ -186,7 +189,7 @@ void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* mag
   keep(codes.size() - plane, plane);
 }
 
-/// Rows with voxels that others measure from.
+/// Marks the rows with voxels that others measure from.
 void find_sources(const VoxelCoord& size, Solver& solver) {
   constexpr int rows_few = 1024;  // too few for skipping any to pay
   const bool all = size.x * size.y <= rows_few;
@@ -201,6 +204,7 @@ void find_sources(const VoxelCoord& size, Solver& solver) {
 void redistance(Window& window) {
   const VoxelCoord size = window.box.size();
   CHECK(std::min({size.x, size.y, size.z}) >= 3);
+  CHECK_EQ(window.codes.size(), Window::count(window.box));
   Solver solver(size);
   const size_t count = window.codes.size();
   const ptrdiff_t step_y = size.z, step_x = step_y * size.y, first = step_x + step_y + 1;
@@ -214,7 +218,7 @@ void redistance(Window& window) {
 
 void distances_from_levels(const std::vector<float>& levels, Window& window) {
   const VoxelCoord size = window.box.size();
-  CHECK(levels.size() == window.codes.size());
+  CHECK_EQ(levels.size(), window.codes.size());
   // A layer around the window that nothing is measured from.
   const VoxelCoord padded = size + VoxelCoord{2, 2, 2};
   Solver solver(padded);

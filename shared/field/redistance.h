@@ -9,13 +9,13 @@
 
 namespace scree {
 
-/// Redistances every voxel but the outermost layer of the window and those next to a zero crossing, which
-/// stay as they are. Interior seams, which cross no zero, vanish.
+/// Redistances every voxel but those of the outermost layer and those next to a zero crossing, which keep
+/// their codes. Interior seams, which cross no zero, vanish. At least three voxels a side.
 void redistance(Window& window);
 
-/// From any function's values f (window order, sign = side), codes that are distances to its zero set; the
-/// crossings stay where linear interpolation along the axes puts them. Used by generate; reads all, all are
-/// redistanced.
+/// Writes the distances to the zero set of a function as codes. `levels` holds the function's values in the
+/// window's order, negative inside; crossings stay where linear interpolation along the axes puts them. Every
+/// voxel is redistanced.
 void distances_from_levels(const std::vector<float>& levels, Window& window);
 
 }  // namespace scree

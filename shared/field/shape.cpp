@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "shared/base/check.h"
 #include "shared/field/brick.h"
 
 namespace scree {
@@ -51,6 +52,7 @@ float capsule_distance(const Shape& shape, glm::vec3 p) {
 }  // namespace
 
 Shape in_voxels(const Shape& shape, float voxel_size_m) {
+  CHECK(voxel_size_m > 0.0F);
   return {shape.kind, shape.a / voxel_size_m, shape.b / voxel_size_m, shape.radius_m / voxel_size_m};
 }
 

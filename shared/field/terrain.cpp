@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "shared/base/check.h"
 #include "shared/field/redistance.h"
 
 namespace scree {
@@ -163,6 +164,7 @@ struct Lattice {
 
   Lattice(const TerrainSource& source, const VoxelBox& box) {
     const VoxelCoord size = box.size();
+    CHECK(((box.lo.x | box.lo.y | box.lo.z | size.x | size.y | size.z) & 1) == 0);
     n[0] = size.x / lattice_step + 1;
     n[1] = size.y / lattice_step + 1;
     n[2] = size.z / lattice_step + 1;
@@ -183,6 +185,7 @@ struct Lattice {
   }
 
   float at(int x, int y, int z) const {
+    CHECK_DEBUG(x >= 0 && y >= 0 && z >= 0 && x < n[0] && y < n[1] && z < n[2]);
     return values[(static_cast<size_t>(x) * static_cast<size_t>(n[1]) + static_cast<size_t>(y)) *
                       static_cast<size_t>(n[2]) +
                   static_cast<size_t>(z)];
@@ -223,6 +226,7 @@ GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
   std::ranges::copy(own, chunk.storage.get());
   for (size_t i = 0; i < 64; ++i)
     if (chunk.bricks[i] == nullptr) chunk.bricks[i] = chunk.storage.get() + slot[i];
+  CHECK(std::ranges::find(chunk.bricks, nullptr) == chunk.bricks.end());
   return chunk;
 }
 

@@ -1,4 +1,5 @@
-// Where unedited terrain comes from. Server and client generate it alike; it never crosses the wire.
+// The generator of unedited terrain. Server and client generate the same bits; terrain never crosses the
+// wire.
 #pragma once
 
 #include <array>
@@ -37,7 +38,7 @@ struct GeneratedChunk {
 /// most one voxel (1-Lipschitz along the axes, up to the rounding of codes).
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk);
 
-/// Below this height generated terrain is nothing but rock. Metres.
+/// Height below which generated terrain is only rock. Metres.
 float floor_m(const TerrainSource& source);
 
 /// Negative inside the undisturbed ground, without what stands on it (the canyon's arch). In metres, but not

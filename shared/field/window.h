@@ -1,10 +1,11 @@
-// A dense box of codes, gathered from a field for a kernel to work on, or a piece's own little field.
+// A dense box of codes: gathered from a field for a kernel to work on, or a piece's own field. A value.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "shared/base/check.h"
 #include "shared/field/brick.h"
 
 namespace scree {
@@ -22,6 +23,7 @@ struct Window {
     return b.empty() ? 0 : static_cast<size_t>(s.x) * static_cast<size_t>(s.y) * static_cast<size_t>(s.z);
   }
   size_t index(int x, int y, int z) const {
+    CHECK_DEBUG(box.holds({x, y, z}));
     const VoxelCoord s = box.size();
     return (static_cast<size_t>(x - box.lo.x) * static_cast<size_t>(s.y) +
             static_cast<size_t>(y - box.lo.y)) *
@@ -34,6 +36,7 @@ struct Window {
 
 /// The codes of a box that lies in the window.
 inline Window part_of(const Window& window, const VoxelBox& box) {
+  CHECK(window.box.covers(box));
   Window part(box);
   const auto count = static_cast<size_t>(box.hi.z - box.lo.z);
   Code* to = part.codes.data();
@@ -43,9 +46,10 @@ inline Window part_of(const Window& window, const VoxelBox& box) {
   return part;
 }
 
-/// Writes a part back.
+/// Writes a part back; its box must lie in the window.
 inline void put(const Window& part, Window& window) {
   const VoxelBox& box = part.box;
+  CHECK(window.box.covers(box) && part.codes.size() == Window::count(box));
   const auto count = static_cast<size_t>(box.hi.z - box.lo.z);
   const Code* from = part.codes.data();
   for (int x = box.lo.x; x < box.hi.x; ++x)

@@ -1,4 +1,4 @@
-// Trilinear reading of a window, without any field behind it.
+// Trilinear reading of a window. Pure.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,22 +8,17 @@
 
 namespace scree {
 
-/// Largest integer not above x. |x| < 2^31.
-inline int floor_to_voxel(float x) {
-  const int i = static_cast<int>(x);
-  return x < static_cast<float>(i) ? i - 1 : i;
-}
-
 /// Whether the eight voxels around p lie in the window.
 inline bool covers(const Window& window, glm::vec3 p_voxels) {
   const VoxelBox& b = window.box;
-  const int x = floor_to_voxel(p_voxels.x), y = floor_to_voxel(p_voxels.y), z = floor_to_voxel(p_voxels.z);
+  const int x = floor_to_int(p_voxels.x), y = floor_to_int(p_voxels.y), z = floor_to_int(p_voxels.z);
   return x >= b.lo.x && y >= b.lo.y && z >= b.lo.z && x + 1 < b.hi.x && y + 1 < b.hi.y && z + 1 < b.hi.z;
 }
 
-/// As sample() of a field, from a window that covers p.
+/// Like sample() of a field, from a window that covers p.
 inline FieldSample sample_covered(const Window& window, glm::vec3 p_voxels) {
-  const int x = floor_to_voxel(p_voxels.x), y = floor_to_voxel(p_voxels.y), z = floor_to_voxel(p_voxels.z);
+  CHECK_DEBUG(covers(window, p_voxels));
+  const int x = floor_to_int(p_voxels.x), y = floor_to_int(p_voxels.y), z = floor_to_int(p_voxels.z);
   const float fx = p_voxels.x - static_cast<float>(x);
   const float fy = p_voxels.y - static_cast<float>(y);
   const float fz = p_voxels.z - static_cast<float>(z);

@@ -104,7 +104,7 @@ std::vector<Island> islands_by_brute_force(Field& field, const std::vector<Brick
           b.hi = {std::max(b.hi.x, v.x + 1), std::max(b.hi.y, v.y + 1), std::max(b.hi.z, v.z + 1)};
         }
         island.start = *std::ranges::min_element(component.voxels, {},
-                                                [](VoxelCoord v) { return std::pair(brick_of(v), v); });
+                                                 [](VoxelCoord v) { return std::pair(brick_of(v), v); });
         islands.push_back(island);
       }
   std::ranges::sort(islands, {}, &Island::start);
