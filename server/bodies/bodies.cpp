@@ -11,6 +11,7 @@
 #include "server/bodies/contact_list.h"
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
+#include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
 #include "shared/base/check.h"
 
@@ -29,7 +30,7 @@ glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
   return sum / static_cast<float>(points.size());
 }
 
-/// What collides with other bodies.
+/// Makes the shapes that collide with other bodies.
 void add_hulls(const BodyShape& shape, Body& body) {
   body.hulls = std::make_unique<CollisionHulls>();
   for (const std::vector<glm::vec3>& part : shape.parts_m) {
@@ -67,18 +68,30 @@ BodyState state_of(PieceId id, const Body& body) {
           from_bullet(rigid.getAngularVelocity()), false};
 }
 
+void check_sound(const BodyShape& shape, const BodyState& state) {
+  const glm::vec3 inertia = shape.inertia_kg_m2;
+  CHECK(shape.hull_m.size() >= 4);
+  CHECK(std::isfinite(shape.mass_kg) && shape.mass_kg > 0.0F);
+  CHECK(is_sound(inertia) && inertia.x > 0.0F && inertia.y > 0.0F && inertia.z > 0.0F);
+  CHECK(shape.friction >= 0.0F);
+  CHECK(is_sound(state.pose));
+  CHECK(!state.frozen);
+  CHECK_DEBUG(std::ranges::all_of(shape.hull_m, [](glm::vec3 corner) { return is_sound(corner); }));
+}
+
 }  // namespace
 
 Bodies::Bodies(Field& field, const BodiesConfig& config) : state_(std::make_unique<State>(field, config)) {}
 
 Bodies::~Bodies() {
   while (size() > 0) remove(state_->bodies.begin()->first);
+  CHECK_EQ(state_->dispatcher.getNumManifolds(), 0);
 }
 
 void Bodies::add(const BodyShape& shape, const BodyState& state) {
   State& s = *state_;
   CHECK(!contains(state.id));
-  CHECK(shape.hull_m.size() >= 4 && shape.mass_kg > 0.0F);
+  check_sound(shape, state);
   Body& body = s.bodies[state.id];
   body.shape = make_convex_shape(shape.hull_m);
   body.reach_m = radius_of(shape.hull_m);
@@ -119,6 +132,7 @@ void Bodies::remove(PieceId id) {
   s.leave(body);
   if (body.frozen) --s.frozen;
   s.bodies.erase(found);
+  CHECK(s.frozen <= s.bodies.size());
   s.wake_near(lo, hi);
 }
 
@@ -145,6 +159,11 @@ void Bodies::step() {
   if (s.frozen > 0) s.thaw_struck();
   for (auto& [id, body] : s.bodies)
     if (body.thawed) s.wake_around_thawed(body);
+  CHECK_DEBUG(
+      std::ranges::all_of(s.bodies, [&](const auto& one) { return s.is_sound(one.first, one.second); }));
+  CHECK_DEBUG(std::ranges::count_if(s.bodies, [](const auto& one) {
+                return one.second.frozen.has_value();
+              }) == static_cast<std::ptrdiff_t>(s.frozen));
 }
 
 void Bodies::freeze(PieceId id) {
@@ -156,6 +175,7 @@ void Bodies::freeze(PieceId id) {
 void Bodies::thaw_all() {
   for (auto& [id, body] : state_->bodies)
     if (body.frozen) state_->wake(body);
+  CHECK_EQ(state_->frozen, 0);
 }
 
 size_t Bodies::frozen() const {
@@ -164,6 +184,7 @@ size_t Bodies::frozen() const {
 
 void Bodies::terrain_changed(const VoxelBox& box) {
   State& s = *state_;
+  CHECK(!box.empty());
   s.terrain_collider->terrain_changed(box);
   for (auto& [id, body] : s.bodies) body.probe->terrain_changed(box);
   const auto corner = [&](VoxelCoord v) {
@@ -178,7 +199,7 @@ void Bodies::set_terrain_collider(TerrainColliderKind kind) {
   State& s = *state_;
   if (kind == s.config.terrain_collider) return;
   s.config.terrain_collider = kind;
-  // The old one outlives its probes.
+  // Each probe is replaced before its collider is destroyed.
   const std::unique_ptr<TerrainCollider> old =
       std::exchange(s.terrain_collider, make_terrain_collider(kind, s.terrain_field));
   for (auto& [id, body] : s.bodies) {

@@ -20,20 +20,21 @@
 
 namespace scree {
 
-/// What Bullet needs to know of a piece. `hull_m`: corners of its convex hull, at least 4 and not all in one
-/// plane, relative to the centre of mass, in the volume's axes (the world's axes at birth).
+/// The data of a piece that Bullet needs. `hull_m`: corners of the piece's convex hull, at least 4 and not
+/// all in one plane, relative to the centre of mass, in the volume's axes (the world's axes at birth).
 /// See server/fracture/hull.h.
 struct BodyShape {
   std::vector<glm::vec3> hull_m;
   float mass_kg = 0.0F;
-  glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes
-  /// Coefficient. Of two that touch, the geometric mean counts; the terrain's is its material's.
+  glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes; positive
+  /// Coefficient of friction. A contact has the geometric mean of both sides; the terrain has that of its
+  /// material.
   float friction = 0.7F;
-  /// What touches the terrain, where the hull would not do: points of a concave piece's own surface, in the
-  /// same frame. None: points of the hull.
+  /// Points that collide with the terrain, for a concave piece: of its own surface, in the same frame as
+  /// `hull_m`. Empty: points of the hull collide.
   std::vector<glm::vec3> surface_m{};
-  /// What touches other bodies, where the hull would not do: convex parts of a large concave piece, each as
-  /// `hull_m`. None: the hull.
+  /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
+  /// has. Empty: the hull collides.
   std::vector<std::vector<glm::vec3>> parts_m{};
 };
 
@@ -53,19 +54,19 @@ struct Carried {
   auto operator<=>(const Carried&) const = default;
 };
 
-/// Who lay on what in the last step.
+/// The supports between bodies and the terrain in the last step.
 struct BodyContacts {
-  std::vector<PieceId> on_terrain;  ///< or on what is frozen; ordered, without duplicates
+  std::vector<PieceId> on_terrain;  ///< or on a frozen body; ordered, without duplicates
   std::vector<Carried> carried;     ///< ordered, without duplicates
 };
 
 /// The strongest contact that a body bore in the last step.
 struct BodyImpact {
   PieceId id = 0;
-  std::optional<PieceId> other;  ///< what struck it; nothing: terrain
+  std::optional<PieceId> other;  ///< the other body of the contact; nothing: terrain
   glm::vec3 point_m{0.0F};       ///< where, in the world
   glm::vec3 normal{0.0F};        ///< unit, towards the body
-  float impulse_n_s = 0.0F;      ///< along the normal, over all points of the contact
+  float impulse_n_s = 0.0F;      ///< along the normal, summed over the points of the contact; positive
 };
 
 struct BodiesConfig {
@@ -77,15 +78,17 @@ struct BodiesConfig {
 
 class Bodies {
  public:
-  /// `field` must outlive this; it is read in step() alone.
+  /// `field` must outlive this object; only step() reads it. The tick rate must be positive.
   Bodies(Field& field, const BodiesConfig& config);
   ~Bodies();
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
 
-  /// `state.id` must not be present. Speeds above what the tick can carry are cut (server/bodies/limits.h).
+  /// `state.id` must be new, the position finite, the rotation a unit quaternion. Speeds beyond
+  /// limits::travel_max_voxels a tick are reduced to it; a body whose speed is not finite is stopped by the
+  /// next step.
   void add(const BodyShape& shape, const BodyState& state);
-  /// Removes a body that is present, and wakes those that touch its bounds.
+  /// Removes a body, which must be present, and wakes the bodies that touch its bounds.
   void remove(PieceId id);
   bool contains(PieceId id) const;
   size_t size() const;
@@ -93,37 +96,41 @@ class Bodies {
   /// Advances by one tick.
   void step();
 
-  /// A body at rest stands still from now on: the others find it as hard as the ground, and a step costs
-  /// next to nothing for it. It thaws where the terrain or a body in touch with its bounds goes away, when
-  /// what it lay on thaws and moves off, and when it is struck so hard that its speed would change by
-  /// limits::thaw_speed_m_s; it then takes that blow's momentum. Must be present, and not frozen.
+  /// Makes a body static: other bodies collide with it as with the ground, and a step costs almost nothing
+  /// for it. It thaws when the terrain changes or a body is removed within its bounds, when a body that it
+  /// touched thaws and moves away, and when a blow would change its speed by limits::thaw_speed_m_s; it then
+  /// takes that blow's momentum. The body must be present and not frozen.
   void freeze(PieceId id);
   void thaw_all();
+  /// Number of frozen bodies.
   size_t frozen() const;
 
-  /// The terrain changed within this box of voxels (after any operation: the box of its changed bricks).
-  /// Must be called before the next step; bodies near it wake and look at the ground afresh.
+  /// Tells the bodies that the terrain changed within this box of voxels (after an operation: the box of its
+  /// changed bricks). Call before the next step. Bodies near the box wake and read the terrain again.
   void terrain_changed(const VoxelBox& box);
 
-  /// From the next step on, bodies find the terrain that way; they stay where they are, and wake.
+  /// Changes the way in which bodies find the terrain, from the next step on. Poses and speeds stay; all
+  /// bodies wake.
   void set_terrain_collider(TerrainColliderKind kind);
 
-  /// Of every body, ordered by id.
+  /// States of all bodies, ordered by id.
   std::vector<BodyState> states() const;
-  /// Of a body that is present.
+  /// The body must be present.
   BodyState state(PieceId id) const;
   BodyContacts contacts() const;
-  /// Of the bodies whose strongest contact in the last step changed their speed by at least that, by id.
+  /// The strongest contact of each body in the last step, if it changed the body's speed by at least
+  /// `speed_min_m_s`, which is positive; ordered by id.
   std::vector<BodyImpact> impacts(float speed_min_m_s) const;
+  /// The body must be present.
   float mass_kg(PieceId id) const;
-  /// Radius of the sphere about the centre of mass that holds the body's hull; metres.
+  /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be
+  /// present.
   float reach_m(PieceId id) const;
-  /// Bodies that are awake.
+  /// Number of bodies that are awake.
   size_t awake() const;
-  /// Points at which bodies touched terrain or each other in the last step.
+  /// Number of points at which bodies touched terrain or each other in the last step.
   size_t contact_points() const;
-  /// Every body, and every point where two of them or one and the terrain touched in the last step. For
-  /// people to look at.
+  /// Appends every body, and every point of contact of the last step, for display.
   void describe(PhysicsMessage& to) const;
 
   /// XXH3 of the exact transforms and velocities, in order of id.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/bodies/limits.h"
+#include "server/bodies/sound_values.h"
 #include "server/bodies/terrain_manifold.h"
 #include "server/bodies/to_bullet.h"
 #include "shared/base/check.h"
@@ -23,7 +24,7 @@ bool is_finite(const btVector3& v) {
   return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
-/// What a contact did in the last step to the body that stands still in it.
+/// The impulse of a contact in the last step on the one of its bodies that is static.
 struct Blow {
   btVector3 impulse{0.0F, 0.0F, 0.0F};
   btVector3 at{0.0F, 0.0F, 0.0F};
@@ -42,6 +43,12 @@ Blow blow_on(const btPersistentManifold& manifold, bool first) {
   return blow;
 }
 
+/// For CHECK_DEBUG: a contact as a TerrainProbe must report it.
+bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_m) {
+  return contact.point >= 0 && static_cast<size_t>(contact.point) < points && is_sound(contact.offset_m) &&
+         is_unit(contact.normal) && std::isfinite(contact.distance_m) && !(contact.distance_m > reach_m);
+}
+
 }  // namespace
 
 Bodies::State::State(Field& field, const BodiesConfig& c)
@@ -53,10 +60,12 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       dispatcher(&collision_configuration),
       dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
       terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
+  CHECK(std::isfinite(tick_s) && std::isfinite(c.gravity_m_s2));
+  CHECK(c.restitution >= 0.0F && c.restitution <= 1.0F);
   terrain.setCollisionShape(&terrain_shape);
-  // Asleep, so that the island manager leaves sleeping bodies on it alone.
+  // Asleep, so that the island manager does not wake sleeping bodies that touch it.
   terrain.forceActivationState(ISLAND_SLEEPING);
-  // Bullet sorts manifolds by broadphase proxy, which what is in no broadphase lacks.
+  // Bullet sorts manifolds by broadphase proxy; the terrain is in no broadphase, so it gets one here.
   terrain_proxy.m_uniqueId = 0;
   terrain_proxy.m_clientObject = &terrain;
   terrain.setBroadphaseHandle(&terrain_proxy);
@@ -74,12 +83,29 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
 void Bodies::State::find_ground(Body& body) {
   const btRigidBody& rigid = *body.rigid;
   const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
+  const float reach_m = limits::contact_slack_m + speed * tick_s;
   found.clear();
-  body.probe->find(from_bullet(rigid.getWorldTransform()), limits::contact_slack_m + speed * tick_s, found);
+  body.probe->find(from_bullet(rigid.getWorldTransform()), reach_m, found);
+  CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
+    return is_sound_contact(contact, body.points_m.size(), reach_m);
+  }));
   refill(*body.ground, rigid, found, {terrain_field, config.restitution, tick_s});
 }
 
-/// What a body may not exceed, or it would cross the narrow band in one tick.
+bool Bodies::State::is_sound(PieceId id, const Body& body) const {
+  const btRigidBody& rigid = *body.rigid;
+  const Pose pose = from_bullet(rigid.getWorldTransform());
+  if (id_of(&rigid) != id || !scree::is_sound(pose)) return false;
+  if (body.frozen)  // it is not integrated
+    return body.ground == nullptr && rigid.isStaticObject() &&
+           pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
+  constexpr float rounding = 1.001F;
+  const float travel_m =
+      (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * tick_s;
+  return body.ground != nullptr && !rigid.isStaticObject() &&
+         travel_m <= rounding * limits::travel_max_voxels * voxel_size_m;
+}
+
 void Bodies::State::limit_speeds(Body& body) const {
   btRigidBody& rigid = *body.rigid;
   const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / tick_s;
@@ -90,7 +116,7 @@ void Bodies::State::limit_speeds(Body& body) const {
     rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
 }
 
-/// Damping and speed limits, after the step. Bullet's own damping would call libm.
+// Bullet's own damping would call the math library.
 void Bodies::State::settle(Body& body) const {
   btRigidBody& rigid = *body.rigid;
   btVector3 velocity = rigid.getLinearVelocity();
@@ -116,6 +142,7 @@ void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
 }
 
 void Bodies::State::enter(Body& body) {
+  CHECK(body.ground == nullptr && body.rigid->getBroadphaseHandle() == nullptr);
   dynamics.addRigidBody(body.rigid.get());
   if (!body.frozen) body.ground = dispatcher.getNewManifold(body.rigid.get(), &terrain);
 }
@@ -146,6 +173,7 @@ void Bodies::State::wake(Body& body) {
   }
   leave(body);
   body.frozen.reset();
+  CHECK(frozen > 0);
   --frozen;
   rigid.setCollisionFlags(0);
   rigid.setMassProps(body.mass_kg, body.inertia_kg_m2);

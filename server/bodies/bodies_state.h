@@ -1,4 +1,7 @@
-// What a Bodies is made of: Bullet's world, and each piece as a body in it. Private to this folder.
+// The members of a Bodies: Bullet's world, and each piece as a body in it. Private to this folder.
+//
+// Invariants: a body is frozen, or has a terrain manifold, never both; `State::frozen` counts the frozen
+// ones.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -23,26 +26,27 @@ struct Bounds {
   btVector3 hi;
 };
 
-/// A piece as Bullet has it.
+/// A piece as a rigid body of Bullet.
 struct Body {
-  std::unique_ptr<btConvexHullShape> shape;               ///< about all of it
-  std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< what collides, where that is not `shape`
-  std::unique_ptr<CollisionHulls> hulls;                  ///< of those; `rigid`'s user pointer
+  std::unique_ptr<btConvexHullShape> shape;               ///< the hull of the whole piece
+  std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< colliding parts; empty: `shape` collides
+  std::unique_ptr<CollisionHulls> hulls;                  ///< of the colliding shapes; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
-  std::vector<glm::vec3> points_m;  ///< what touches the terrain
+  std::vector<glm::vec3> points_m;  ///< points that collide with the terrain
   bool touches_by_surface = false;  ///< the points are those of its own surface, not of the hull
   std::unique_ptr<TerrainProbe> probe;
-  btPersistentManifold* ground = nullptr;  ///< the dispatcher's; body 0 is `rigid`; null when frozen
+  /// Contacts with the terrain; owned by the dispatcher; body 0 is `rigid`. Null while frozen.
+  btPersistentManifold* ground = nullptr;
   float mass_kg = 0.0F;
   btVector3 inertia_kg_m2;
   float reach_m = 0.0F;
   float spin_max_rad_s = 0.0F;
-  btTransform last;                 ///< before the step: where to return to from what is no number
-  std::optional<BodyState> frozen;  ///< as it stands, while it is
-  std::optional<Bounds> thawed;     ///< where it stood when it thawed, until it has moved away
+  btTransform last;                 ///< transform before the step: restored when the step's is not finite
+  std::optional<BodyState> frozen;  ///< the state of a frozen body
+  std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
 };
 
-/// The piece that a Bullet object is; ids are kept in its user index, bit for bit.
+/// The piece of a Bullet object: its user index holds the id, bit for bit.
 inline PieceId id_of(const btCollisionObject* object) {
   return static_cast<PieceId>(object->getUserIndex());
 }
@@ -50,20 +54,26 @@ inline PieceId id_of(const btCollisionObject* object) {
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c);
 
+  /// Refills the body's terrain manifold for the step.
   void find_ground(Body& body);
+  /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a tick.
   void limit_speeds(Body& body) const;
+  /// Applies damping and the speed limits after the step.
   void settle(Body& body) const;
-  /// Thaws what is frozen.
+  /// Wakes the body; thaws it if it is frozen.
   void wake(Body& body);
   void wake_near(const btVector3& lo, const btVector3& hi);
-  /// Into Bullet's world, and out of it; a body without mass is static there.
+  /// Adds the body to Bullet's world, and removes it; a body whose mass is set to 0 is static there.
   void enter(Body& body);
   void leave(Body& body);
   void freeze(PieceId id, Body& body);
-  /// Those that the last step struck hard, with the blow's momentum: to the solver they had no end of mass.
+  /// Thaws the frozen bodies that the last step struck hard. The solver saw them as static, so the impulse
+  /// is applied here.
   void thaw_struck();
-  /// What lay on a body that thawed stays until that has moved.
+  /// Wakes the neighbours of a thawed body once it has moved by limits::thawed_leash_m.
   void wake_around_thawed(Body& body);
+  /// Checks the invariants of a body after a step; for CHECK_DEBUG.
+  bool is_sound(PieceId id, const Body& body) const;
 
   BodiesConfig config;
   Field& terrain_field;
@@ -80,8 +90,8 @@ struct Bodies::State {
   btCollisionObject terrain;
   std::unique_ptr<TerrainCollider> terrain_collider;
   std::map<PieceId, Body> bodies;
-  size_t frozen = 0;                  ///< how many of them are
-  std::vector<TerrainContact> found;  ///< scratch
+  size_t frozen = 0;                  ///< number of frozen bodies
+  std::vector<TerrainContact> found;  ///< scratch memory of find_ground()
 };
 
 }  // namespace scree

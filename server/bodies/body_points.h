@@ -1,4 +1,4 @@
-// The points that stand for a body's surface, turned to where the body lies. Metres.
+// The points that represent a body's surface, turned to the body's pose. Metres.
 #pragma once
 
 #include <glm/common.hpp>
@@ -7,16 +7,21 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "server/bodies/sound_values.h"
+#include "shared/base/check.h"
 #include "shared/field/piece.h"
 
 namespace scree {
 
 class BodyPoints {
  public:
-  /// Relative to the centre of mass, in the body's own axes.
-  explicit BodyPoints(std::vector<glm::vec3> own_m) : own_m_(std::move(own_m)), offsets_m_(own_m_.size()) {}
+  /// Relative to the centre of mass, in the body's own axes; at least one.
+  explicit BodyPoints(std::vector<glm::vec3> own_m) : own_m_(std::move(own_m)), offsets_m_(own_m_.size()) {
+    CHECK(!own_m_.empty());
+  }
 
   void turn(const Pose& pose) {
+    CHECK_DEBUG(is_sound(pose));
     const glm::mat3 turned = glm::mat3_cast(pose.rotation);
     glm::vec3 lo(0.0F), hi(0.0F);
     for (size_t i = 0; i < own_m_.size(); ++i) {
@@ -29,9 +34,12 @@ class BodyPoints {
   }
 
   int count() const { return static_cast<int>(offsets_m_.size()); }
-  /// Since the last turn(): from the centre of mass, in the world's axes; and the bounds in the world, which
-  /// hold the centre, too.
-  glm::vec3 offset_m(int point) const { return offsets_m_[static_cast<size_t>(point)]; }
+  /// A point's offset from the centre of mass, in the world's axes, as of the last turn().
+  glm::vec3 offset_m(int point) const {
+    CHECK_DEBUG(point >= 0 && point < count());
+    return offsets_m_[static_cast<size_t>(point)];
+  }
+  /// Bounds of the points and the centre of mass in the world, as of the last turn().
   glm::vec3 lo_m() const { return lo_m_; }
   glm::vec3 hi_m() const { return hi_m_; }
 

@@ -6,12 +6,14 @@
 #include <glm/geometric.hpp>
 
 #include "server/bodies/limits.h"
+#include "server/bodies/sound_values.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
-/// Distance of the hull's nearest face from a point inside, or a little more: the least support over 26
+/// Distance of the hull's nearest face from a point inside, estimated from above: the least support over 26
 /// directions.
 float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
   float least = 1e30F;
@@ -28,7 +30,7 @@ float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
   return least;
 }
 
-/// Points inside a triangle, on a lattice of at most `spacing_m`; its corners left out.
+/// Appends points of a triangle on a lattice of at most `spacing_m`, without its corners.
 void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::vector<glm::vec3>& out) {
   const float longest =
       std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
@@ -51,6 +53,7 @@ bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance)
 
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
                                                      glm::vec3 middle_m) {
+  CHECK(hull_m.size() >= 4 && is_sound(middle_m));
   const float thickness = std::max(thickness_of(hull_m, middle_m), 0.01F);
   const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
   const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
@@ -74,6 +77,7 @@ std::vector<glm::vec3> corners_of(const btConvexHullShape& shape) {
 }
 
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m) {
+  CHECK(!hull_m.empty() && spacing_m > 0.0F);
   std::vector<glm::vec3> points = hull_m;
   if (radius_of(hull_m) <= 2.0F * spacing_m) return points;  // its corners are near enough to each other
   btConvexHullComputer computer;

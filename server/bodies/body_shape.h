@@ -1,4 +1,5 @@
-// From the hull of a piece to what collides: Bullet's shrunken hull, and the points tested against terrain.
+// Makes the colliding shapes of a piece from its hull: Bullet's shrunken hull for other bodies, and points
+// for the terrain. Metres.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -8,19 +9,20 @@
 
 namespace scree {
 
-/// Bullet surrounds a convex shape with a margin; the hull is shrunk by it and a little more, so that
-/// neighbours do not overlap at birth. For piece against piece alone.
-/// `middle_m` must lie inside.
+/// The hull's corners, shrunk towards `middle_m` by Bullet's margin around a convex shape and by
+/// limits::birth_gap_m, so that neighbours do not overlap at birth. Collides with other pieces only. The hull
+/// has at least 4 corners, and `middle_m` lies inside it.
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
                                                      glm::vec3 middle_m = glm::vec3(0.0F));
 
 /// The shrunken hull's corners.
 std::vector<glm::vec3> corners_of(const btConvexHullShape& shape);
 
-/// The hull's corners, and points on its faces so that none lie much farther apart than the spacing.
+/// The hull's corners, and points on its faces at most about `spacing_m` apart. `hull_m` must not be empty;
+/// the spacing is positive, and doubles until there are at most limits::samples_max points.
 std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, float spacing_m);
 
-/// Radius about the origin that holds the points.
+/// Radius of the sphere about the origin that holds the points.
 float radius_of(const std::vector<glm::vec3>& points_m);
 
 }  // namespace scree

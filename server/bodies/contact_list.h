@@ -1,4 +1,4 @@
-// Where Bullet's bodies touch, for people to look at.
+// Lists the points of contact between Bullet's bodies, for display.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ class btCollisionDispatcher;
 
 namespace scree {
 
-/// Appends every point of contact that bore an impulse in the last step, or that bodies rest on.
+/// Appends every point of contact of the last step that is nearer than limits::contact_slack_m.
 void list_contacts(const btCollisionDispatcher& dispatcher, std::vector<WatchedContact>& to);
 
 }  // namespace scree

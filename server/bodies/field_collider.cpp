@@ -4,12 +4,13 @@
 #include "server/bodies/body_points.h"
 #include "server/bodies/nearby_codes.h"
 #include "server/bodies/terrain_collider.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
-/// Gradients shorter than this point nowhere: the codes saturate all around.
+/// A shorter gradient has no direction: the codes saturate all around. The contact's normal is then up.
 constexpr float gradient_min = 0.1F;
 
 class FieldProbe final : public TerrainProbe {
@@ -30,6 +31,7 @@ class FieldProbe final : public TerrainProbe {
   void test(const Pose& pose, int point, float reach_m, std::vector<TerrainContact>& out) const {
     const glm::vec3 offset_m = points_.offset_m(point);
     const FieldSample at = sample_covered(codes_.codes(), (pose.position_m + offset_m) / voxel_size_m_);
+    CHECK_DEBUG(at.distance_voxels >= -1.01F * band_voxels);
     const float distance_m = at.distance_voxels * voxel_size_m_;
     if (distance_m >= reach_m) return;
     const float slope = std::sqrt(glm::dot(at.gradient, at.gradient));

@@ -13,17 +13,17 @@
 
 #include "server/bodies/body_shape.h"
 #include "server/bodies/limits.h"
+#include "server/bodies/sound_values.h"
+#include "server/bodies/to_bullet.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
 const CollisionHulls& hulls_of(const btCollisionObjectWrapper* body) {
+  CHECK_DEBUG(body->getCollisionObject()->getUserPointer() != nullptr);
   return *static_cast<const CollisionHulls*>(body->getCollisionObject()->getUserPointer());
-}
-
-glm::vec3 from_bullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
@@ -39,13 +39,13 @@ void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btCon
 
 }  // namespace
 
-/// One part of a body near one of another.
+/// A pair of parts of two bodies.
 struct HullAlgorithm::Meeting {
   const btCollisionObjectWrapper* object_a;
   const btCollisionObjectWrapper* object_b;
   const CollisionHulls::Part& a;
   const CollisionHulls::Part& b;
-  glm::vec3 a_from_b;  ///< the bodies' centres
+  glm::vec3 a_from_b;  ///< centre of body a relative to that of body b
 
   bool is_far() const {
     const glm::vec3 off = a_from_b + a.turned_m - b.turned_m;
@@ -81,6 +81,7 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
       from_bullet(a->getWorldTransform().getOrigin() - b->getWorldTransform().getOrigin());
   const auto &parts_a = hulls_of(a).parts(), &parts_b = hulls_of(b).parts();
   const size_t pairs = parts_a.size() * parts_b.size();
+  CHECK_DEBUG(pairs > 0);
   if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
   result->setPersistentManifold(manifold_);
   size_t pair = 0;
@@ -89,7 +90,7 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
       NearestCorners& nearest = pair == 0 ? nearest_ : of_others_[pair - 1];
       ++pair;
       const Meeting meeting{a, b, part_a, part_b, a_from_b};
-      // A pair that comes back starts afresh, whatever the broadphase kept of it meanwhile.
+      // A pair that meets again starts without memory: whether the broadphase kept the pair must not matter.
       if (meeting.is_far())
         nearest.count = 0;
       else
@@ -118,12 +119,12 @@ void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, btMani
     find_depth(*a.shape, meeting.object_a->getWorldTransform(), *b.shape, at_b, result);
     return;
   }
-  const btVector3 normal(found.normal.x, found.normal.y, found.normal.z);
-  const btVector3 on_b(found.on_b.x, found.on_b.y, found.on_b.z);
+  CHECK_DEBUG(is_unit(found.normal) && is_sound(found.on_b));
+  const btVector3 normal = to_bullet(found.normal), on_b = to_bullet(found.on_b);
   result.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
 }
 
-/// No continuous collision: speeds are limited instead.
+/// Never earlier than the tick's end: speeds are limited, so that continuous collision is not needed.
 btScalar HullAlgorithm::calculateTimeOfImpact(btCollisionObject* /*a*/, btCollisionObject* /*b*/,
                                               const btDispatcherInfo& /*info*/,
                                               btManifoldResult* /*result*/) {

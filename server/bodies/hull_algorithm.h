@@ -1,6 +1,6 @@
-// Bullet's collision algorithm for hull against hull, by distance_between; where the hulls overlap by more
-// than their margins, Bullet's own search for the depth takes over. Replaces btConvexConvexAlgorithm, which
-// took two thirds of a step of 1,000 pieces.
+// Bullet's collision algorithm for hull against hull, by distance_between(); where the hulls overlap by more
+// than their margins, Bullet's own search finds the depth. Replaces btConvexConvexAlgorithm, which took two
+// thirds of a step of 1,000 pieces.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
@@ -15,18 +15,18 @@
 
 namespace scree {
 
-/// What of a body touches other bodies: one hull, or several of a concave piece.
+/// The hulls of a body that collide with other bodies: one, or several of a concave piece.
 class CollisionHulls {
  public:
   struct Part {
     const btConvexHullShape* shape;  ///< in the body's frame
-    HullCorners corners;             ///< of it, turned
-    glm::vec3 middle_m;              ///< of a sphere about it, in the body's axes
-    glm::vec3 turned_m;              ///< the same, turned
-    float reach_m;                   ///< that sphere's radius, with the margin
+    HullCorners corners;             ///< of the shape, turned
+    glm::vec3 middle_m;              ///< middle of the bounding sphere, in the body's axes
+    glm::vec3 turned_m;              ///< the same middle, in the world's axes
+    float reach_m;                   ///< the bounding sphere's radius, with the margin
   };
 
-  /// The shape must outlive this.
+  /// The shape must outlive this object.
   void add(const btConvexHullShape& shape);
   void turn(const glm::mat3& rotation);
   const std::vector<Part>& parts() const { return parts_; }
@@ -35,7 +35,7 @@ class CollisionHulls {
   std::vector<Part> parts_;
 };
 
-/// Both objects' user pointers must be their CollisionHulls, turned to their present pose.
+/// The user pointers of both objects must be their CollisionHulls, turned to their present poses.
 class HullAlgorithm final : public btCollisionAlgorithm {
  public:
   using btCollisionAlgorithm::btCollisionAlgorithm;
@@ -51,9 +51,9 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   struct Meeting;
   void meet(const Meeting& meeting, NearestCorners& nearest, btManifoldResult& result);
 
-  btPersistentManifold* manifold_ = nullptr;  ///< only while there are contacts
-  NearestCorners nearest_;                    ///< of the first parts
-  std::vector<NearestCorners> of_others_;     ///< of all other pairs of parts, if there are any
+  btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
+  NearestCorners nearest_;                    ///< of the first pair of parts
+  std::vector<NearestCorners> of_others_;     ///< of all other pairs of parts, in order
 };
 
 struct HullAlgorithmCreator final : btCollisionAlgorithmCreateFunc {

@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-/// Four lanes, spelled so that g++ and clang both make vectors of them at any level of optimisation.
+/// Four lanes in a form that g++ and clang both compile to vector instructions at any level of optimisation.
 using Floats = float __attribute__((vector_size(16)));
 using Ints = int __attribute__((vector_size(16)));
 
@@ -25,24 +25,29 @@ Floats all(float x) {
   return Floats{x, x, x, x};
 }
 
-/// Searches end when a step can shorten the distance by no more than this share of it.
+/// A search ends when a step can shorten the distance by no more than this share of it.
 constexpr float tolerance = 1e-3F;
-constexpr float touching2_m2 = 1e-6F;  ///< nearer than 1 mm the direction drowns in rounding: overlapping
-constexpr int steps_max = 24;          ///< more only where rounding makes it go in circles
+/// Below 1 mm, rounding errors dominate the direction: the hulls count as overlapping.
+constexpr float touching2_m2 = 1e-6F;
+constexpr int steps_max = 24;  ///< more steps happen only where rounding errors make the search cycle
 
 /// A point of the Minkowski difference a − b.
 struct Point {
   glm::vec3 p;
   uint16_t a = 0;
   uint16_t b = 0;
-  float share = 0.0F;  ///< in the point nearest to the origin
+  float share = 0.0F;  ///< its weight in the simplex's point nearest to the origin
 };
 
-/// Up to four points; reduced to those whose hull's interior holds the point nearest to the origin.
+/// Up to four points. Reduced: only those whose convex hull's interior holds the point nearest to the origin.
 struct Simplex {
   std::array<Point, 4> points;
   int count = 0;
 
+  void push(const Point& point) {
+    CHECK_DEBUG(count < 4);
+    (*this)[count++] = point;
+  }
   Point& operator[](int i) { return points[static_cast<size_t>(i)]; }
   const Point& operator[](int i) const { return points[static_cast<size_t>(i)]; }
   glm::vec3 nearest() const {
@@ -84,7 +89,7 @@ Simplex nearer(const Simplex& s, const Simplex& t) {
   return glm::dot(w, w) < glm::dot(v, v) ? t : s;
 }
 
-/// Ericson, Real-Time Collision Detection, 5.1.5: by the regions of the triangle.
+/// By the regions of the triangle: Ericson, Real-Time Collision Detection (2005), 5.1.5.
 Simplex on_triangle(Point p, Point q, Point r) {
   const glm::vec3 pq = q.p - p.p, pr = r.p - p.p;
   const glm::vec3 normal = glm::cross(pq, pr);
@@ -108,7 +113,8 @@ Simplex on_triangle(Point p, Point q, Point r) {
   return nearer(nearer(on_segment(p, q), on_segment(q, r)), on_segment(r, p));
 }
 
-/// Of the faces that the origin lies beyond, the nearest; a count of 4 when it lies beyond none.
+/// The nearest of the faces that have the origin on their outer side; the whole simplex, with a count of 4,
+/// when the origin is inside.
 Simplex on_tetrahedron(const Simplex& s) {
   static constexpr int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
   Simplex best = s;
@@ -139,7 +145,7 @@ Simplex reduced(const Simplex& s) {
   }
 }
 
-/// One pair of hulls, and how to look for a point of their difference.
+/// One pair of hulls, with the support function of their Minkowski difference.
 struct Pair {
   const HullCorners& a;
   const HullCorners& b;
@@ -153,8 +159,9 @@ struct Pair {
 
 Simplex recall(const Pair& pair, const NearestCorners& nearest) {
   if (nearest.count == 0) return one(pair.support(-pair.a_from_b));
+  CHECK_DEBUG(nearest.count <= nearest.a.size());
   Simplex s;
-  for (uint32_t i = 0; i < nearest.count; ++i) s[s.count++] = pair.point(nearest.a[i], nearest.b[i]);
+  for (uint32_t i = 0; i < nearest.count; ++i) s.push(pair.point(nearest.a[i], nearest.b[i]));
   return s;
 }
 
@@ -221,7 +228,8 @@ HullDistance distance_between(const HullCorners& a, const HullCorners& b, glm::v
     const float v2 = glm::dot(v, v);
     if (simplex.count == 4 || v2 < touching2_m2) break;
     const Point next = pair.support(-v);
-    const float ahead = glm::dot(v, next.p);  // the plane across v at this share of v2 has a beyond, b before
+    const float ahead =
+        glm::dot(v, next.p);  // a plane across v at `ahead`/v2 of its length separates a and b
     if (ahead > 0.0F && ahead * ahead > v2 * reach_m * reach_m) {
       remember(simplex, nearest);
       return {};
@@ -230,7 +238,7 @@ HullDistance distance_between(const HullCorners& a, const HullCorners& b, glm::v
       remember(simplex, nearest);
       return found(simplex, b, v);
     }
-    simplex[simplex.count++] = next;
+    simplex.push(next);
     simplex = reduced(simplex);
   }
   nearest.count = 0;

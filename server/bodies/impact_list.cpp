@@ -4,13 +4,14 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <algorithm>
 
+#include "server/bodies/bodies_state.h"
+#include "server/bodies/sound_values.h"
+#include "server/bodies/to_bullet.h"
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
-
-glm::vec3 from_bullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 struct Blow {
   float impulse_n_s = 0.0F;
@@ -39,10 +40,6 @@ const btRigidBody* body_of(const btCollisionObject* object) {
   return btRigidBody::upcast(object);
 }
 
-PieceId id_of(const btCollisionObject* object) {
-  return static_cast<PieceId>(object->getUserIndex());
-}
-
 bool is_active(const btRigidBody* body) {
   return body != nullptr && body->isActive();
 }
@@ -51,27 +48,29 @@ bool is_active(const btRigidBody* body) {
 
 std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
                                      float speed_min_m_s) {
+  CHECK(speed_min_m_s > 0.0F);
   std::vector<BodyImpact> impacts;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold =
         *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
     const btRigidBody* first = body_of(manifold.getBody0());
     const btRigidBody* second = manifold.getBody1() == &terrain ? nullptr : body_of(manifold.getBody1());
-    // The solver leaves what sleeps alone: those impulses are of an earlier step.
+    // The solver skips sleeping bodies: their impulses are those of an earlier step.
     if (!is_active(first) && !is_active(second)) continue;
     const Blow blow = blow_of(manifold);
     const auto note = [&](const btRigidBody* body, const btRigidBody* other, float sign) {
       if (body == nullptr || blow.impulse_n_s * body->getInvMass() < speed_min_m_s) return;
       BodyImpact impact{id_of(body), std::nullopt, from_bullet(blow.point), from_bullet(blow.normal * sign),
                         blow.impulse_n_s};
+      CHECK_DEBUG(impact.impulse_n_s > 0.0F && is_unit(impact.normal) && is_sound(impact.point_m));
       if (other != nullptr) impact.other = id_of(other);
       impacts.push_back(impact);
     };
     note(first, second, 1.0F);
     note(second, first, -1.0F);
   }
-  // Of several contacts of one body the strongest comes first, and alone stays. Stable: the dispatcher's
-  // order is the same on any build.
+  // The strongest of several contacts of one body comes first, and only the first stays. Stable: the
+  // dispatcher's order is the same in any build.
   std::ranges::stable_sort(impacts, [](const BodyImpact& a, const BodyImpact& b) {
     return a.id != b.id ? a.id < b.id : a.impulse_n_s > b.impulse_n_s;
   });

@@ -1,4 +1,4 @@
-// Bullet's contacts of the last step as impacts: how hard each body was struck, and where.
+// Lists Bullet's contacts of the last step as impacts on bodies: impulse, place and direction.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
@@ -9,8 +9,9 @@
 
 namespace scree {
 
-/// The strongest contact of each body that changed the body's speed by at least `speed_min_m_s`, by id. A
-/// contact's impulse is the sum over its points; its place is their mean, weighted by impulse.
+/// The strongest contact of each body, if it changed the body's speed by at least `speed_min_m_s`, which is
+/// positive; ordered by id. A contact's impulse is the sum over its points; its place is their mean, weighted
+/// by impulse.
 std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
                                      float speed_min_m_s);
 

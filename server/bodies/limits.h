@@ -1,4 +1,5 @@
-// Bounds and tunings of the rigid bodies. Each says its unit, its reason, and what happens there.
+// Bounds and tuning constants of the rigid bodies. Each says its unit, its reason, and its effect at the
+// limit.
 #pragma once
 
 namespace scree::limits {
@@ -6,44 +7,45 @@ namespace scree::limits {
 /// Rock's density, kg/m³: a full voxel's mass. Only ratios of masses matter to the solver.
 inline constexpr float rock_density_kg_m3 = 2000.0F;
 
-/// Farthest that any point of a piece may travel in one tick, voxels. The narrow band is 3 voxels, so a piece
-/// cannot cross it unseen. Above: linear speed is cut to ⅘ of it, spin to the rest.
+/// Farthest that any point of a piece may travel in one tick, voxels. The narrow band is 3 voxels wide, so a
+/// piece cannot cross it without a contact. Above: linear speed is cut to ⅘ of it, spin to the other ⅕.
 inline constexpr float travel_max_voxels = 2.5F;
 
-/// Spin of any piece, rad/s: beyond it a convex contact is meaningless from one tick to the next. Cut.
+/// Spin of any piece, rad/s. Faster, the contacts of one tick say nothing about the next. Above: cut.
 inline constexpr float spin_max_rad_s = 20.0F;
 
-/// Hull points within this distance of the ground make contacts, metres, even without approaching it; keeps
-/// a resting piece's contacts from flickering.
+/// Distance from the ground within which hull points make contacts, metres, even if they do not approach it:
+/// the contacts of a resting piece last from tick to tick.
 inline constexpr float contact_slack_m = 0.02F;
 
-/// Depth of penetration that the solver is told of, metres: it undoes a fifth of it in each tick. Shallow
-/// overlaps come from neighbours that merged; undone slowly (0.2 m/s) they disturb no piece at rest, which
-/// took a heap twice as long to merge. What is deeper than that is buried, and pushed out at 2.4 m/s.
+/// Depth of penetration that the solver gets at most, metres; it undoes a fifth of it in each tick. Overlaps
+/// below `overlap_shallow_m` come from neighbours that merged: undone slowly (0.2 m/s) they do not disturb
+/// pieces at rest; undone at once, a heap took twice as long to merge. A deeper point is buried, and is
+/// pushed out at 2.4 m/s.
 inline constexpr float overlap_shallow_m = 0.125F;
 inline constexpr float overlap_told_m = 0.02F;
 inline constexpr float overlap_told_buried_m = 0.2F;
 
-/// Farthest between two points of a piece's surface that are tested against the terrain, voxels: spikes
-/// thinner than this may poke into a face.
+/// Largest distance between neighbouring surface points that are tested against the terrain, voxels. Terrain
+/// spikes thinner than this may enter a face of the piece.
 inline constexpr float sample_spacing_voxels = 2.0F;
 
-/// Points of one piece that are tested against the terrain. Above: spacing doubles until they are fewer.
+/// Points of one piece that are tested against the terrain. Above: the spacing doubles until they are fewer.
 inline constexpr unsigned samples_max = 96;
 
-/// Voxels around a body, beyond its bounds, of which its probe keeps a copy: it may move that far before the
-/// copy is made again.
+/// Width of the layer beyond a body's bounds that its probe copies, too, voxels: the body may move that far
+/// before the probe copies again.
 inline constexpr int probe_slack_voxels = 2;
 
-/// Depth behind a triangle at which the mesh collider still finds it, voxels: a mesh knows no inside. What is
-/// deeper falls.
+/// Depth behind a triangle at which the mesh collider still finds it, voxels: a mesh has no inside. A deeper
+/// point falls.
 inline constexpr float mesh_depth_voxels = 1.5F;
 
-/// Blocks of 16³ voxels of which the mesh collider keeps triangles: about 25 KB each. Above: all are dropped
-/// and made anew on demand.
+/// Blocks of 16³ voxels whose triangles the mesh collider keeps: about 25 KB each. Above: all are dropped,
+/// and made again on demand.
 inline constexpr unsigned mesh_blocks_max = 1024;
 
-/// Rays of the rays collider along each side of a body's footprint.
+/// Number of rays of the rays collider along each side of a body's footprint.
 inline constexpr int rays_side = 4;
 
 /// Bullet's margin around a hull, metres: a tenth of the piece's thickness, but not more than this. Thinner
@@ -57,8 +59,8 @@ inline constexpr float birth_gap_m = 0.004F;
 inline constexpr float air_damping = 0.05F;
 inline constexpr float air_spin_damping = 0.2F;
 
-/// The same while in touch with terrain and slower than `creep_m_s`: rubble has no perfect corners to rock
-/// on.
+/// The same while the body touches terrain and is slower than `creep_m_s`: real rubble has no perfect corners
+/// to rock on.
 inline constexpr float ground_damping = 1.5F;
 inline constexpr float ground_spin_damping = 3.0F;
 inline constexpr float creep_m_s = 1.0F;
@@ -69,21 +71,21 @@ inline constexpr int solver_iterations = 8;
 /// Least of a body's moments of inertia, as a share of its greatest: thinner splinters spin up without bound.
 inline constexpr float inertia_ratio_min = 0.25F;
 
-/// Overlap that the solver leaves alone, metres: contacts that last instead of flickering.
+/// Overlap that the solver does not undo, metres: contacts last from tick to tick.
 inline constexpr float penetration_slop_m = 0.004F;
 
-/// Speeds below which Bullet counts a body as sleepy, m/s and rad/s; an island sleeps after two such seconds.
+/// Speeds below which Bullet lets a body fall asleep, m/s and rad/s; an island sleeps after two such seconds.
 inline constexpr float sleep_speed_m_s = 0.15F;
 inline constexpr float sleep_spin_rad_s = 0.3F;
 
-/// Change of speed at which a blow thaws a frozen body, m/s: a heap's weight must not, a piece that drops on
-/// it from half a metre does.
+/// Change of speed at which a blow thaws a frozen body, m/s: the weight of a heap stays below it, a piece
+/// that drops by half a metre exceeds it.
 inline constexpr float thaw_speed_m_s = 2.0F;
 
-/// How far a body that thawed may move before those that touched it thaw, too, metres.
+/// Distance that a thawed body may move before the bodies that touched it thaw, too, metres.
 inline constexpr float thawed_leash_m = 0.03F;
 
-/// Upward share of a contact's normal from which on the upper piece counts as carried by the lower.
+/// Vertical component of a contact's normal above which the upper piece counts as carried by the lower one.
 inline constexpr float carrying_slope = 0.2F;
 
 }  // namespace scree::limits

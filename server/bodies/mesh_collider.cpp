@@ -31,12 +31,12 @@ class MeshProbe final : public TerrainProbe {
   }
 
   void terrain_changed(const VoxelBox& box) override {
-    // Triangles move with codes a little farther off, as the mesh's blocks do.
+    // A triangle depends on codes up to surface_nets_apron voxels away.
     if (overlap(box.grown(surface_nets_apron), triangles_.box())) triangles_ = TriangleBins();
   }
 
  private:
-  /// Makes triangles_ hold those of the bounds.
+  /// Makes triangles_ cover the bounds.
   void look(glm::vec3 lo, glm::vec3 hi) {
     const VoxelBox bounds = box_around(lo, hi);
     const VoxelBox& box = triangles_.box();

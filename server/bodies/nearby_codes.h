@@ -1,4 +1,5 @@
-// A body's own copy of the codes around it: a hash lookup for each of them would cost ten times more. Voxels.
+// A body's own copy of the codes around it: a hash lookup for each code would cost ten times more. Voxels.
+// Not thread-safe.
 #pragma once
 
 #include "shared/field/window_sample.h"
@@ -7,14 +8,16 @@ namespace scree {
 
 class NearbyCodes {
  public:
+  /// `field` must outlive this object.
   explicit NearbyCodes(Field& field) : field_(field) {}
 
-  /// Makes codes() cover the bounds.
+  /// Makes codes() cover the bounds, for sampling anywhere between `lo` and `hi`.
   void look(glm::vec3 lo, glm::vec3 hi);
-  /// The copy is stale, if it has anything of this box.
+  /// Drops the copy if it overlaps this box.
   void terrain_changed(const VoxelBox& box);
 
   const Window& codes() const { return codes_; }
+  /// Whether every code of the copy is air.
   bool all_air() const { return all_air_; }
 
  private:

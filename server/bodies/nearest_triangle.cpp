@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "server/bodies/sound_values.h"
+#include "shared/base/check.h"
 #include "shared/field/window_sample.h"
 
 namespace scree {
@@ -13,7 +15,7 @@ namespace {
 
 constexpr int bin_voxels = 2;
 
-/// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi regions of corners, edges, face.
+/// By the Voronoi regions of corners, edges and face: Ericson, Real-Time Collision Detection (2005), 5.1.5.
 glm::vec3 closest_on(const TerrainTriangle& triangle, glm::vec3 p) {
   const auto& [a, b, c] = triangle.corners;
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -69,9 +71,10 @@ TriangleBins::TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBo
     triangles_[at] = triangles[i];
     spheres_[at] = sphere_around(triangles[i]);
   }
+  CHECK_DEBUG(std::ranges::is_sorted(first_) && first_.back() == triangles_.size());
 }
 
-/// Those beyond the box lie in its outermost bins.
+/// A coordinate beyond the box belongs to the outermost bin.
 int TriangleBins::bin(int axis, float x) const {
   const int lo = axis == 0 ? box_.lo.x : axis == 1 ? box_.lo.y : box_.lo.z;
   const int count = axis == 0 ? size_.x : axis == 1 ? size_.y : size_.z;
@@ -81,8 +84,9 @@ int TriangleBins::bin(int axis, float x) const {
 
 std::optional<NearestTriangle> TriangleBins::nearest(glm::vec3 p, float reach) const {
   if (triangles_.empty()) return std::nullopt;
-  // Two triangles that share the nearest edge are as near as each other: the one that sees p more squarely
-  // knows its side.
+  CHECK_DEBUG(reach > 0.0F);
+  // Two triangles that share the nearest edge have the same distance. The one whose plane is farther from p
+  // tells on which side of the surface p lies.
   constexpr float same = 1e-5F, rounding = 0.01F;
   const float around = reach + extent_;
   float root = reach, least = reach * reach, square = 0.0F;
@@ -110,6 +114,7 @@ std::optional<NearestTriangle> TriangleBins::nearest(glm::vec3 p, float reach) c
       }
     }
   if (best == nullptr) return std::nullopt;
+  CHECK_DEBUG(is_unit(best->normal) && root <= reach + rounding);
   return NearestTriangle{best->normal, square < 0.0F ? -root : root};
 }
 

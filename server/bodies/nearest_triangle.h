@@ -1,4 +1,5 @@
-// The triangles around a body, sorted into bins, to find which of them is nearest to a point. Voxels.
+// Finds the triangle nearest to a point among the triangles around a body, which are sorted into bins.
+// Voxels.
 #pragma once
 
 #include <optional>
@@ -15,13 +16,13 @@ struct NearestTriangle {
 class TriangleBins {
  public:
   TriangleBins() = default;
-  /// Triangles that come into the box.
+  /// `triangles`: all that touch the box, as TerrainMesh::near() returns them.
   TriangleBins(std::vector<TerrainTriangle> triangles, const VoxelBox& box);
 
   bool empty() const { return triangles_.empty(); }
   const VoxelBox& box() const { return box_; }
 
-  /// The nearest one not farther than `reach`, of those that come into the box.
+  /// The nearest triangle that is not farther than `reach`, which is positive.
   std::optional<NearestTriangle> nearest(glm::vec3 p, float reach) const;
 
  private:
@@ -33,11 +34,11 @@ class TriangleBins {
   int bin(int axis, float x) const;
 
   VoxelBox box_;
-  VoxelCoord size_;                         ///< in bins
-  float extent_ = 0.0F;                     ///< the largest sphere's radius
+  VoxelCoord size_;                         ///< of the box, in bins
+  float extent_ = 0.0F;                     ///< radius of the largest sphere
   std::vector<TerrainTriangle> triangles_;  ///< in order of bins
-  std::vector<Sphere> spheres_;             ///< around each
-  std::vector<uint32_t> first_;             ///< of each bin, and the end
+  std::vector<Sphere> spheres_;             ///< around each triangle, in the same order
+  std::vector<uint32_t> first_;             ///< index of each bin's first triangle; last: the end
 };
 
 }  // namespace scree

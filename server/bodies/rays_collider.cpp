@@ -6,31 +6,34 @@
 #include "server/bodies/limits.h"
 #include "server/bodies/nearby_codes.h"
 #include "server/bodies/terrain_collider.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
 constexpr int side = limits::rays_side;
+static_assert(side >= 2, "the ground is interpolated between rays");
 
-/// A ray steps at least so far, voxels: near the surface the distances are small.
+/// Shortest step of a ray, voxels: near the surface the distances are small.
 constexpr float step_min = 0.25F;
 
-/// What a body's rays met: heights over a square grid, voxels. Between four rays the ground is taken to be
-/// bilinear: the paper's loose mesh.
+/// The ground under a body: heights where its rays met rock, over a square grid, voxels. Between four rays it
+/// is bilinear: the paper's loose mesh.
 struct LooseGround {
-  glm::vec3 corner{0.0F};  ///< lowest x and z; y: how deep the rays went
+  glm::vec3 corner{0.0F};  ///< lowest x and z; y: the lower end of the rays
   float cell_x = 1.0F;
   float cell_z = 1.0F;
   std::array<std::array<float, side>, side> height{};
-  bool any = false;  ///< a ray met something
+  bool any = false;  ///< at least one ray met rock
 
   struct At {
     float height;
     glm::vec3 normal;
-    bool known;  ///< at least one of the four rays around met something
+    bool known;  ///< at least one of the four rays around met rock
   };
   At at(float x, float z) const {
+    CHECK_DEBUG(cell_x > 0.0F && cell_z > 0.0F);
     const auto place = [](float offset, float cell) {
       return std::clamp(offset / cell, 0.0F, static_cast<float>(side - 1));
     };
@@ -70,7 +73,7 @@ class RaysProbe final : public TerrainProbe {
   void terrain_changed(const VoxelBox& box) override { codes_.terrain_changed(box); }
 
  private:
-  /// Rays straight down from the height of the body's centre, over its whole footprint.
+  /// Casts rays vertically down from the height of the body's centre, over its whole footprint.
   LooseGround cast(const Pose& pose, float reach) {
     const glm::vec3 lo = points_.lo_m() / voxel_size_m_, hi = points_.hi_m() / voxel_size_m_;
     const float top = pose.position_m.y / voxel_size_m_;
@@ -87,14 +90,15 @@ class RaysProbe final : public TerrainProbe {
         const glm::vec3 from(lo.x + ground.cell_x * static_cast<float>(i), top,
                              lo.z + ground.cell_z * static_cast<float>(k));
         const float met = fall(from, ground.corner.y);
+        CHECK_DEBUG(met >= ground.corner.y);
         ground.height[static_cast<size_t>(i)][static_cast<size_t>(k)] = met;
         ground.any = ground.any || met > ground.corner.y;
       }
     return ground;
   }
 
-  /// Height at which a ray straight down meets rock: where it starts, if that is in rock; `end`, if it meets
-  /// none above that.
+  /// Height at which a vertical ray meets rock: its start, if that is in rock; `end`, if it meets none above
+  /// `end`.
   float fall(glm::vec3 from, float end) const {
     glm::vec3 p = from;
     float before = 0.0F, step = 0.0F;

@@ -1,4 +1,4 @@
-// How a body finds the terrain that it touches: the seam behind which the terrain colliders lie.
+// The interface of the terrain colliders: how a body finds the terrain that it touches.
 // Lengths in metres, world axes. Not thread-safe.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace scree {
 
 /// A point of a body in or near the ground.
 struct TerrainContact {
-  int point = 0;             ///< which of the body's points: contacts are matched by it from tick to tick
+  int point = 0;             ///< index of the body's point; matches contacts from tick to tick
   glm::vec3 offset_m{0.0F};  ///< from the centre of mass
   glm::vec3 normal{0.0F};    ///< unit, out of the ground
   float distance_m = 0.0F;   ///< to the ground's surface, negative inside
@@ -26,10 +26,10 @@ class TerrainProbe {
  public:
   virtual ~TerrainProbe() = default;
 
-  /// Appends to `out` the points of the body, lying at `pose`, that are nearer to the ground than `reach_m`.
+  /// Appends to `out` the points of the body, at `pose`, that are nearer to the ground than `reach_m`.
   virtual void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) = 0;
 
-  /// Whatever is remembered of this box (voxels) is stale.
+  /// Drops the copies of the terrain within this box (voxels).
   virtual void terrain_changed(const VoxelBox& box) = 0;
 };
 
@@ -37,29 +37,31 @@ class TerrainCollider {
  public:
   virtual ~TerrainCollider() = default;
 
-  /// For a body whose surface is represented by these points, relative to its centre of mass, in its own
-  /// axes.
+  /// Makes the probe of a body whose surface is represented by these points, at least one, relative to its
+  /// centre of mass, in its own axes.
   virtual std::unique_ptr<TerrainProbe> attach(std::vector<glm::vec3> points_m) = 0;
 
-  /// Whatever all bodies share of this box (voxels) is stale. Comes before that of the probes.
+  /// Drops the copies of the terrain within this box (voxels) that all probes share. Call it before
+  /// TerrainProbe::terrain_changed().
   virtual void terrain_changed(const VoxelBox& box) = 0;
 };
 
-/// `field` must outlive the collider, and that its probes.
+/// `field` must outlive the collider, and the collider must outlive its probes.
 std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind, Field& field);
 
-/// Tests the points against the field itself: contact normal = gradient. No mesh, so never stale.
+/// Tests the points against the field itself: the contact's normal is the field's gradient. Depths reach 3
+/// voxels, where codes saturate.
 std::unique_ptr<TerrainCollider> make_field_collider(Field& field);
 
-/// Tests the points against the triangles that are drawn (server/bodies/terrain_mesh.h), blocks of them made
-/// anew when the terrain changes: the paper's way with its grid ("Raymarching": the polygons are what the
-/// physics collides with). A point sees the nearest triangle; what has got more than
-/// limits::mesh_depth_voxels behind it falls.
+/// Tests the points against the triangles that are drawn (server/bodies/terrain_mesh.h); a block of them is
+/// made again when its terrain changes. The paper's grid does this ("Raymarching": the physics collides with
+/// the polygons). A point collides with the nearest triangle, unless it lies more than
+/// limits::mesh_depth_voxels behind it: then it falls.
 std::unique_ptr<TerrainCollider> make_mesh_collider(Field& field);
 
-/// The paper's way without polygons (the same section): each body, in each tick, casts a few sparse rays from
-/// its own position down onto the terrain, and takes what lies between them to be even. Walls and overhangs
-/// are seen by chance.
+/// The paper's method without polygons (same section): each body casts a few rays down onto the terrain in
+/// each tick, and the ground between rays is interpolated. Walls and overhangs are missed unless a ray meets
+/// them.
 std::unique_ptr<TerrainCollider> make_rays_collider(Field& field);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// The ways in which bodies find the terrain. See terrain_collider.h for what each does.
+// The ways in which bodies find the terrain; terrain_collider.h describes each.
 #pragma once
 
 #include <cstdint>

@@ -6,19 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "server/bodies/limits.h"
+#include "server/bodies/to_bullet.h"
+#include "shared/base/check.h"
 #include "shared/field/paint.h"
 
 namespace scree {
 
 namespace {
-
-btVector3 to_bullet(glm::vec3 v) {
-  return {v.x, v.y, v.z};
-}
-
-glm::vec3 from_bullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 /// Distance to the ground at the tick's end if nothing stopped the body.
 float expected_distance_m(const TerrainContact& contact, glm::vec3 velocity, glm::vec3 spin, float tick_s) {
@@ -26,9 +20,10 @@ float expected_distance_m(const TerrainContact& contact, glm::vec3 velocity, glm
   return contact.distance_m + glm::dot(moving, contact.normal) * tick_s;
 }
 
-/// Moves the wanted contacts to the front and returns how many: first the deepest, then always the one
-/// farthest from those chosen, so that they carry the body like a tripod.
+/// Moves the wanted contacts to the front and returns their number: first the deepest, then again and again
+/// the one farthest from those chosen, so that they carry the body like a tripod. `found` must not be empty.
 size_t choose(std::vector<TerrainContact>& found) {
+  CHECK_DEBUG(!found.empty());
   std::ranges::iter_swap(found.begin(), std::ranges::min_element(found, {}, &TerrainContact::distance_m));
   const size_t wanted = std::min<size_t>(found.size(), MANIFOLD_CACHE_SIZE);
   for (size_t chosen = 1; chosen < wanted; ++chosen) {
@@ -47,12 +42,13 @@ size_t choose(std::vector<TerrainContact>& found) {
   return wanted;
 }
 
-/// Of the body with the material half a voxel below its deepest contact: one look for all its contacts.
+/// Friction of the body against the material half a voxel below its deepest contact; all its contacts share
+/// it.
 float friction_between(const btRigidBody& body, const TerrainContact& deepest, const Field& field) {
   const glm::vec3 on_body_m = from_bullet(body.getWorldTransform().getOrigin()) + deepest.offset_m;
   const float down_m = deepest.distance_m + 0.5F * field.source().voxel_size_m;
   const Material ground = material_at(field, on_body_m - deepest.normal * down_m);
-  // A body's own is a root already: Bullet multiplies.
+  // The body's own friction is a square root already: Bullet multiplies the two.
   return body.getFriction() * std::sqrt(traits_of(ground).friction);
 }
 
@@ -78,6 +74,7 @@ btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& 
 
 void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector<TerrainContact>& found,
             const TerrainSurface& surface) {
+  CHECK_DEBUG(manifold.getBody0() == &body);
   std::array<btManifoldPoint, MANIFOLD_CACHE_SIZE> old;
   const int old_count = manifold.getNumContacts();
   for (int i = 0; i < old_count; ++i) old[static_cast<size_t>(i)] = manifold.getContactPoint(i);
@@ -104,6 +101,7 @@ void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector
     }
     manifold.addManifoldPoint(point);
   }
+  CHECK_DEBUG(static_cast<size_t>(manifold.getNumContacts()) == wanted);
 }
 
 }  // namespace scree

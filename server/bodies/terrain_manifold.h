@@ -1,4 +1,4 @@
-// Terrain contacts as Bullet's solver and island manager see them: one manifold per body, against one static
+// Hands terrain contacts to Bullet's solver and island manager: one manifold per body, against one static
 // object that is in no broadphase, refilled before each step.
 #pragma once
 
@@ -10,16 +10,16 @@
 
 namespace scree {
 
-/// What every terrain contact of a tick has in common. Friction is that of the material under the body.
+/// Parameters that all terrain contacts of a tick share. Friction comes from the field's material.
 struct TerrainSurface {
   const Field& field;
   float restitution = 0.0F;
   float tick_s = 0.0F;
 };
 
-/// Body 0 of `manifold` is `body`. Takes those of `found` that may touch within the tick, at most four,
-/// spread wide, and hands on the impulses that the same points bore in the last step (warm starting).
-/// Clobbers `found`.
+/// Refills `manifold`, whose body 0 is `body`, with those of `found` that may touch within the tick: at most
+/// four, spread wide. A point that was in the manifold before keeps its impulses (warm starting). Changes
+/// the order and content of `found`.
 void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector<TerrainContact>& found,
             const TerrainSurface& surface);
 

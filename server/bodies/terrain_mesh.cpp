@@ -5,13 +5,14 @@
 
 #include "server/bodies/limits.h"
 #include "server/bodies/nearby_codes.h"
+#include "shared/base/check.h"
 #include "shared/surface/surface_nets.h"
 
 namespace scree {
 
 namespace {
 
-/// A block is so many voxels on each side: smaller ones would read mostly their surroundings.
+/// Side of a block, voxels: most voxels that a smaller block reads would lie around it.
 constexpr int block_bits = 4;
 constexpr int block_voxels = 1 << block_bits;
 
@@ -42,6 +43,7 @@ glm::vec3 corner_of(const SurfaceMesh& mesh, uint32_t vertex) {
 }
 
 std::vector<TerrainTriangle> triangles_of(const SurfaceMesh& mesh) {
+  CHECK(mesh.indices.size() % 3 == 0);
   std::vector<TerrainTriangle> triangles;
   triangles.reserve(mesh.indices.size() / 3);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -50,7 +52,7 @@ std::vector<TerrainTriangle> triangles_of(const SurfaceMesh& mesh) {
     const auto& [a, b, c] = triangle.corners;
     const glm::vec3 normal = glm::cross(b - a, c - a);
     const float length = std::sqrt(glm::dot(normal, normal));
-    if (!(length > 0.0F)) continue;  // of no area
+    if (!(length > 0.0F)) continue;  // no area
     triangle.normal = normal / length;
     triangles.push_back(triangle);
   }

@@ -1,6 +1,6 @@
-// The terrain as triangles, block by block, made when a body comes near and again when the terrain has
-// changed there: the mesh that is drawn (shared/surface/surface_nets.h), as the paper collides with what is
-// on screen. Voxels, world axes. Not thread-safe.
+// The terrain as triangles, in blocks. A block is made when a body comes near, and again after its terrain
+// changed. The triangles are those that are drawn (shared/surface/surface_nets.h), as in the paper. Voxels,
+// world axes. Not thread-safe.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct TerrainTriangle {
 
 class TerrainMesh {
  public:
-  /// `field` must outlive this.
+  /// `field` must outlive this object.
   explicit TerrainMesh(Field& field) : field_(field) {}
 
-  /// Every triangle that comes into the box, in an order that depends on the box and the field alone.
+  /// Every triangle that touches the box, in an order that depends on the box and the field alone.
   std::vector<TerrainTriangle> near(const VoxelBox& box);
 
-  /// Blocks that read from this box are made anew when they are next asked for.
+  /// Drops the blocks that read voxels of this box; near() makes them again.
   void terrain_changed(const VoxelBox& box);
 
  private:

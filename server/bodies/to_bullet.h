@@ -1,4 +1,4 @@
-// Vectors and poses, ours and Bullet's. Private to this folder.
+// Converts vectors and poses between GLM and Bullet. Private to this folder.
 #pragma once
 
 #include <LinearMath/btTransform.h>

@@ -4,6 +4,8 @@
 #include <openvdb/tree/Tree.h>
 #include <type_traits>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -27,7 +29,7 @@ struct VdbField::Tree {
   CodeTree tree{code_air};
   mutable openvdb::tree::ValueAccessor<CodeTree> accessor{tree};
 
-  /// A tile that takes a leaf's place deletes it, but the accessor would go on finding it.
+  /// A tile that replaces a leaf deletes it, but the accessor still points to it: so the accessor is cleared.
   void set_tile(const openvdb::Coord& at, Code code, bool active) {
     accessor.addTile(brick_tile_level, at, code, active);
     accessor.clear();
@@ -48,6 +50,7 @@ const Brick* VdbField::find_edited(BrickCoord coord) const {
     return reinterpret_cast<const Brick*>(leaf->buffer().data());
   Code code = code_air;
   if (!tree_->accessor.probeValue(at, code)) return nullptr;
+  CHECK_DEBUG(code == code_air || code == code_solid);
   return code == code_air ? &air_brick() : &solid_brick();
 }
 
@@ -55,15 +58,18 @@ void VdbField::store_edited(BrickCoord coord, const Brick& brick) {
   const openvdb::Coord at = origin(coord);
   if (uniform_equivalent(brick) != nullptr) {
     tree_->set_tile(at, brick.codes.front(), true);
+    CHECK_DEBUG(find_edited(coord) == uniform_equivalent(brick));
     return;
   }
   Leaf* leaf = tree_->accessor.touchLeaf(at);
   std::ranges::copy(brick.codes, leaf->buffer().data());
   leaf->setValuesOn();
+  CHECK_DEBUG(find_edited(coord) != nullptr && *find_edited(coord) == brick);
 }
 
 void VdbField::erase_edited(BrickCoord coord) {
   tree_->set_tile(origin(coord), code_air, false);
+  CHECK_DEBUG(find_edited(coord) == nullptr);
 }
 
 }  // namespace scree

@@ -1,7 +1,7 @@
 // The authoritative field: edited bricks in an OpenVDB tree of int8 codes.
 //
-// One leaf is one brick. Edited bricks that are all air or all rock are active tiles, one brick in size;
-// everything inactive was never edited. Not thread-safe, reading included: look-ups go through one caching
+// One leaf is one brick. An edited brick that is all air or all rock is an active tile of one brick's size.
+// Inactive voxels were never edited. Not thread-safe, not even for reading: look-ups go through one caching
 // accessor.
 #pragma once
 
@@ -16,7 +16,7 @@ class VdbField final : public Field {
   explicit VdbField(const TerrainSource& source);
   ~VdbField() override;
 
-  /// Bytes that the tree takes.
+  /// Memory of the tree, bytes.
   uint64_t memory_bytes() const;
 
  protected:

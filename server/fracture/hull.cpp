@@ -17,18 +17,19 @@ namespace scree {
 
 namespace {
 
-/// Corners are added until the hull lies this near to the shape in every direction looked at, voxels.
+/// Corners are added until the hull is this near to the shape along every line of comparison, voxels.
 constexpr float hull_error_voxels = 0.12F;
 
-/// Thinnest that a hull may be, voxels: what Bullet still tells apart from a plane.
+/// Least thickness of a hull, voxels: Bullet treats thinner ones as planes.
 constexpr float thickness_min_voxels = 0.3F;
 
 /// Bit k: whether codes[k] is inside or on the surface; `count` is at most 64.
 uint64_t inside_bits(const Code* codes, int count) {
+  CHECK_DEBUG(count >= 0 && count <= 64);
   constexpr uint64_t signs = 0x8080808080808080U, rest = ~signs;
   uint64_t bits = 0;
   for (int from = 0; from < count; from += 8) {
-    uint64_t eight = rest;  // past the end: outside
+    uint64_t eight = rest;  // codes past the end are outside
     std::memcpy(&eight, codes + from, static_cast<size_t>(std::min(8, count - from)));
     const uint64_t outside = ((eight & rest) + rest) & ~eight & signs;
     const uint64_t inside = (outside ^ signs) >> 7;
@@ -37,8 +38,8 @@ uint64_t inside_bits(const Code* codes, int count) {
   return bits;
 }
 
-/// Appends where the volume's surface crosses the edges of the voxel lattice. Whole rows are compared at
-/// once: few voxels are near the surface.
+/// Appends the points where the volume's surface crosses edges of the voxel lattice. Whole rows are compared
+/// at once: few voxels are near the surface.
 class SurfacePoints {
  public:
   SurfacePoints(const Window& window, std::vector<glm::vec3>& points) : points_(points) {
@@ -65,6 +66,7 @@ class SurfacePoints {
     for (; edges != 0; edges &= edges - 1) {
       const int k = std::countr_zero(edges);
       const int a = row[k], c = row[static_cast<size_t>(k) + step];
+      CHECK_DEBUG((a <= 0) != (c <= 0));
       points_.push_back(first + glm::vec3(0.0F, 0.0F, static_cast<float>(k)) +
                         along * (static_cast<float>(a) / static_cast<float>(a - c)));
     }
@@ -79,14 +81,13 @@ std::vector<glm::vec3> surface_of(const Window& window) {
   return points;
 }
 
-/// Eight at a time, spelt out: the compiler alone does not find these loops' vectors.
+/// Eight floats at a time, written as vectors: the compiler does not vectorise these loops by itself.
 using Lanes = float __attribute__((vector_size(32)));
 using IntLanes = int __attribute__((vector_size(32)));
 constexpr size_t lanes = 8;
 
-/// Lines along which a hull is compared with its shape: to the faces, edges and corners of a cube, and
-/// half-way between those. Eight to a vector, coordinates apart; what is left over of the last vector is
-/// zero.
+/// Lines of comparison between a hull and its shape: to the faces, edges and corners of a cube, and half-way
+/// between those. Eight to a vector, with an array for each coordinate; unused lanes of the last are zero.
 struct Lines {
   static constexpr size_t count = (6 + 12 + 8 + 24) / 2;
   static constexpr size_t vectors = (count + lanes - 1) / lanes;
@@ -120,7 +121,7 @@ const Lines& lines() {
   return all;
 }
 
-/// How far some points reach along each line, both ways, and which of them do.
+/// The least and greatest coordinate of some points along each line, and the points that have them.
 struct Extent {
   std::array<Lanes, Lines::vectors> lows, highs;
   std::array<IntLanes, Lines::vectors> lowest_points{}, highest_points{};
@@ -133,6 +134,7 @@ struct Extent {
   float high(size_t line) const { return highs[line / lanes][line % lanes]; }
   int lowest(size_t line) const { return lowest_points[line / lanes][line % lanes]; }
   int highest(size_t line) const { return highest_points[line / lanes][line % lanes]; }
+  /// Whether the points are thick enough to collide along every line.
   bool is_solid() const {
     for (size_t i = 0; i < Lines::count; ++i)
       if (high(i) - low(i) < thickness_min_voxels) return false;
@@ -166,7 +168,7 @@ SCREE_VECTOR_CLONES static void extend(Extent& extent, std::span<const glm::vec3
 
 namespace {
 
-/// A few of the candidates, whose hull is nearly that of all: always the one that the hull misses most.
+/// A few of the candidates whose hull is nearly that of all: each time the point farthest outside is added.
 /// Empty when their hull is too thin to collide.
 std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) {
   Extent wanted, have;
@@ -189,7 +191,7 @@ std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) 
   return corners;
 }
 
-/// Those points if their hull is thick enough to collide; else none.
+/// The points if their hull is thick enough to collide; else none.
 std::vector<glm::vec3> if_solid(std::vector<glm::vec3> points) {
   Extent extent;
   extend(extent, points);
@@ -212,7 +214,7 @@ std::vector<glm::vec3> simplified(const std::vector<glm::vec3>& surface, Simplif
   return choose_corners(surface);
 }
 
-/// The block with air about it. A voxel of rock at its edge reaches half a voxel beyond.
+/// The block surrounded by air: rock at its edge has a surface half a voxel beyond.
 Window alone(const Window& window, const VoxelBox& block) {
   Window part(block.grown(1));
   std::ranges::fill(part.codes, code_air);
@@ -222,7 +224,7 @@ Window alone(const Window& window, const VoxelBox& block) {
   return part;
 }
 
-/// A cube of that mass: what a volume that is all edge collides as. Half its side, voxels.
+/// Corners of a cube of that mass, voxels: the hull of a volume that is too thin to collide.
 std::vector<glm::vec3> cube_of(MassUnits mass) {
   const float half = 0.5F * std::cbrt(static_cast<float>(mass) / units_per_voxel);
   std::vector<glm::vec3> corners;
@@ -232,7 +234,7 @@ std::vector<glm::vec3> cube_of(MassUnits mass) {
   return corners;
 }
 
-/// Sums over one row of voxels along z, of their units, and of those times z and z².
+/// Sums over one row of voxels along z: of their units, and of units times z and times z².
 struct RowSums {
   int64_t units = 0;
   int64_t z = 0;
@@ -241,7 +243,7 @@ struct RowSums {
 
 RowSums sums_of_row(const Code* codes, int count) {
   RowSums sums;
-  for (int from = 0; from < count; from += 64) {  // 64: no int overflows
+  for (int from = 0; from < count; from += 64) {  // 64: sums of that many fit an int
     int units = 0, first = 0, second = 0;
     const int to = std::min(count - from, 64);
     for (int k = 0; k < to; ++k) {
@@ -257,7 +259,7 @@ RowSums sums_of_row(const Code* codes, int count) {
   return sums;
 }
 
-/// Of 1 kg, about the centre of mass, in voxels²; every voxel counts as a small cube.
+/// Inertia of 1 kg about the centre of mass, in voxels²; every voxel counts as a small cube.
 glm::vec3 inertia_of(const Volume& volume) {
   const VoxelBox& b = volume.window.box;
   const glm::dvec3 centre(volume.centre_voxels);
@@ -276,14 +278,27 @@ glm::vec3 inertia_of(const Volume& volume) {
       squares.z += static_cast<double>(sums.zz) + low_z * (2.0 * static_cast<double>(sums.z) + low_z * units);
       mass += units;
     }
+  CHECK_DEBUG(codes == volume.window.codes.data() + volume.window.codes.size());
   if (mass > 0.0) squares /= mass;
   squares += glm::dvec3(1.0 / 12.0);
   return {squares.y + squares.z, squares.x + squares.z, squares.x + squares.y};
 }
 
+/// Whether corners, relative to the centre of mass, lie between the window's outermost voxels.
+bool lie_in(const Volume& volume, const std::vector<glm::vec3>& corners_voxels) {
+  constexpr float rounding = 0.01F;
+  const VoxelBox& b = volume.window.box;
+  const glm::vec3 lo = glm::vec3(b.lo.x, b.lo.y, b.lo.z) - volume.centre_voxels - rounding;
+  const glm::vec3 hi = glm::vec3(b.hi.x - 1, b.hi.y - 1, b.hi.z - 1) - volume.centre_voxels + rounding;
+  return std::ranges::all_of(corners_voxels, [&](glm::vec3 p) {
+    return p.x >= lo.x && p.y >= lo.y && p.z >= lo.z && p.x <= hi.x && p.y <= hi.y && p.z <= hi.z;
+  });
+}
+
 }  // namespace
 
 std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float voxel_size_m, size_t count_max) {
+  CHECK(count_max > 0);
   const VoxelBox& all = volume.window.box;
   const VoxelCoord size = all.size();
   int side = 4;
@@ -305,6 +320,7 @@ std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float vox
         for (glm::vec3& p : corners) p *= voxel_size_m;
         if (!corners.empty()) parts.push_back(std::move(corners));
       }
+  CHECK(parts.size() <= count_max);
   return parts;
 }
 
@@ -327,16 +343,20 @@ std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m,
 }
 
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simplifier simplifier) {
+  CHECK(volume.mass > 0);
   std::vector<glm::vec3> candidates = surface_of(volume.window);
   for (glm::vec3& p : candidates) p -= volume.centre_voxels;
   PieceHull hull;
   hull.id = id;
   hull.corners_m = simplified(candidates, simplifier);
+  CHECK_DEBUG(lie_in(volume, hull.corners_m));
   if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
   for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;
   hull.inertia_m2 = inertia_of(volume) * (voxel_size_m * voxel_size_m);
   hull.size_m3 =
       static_cast<float>(volume.mass) / units_per_voxel * voxel_size_m * voxel_size_m * voxel_size_m;
+  CHECK(hull.corners_m.size() >= 4 && hull.size_m3 > 0.0F);
+  CHECK(hull.inertia_m2.x > 0.0F && hull.inertia_m2.y > 0.0F && hull.inertia_m2.z > 0.0F);
   return hull;
 }
 

@@ -1,7 +1,7 @@
 // Convex hulls, masses and inertias of freshly cut pieces, for the rigid bodies.
 //
-// A hull is the convex hull of points of the volume's own surface, whatever cutter made the piece; which, the
-// simplifier says (simplify.h). One too thin to collide becomes a cube of the piece's mass.
+// A hull is the convex hull of points of the volume's own surface; the simplifier chooses them (simplify.h).
+// Where they are too thin to collide, the hull is a cube of the piece's mass. The cutter makes no difference.
 // Deterministic; metres, kilograms.
 #pragma once
 
@@ -16,26 +16,27 @@ namespace scree {
 struct PieceHull {
   PieceId id = 0;
   std::vector<glm::vec3> corners_m;  ///< relative to the centre of mass, in the volume's axes; at least 4
-  glm::vec3 inertia_m2{0.0F};        ///< diagonal, about the volume's axes, of a mass of 1 kg
-  float size_m3 = 0.0F;              ///< mass / density: Volume::mass in cubic metres of full voxels
+  glm::vec3 inertia_m2{0.0F};        ///< diagonal, about the volume's axes, of a mass of 1 kg; positive
+  float size_m3 = 0.0F;  ///< mass / density: Volume::mass in cubic metres of full voxels; positive
 };
 
 /// Most corners of one hull by Simplifier::hull: GJK's cost grows with them, and 20 already follow a cell
 /// well.
 inline constexpr int hull_corners_max = 20;
 
-/// Of each of applied.created, in the same order. Every one must be in `pieces`.
+/// Hulls of applied.created, in the same order. `pieces` must hold every created piece.
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m,
                                   Simplifier simplifier = Simplifier::hull);
 
-/// Convex parts of a volume that is concave, block by block of one side: at most `count_max`, each with
-/// corners as PieceHull's. Blocks that hold next to nothing are left out.
+/// Convex parts of a concave volume: one for each block of a grid of cubes, at most `count_max`, which is
+/// positive. Corners as in PieceHull. Blocks whose part is too thin to collide have none.
 std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float voxel_size_m, size_t count_max);
 
-/// Points of the volume's own surface, at most `count_max`, spread over all of it: with these a concave piece
-/// touches the ground. Metres, relative to the centre of mass.
+/// Points spread over the volume's own surface, at most `count_max`, which is positive: a concave piece
+/// collides with the ground by these. Metres, relative to the centre of mass.
 std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m, size_t count_max);
 
+/// The volume's mass must be positive.
 PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m,
                     Simplifier simplifier = Simplifier::hull);
 

@@ -4,13 +4,14 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "shared/base/check.h"
 #include "shared/field/coord.h"
 
 namespace scree {
 
 namespace {
 
-/// How cubes and tolerances grow: each time to about two thirds of the points.
+/// Factor by which cubes and tolerances grow: about two thirds of the points stay each time.
 constexpr float growth = 1.25F;
 
 constexpr float merge_tolerance_voxels = 1.0F;
@@ -19,7 +20,7 @@ VoxelCoord cube_of(glm::vec3 p, float side) {
   return {floor_to_int(p.x / side), floor_to_int(p.y / side), floor_to_int(p.z / side)};
 }
 
-/// Points that became one: the first, which others are compared with, and the sum of all.
+/// Points that become one: the first, which decides whether others join, and the sum of all.
 struct Cluster {
   glm::vec3 first;
   glm::vec3 sum;
@@ -56,6 +57,7 @@ std::vector<Cluster> clusters_of(const std::vector<glm::vec3>& points, float tol
 }  // namespace
 
 std::vector<glm::vec3> spread(const std::vector<glm::vec3>& points, float side_voxels, size_t count_max) {
+  CHECK(side_voxels > 0.0F && count_max > 0);
   for (float side = side_voxels;; side *= growth) {
     std::unordered_set<VoxelCoord, CoordHash> taken;
     std::vector<glm::vec3> kept;
@@ -66,6 +68,7 @@ std::vector<glm::vec3> spread(const std::vector<glm::vec3>& points, float side_v
 }
 
 std::vector<glm::vec3> merge_near(const std::vector<glm::vec3>& points, size_t count_max) {
+  CHECK(count_max > 0);
   std::vector<Cluster> clusters = clusters_of(points, merge_tolerance_voxels);
   for (float tolerance = merge_tolerance_voxels * growth; clusters.size() > count_max; tolerance *= growth)
     clusters = clusters_of(points, tolerance);

@@ -5,11 +5,13 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
 
-/// Farthest that any point of a piece can have moved between two poses.
+/// Upper bound of the distance that any point of a piece moved between two poses.
 float strayed_m(const Pose& from, const Pose& to, float reach_m) {
   const glm::vec3 moved = to.position_m - from.position_m;
   const float half_cosine = std::min(std::abs(glm::dot(from.rotation, to.rotation)), 1.0F);
@@ -17,11 +19,11 @@ float strayed_m(const Pose& from, const Pose& to, float reach_m) {
   return std::sqrt(glm::dot(moved, moved)) + 2.0F * reach_m * half_sine;
 }
 
-/// A piece at rest, before it is known whether it lies on anything.
+/// A piece at rest, on a support or not.
 struct Resting {
   PieceId id = 0;
   float height_m = 0.0F;
-  uint32_t layer = 0;  ///< 1: on terrain; n + 1: on a piece of layer n; 0: on nothing so far
+  uint32_t layer = 0;  ///< 1: on terrain; n + 1: on a piece of layer n; 0: no support found yet
 };
 
 /// A support between two pieces at rest, as indices.
@@ -63,7 +65,10 @@ void stack(std::vector<Resting>& resting, std::span<const RestSupport> supports)
 }  // namespace
 
 RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
-    : config_(config), leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {}
+    : config_(config), leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {
+  CHECK(tick_rate_hz > 0);
+  CHECK(config.leash_m > 0.0F && config.leash_m <= config.leash_max_m && config.leash_growth_m_s >= 0.0F);
+}
 
 bool RestDetector::watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks) {
   const auto [found, is_new] = watches_.try_emplace(piece.id);
@@ -88,6 +93,9 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
                                           std::span<const PieceId> on_terrain,
                                           std::span<const RestSupport> supports, size_t merges_max,
                                           bool hurried) {
+  CHECK_DEBUG(std::ranges::adjacent_find(pieces, std::ranges::greater_equal{}, &RestPiece::id) ==
+              pieces.end());
+  CHECK_DEBUG(std::ranges::is_sorted(on_terrain));
   const uint32_t rest_ticks = hurried ? (config_.rest_ticks + 1) / 2 : config_.rest_ticks;
   std::vector<Resting> resting;
   auto known = watches_.begin();
@@ -102,6 +110,7 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   }
   watches_.erase(known, watches_.end());
   at_rest_ = resting.size();
+  CHECK_EQ(watches_.size(), pieces.size());
 
   stack(resting, supports);
   std::erase_if(resting, [](const Resting& piece) { return piece.layer == 0; });
@@ -110,6 +119,7 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   resting.resize(resting.size() - put_off_);
   std::vector<PieceId> ready;
   for (const Resting& piece : resting) ready.push_back(piece.id);
+  CHECK(ready.size() <= merges_max && ready.size() + put_off_ <= at_rest_);
   return ready;
 }
 

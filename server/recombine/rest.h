@@ -1,10 +1,10 @@
-// Which pieces have come to rest, and may become terrain again.
+// Detects the pieces that have come to rest and may become terrain again.
 //
-// Judged per piece, not per Bullet island, where one restless piece keeps a whole heap awake. A piece is at
-// rest when no point of it has strayed farther than a leash from where it was, for long enough: jitter about
-// a place is rest, creeping away is not. The leash grows with the piece's age, so that every pile ends.
-// A piece at rest may merge when it lies on terrain, or on a piece that merges in the same tick before it:
-// from the ground up. Deterministic. Not thread-safe. Metres and ticks.
+// Each piece is judged by itself, not per Bullet island, where one restless piece keeps a whole heap awake. A
+// piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor:
+// jitter about a place is rest, creeping is not. The leash grows with the piece's age, so that every pile
+// comes to rest. A piece at rest may merge when it lies on terrain, or on a piece that merges before it in
+// the same tick: from the ground up. Deterministic. Not thread-safe. Metres and ticks.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ struct RestConfig {
   uint32_t rest_ticks = 20;        ///< ⅓ s at 60 Hz: a piece at the apex of a toss falls 0.14 m beside it
   float leash_m = 0.06F;           ///< a quarter of a default voxel: what a merge rounds away anyway
   uint32_t patience_ticks = 120;   ///< age at which the leash begins to grow
-  float leash_growth_m_s = 0.05F;  ///< and how fast
+  float leash_growth_m_s = 0.05F;  ///< growth of the leash from that age on
   float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving
-  uint32_t contact_ticks = 12;     ///< a contact counts as long after it was last seen: contacts flicker
+  uint32_t contact_ticks = 12;     ///< a contact still counts so long after its last tick: contacts flicker
 };
 
-/// A piece as the bodies left it. `reach_m`: radius about its centre of mass.
+/// A piece after the bodies' step. `reach_m`: radius about its centre of mass.
 struct RestPiece {
   PieceId id = 0;
   Pose pose;
@@ -42,24 +42,25 @@ struct RestSupport {
 
 class RestDetector {
  public:
+  /// The tick rate must be positive.
   explicit RestDetector(const RestConfig& config, uint32_t tick_rate_hz);
 
-  /// Call once a tick, after the bodies' step, with every piece alive (ordered by id), those in touch with
-  /// terrain, and who lies on whom. Pieces that are no longer given are forgotten. Returns the pieces that
-  /// may merge now, in the order in which to merge them: those on terrain first, lowest first, then those on
-  /// them. At most `merges_max`; merging only a beginning of the list is fine. `hurried`: half of the rest
-  /// will do.
+  /// Call once a tick, after the bodies' step. `pieces`: every piece alive that is not frozen, ordered by id;
+  /// pieces that are missing are forgotten. `on_terrain`: pieces that touch terrain, ordered. `supports`:
+  /// which piece lies on which. Returns at most `merges_max` pieces that may merge now, in the order in which
+  /// to merge them: those on terrain first, lowest first, then those on them. The caller may merge only the
+  /// first of them. `hurried`: half of the rest time is enough.
   std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
                               std::span<const RestSupport> supports, size_t merges_max, bool hurried = false);
 
-  /// How many pieces were at rest in the last update, on the ground or not.
+  /// Number of pieces at rest in the last update, on the ground or not.
   size_t at_rest() const { return at_rest_; }
-  /// How many more than `merges_max` could have merged.
+  /// Number of pieces beyond `merges_max` that could have merged in the last update.
   size_t put_off() const { return put_off_; }
 
  private:
   struct Watch {
-    Pose anchor;  ///< where the leash is tied
+    Pose anchor;  ///< pose from which the leash is measured
     uint32_t age_ticks = 0;
     uint32_t still_ticks = 0;    ///< since the anchor was set
     uint32_t terrain_ticks = 0;  ///< since terrain was last touched, + 1; 0: never
