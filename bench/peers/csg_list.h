@@ -1,6 +1,5 @@
 // The paper's raymarcher (section 2.2): the density function is evaluated at every step, noise from a texture
-// that repeats, and then every carve so far, one after the other. Measured beside the atlas; nothing else
-// draws so.
+// that repeats, and then every carve so far, one after the other. A peer of the atlas in benches.
 #pragma once
 
 #include <memory>
@@ -10,7 +9,7 @@
 
 namespace scree::peers {
 
-/// Carves that the list holds: what a uniform array can on every driver.
+/// Carves in the list: the size that a uniform array has on every driver.
 inline constexpr size_t csg_list_max = 128;
 
 /// Draws the open terrain with these balls (centre and radius, metres) carved out. Needs the GL context

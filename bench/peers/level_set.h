@@ -1,4 +1,4 @@
-// A field's narrow band as OpenVDB's own kind of level set, for the peers that work on one.
+// A field's narrow band as an OpenVDB level set, for the peers that need one.
 #pragma once
 
 #include <openvdb/openvdb.h>

@@ -1,4 +1,4 @@
-// How OpenVDB alone would find what hangs loose: segmentSDF of the whole field.
+// OpenVDB's way to find loose terrain: segmentSDF of the whole field.
 #pragma once
 
 #include <cstddef>

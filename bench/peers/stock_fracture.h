@@ -1,4 +1,4 @@
-// OpenVDB's stock way to break terrain and to put it back, measured beside ours: level sets in a FloatGrid,
+// OpenVDB's stock way to break terrain and to put it back, a peer of our own: level sets in a FloatGrid,
 // cells as polygon meshes turned into volumes. Metres. Not thread-safe; OpenVDB itself uses every core.
 #pragma once
 

@@ -17,7 +17,7 @@ struct Metric {
 struct Check {
   std::string name;
   bool passed = false;
-  std::string detail;  ///< what was seen, beside what was wanted
+  std::string detail;  ///< the measured value beside the expected one
 };
 
 struct BenchReport {
@@ -31,7 +31,7 @@ struct BenchReport {
 };
 
 struct BenchOptions {
-  bool quick = false;  ///< fewer rounds: to see that it runs
+  bool quick = false;  ///< fewer rounds, only to show that it runs
   std::function<void(double fraction)> progress = [](double) {};
 };
 

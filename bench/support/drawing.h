@@ -1,4 +1,4 @@
-// A field, a method and a camera without any server: what the drawing benches measure. Needs no display.
+// A field, a method and a camera without any server, for the drawing benches. Needs no display.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ class Drawing {
  public:
   Drawing(Stage& stage, const TerrainSource& terrain, std::unique_ptr<DrawMethod> method);
 
-  /// Places that are carved. More carves fill one of them and carve it again, so that the picture stays the
-  /// same while the edits go on.
+  /// Number of carved places. More carves fill a place and carve it again, so that the picture stays the same
+  /// under any number of edits.
   static constexpr int carved_places = 100;
 
   /// Carves balls scattered about the origin, each a carve of the world's; the method hears of all as one.
   void carve(int carves, float half_width_m, float radius_m, uint64_t random_seed);
-  /// Updates until all is shown; returns what the first update took, milliseconds.
+  /// Updates until everything is shown; returns the time of the first update, milliseconds.
   double finish();
-  /// What it takes until all that changed is shown, milliseconds.
+  /// Time until all changes are shown, milliseconds.
   double shown_after_ms();
-  /// What one frame takes until the GPU has finished, milliseconds; the median over some.
+  /// Time of a frame until the GPU has finished, milliseconds; the median of `frames`.
   Result<double> frame_ms(int width, int height, int frames);
   Result<Image> picture(int width, int height);
 

@@ -1,4 +1,4 @@
-// What this thread holds on the heap. Counted by the program's own operator new, in scree-bench alone.
+// Bytes that this thread holds on the heap, counted by an operator new that only scree-bench has.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A client that looks at how a running server stands, and at its settings, and changes them. Each function is
-// one connection, that follows no terrain. Waits for the server's answers; safe to call from any thread.
+// A client that reads a running server's status and settings, and changes settings. Each function makes one
+// connection that follows no terrain, and waits for the server's answers. Safe to call from any thread.
 #pragma once
 
 #include <chrono>
@@ -19,14 +19,14 @@ struct AdminServer {
 
 /// The server's next status, settings included. Needs no token.
 Result<StatusMessage> read_status(const AdminServer& server);
-/// What people read of it, as JSON or as lines of a name and a value.
+/// The status as JSON, or as lines of a name and a value.
 std::string status_json(const StatusMessage& status);
 std::string status_lines(const StatusMessage& status);
 
-/// Every setting as it stands. Needs no token.
+/// All current settings. Needs no token.
 Result<SettingValues> read_settings(const AdminServer& server);
 
-/// Changes them, all or none, and says how every setting stands then. The error is the server's own words.
+/// Changes all these settings or none, and returns all current settings. The error is the server's refusal.
 Result<SettingValues> change_settings(const AdminServer& server, const std::string& token,
                                       const SettingValues& changes);
 

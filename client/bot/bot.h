@@ -1,7 +1,7 @@
-// A client without a window: carves by script, follows what comes of it, and reports.
+// A client without a window: carves by script, follows the results, and reports.
 //
-// Everything happens in step(), on the caller's thread; only the socket has a thread of its own. A connection
-// that is lost is made anew, a bounded number of times, with a fresh mirror. Not thread-safe.
+// step() does all work on the caller's thread; only the socket has another thread. After a lost connection
+// the bot connects again, a bounded number of times, with a new mirror. Not thread-safe.
 #pragma once
 
 #include <chrono>
@@ -22,11 +22,11 @@ namespace scree {
 struct BotConfig {
   std::string host = "127.0.0.1";
   uint16_t port = 0;
-  uint32_t carves = 20;  ///< 0: a handshake and one frame will do
+  uint32_t carves = 20;  ///< 0: the bot ends after the handshake and one frame
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
-  std::optional<Material> paint;    ///< what the rock of each carve is painted before
+  std::optional<Material> paint;    ///< material with which the rock of each carve is painted first
   float interest_radius_m = 96.0F;  ///< around the carver's centre
   bool linger = false;              ///< stay until no piece is left and the field is at rest
   bool check_hash = false;          ///< fail unless the hash of all edits equals the server's in the end
@@ -41,13 +41,14 @@ class Bot {
   explicit Bot(BotConfig config, Log log = {});
   ~Bot();
 
-  /// The first connection.
+  /// Makes the first connection.
   Result<void> join();
-  /// Waits up to `wait` for messages, applies them, asks for what is due. An error: the bot has given up.
+  /// Waits up to `wait` for messages, applies them, and sends the requests that are due. An error: the bot
+  /// has given up.
   Result<void> step(std::chrono::milliseconds wait);
-  /// Everything asked and answered; with linger, settled; the hashes compared.
+  /// Whether all requests are answered, the terrain is settled (with linger), and the hashes are compared.
   bool finished() const;
-  /// join() and step() until finished or out of time; what went wrong is in the report.
+  /// Calls join(), and step() until finished or out of time; the report holds the failure.
   BotReport run();
 
   BotReport report() const;
@@ -93,8 +94,8 @@ class Bot {
   Tick first_frame_ = 0;
   std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
   uint32_t final_statuses_ = 0;        ///< since all scripted work was done
-  bool compared_ = false;              ///< the last word on the hashes has been spoken
-  BotReport report_;                   ///< of connections past, and what does not depend on them
+  bool compared_ = false;              ///< the final comparison of hashes is done
+  BotReport report_;                   ///< of past connections, and totals
 };
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Where a bot carves next: points on the terrain as the bot's own copy has it now.
+// Chooses the next place to carve: points on the surface of the bot's current copy of the terrain.
 // The same seed and the same terrain give the same carves.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Bounds of a bot. Each says its unit, its reason, and what happens there.
+// Bounds of a bot. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace scree::limits {
 
-/// Requests that wait for their replies. Above, the bot asks no more until some are answered.
+/// Requests that wait for their replies. Above: the bot sends no more until some are answered.
 inline constexpr size_t bot_requests_waiting_max = 64;
 
 /// Milliseconds between two acknowledgements of frames.
@@ -21,7 +21,7 @@ inline constexpr int bot_connect_ms = 5000;
 /// Statuses (one a second) without an equal hash, after everything is done, until the bot gives up on it.
 inline constexpr uint32_t bot_final_statuses_max = 10;
 
-/// Length of the ray along which a bot looks for something to carve, metres.
+/// Length of the ray by which a bot finds a surface to carve, metres.
 inline constexpr float bot_sight_m = 96.0F;
 
 }  // namespace scree::limits

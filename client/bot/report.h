@@ -1,4 +1,4 @@
-// What a bot saw and measured; to JSON for programs.
+// The measurements of a bot, and their JSON form for programs.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct BytesByKind {
   uint64_t total() const { return frames + transforms + chunks + pieces + other; }
 };
 
-/// What operations cost on the wire: their own bytes and an equal share of what else their frame holds,
-/// transforms aside. Frames with patches are left out: they stand for operations that were not sent.
+/// Bytes of operations on the wire: their own, and an equal share of their frame's other bytes without
+/// transforms. Frames with patches are left out: the patches replace operations that were not sent.
 struct OperationCost {
   uint64_t count = 0;
   double bytes = 0.0;
@@ -38,7 +38,7 @@ struct OperationCost {
   }
 };
 
-/// The copy's hash against the server's, each time that a status allows it.
+/// Comparisons of the copy's hash with the server's, at each status that allows one.
 struct HashComparison {
   uint64_t compared = 0;
   bool equal = false;  ///< at the last comparison
@@ -50,7 +50,7 @@ struct HashComparison {
 struct BotReport {
   std::string server;
   WelcomeMessage welcome;
-  std::string failure;  ///< empty: all went well
+  std::string failure;  ///< empty: no failure
   bool settled = false;
   double duration_s = 0.0;
   uint32_t connections = 0;

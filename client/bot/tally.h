@@ -1,4 +1,4 @@
-// The bookkeeping of what arrives: bytes by kind, and what each operation cost.
+// Counts received messages: bytes by kind, and bytes of each operation.
 #pragma once
 
 #include "client/bot/report.h"

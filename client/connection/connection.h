@@ -1,8 +1,7 @@
 // A client's connection to a server: bytes to messages and back, on a thread of its own.
 //
-// Received messages wait in a bounded queue for poll(); while it is full, nothing is read from the socket, so
-// that a slow client slows the server's sending and nothing else. All functions may be called from any
-// thread.
+// Received messages wait in a bounded queue for poll(). While it is full, the socket is not read, so that a
+// slow client only slows the server's sending. All functions may be called from any thread.
 #pragma once
 
 #include <chrono>
@@ -34,8 +33,8 @@ struct ConnectionCounters {
 
 class Connection {
  public:
-  /// Connects, says hello and waits for the welcome. The error names the address and says what went wrong; a
-  /// refusal comes in the server's own words.
+  /// Connects, sends a hello and waits for the welcome. The error names the address and the failure; a
+  /// refusal has the server's reason.
   static Result<std::unique_ptr<Connection>> connect(const std::string& host, uint16_t port,
                                                      const HelloMessage& hello,
                                                      std::chrono::milliseconds within);
@@ -46,24 +45,24 @@ class Connection {
 
   const WelcomeMessage& welcome() const;
 
-  /// Everything that has arrived, in order, after the welcome. Does not wait. Messages that arrived before
+  /// Takes all messages that arrived after the welcome, in order. Does not wait. Messages that arrived before
   /// the connection closed can still be polled.
   std::vector<Received> poll();
-  /// As poll(), but waits for something to arrive, the connection to close, or the time to pass.
+  /// Like poll(), but waits until a message arrives, the connection closes, or the time is over.
   std::vector<Received> wait(std::chrono::milliseconds within);
 
-  /// Sends when the socket can take it; nothing after the connection has closed.
+  /// Queues a message for sending; does nothing after the connection closed.
   void send(const ClientMessage& message);
 
   bool connected() const;
-  /// Why the connection closed; empty while it has not.
+  /// The reason for which the connection closed; empty while it is open.
   std::string close_reason() const;
   ConnectionCounters counters() const;
 
   void close();
 
-  /// For tests: stop taking bytes off the socket, as a stuck client does; and tear the connection down
-  /// without a farewell, as a lost link does.
+  /// For tests: pause_reading() stops reading the socket, as a stuck client does; cut() ends the connection
+  /// without closing it in order, as a lost link does.
   void pause_reading(bool pause);
   void cut();
 

@@ -1,18 +1,18 @@
-// Bounds of a client's connection. Each says its unit, its reason, and what happens there.
+// Bounds of a client's connection. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
 
 namespace scree::limits {
 
-/// Messages received that nobody has polled yet. Above: the socket is not read, and the server sees that we
-/// lag.
+/// Received messages that wait for poll(). Above: the socket is not read, and the server sees that this
+/// client lags.
 inline constexpr size_t received_messages_max = 4096;
 
 /// Memory of those messages, decoded, bytes. Above: the same.
 inline constexpr size_t received_bytes_max = size_t{32} << 20;
 
-/// Bytes that wait to be sent. A client sends little; above: the connection is given up.
+/// Bytes that wait to be sent; a client sends few. Above: the connection is closed.
 inline constexpr size_t unsent_bytes_max = size_t{1} << 20;
 
 /// Bytes read from the socket at once.

@@ -1,4 +1,4 @@
-// Bounds of a client's copy of the world: what a server, however hostile, can make it hold.
+// Bounds of a client's copy of the world: a hostile server cannot make it hold more.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@ namespace scree::limits {
 /// interest is left, with the advice to ask for a smaller radius.
 inline constexpr size_t mirror_chunks_max = 32768;
 
-/// Pieces alive, many times what a server simulates; above: the connection is given up.
+/// Pieces alive, many times a server's. Above: the connection is closed.
 inline constexpr size_t mirror_pieces_max = 65536;
 
-/// Ticks that a repair may take before the same chunk is asked for again: two seconds at 60 Hz. Until then,
-/// further mismatches of the chunk are expected.
+/// Ticks after which the repair of a chunk is requested again: two seconds at 60 Hz. Until then, further
+/// mismatches of the chunk are expected.
 inline constexpr uint64_t repair_patience_ticks = 120;
 
 }  // namespace scree::limits

@@ -1,10 +1,9 @@
 // A client's copy of the world, without any drawing: applies what the server sends, checks hashes,
 // interpolates pieces.
 //
-// Time: messages are applied when they are handed in. A viewer that wants smooth motion holds each Frame back
-// until its playback clock reaches the frame's tick. Not thread-safe.
-// Invariant: the edited bricks of every held chunk are the server's, as of the last frame, unless a check has
-// just failed; then a repair request waits or is under way.
+// Time: apply() applies a message at once. A viewer that wants smooth motion delays each Frame until its
+// playback clock reaches the frame's tick. Not thread-safe. Invariant: the edited bricks of every held chunk
+// are the server's as of the last frame, unless a check failed; then a repair request waits or is sent.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +22,7 @@
 
 namespace scree {
 
-/// What a message changed, for those who keep meshes of it.
+/// The changes by a message, for owners of meshes.
 struct MirrorChanges {
   std::vector<BrickCoord>
       bricks;  ///< codes or paint changed (or forgotten: generated again); some may come twice
@@ -40,7 +39,7 @@ struct PieceMotion {
   Tick to_tick = 0;
 };
 
-/// What has been applied since the welcome.
+/// Counts of applied messages and their content since the welcome.
 struct MirrorCounters {
   uint64_t frames = 0;
   uint64_t carves = 0;  ///< operations
@@ -72,15 +71,16 @@ class Mirror {
  public:
   explicit Mirror(const WelcomeMessage& welcome);
 
-  /// Applies one message; what cannot be applied (unknown piece, wrong base) is an error: the connection is
-  /// of no use any more, and the caller reconnects.
+  /// Applies one message. A message that cannot be applied (unknown piece, wrong base) is an error: the
+  /// mirror cannot be used any more, and the caller connects again.
   Result<MirrorChanges> apply(const ServerMessage& message);
 
-  /// Chunks whose hash did not match after a frame; to be reported to the server. Call until it has nothing.
+  /// Takes the next request to send to the server, of chunks whose frame had another check. Call until there
+  /// is nothing.
   std::optional<RepairRequest> take_repair_request();
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
-  /// Pose at a (fractional) tick, clamped to what is known.
+  /// Pose at a (fractional) tick, clamped to the known poses.
   Pose pose_at(const PieceMotion& motion, double tick) const;
 
   Field& field() { return field_; }
@@ -100,7 +100,7 @@ class Mirror {
     uint64_t hash = 0;
   };
 
-  /// The frame that new pieces' volumes are in: where a point of it lies, in voxels and in the world.
+  /// The voxel frame of new pieces' volumes, and its place in the world.
   struct Birthplace {
     Pose pose;
     glm::vec3 centre_voxels{0.0F};
@@ -125,14 +125,15 @@ class Mirror {
   void count(const Operation& operation);
 
   MapField field_;
-  PieceTable table_;                        ///< what operations work on
-  std::map<PieceId, PieceMotion> motions_;  ///< the same pieces, and where they are
+  PieceTable table_;                        ///< the pieces, for apply() of operations
+  std::map<PieceId, PieceMotion> motions_;  ///< their poses
   ChunkSet held_;
   Tick tick_;
   uint32_t ticks_per_transform_;
   std::optional<StatusMessage> status_;
-  std::map<ChunkCoord, Mismatch> mismatched_;                        ///< to be asked for
-  std::unordered_map<ChunkCoord, Tick, CoordHash> repairs_awaited_;  ///< asked for, at the tick of the check
+  std::map<ChunkCoord, Mismatch> mismatched_;  ///< not requested yet
+  std::unordered_map<ChunkCoord, Tick, CoordHash>
+      repairs_awaited_;  ///< requested, with the tick of the check
   MirrorCounters counters_;
 };
 

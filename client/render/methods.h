@@ -1,4 +1,4 @@
-// The table of all ways to draw: a method is added here, and nowhere else in the viewer.
+// The table of all drawing methods: a new method is a row here, and nothing else in the viewer.
 #pragma once
 
 #include <optional>
@@ -14,20 +14,20 @@ namespace scree {
 struct MethodEntry {
   std::string_view name;     ///< as --method takes it
   std::string_view summary;  ///< one line, for people
-  /// What this GL context lacks for it, in words; nothing if the method can be made. Needs the context
-  /// current.
+  /// The feature that this GL context lacks, as a sentence; nothing if the method can be made. Needs the
+  /// context current.
   std::optional<std::string> (*missing)();
   /// `pool` must outlive the method. Needs the context current. Fails when a shader or a buffer does.
   Result<std::unique_ptr<DrawMethod>> (*make)(WorkPool& pool, float view_radius_m);
 };
 
-/// The first one is drawn with when none is chosen.
+/// The first one is the default.
 std::span<const MethodEntry> all_methods();
 
 /// Null if there is none of that name.
 const MethodEntry* method_named(std::string_view name);
 
-/// The one after it that this GL context can make, round and round; itself if it is the only one.
+/// The next method, cyclically, that this GL context can make; the entry itself if there is no other.
 const MethodEntry& next_available(const MethodEntry& entry);
 
 /// Each on a line of its own, for --help.

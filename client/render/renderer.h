@@ -1,4 +1,5 @@
-// Draws a frame: shadows, what the method draws, the sky. Needs the GL context current, the destructor too.
+// Draws a frame: shadows, the method's terrain and pieces, the sky. Needs the GL context current, the
+// destructor too.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct Image {
   std::vector<uint8_t> rgb;  ///< rows from the top, 3 bytes a pixel
 };
 
-/// How far away what is drawn lies.
+/// Distances of the drawn surfaces.
 struct DepthImage {
   int width = 0;
   int height = 0;
@@ -27,11 +28,11 @@ struct DepthImage {
 
 class Renderer {
  public:
-  /// Fails when there is no OpenGL 3.3 or OpenGL ES 3.0, saying what was found.
+  /// Fails without OpenGL 3.3 or OpenGL ES 3.0; the error names the version found.
   static Result<std::unique_ptr<Renderer>> create(float view_radius_m);
   ~Renderer();
 
-  /// What the ground is covered with depends on the terrain. Of none, it is rock.
+  /// Sets the terrain, which decides where soil and ice cover the ground. Before the first call, all is rock.
   void set_terrain(const TerrainSource& terrain);
 
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
@@ -42,15 +43,15 @@ class Renderer {
   /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,
                            const LineList& lines = {});
-  /// What draw() leaves in the depth buffer, one sample in the middle of each pixel. Fails as draw_image()
-  /// does, and on OpenGL ES, which keeps depths to itself.
+  /// The depth buffer after draw(), one sample in the middle of each pixel. Fails like draw_image(), and on
+  /// OpenGL ES, which cannot read depths.
   Result<DepthImage> draw_depths(DrawMethod& method, const Camera& camera, int width, int height);
-  /// Without any image: returns when the GPU has finished. For measurements.
+  /// Draws without returning an image: returns when the GPU has finished. For measurements.
   Result<void> draw_unseen(DrawMethod& method, const Camera& camera, int width, int height);
 
   /// "OpenGL 4.5 (llvmpipe …)", for people.
   const std::string& description() const;
-  /// What the GPU took for the parts of a frame, some frames ago; empty where it cannot say.
+  /// The GPU's times for the parts of a frame, some frames ago; empty where the driver cannot measure them.
   const std::vector<GpuTime>& gpu_times() const;
   /// For methods that draw pixel by pixel: below 1 they draw fewer, above 1 more, limits::render_scale_min …
   /// max.

@@ -1,5 +1,4 @@
-// A window on a session: what the person sees and does, frame by frame. Needs the window's GL context
-// current.
+// A window on a session: handles input and draws, frame by frame. Needs the window's GL context current.
 #pragma once
 
 #include <optional>
@@ -18,14 +17,14 @@ class WindowApp {
 
   /// From the person's input to the picture.
   Result<void> frame();
-  /// As they stand, to be kept.
+  /// The current settings, to be kept.
   Settings settings() const;
 
  private:
   void follow_path(double now_s);
   Result<void> act(const AppInput& input);
   Result<void> choose(const MethodEntry& method);
-  /// Over the world: what a strike would take out, other persons, the overlay.
+  /// Lines over the world: the shape of the next strike, other persons, the overlay.
   LineList lines(double now_s);
   Result<void> draw_hud(const FrameParts& parts, double now_s);
 

@@ -8,11 +8,11 @@
 
 namespace scree {
 
-/// How often each edge is walked, by what tells its corners apart.
+/// The number of uses of each edge, by keys of its corners.
 template <typename Corner>
 using EdgeUses = std::map<std::pair<Corner, Corner>, int>;
 
-/// `corner_of(index)`: what the corners of all meshes counted together are told apart by.
+/// `corner_of(index)`: the key of a corner, equal for equal corners of all meshes counted together.
 template <typename Corner, typename CornerOf>
 void count_edges(std::span<const uint32_t> indices, const CornerOf& corner_of, EdgeUses<Corner>& uses) {
   for (size_t t = 0; t < indices.size(); t += 3)

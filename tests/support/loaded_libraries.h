@@ -6,8 +6,8 @@
 
 namespace scree {
 
-/// Keeps every library that is loaded now until the process ends. Mesa's driver is unloaded with the context,
-/// and what its globals point to would look like leaks of nobody's to LeakSanitizer.
+/// Keeps every loaded library until the process ends. Otherwise Mesa's driver is unloaded with the context,
+/// and LeakSanitizer reports the memory of its globals as leaks.
 inline void keep_libraries_loaded() {
   dl_iterate_phdr(
       [](dl_phdr_info* library, size_t, void*) {

@@ -1,4 +1,4 @@
-// Draws without a window, on whatever EGL finds: Mesa's software driver on a machine without a GPU.
+// Draws without a window, with the driver that EGL finds: Mesa's software driver without a GPU.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,7 @@ class OffscreenTest : public testing::Test {
     return image ? *image : Image{};
   }
 
-  /// The pieces hang above where they were cut.
+  /// Carves a ball; its pieces hang above the place of the cut.
   void carve(glm::vec3 at_m) {
     PieceTable table;
     const CarveOperation carve{sphere(at_m, 1.5F), SeedPattern::uniform, 12, 5, at_m, next_piece_};
@@ -94,7 +94,7 @@ class OffscreenTest : public testing::Test {
   Camera camera_;
 };
 
-/// Of pixels, by their largest difference in one colour.
+/// The number of pixels that differ by more than `tolerance` in any colour.
 inline size_t differing_pixels(const Image& a, const Image& b, int tolerance) {
   size_t count = 0;
   for (size_t i = 0; i < a.rgb.size(); i += 3) {

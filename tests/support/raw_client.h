@@ -1,4 +1,4 @@
-// A bare socket that speaks to a server on loopback, for tests that send what no real client would.
+// A bare socket to a server on loopback, for tests that send bytes which no real client would send.
 // Every wait has a deadline.
 #pragma once
 

@@ -1,5 +1,5 @@
-// A bare listener on loopback that sends what no real server would, for tests of clients. One connection at a
-// time; every wait has a deadline.
+// A bare listener on loopback for tests of clients, which sends bytes that no real server would send. One
+// connection at a time; every wait has a deadline.
 #pragma once
 
 #include <arpa/inet.h>

@@ -1,5 +1,5 @@
-// The viewer as a program of its own, for what only another environment brings about. SCREE_VIEWER_PROGRAM is
-// where it lies.
+// Runs the viewer's program in a process of its own, for tests that need another environment.
+// SCREE_VIEWER_PROGRAM is its path.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// Runs the viewer's program: its exit status, and all that it said.
+/// Runs the program; returns its exit status and its output.
 inline std::pair<int, std::string> run_viewer(const std::string& environment, const std::string& arguments) {
   const std::string command = "env " + environment + " XDG_CONFIG_HOME=" + testing::TempDir() +
                               "scree_nobody " SCREE_VIEWER_PROGRAM " " + arguments + " 2>&1";

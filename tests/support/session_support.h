@@ -16,21 +16,21 @@ namespace scree {
 /// The request as a client sends it.
 CarveMessage carve_message(const CarveRequest& carve, uint32_t request);
 
-/// From the eye to the nearest point of a chunk, metres: what interest goes by.
+/// Distance from the eye to the nearest point of a chunk, metres: the measure of interest.
 float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m);
 
 class SessionClient {
  public:
-  /// Joins; when that fails, `failure` says why.
+  /// Joins; on failure, `failure` has the reason.
   SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m);
 
   /// Applies messages up to the frame of `tick`; false, and a failure, when it does not come.
   bool follow_to(Tick tick);
-  /// Applies what has arrived, and waits for the connection to close; false when it does not.
+  /// Applies the messages that arrive until the connection closes; false when it does not close.
   bool ends();
   void send(const ClientMessage& message) { connection_->send(message); }
   void look_from(glm::vec3 eye_m);
-  /// As a lost link does; what was on its way is lost.
+  /// Ends the connection like a lost link: messages on their way are lost.
   void cut() { connection_->cut(); }
 
   Mirror& mirror() { return *mirror_; }
@@ -39,7 +39,7 @@ class SessionClient {
   glm::vec3 eye_m() const { return eye_m_; }
   float radius_m() const { return radius_m_; }
 
-  std::string failure;                       ///< empty: all is well
+  std::string failure;                       ///< empty: no failure
   std::map<uint32_t, ReplyMessage> replies;  ///< by request
 
  private:
@@ -61,10 +61,10 @@ class LoopbackSession {
   /// Cuts a client off, and waits until the server has noticed.
   void cut(const SessionClient& client);
 
-  /// One tick, that every client applies; false, and a failure, when that does not come to be.
+  /// Runs one tick, which every client applies; false, with a failure, when one does not.
   bool step();
   bool steps(int count);
-  /// Until no piece is alive and nothing has changed for a second, or the ticks are over.
+  /// Steps until no piece is alive and nothing changed for a second; false after `ticks_max` ticks.
   bool settle(int ticks_max);
   /// Steps until the client has the reply; null, and a failure, when it does not come.
   const ReplyMessage* ask(SessionClient& client, const CarveMessage& carve);

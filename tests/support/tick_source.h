@@ -1,5 +1,5 @@
-// A world without physics, for tests of what comes after it: ticks made by applying operations to a plain
-// field. Pieces stay where the test puts them.
+// A world without physics, for tests of its consumers: makes ticks by applying operations to a plain field.
+// Pieces stay where the test puts them.
 #pragma once
 
 #include <map>

@@ -140,7 +140,7 @@ inline std::vector<ClientMessage> client_messages() {
           WatchMessage{true}};
 }
 
-/// What is inside the length prefix.
+/// The message without its length prefix.
 inline std::span<const uint8_t> body_of(const std::vector<uint8_t>& framed) {
   return std::span<const uint8_t>(framed).subspan(length_prefix_bytes);
 }

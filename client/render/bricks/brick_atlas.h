@@ -16,7 +16,7 @@ namespace scree {
 
 class BrickAtlas {
  public:
-  /// Room for at least that many bricks, or for as many as the driver's largest texture holds.
+  /// Makes room for at least that many bricks, or for as many as the driver's largest texture holds.
   explicit BrickAtlas(size_t bricks);
 
   /// Nothing when the atlas is full.

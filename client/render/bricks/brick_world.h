@@ -17,14 +17,14 @@ class BrickWorld {
   /// `pool` must outlive it.
   BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);
 
-  /// Shows the edits of these bricks, and some of what is still to be loaded.
+  /// Uploads these edited bricks, and a bounded number of bricks that are not loaded yet.
   void update(Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);
 
   /// Binds the textures to units 0 and 1 and sets the uniforms of shaders/bricks.glsl.
   void use(const gl::Program& program, glm::vec3 eye_m) const;
 
-  /// What a box, metres, has in all of its bricks on one level: only air, or only rock. Nothing where it has
-  /// a surface, where that is not loaded, or where the level's window does not show it.
+  /// The content of all bricks of a box (metres) on one level: only air, or only rock. Nothing when the box
+  /// has a surface, is not loaded, or lies outside the level's window.
   enum class Plain { air, rock };
   std::optional<Plain> plain(glm::vec3 lo_m, glm::vec3 hi_m, int level) const;
 
@@ -32,7 +32,7 @@ class BrickWorld {
   const BrickAtlas& atlas() const { return atlas_; }
   bool loaded() const { return waiting() == 0; }
   size_t waiting() const;
-  /// How far from the camera terrain is drawn at least.
+  /// Distance from the camera up to which terrain is drawn at least, metres.
   float reach_m() const;
   float voxel_m() const { return levels_.front().voxel_m(); }
   MemoryCounts memory() const;

@@ -1,7 +1,8 @@
-// One level of the raymarcher's world: follows the camera, generates and reads what comes into reach, and
-// reads afresh what an edit changed, at once.
+// One level of the raymarcher's world: follows the camera, generates and reads the bricks that come into
+// reach, and reads edited bricks again at once.
 //
-// On the thread of the GL context; generating runs on the pool. An edit costs the bricks that it shows in.
+// Runs on the thread of the GL context; generation runs on the pool. The cost of an edit is that of the
+// bricks that it changes on this level.
 #pragma once
 
 #include <memory>

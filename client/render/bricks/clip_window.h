@@ -1,9 +1,9 @@
-// What lies where around the camera, on one level of detail: for each brick of a box that moves with the
-// camera a slot of the atlas, or how far the nearest brick is that is not empty. No GL in here.
+// The bricks around the camera on one level of detail: for each brick of a box that moves with the camera,
+// its slot of the atlas, or the distance to the nearest brick that is not empty. No GL.
 //
 // Storage is toroidal: a brick's entry lies at its coordinate modulo the box, so that a move rewrites only
-// what enters. Invariant after settle(): every empty brick's distance is the exact Chebyshev distance, in
-// bricks, to the nearest brick of the box that is not empty, capped at empty_distance_max.
+// the entries that enter. Invariant after settle(): every empty brick's distance is the exact Chebyshev
+// distance, in bricks, to the nearest brick of the box that is not empty, capped at empty_distance_max.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace scree {
 
-/// Bricks that a ray can skip at once, and one.
+/// Largest stored distance: one more than the bricks that a ray can skip at once.
 inline constexpr int empty_distance_max = 16;
 
 /// As the shaders read it (shaders/bricks.glsl).
@@ -64,7 +64,7 @@ class ClipWindow {
   const ClipEntry& at(BrickCoord brick) const { return entries_[index(brick)]; }
   void set(BrickCoord brick, ClipEntry entry);
 
-  /// Brings distances up to date: costs what changed since the last time, and empty_distance_max around it.
+  /// Updates the distances around the entries changed since the last call, up to empty_distance_max away.
   void settle();
 
   /// Entries of one step along x, as they are uploaded: z fastest, then y; toroidal. Calls f(x, entries) for

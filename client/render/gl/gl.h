@@ -68,8 +68,8 @@ using Framebuffer = Object<FramebufferTraits>;
 using Query = Object<QueryTraits>;
 using Renderbuffer = Object<RenderbufferTraits>;
 
-/// A program of a vertex and a fragment shader, linked. Uniforms that the compiler removed are set in vain,
-/// silently.
+/// A linked program of a vertex and a fragment shader. Setting a uniform that the compiler removed does
+/// nothing.
 class Program {
  public:
   /// `parts` are concatenated, behind the version line that the context needs; without any for a geometry

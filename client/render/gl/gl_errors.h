@@ -1,4 +1,4 @@
-// Collects what GL complains about.
+// Collects GL's error messages.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What the GPU took for the parts of a frame: timestamps before and after each, read some frames later, so
-// that nobody waits for it. Needs the GL context current, the destructor too.
+// Measures the GPU's time for the parts of a frame: timestamps before and after each, read some frames later,
+// so that no thread waits for the GPU. Needs the GL context current, the destructor too.
 //
 // OpenGL 3.3 has timestamps; OpenGL ES with EXT_disjoint_timer_query. Elsewhere nothing is measured.
 #pragma once
@@ -32,7 +32,7 @@ class GpuTimers {
   GpuTimers& operator=(const GpuTimers&) = delete;
 
   bool available() const { return available_; }
-  /// Takes in what the GPU has finished; from now on parts are the next frame's. `trace` may be null.
+  /// Reads the finished timestamps, and begins the next frame. `trace` may be null.
   void begin_frame(Trace* trace);
 
   /// Measures the GL commands between its construction and its end. `timers` may be null.
@@ -48,7 +48,7 @@ class GpuTimers {
     size_t at_ = 0;
   };
 
-  /// Of the newest frame that is finished, in the order in which its parts began.
+  /// Times of the newest finished frame, in the order in which its parts began.
   const std::vector<GpuTime>& latest() const { return latest_; }
 
  private:
@@ -64,7 +64,7 @@ class GpuTimers {
   std::array<Frame, frames> frames_;
   size_t current_ = 0;
   std::vector<GpuTime> latest_;
-  Trace::Clock::time_point epoch_;  ///< where the GPU's clock stood at gpu_epoch_ns_
+  Trace::Clock::time_point epoch_;  ///< the CPU's time at gpu_epoch_ns_ of the GPU's clock
   int64_t gpu_epoch_ns_ = 0;
 };
 

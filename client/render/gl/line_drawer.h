@@ -1,4 +1,4 @@
-// Draws a LineList over a picture that has its depths: what rock hides shows through faintly. Within OpenGL
+// Draws a LineList over a picture and its depths: hidden parts of lines are drawn faintly. Within OpenGL
 // ES 3.0's subset. Needs the GL context current, the destructor too.
 #pragma once
 

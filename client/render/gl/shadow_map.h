@@ -1,4 +1,4 @@
-// Depths as the sun sees them, in one square around what the camera looks at. Needs the GL context current.
+// Depths along the sun's direction, in one square around the camera's view. Needs the GL context current.
 #pragma once
 
 #include <glm/mat4x4.hpp>

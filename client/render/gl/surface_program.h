@@ -23,7 +23,7 @@ struct SurfaceProgram {
 Result<SurfaceProgram> link_surface();
 Result<SurfaceProgram> link_surface_shadow();
 
-/// What every surface of polygons is shaded by.
+/// The shader parts that shade every surface of polygons.
 std::span<const std::string_view> surface_fragment_parts();
 
 }  // namespace scree

@@ -14,7 +14,7 @@
 
 namespace scree {
 
-/// What the GL context lacks for it, in words. Needs the context current.
+/// The feature that the GL context lacks for this method, as a sentence. Needs the context current.
 std::optional<std::string> grid_method_missing();
 
 /// `pool` must outlive the method. Needs the GL context current. Fails when a shader does.

@@ -16,7 +16,7 @@ class GridPoints {
  public:
   GridPoints();
 
-  /// About the eye, for a view; what is out of it, or has no surface, is left out.
+  /// Places the grid around the eye. Blocks outside the view, or without a surface, are left out.
   void place(const GridShape& shape, const BrickWorld& world, glm::vec3 eye_m, const Frustum& frustum);
   /// One point a cell.
   void draw() const;

@@ -1,4 +1,4 @@
-// Copies out of the field what a worker needs to mesh a box of it.
+// Copies the codes out of the field that a worker needs to mesh a box.
 #pragma once
 
 #include <map>
@@ -39,11 +39,11 @@ inline uint8_t layer_number(Material layer) {
   return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>((1 + static_cast<int>(layer)) << 2);
 }
 
-/// What a piece shows: its material, everywhere when the field is painted at the place that it was cut from,
-/// else in its cuts.
+/// The paint number of a piece: its material, everywhere if the field is painted where it was cut, else only
+/// in its cuts.
 uint8_t paint_number(const Field& field, const Volume& piece);
 
-/// As gather(), of the field as it was generated.
+/// Like gather(), but of the generated field without edits.
 Window gather_generated(Field& field, const VoxelBox& box);
 
 }  // namespace scree

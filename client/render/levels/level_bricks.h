@@ -1,8 +1,8 @@
-// The field at one level of detail, brick by brick, as the atlas takes it: level k has a sample every 2^k
-// voxels. Level 0 is the field itself; a coarser one is generated at that spacing, and takes the samples of
-// what was edited from the field.
+// The field at one level of detail, as bricks for the atlas: level k has a sample every 2^k voxels. Level 0
+// is the field itself; a coarser level is generated at its spacing, and takes the samples of edited bricks
+// from the field.
 //
-// Nothing is kept that an edit could make stale: a brick read afresh is always the field's.
+// Keeps no copies of edits: a brick that is read again is always the current field's.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 /// The same terrain with a sample every 2^level voxels.
 TerrainSource spaced(TerrainSource source, int level);
 
-/// Puts what was edited of the field, of level 0, into a window of that level.
+/// Writes the edited codes of the field, which is level 0, into a window of that level.
 void take_edits(Field& field, int level, Window& window);
 
 class LevelBricks {
@@ -46,7 +46,7 @@ class LevelBricks {
 
   LevelBrick read(Field& field, BrickCoord brick);
 
-  /// Bricks of this level that a change of that brick of the field shows in: lo inside, hi outside.
+  /// The bricks of this level that a change of a brick of the field affects: lo inside, hi outside.
   struct Range {
     BrickCoord lo;
     BrickCoord hi;

@@ -1,6 +1,6 @@
-// The field at every level of detail, as windows for meshing: level 0 is the field itself; a coarser one is
-// generated at its own spacing and takes the samples of what was edited from the field. Nothing is kept that
-// an edit could make stale. Not thread-safe.
+// The field at every level of detail, as windows for meshing: level 0 is the field itself; a coarser level is
+// generated at its spacing, and takes the samples of edited bricks from the field. Keeps no copies of edits.
+// Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -15,15 +15,15 @@ class SurfaceLevels {
  public:
   SurfaceLevels(const TerrainSource& source, int levels);
 
-  /// The terrain with the level's spacing: what generates its chunks.
+  /// The terrain's source with the level's spacing, which generates its chunks.
   const TerrainSource& source(int level) const { return sources_[static_cast<size_t>(level)]; }
   /// Chunks of the level, of 32³ of its samples. `field` is always the world's, of level 0.
   bool has_generated(const Field& field, int level, ChunkCoord chunk) const;
   void adopt_generated(Field& field, int level, ChunkCoord chunk, GeneratedChunk&& generated);
 
-  /// As block_windows.h says, in samples of the level.
+  /// Like gather_windows() (block_windows.h), in samples of the level.
   std::optional<BlockWindows> gather(Field& field, int level, const VoxelBox& owned);
-  /// Where gather() finds nothing but one of both.
+  /// Whether a box for which gather() returns nothing is rock, not air.
   bool is_rock(Field& field, int level, VoxelCoord sample);
 
  private:

@@ -1,14 +1,13 @@
-// Decides which meshes are built, when, and which of them are shown together. No GL: it can be tested alone.
+// Decides which meshes are built, when, and which are shown together. No GL, so that tests can run it alone.
 //
-// Terrain is meshed in nodes of all levels of detail (surface_forest.h). Work is done in batches, one at a
-// time: what the mirror changed and its pieces, or some splits and joins of the forest, nearest first. All
-// meshes of a batch are shown as one, when all of them are ready, and until then what was there stays. So
-// there is never a hole, never a crack between levels, and never a piece beside the rock that it has become.
-// What a batch does not hold is decided anew when it is done: nothing is built for where the eye no longer
-// is.
+// Terrain is meshed in nodes of all levels of detail (surface_forest.h), in batches, one at a time: the
+// mirror's changes and pieces, or some splits and joins of the forest, nearest first. All meshes of a batch
+// replace the old ones at once, when all are ready. So there is never a hole, a crack between levels, or a
+// piece beside the rock that it has become. The next batch is chosen when one ends, so that nothing is built
+// for an earlier place of the eye.
 //
-// Changes go first: the forest's growth is taken back for them as long as it waits for its terrain to be
-// generated. Growth that has its terrain takes turns with changes, so that it comes about under any number.
+// Changes go first: a batch of growth that still waits for generated terrain is undone for them. Growth that
+// has its terrain takes turns with changes, so that the forest grows under any number of changes.
 //
 // Called from one thread; windows are copied out of the field there, generating and meshing run on the pool.
 #pragma once
@@ -26,7 +25,7 @@
 
 namespace scree {
 
-/// What to show from now on, as one.
+/// Meshes to show from now on, all at once.
 struct MeshUpdate {
   std::vector<NodeMesh> nodes;  ///< replace what the node showed; empty ones show nothing
   std::vector<SurfaceNode> gone;
@@ -40,9 +39,9 @@ class MeshScheduler {
   ~MeshScheduler();
 
   void changed(const MirrorChanges& changes);
-  /// Work that is done comes back; work that is needed begins.
+  /// Returns finished work, and begins new work.
   MeshUpdate update(const Scene& scene, glm::vec3 eye_m);
-  /// All about the eye is shown at the detail that belongs there, and all that was changed before the first
+  /// Whether everything around the eye is shown at its level of detail, with all changes before the first
   /// update().
   bool loaded() const { return caught_up_ && grown_; }
   bool complete() const { return loaded() && waiting() == 0; }
@@ -78,10 +77,10 @@ class MeshScheduler {
   std::optional<SurfaceLevels> levels_;
   std::optional<SurfaceForest> forest_;
   bool caught_up_ = false;      ///< the first changes are shown
-  bool grown_ = false;          ///< the forest is as the eye wants it
+  bool grown_ = false;          ///< the forest needs no more steps
   bool growth_is_due_ = false;  ///< changes had their turn
   std::set<LevelChunk> generating_;
-  MirrorChanges collected_;       ///< since the batch in the works was begun
+  MirrorChanges collected_;       ///< since the current batch began
   std::unique_ptr<Batch> batch_;  ///< in the works, or null
 };
 

@@ -2,9 +2,9 @@
 // nets (surface_nets.h); where finer nodes touch it, those over the leaves of the octree join them
 // (leaf_surface.h), whose polygons reach from level to level.
 //
-// A polygon between nodes is the coarsest one's, and among those the one's farthest along x, then y, then z.
-// At points that finer nodes touch, their samples count. So all meshes meet without a crack, to the bit. A
-// job owns all that it touches: it may run on any thread.
+// A polygon between nodes belongs to the coarsest one; of several, to the one farthest along x, then y, then
+// z. Points that finer nodes touch have the samples of those. So all meshes meet without a crack, to the bit.
+// A job owns all its data: it may run on any thread.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ struct NodeMesh {
 /// The node's samples, in those of its level.
 VoxelBox samples_of(const SurfaceNode& node);
 
-/// Copies what is needed out of the field. Nothing if the node has no surface.
+/// Copies the needed codes out of the field. Nothing if the node has no surface.
 std::optional<NodeJob> gather_node(SurfaceLevels& levels, Field& field, const SurfaceNode& node,
                                    const Neighbours& around, Polygoniser polygoniser);
 

@@ -1,4 +1,5 @@
-// Which nodes of octrees the terrain is meshed by: fine ones near the eye, coarse ones to the horizon. No GL.
+// The octrees whose leaves are the terrain's meshes: fine ones near the eye, coarse ones to the horizon. No
+// GL.
 //
 // A node of level k is a block of 16³ cells with a side of 2^k voxels each. Leaves that touch, be it by a
 // corner, differ by one level at most. The forest grows towards what the eye wants by a few splits and joins
@@ -33,14 +34,14 @@ struct SurfaceNodeHash {
   }
 };
 
-/// What lies at a neighbour's place. `beyond`: coarser, or nothing.
+/// The content of a neighbour's place. `beyond`: a coarser node, or none.
 enum class Neighbour : uint8_t { same, finer, beyond };
 
 /// Index (x + 1) · 9 + (y + 1) · 3 + z + 1; 13 is the node itself.
 using Neighbours = std::array<Neighbour, 27>;
 bool is_uniform(const Neighbours& around);
 
-/// What a step of growth did.
+/// The result of a step of growth.
 struct ForestStep {
   std::vector<SurfaceNode> changed;  ///< leaves that are new, or have other neighbours than before
   std::vector<SurfaceNode> gone;     ///< leaves no more
@@ -60,9 +61,10 @@ class SurfaceForest {
  public:
   explicit SurfaceForest(const ForestShape& shape) : shape_(shape) {}
 
-  /// Grows by at most so many splits and joins; roots come and go first, all at once. Nothing to do: empty.
+  /// Grows by at most `steps_max` splits and joins. Roots are added and removed first, all at once. The
+  /// result is empty when there is nothing to do.
   ForestStep grow(glm::vec3 eye_m, size_t steps_max);
-  /// Takes back all that the last grow() did; once.
+  /// Reverts the last grow(). Call at most once after it.
   void undo();
 
   bool is_leaf(const SurfaceNode& node) const { return leaves_.contains(node); }
@@ -78,7 +80,7 @@ class SurfaceForest {
     float distance_m;
   };
 
-  /// What a node was before grow() touched it.
+  /// The state of a node before grow() changed it.
   struct Before {
     SurfaceNode node;
     std::optional<Neighbours> leaf;

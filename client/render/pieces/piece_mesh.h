@@ -1,4 +1,4 @@
-// The mesh of one piece. A job owns all that it touches: it may run on any thread.
+// The mesh of one piece. A job owns all its data: it may run on any thread.
 #pragma once
 
 #include "client/render/levels/block_windows.h"
@@ -16,8 +16,8 @@ struct PieceJob {
   PieceId id = 0;
   ScenePiece piece;
   uint8_t paint = 0;  ///< as SurfaceVertex has it
-  /// A piece lies in the voxel frame of the rock that it was cut from: there it learns which of its faces are
-  /// fresh.
+  /// The generated terrain in the voxel frame of the rock from which the piece was cut: it tells which of the
+  /// piece's faces are fresh.
   Window before;
 };
 

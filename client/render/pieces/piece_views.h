@@ -14,9 +14,9 @@ class PieceViews {
  public:
   void show(const PieceMesh& piece, float voxel_m);
   void remove(PieceId id);
-  /// To where they are in the scene; one that is not there any more stays where it was last.
+  /// Moves the meshes to the scene's poses. A piece that is missing in the scene stays at its last pose.
   void move(const ScenePieces& pieces);
-  /// Removes those that are not in the scene.
+  /// Removes the pieces that are not in the scene.
   void keep_only(const ScenePieces& pieces);
   bool holds(PieceId id) const { return views_.contains(id); }
 

@@ -1,5 +1,5 @@
-// Where the raymarcher draws before its picture is brought to the screen: colour and depth at its own
-// resolution, and tiles that say where their rays may start. Needs the GL context current.
+// The raymarcher's targets: colour and depth at its own resolution, and tiles with the distance at which
+// their rays may start. Needs the GL context current.
 #pragma once
 
 #include <cstddef>

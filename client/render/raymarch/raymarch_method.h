@@ -1,7 +1,7 @@
-// Drawing without polygons: rays that sphere trace a copy of the field on the GPU (brick_world.h). What a
-// frame costs depends on what is in sight, never on how many edits made it. Within OpenGL ES 3.0's subset.
+// Drawing without polygons: rays that sphere trace a copy of the field on the GPU (brick_world.h). The cost
+// of a frame depends on the visible surface, never on the number of edits. Within OpenGL ES 3.0's subset.
 //
-// An edit is in the picture of the next draw(): bricks are read when update() hears of them.
+// The next draw() shows an edit: update() reads the changed bricks.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Where the viewer looks from. Metres, radians; y is up. Yaw 0 looks along −z, 90° along −x: it grows to the
+// The viewer's camera. Metres, radians; y is up. Yaw 0 looks along −z, 90° along −x: it grows to the
 // left. Pitch grows upwards.
 #pragma once
 
@@ -22,7 +22,7 @@ struct Camera {
   glm::mat4 projection(float aspect, float far_m) const;
 };
 
-/// The six planes of a view volume, to skip what lies outside.
+/// The six planes of a view volume, to skip objects outside.
 class Frustum {
  public:
   explicit Frustum(const glm::mat4& view_projection);

@@ -1,9 +1,9 @@
-// The seam between the mirror and its many ways to be drawn. A method is fed with what changed and with the
-// scene of the frame; nothing else of it is known to the renderer and the viewer.
+// The interface of the methods that draw the mirror. A method gets the changes and the scene of each frame;
+// the renderer and the viewer know nothing else of it.
 //
-// All on the thread that owns the GL context. A frame is: changed() for every message that the mirror
-// applied, update() once, then draw() once per pass. What one update() shows belongs together: a merge and
-// the piece's vanishing appear in the same frame.
+// All calls are on the thread that owns the GL context. A frame is: changed() for every message that the
+// mirror applied, update() once, then draw() once per pass. One update() shows a consistent state: a merge
+// and the removal of its piece appear in the same frame.
 #pragma once
 
 #include <cstddef>
@@ -28,19 +28,19 @@ struct ScenePiece {
 
 using ScenePieces = std::map<PieceId, ScenePiece>;
 
-/// All that there is to draw in this frame.
+/// The content of a frame.
 struct Scene {
   Field& field;
   const ScenePieces& pieces;
 };
 
-/// The same for all methods, so that they look alike.
+/// The light, which all methods share.
 struct Lighting {
   glm::vec3 sun{0.0F, 1.0F, 0.0F};  ///< unit, towards it
-  float fog_m = 100.0F;             ///< where the fog hides nearly all
+  float fog_m = 100.0F;             ///< distance at which the fog hides nearly everything
   glm::mat4 shadow_matrix{1.0F};    ///< from the world to the shadow map's coordinates, 0..1
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
-  MaterialHeights layers;           ///< where soil and ice cover the ground
+  MaterialHeights layers;           ///< heights at which soil and ice cover the ground
 };
 
 /// One walk over the scene. For `shadow` only depth counts, and there is no shadow matrix yet.
@@ -69,17 +69,17 @@ class DrawMethod {
   virtual ~DrawMethod() = default;
 
   virtual std::string_view name() const = 0;
-  /// The mirror's field and pieces changed so. Only notes it.
+  /// Notes changes of the mirror's field and pieces.
   virtual void changed(const MirrorChanges& changes) = 0;
-  /// Shows the work that is done, starts what is needed.
+  /// Takes finished work into the picture, and starts new work.
   virtual void update(const Scene& scene, const Camera& camera) = 0;
-  /// Whether all within the view radius is shown, if not in its newest state.
+  /// Whether everything within the view radius is shown, possibly not in its newest state.
   virtual bool loaded() const = 0;
-  /// Whether all within the view radius is shown as the field and pieces are now.
+  /// Whether everything within the view radius is shown in its newest state.
   virtual bool complete() const = 0;
-  /// How far from the camera it draws; the fog hides what would be beyond. Metres.
+  /// Distance up to which the method draws, metres; the fog hides everything beyond.
   virtual float reach_m() const = 0;
-  /// Of methods that draw by a grid: its shape from now on.
+  /// Sets the shape of the grid, for methods that draw by one.
   virtual void shape_grid(const GridShape&) {}
   virtual void draw(const DrawPass& pass) = 0;
   virtual DrawStats stats() const = 0;

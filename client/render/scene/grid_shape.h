@@ -1,9 +1,9 @@
 // The grid of points that the method grid draws the terrain by: the paper's, section 2.2, with the spacing
 // that grows outwards which it proposes. No GL.
 //
-// The grid follows the eye, but by whole blocks, and every point lies at a multiple of the spacing about it:
-// so nothing swims when the eye moves. All axes have the same coordinates relative to the centre, so that
-// cells are boxes without hanging corners: the surface has no crack, whatever the spacing.
+// The grid follows the eye by whole blocks, and every point lies at a multiple of the spacing around it, so
+// that the surface does not swim when the eye moves. All axes have the same coordinates relative to the
+// centre, so that cells are boxes without hanging corners: the surface has no crack, whatever the spacing.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ struct GridShape {
 /// Within limits.h.
 bool is_valid(const GridShape& shape);
 
-/// Cells along a side of a block, and what the grid moves by.
+/// Cells along a side of a block; the grid moves by whole blocks.
 inline constexpr int grid_block = 8;
 
-/// Spacings there are when it grows, each twice the one before.
+/// Number of spacings when the spacing grows, each twice the one before.
 inline constexpr int grid_shells = 4;
 
 /// Coordinates of the points along one axis, resolution + 1 of them, voxels. When the spacing grows, the
@@ -40,7 +40,7 @@ inline constexpr int grid_shells = 4;
 /// of what follows.
 std::vector<int> grid_line(const GridShape& shape, float eye_voxels);
 
-/// How far it reaches from wherever the eye is, voxels.
+/// Least distance from the eye to the grid's border, voxels.
 int grid_reach(const GridShape& shape);
 
 }  // namespace scree

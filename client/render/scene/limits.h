@@ -1,4 +1,4 @@
-// Bounds of drawing. Each says its unit, its reason, and what happens there.
+// Bounds of drawing. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@ namespace scree::limits {
 inline constexpr float view_radius_min_m = 8.0F;
 inline constexpr float view_radius_max_m = interest_radius_max_m;
 
-/// What is drawn may reach this much farther than it has to: what is left behind goes later than it came.
+/// Drawn terrain may reach beyond the radius of loading by this factor: it is dropped later than it was
+/// loaded.
 inline constexpr float view_radius_keep = 1.15F;
 
 /// Chunks being generated at any moment: work for the threads through a slow frame. Edits overtake them. The
@@ -30,7 +31,7 @@ inline constexpr int mesh_levels_max = 6;
 /// batch a level. The rest waits for the next batch.
 inline constexpr size_t forest_steps_max = 4096;
 
-/// No terrain is generated higher than this, metres: meshes look no higher, but for what lies about the eye.
+/// No terrain is generated higher than this, metres: meshes begin below it, except around the eye.
 inline constexpr float terrain_top_m = 64.0F;
 
 /// Threads that generate and mesh. Two keep a viewer fluent beside a server on a small machine; more than
@@ -70,7 +71,7 @@ inline constexpr int grid_resolution_step = 16;
 /// m at voxels of 25 cm, is rough already.
 inline constexpr int grid_scale_max = 8;
 
-/// How far the far terrain is drawn, in view radii.
+/// Distance up to which far terrain is drawn, in view radii.
 inline constexpr float horizon_per_view_radius = 8.0F;
 
 /// Lines over a picture: 1,000 pieces' hulls, and margin. More are left out.

@@ -1,4 +1,4 @@
-// Where a mesh lies, so that all meshes that meet have the same vertices there, to the bit.
+// The place of a mesh, such that adjoining meshes have bit-identical vertices along their border.
 #pragma once
 
 #include <glm/vec3.hpp>

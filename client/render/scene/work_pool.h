@@ -1,7 +1,7 @@
 // A few threads that run jobs; urgent ones first, each kind in the order in which it came.
 //
-// submit() may be called from any thread. Jobs must not throw and must own all that they touch. The
-// destructor drops the jobs not begun and waits for those that are.
+// submit() may be called from any thread. Jobs must not throw, and must own all data that they use. The
+// destructor drops waiting jobs, and waits for running ones.
 #pragma once
 
 #include <array>

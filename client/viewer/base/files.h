@@ -11,7 +11,7 @@ namespace scree {
 /// The whole file. Refuses one over limits::text_file_bytes_max; the error names the file.
 Result<std::string> read_text(const std::string& file);
 
-/// Writes beside the file and renames, so that nobody ever reads half of it. Makes the folder if it is
+/// Writes a temporary file and renames it, so that no reader gets half of it. Makes the folder if it is
 /// missing.
 Result<void> write_text(const std::string& file, const std::string& text);
 

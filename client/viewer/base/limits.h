@@ -1,4 +1,4 @@
-// Bounds of the viewer. Each says its unit, its reason, and what happens there.
+// Bounds of the viewer. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -7,27 +7,27 @@
 
 namespace scree::limits {
 
-/// How far behind the server pieces are drawn, seconds: two intervals of transforms, and late frames still
-/// come in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
+/// Delay of drawn pieces behind the server, seconds: two intervals of transforms, so that late frames still
+/// arrive in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
 inline constexpr double playback_delay_s = 0.1;
 
 /// Part of a later frame's delay that the playback clock takes over: follows drift within seconds, ignores
 /// jitter.
 inline constexpr double playback_drift = 0.01;
 
-/// A frame that is this much off the clock starts it anew, seconds.
+/// Difference between a frame and the playback clock at which the clock restarts, seconds.
 inline constexpr double playback_jump_s = 1.0;
 
-/// Messages held back; above, all are applied at once.
+/// Delayed messages. Above: all are applied at once.
 inline constexpr size_t playback_messages_max = 4096;
 
 /// Seconds between attempts to reach a server that is gone.
 inline constexpr double reconnect_interval_s = 1.0;
 
-/// Seconds between two acknowledgements, and between two reports of where the camera is.
+/// Seconds between two acknowledgements, and between two reports of the camera's place.
 inline constexpr double report_interval_s = 0.25;
 
-/// The camera must have moved so far to be reported again, metres.
+/// Least movement of the camera between two reports, metres.
 inline constexpr float report_distance_m = 1.0F;
 
 /// Seconds between two reports of the cursor, as often as a server passes it on; and how far it must have
@@ -35,16 +35,16 @@ inline constexpr float report_distance_m = 1.0F;
 inline constexpr double cursor_interval_s = 0.1;
 inline constexpr float cursor_distance_m = 0.05F;
 
-/// How far a click reaches, metres.
+/// Reach of a click, metres.
 inline constexpr float carve_reach_m = 200.0F;
 
-/// A join counts as done when no chunk came for so long, seconds.
+/// Time without a new chunk after which a join counts as done, seconds.
 inline constexpr double join_quiet_s = 0.5;
 
 /// Wait between `pieces>=N` and its screenshot, seconds, in which the pieces fly apart.
 inline constexpr double flight_s = 0.5;
 
-/// How long no piece may be alive before the terrain counts as settled, seconds.
+/// Time without any piece alive after which the terrain counts as settled, seconds.
 inline constexpr double settled_s = 2.0;
 
 /// Bytes of a path or of the settings; a larger file is refused.
@@ -54,7 +54,7 @@ inline constexpr size_t text_file_bytes_max = size_t{1} << 20;
 inline constexpr size_t path_keys_max = 10000;
 inline constexpr double path_duration_max_s = 3600.0;
 
-/// Seconds between two countings of what is costly to count, for the HUD.
+/// Seconds between two updates of the HUD's costly counts.
 inline constexpr double count_interval_s = 0.5;
 
 }  // namespace scree::limits

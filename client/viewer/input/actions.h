@@ -1,4 +1,4 @@
-// What a person can ask for by key or button. One table serves the window, the help and --help.
+// The actions that a person can trigger by key or button. One table serves the window, the help and --help.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Binding {
 
 std::span<const Binding> bindings();
 
-/// All that keys, mouse and gamepad do, a line each.
+/// A description of all controls by keys, mouse and gamepad, one line each.
 std::string describe_controls();
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Moves a camera by what the person does. No window.
+// Moves a camera by the person's input. No window.
 #pragma once
 
 #include <glm/vec2.hpp>

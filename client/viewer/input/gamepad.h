@@ -1,4 +1,4 @@
-// From a gamepad's sticks and buttons to what the viewer does with them. No window.
+// Translates a gamepad's sticks and buttons into camera movement and actions. No window.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct PadState {
 
 class Gamepad {
  public:
-  /// Adds to `fly` what the sticks say; returns what the buttons ask for that went down since the last step.
+  /// Adds the sticks' movement to `fly`; returns the actions of the buttons that went down since the last
+  /// step.
   std::vector<Action> step(const PadState& now, float elapsed_s, FlyInput& fly);
   /// The right trigger went down in the last step.
   bool struck() const { return struck_; }

@@ -1,4 +1,4 @@
-// What a strike takes out, and how it breaks.
+// The tool of a strike: the shape that it carves, and the pattern of the pieces.
 #pragma once
 
 #include <array>
@@ -35,10 +35,11 @@ inline constexpr std::array tool_patterns{SeedPattern::uniform, SeedPattern::rad
 std::string_view name_of(ToolKind kind);
 std::string_view name_of(SeedPattern pattern);
 
-/// Where `direction` (unit) meets rock at `hit_m`. A tunnel goes along the direction; boxes stand upright.
+/// The shape of a strike along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
+/// direction; boxes stand upright.
 Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
 
-/// How many pieces to cut.
+/// Number of seeds of a strike.
 uint32_t seeds_of(const Tool& tool);
 
 /// The request for such a strike.
@@ -46,7 +47,7 @@ CarveMessage strike_with(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction,
 
 /// Larger by that many notches of the wheel.
 void grow(Tool& tool, float notches);
-/// Changes the tool, if the action is about it.
+/// Changes the tool, if the action concerns it.
 void change(Tool& tool, Action action);
 
 }  // namespace scree

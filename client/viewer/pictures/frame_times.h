@@ -1,4 +1,4 @@
-// How long frames took, for --timedemo.
+// Measured times of frames, for --timedemo.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct FrameTime {
   double frame_ms = 0.0;   ///< both
 };
 
-/// What was measured, and on what.
+/// The measurements and their conditions.
 struct TimeDemo {
   std::string path;    ///< file
   std::string method;  ///< that drew

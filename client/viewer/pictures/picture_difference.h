@@ -1,4 +1,4 @@
-// How much two pictures differ.
+// The difference between two pictures.
 #pragma once
 
 #include "client/render/renderer.h"

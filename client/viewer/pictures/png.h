@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// Writes beside the file and renames, so that nobody ever reads half an image.
+/// Writes a temporary file and renames it, so that no reader gets half an image.
 Result<void> write_png(const std::string& file, const Image& image);
 
 /// Of at most limits::image_side_max pixels a side; transparency is lost.

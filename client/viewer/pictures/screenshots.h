@@ -1,4 +1,4 @@
-// Which images are still to be taken, and when their moment has come. No GL.
+// The ordered screenshots, and the conditions for taking each. No GL.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +24,14 @@ struct ScreenshotOrder {
 /// FILE, FILE@joined, FILE@pieces>=N or FILE@settled.
 Result<ScreenshotOrder> parse_screenshot(std::string_view text);
 
-/// What the viewer knows at some moment (seconds of any clock).
+/// The state of the viewer at some moment (seconds of any clock).
 struct Moment {
   double now_s = 0.0;
   bool joined = false;   ///< the terrain around the camera has arrived and is shown
   size_t pieces = 0;     ///< in sight
   bool carved = false;   ///< pieces were made at some time
   bool alive = false;    ///< pieces exist, shown or not
-  bool current = false;  ///< what is shown is what is known
+  bool current = false;  ///< the picture shows the newest state
 };
 
 class ScreenshotQueue {

@@ -1,5 +1,4 @@
-// What there is beside the picture, as lines over it: borders, interest, bodies, contacts, other persons'
-// cursors.
+// Lines over the picture: borders, interest, bodies, contacts, other persons' cursors.
 #pragma once
 
 #include "client/render/scene/line_list.h"
@@ -7,8 +6,7 @@
 
 namespace scree {
 
-/// What of it is shown. Interest, chunks and pieces are what the client knows; physics is what the server
-/// tells.
+/// The shown parts. Interest, chunks and pieces are those of the client; physics is that of the server.
 struct OverlayChoice {
   bool shown = false;
   bool interest = true;
@@ -25,7 +23,7 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
                  double now_s);
 
 /// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their
-/// normals, the longer the stronger. Magenta: bricks around which islands are looked for.
+/// normals, longer for stronger ones. Magenta: bricks of unfinished searches for islands.
 void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m);
 
 /// A cross where each person aims, and a ring at their eye.

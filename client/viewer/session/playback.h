@@ -1,8 +1,7 @@
-// Evens out the network: holds each message back until a clock that runs a little behind the server reaches
-// it.
+// Smooths network jitter: delays each message until a clock that runs a little behind the server reaches it.
 //
-// Order is kept: what came behind a frame waits with it. Time comes in as an argument (seconds, any origin,
-// never backwards). Not thread-safe.
+// Order is kept: a message after a frame waits with it. Time is an argument (seconds, any origin, never
+// backwards). Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +18,10 @@ class Playback {
   /// Until the welcome, everything passes at once.
   void start(const WelcomeMessage& welcome);
   void push(ServerMessage message, double now_s);
-  /// The messages whose time has come, in order.
+  /// The messages that are due, in order.
   std::vector<ServerMessage> take_due(double now_s);
-  /// The tick (with its fraction) at which pieces are to be drawn now. It is behind the frames that
-  /// take_due gave out, by the interval of the transforms: so both poses around it are known.
+  /// The tick (with its fraction) at which pieces are drawn now. It is behind the frames that take_due()
+  /// returned by the interval of the transforms, so that the poses before and after it are known.
   double draw_tick(double now_s);
 
  private:

@@ -1,4 +1,4 @@
-// What of the pieces a camera sees.
+// Counts the pieces that a camera sees.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What is drawn of a session: the renderer and the method that draws its world. Needs the GL context current.
+// The drawing of a session: the renderer, and the method that draws its world. Needs the GL context current.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace scree {
 
 class View {
  public:
-  /// Fails when there is no fit OpenGL, or not what the method needs.
+  /// Fails without a suitable OpenGL, or without a feature that the method needs.
   static Result<std::unique_ptr<View>> create(const MethodEntry& method, float view_radius_m);
   ~View();
 

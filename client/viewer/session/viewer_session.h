@@ -1,5 +1,5 @@
-// The viewer's side of a server: connects, and again when the server is gone; plays back what it sends into a
-// mirror; reports where the camera is. The last world stays to be looked at while there is no connection.
+// The viewer's session with a server: connects, and again after a lost connection; plays messages back into a
+// mirror; reports the camera's place. Without a connection, the last world stays visible.
 //
 // Main thread only (connecting runs on another). Time comes in as seconds of std::chrono::steady_clock.
 #pragma once
@@ -28,40 +28,40 @@ struct SessionStep {
 
 class ViewerSession {
  public:
-  /// `name`: the person's, for others to see.
+  /// `name`: the person's, shown to others.
   ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name);
 
   SessionStep step(double now_s, const Camera& camera);
 
   /// Null until the first welcome.
   Mirror* mirror() { return mirror_.get(); }
-  /// The pieces where they are to be drawn now.
+  /// The pieces at the poses to draw now.
   const ScenePieces& pieces(double now_s);
   bool connected() const { return connection_ != nullptr; }
-  /// What was edited around the camera has arrived: no chunk came for a while.
+  /// Whether the edits around the camera have arrived: no chunk came for a while.
   bool joined(double now_s) const;
-  /// Pieces were made in this world at some time.
+  /// Whether any piece was made in this world.
   bool carved() const;
 
-  /// Where a ray (unit direction) meets rock within reach, metres.
+  /// The point at which a ray (unit direction) meets rock within reach, metres.
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
-  /// Asks for what the tool takes out where the ray meets rock; nothing happens if it meets none.
+  /// Requests a carve by the tool at the point where the ray meets rock; does nothing if it meets none.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction);
 
   /// The other persons within interest.
   const std::vector<PlayerCursor>& cursors() const { return cursors_; }
-  /// Whether the server is to tell what the bodies do; and what it told last, null while it has not.
+  /// Switches the server's PhysicsMessages on or off; and the last one, null before the first.
   void watch(bool physics) { watch_ = physics; }
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
-  /// Where interest was last reported, and its radius.
+  /// The last reported place of interest, and its radius.
   glm::vec3 interest_m() const { return reported_eye_m_; }
   float interest_radius_m() const { return interest_radius_m_; }
 
-  /// For people: the state of the connection, in one line; the server's last refusal, for a while.
+  /// For display: the state of the connection, in one line; the server's last refusal, for some seconds.
   std::string description() const;
   std::string notice(double now_s) const;
   double received_bytes_per_s() const { return bytes_per_s_; }
-  /// Memory of what was received and has not been looked at.
+  /// Memory of received messages that wait, bytes.
   size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
 
  private:
@@ -88,7 +88,7 @@ class ViewerSession {
   std::unique_ptr<Mirror> mirror_;
   Playback playback_;
   ScenePieces pieces_;
-  std::string trouble_;  ///< why there is no connection
+  std::string trouble_;  ///< the reason for the missing connection
   double next_try_s_ = 0.0;
   double next_report_s_ = 0.0;
   glm::vec3 reported_eye_m_{0.0F};
@@ -97,7 +97,7 @@ class ViewerSession {
   CursorMessage reported_cursor_;
   std::vector<PlayerCursor> cursors_;
   bool watch_ = false;
-  bool watching_ = false;  ///< as the server was told
+  bool watching_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;
   double last_chunk_s_ = 0.0;
   bool saw_pieces_ = false;

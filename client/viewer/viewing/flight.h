@@ -1,4 +1,4 @@
-// The offscreen flight along --path, and what is kept of its frames: pictures (--frames), times (--timedemo).
+// The offscreen flight along --path, and its results: pictures (--frames), times (--timedemo).
 // Each frame is a fixed step of the path, however long it takes to draw. Needs the GL context current.
 #pragma once
 
@@ -12,8 +12,8 @@ class Flight {
  public:
   explicit Flight(const CameraPath& path) : path_(path) {}
 
-  /// One turn: steps the session, and draws the frame. A frame that only becomes a picture waits until all
-  /// around it is loaded; one that is timed is drawn as it is. True when the frame is done.
+  /// One turn: steps the session, and draws the frame. A frame for a picture waits until everything around it
+  /// is loaded; a timed frame does not wait. True when the frame is done.
   Result<bool> turn(Viewing& viewing, double now_s);
   bool over(const ViewerOptions& options) const;
 

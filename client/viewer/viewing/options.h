@@ -1,4 +1,4 @@
-// What the viewer was asked for, on the command line and in the environment.
+// The viewer's options, from the command line and the environment.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct ViewerOptions {
   int width = 1280;
   int height = 720;
   Camera camera;
-  /// Said by a flag or by the environment.
+  /// Options that a flag or the environment sets.
   struct Given {
     bool size = false;
     bool method = false;
@@ -47,10 +47,10 @@ struct ViewerOptions {
   bool time_demo = false;
   std::string reference;  ///< picture to compare the screenshot with; empty: none
   double threshold = 0.0;
-  std::string trace_file;  ///< of what took how long; empty: none
+  std::string trace_file;  ///< file of the trace; empty: none
 };
 
-/// The program should end now, with this status; what there was to say is printed.
+/// The program should end now with this status; its output is printed.
 struct ExitNow {
   int status = 0;
 };

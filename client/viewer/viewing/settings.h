@@ -1,5 +1,5 @@
-// What a window remembers from one time to the next: $XDG_CONFIG_HOME/scree/viewer.json, or
-// ~/.config/scree/viewer.json. Flags and environment win over it.
+// The settings that a window keeps between runs: in $XDG_CONFIG_HOME/scree/viewer.json, or
+// ~/.config/scree/viewer.json. Flags and environment take precedence.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// Empty where there is neither XDG_CONFIG_HOME nor HOME: nothing is kept then.
+/// Empty without XDG_CONFIG_HOME and HOME: then nothing is kept.
 std::string settings_file();
 
 /// What the text says; what it does not say is as in `Settings{}`. An error names what is wrong; numbers out
@@ -39,18 +39,17 @@ std::string settings_file();
 Result<Settings> parse_settings(const std::string& text);
 std::string to_text(const Settings& settings);
 
-/// Fills in what neither flags nor environment said.
+/// Fills in the options that neither flags nor environment set.
 void apply_settings(const Settings& settings, ViewerOptions& options);
 
 /// The settings of one run of the viewer.
 class KeptSettings {
  public:
-  /// Reads the file, if there is one. One that cannot be understood is left as it is, and warned of on
-  /// stderr.
+  /// Reads the file, if there is one. Leaves an invalid file unchanged, with a warning on stderr.
   explicit KeptSettings(std::string file);
 
   const Settings& loaded() const { return loaded_; }
-  /// Writes what changed since `start`; what a flag said, and nobody changed, is not remembered. Does nothing
+  /// Writes the settings that changed since `start`; an unchanged value from a flag is not kept. Does nothing
   /// after a warning.
   void keep(const Settings& start, const Settings& end) const;
 

@@ -1,5 +1,5 @@
-// What a window and offscreen drawing have in common: a session, what is drawn of it, where the camera is,
-// and the pictures that were ordered. Needs the GL context current.
+// The common part of a window and of offscreen drawing: a session, its view, the camera, and the ordered
+// pictures. Needs the GL context current.
 #pragma once
 
 #include <memory>
@@ -18,21 +18,21 @@ class Viewing {
   /// `options` must outlive it.
   static Result<std::unique_ptr<Viewing>> begin(const ViewerOptions& options);
 
-  /// Messages come in, work begins and is shown. An error of GL's, where asked for, is an error.
+  /// Takes in messages, begins work and shows finished work. With --gl-debug, a GL error is an error.
   Result<void> step(double now_s);
-  /// Takes the screenshots whose moment has come.
+  /// Takes the screenshots that are due.
   Result<void> take_due(double now_s);
   /// The picture of this moment; with --overlay, all of the overlay in it.
   Result<Image> picture(double now_s);
-  /// What the choice shows; asks the server for it, or no more.
+  /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
   /// Writes the trace, if one was asked for.
   Result<void> finish();
-  /// All around the camera has arrived and is shown.
+  /// Whether everything around the camera has arrived and is shown.
   bool joined(double now_s);
 
   const ViewerOptions& options;
-  std::unique_ptr<Trace> trace;  ///< null: not asked for
+  std::unique_ptr<Trace> trace;  ///< null: no trace
   ViewerSession session;
   std::unique_ptr<View> view;
   Camera camera;

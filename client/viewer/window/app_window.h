@@ -16,7 +16,7 @@ struct GLFWwindow;
 
 namespace scree {
 
-/// What the person did since the last frame.
+/// The person's input since the last frame.
 struct AppInput {
   FlyInput fly;
   float elapsed_s = 0.0F;
@@ -40,9 +40,9 @@ class AppWindow {
   int width() const { return width_; }
   int height() const { return height_; }
   bool minimised() const;
-  /// As the desktop counts: what --size asked for.
+  /// Size in the desktop's units, those of --size.
   std::pair<int, int> window_size() const;
-  /// While minimised, it waits a little instead: nobody sees anything.
+  /// Shows the frame; while minimised, waits a little instead.
   void show_frame();
 
   /// For Dear ImGui's backend.

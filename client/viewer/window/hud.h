@@ -29,7 +29,7 @@ class Hud {
   void note(const HudFacts& facts, const FrameParts& parts);
   void figures(const HudFacts& facts);
   void graphs(const HudFacts& facts);
-  /// The method that was chosen, if one was. `tool` is changed by what is dragged.
+  /// The chosen method; null if none was chosen. Sliders change `tool`.
   const MethodEntry* panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid);
   /// The persons' names, where their cursors are in the picture.
   void names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection);

@@ -1,4 +1,4 @@
-// What the HUD shows of a session and its view.
+// The facts of a session and its view that the HUD shows.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace scree {
 
 struct HudFacts {
   std::string connection;  ///< one line
-  bool lost = false;       ///< the connection is gone: say so loudly
+  bool lost = false;       ///< the connection is gone: shown in large letters
   Tick tick = 0;
   size_t pieces = 0;
   std::optional<StatusMessage> status;  ///< the server's last
@@ -28,7 +28,7 @@ struct HudFacts {
   MemoryCounts memory;  ///< of the drawing method, of the mirror, and of what waits to be applied
 };
 
-/// Keeps what is costly to count for a while.
+/// Caches costly counts for limits::count_interval_s.
 class FactFinder {
  public:
   HudFacts find(Viewing& viewing, double now_s);

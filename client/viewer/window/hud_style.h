@@ -1,4 +1,4 @@
-// How the HUD's windows look. Used by hud*.cpp only.
+// The style of the HUD's windows. Used by hud*.cpp only.
 #pragma once
 
 #include <imgui/imgui.h>
