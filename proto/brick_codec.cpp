@@ -20,6 +20,7 @@ constexpr int compression_level = 3;
 constexpr int32_t brick_coordinate_max = limits::voxel_coordinate_max / brick_size;
 
 void append_compressed(std::vector<uint8_t>& bytes, std::span<const Code> codes) {
+  CHECK_DEBUG(std::ranges::find(codes, Code{-128}) == codes.end());
   const size_t start = bytes.size();
   bytes.resize(start + ZSTD_compressBound(codes.size()));
   const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, codes.data(), codes.size(),
@@ -28,7 +29,7 @@ void append_compressed(std::vector<uint8_t>& bytes, std::span<const Code> codes)
   bytes.resize(start + written);
 }
 
-/// Which of the bricks are painted, and what.
+/// Writes the painted bricks' indices and materials.
 void write_paint(ByteWriter& writer, std::span<const BrickView> bricks) {
   const auto is_painted = [](const BrickView& view) { return view.paint.has_value(); };
   writer.varint(static_cast<uint64_t>(std::ranges::count_if(bricks, is_painted)));
@@ -53,7 +54,7 @@ void read_paint(ByteReader& reader, std::span<BrickPatch> bricks) {
   }
 }
 
-/// Exactly codes.size() codes; nothing after them.
+/// Reads exactly codes.size() codes, with no bytes after them.
 void decompress(ByteReader& reader, std::span<Code> codes) {
   const std::span<const uint8_t> packed = reader.rest();
   if (reader.failed()) return;
@@ -80,6 +81,7 @@ std::vector<uint8_t> encode_bricks(std::span<const BrickView> bricks) {
   std::vector<Code> codes;
   codes.reserve(bricks.size() * brick_voxels);
   for (const BrickView& view : bricks) {
+    CHECK(view.brick != nullptr);
     coords.push_back(view.coord);
     codes.insert(codes.end(), view.brick->codes.begin(), view.brick->codes.end());
   }
@@ -104,7 +106,8 @@ Result<std::vector<BrickPatch>> decode_bricks(std::span<const uint8_t> bytes, si
   ByteReader reader(bytes, "bricks");
   const size_t count = reader.varint("number of bricks", count_max);
   if (!reader.failed() && count == 0) reader.refuse("a list of no bricks is not empty");
-  // Three bytes a coordinate at least: a count that the bytes cannot hold is refused before it is allocated.
+  // A coordinate takes at least three bytes: a count that the bytes cannot hold is refused before the
+  // allocation.
   if (count * 3 > bytes.size()) reader.refuse("ends within coordinates");
   if (reader.failed()) return tl::unexpected(reader.error());
   bricks.resize(count);
@@ -126,6 +129,7 @@ Result<std::vector<BrickPatch>> decode_bricks(std::span<const uint8_t> bytes, si
 std::vector<uint8_t> encode_volume(const Volume& volume) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
+  CHECK(volume.mass >= 0 && volume.window.codes.size() == Window::count(volume.window.box));
   const VoxelBox& box = volume.window.box;
   const VoxelCoord size = box.size();
   for (const int32_t number : {box.lo.x, box.lo.y, box.lo.z}) writer.zigzag(number);

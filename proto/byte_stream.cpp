@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -48,6 +50,7 @@ void ByteWriter::vec3(glm::vec3 value) {
 void ByteWriter::position(const QuantisedPose& pose) {
   const uint32_t folded[3] = {fold_sign(pose.x), fold_sign(pose.y), fold_sign(pose.z)};
   const int width = std::bit_width(folded[0] | folded[1] | folded[2]);
+  CHECK(width < 1 << width_bits);
   uint64_t pending = static_cast<uint64_t>(width);
   int pending_bits = width_bits;
   for (const uint32_t value : folded) {
@@ -55,6 +58,7 @@ void ByteWriter::position(const QuantisedPose& pose) {
     for (pending_bits += width; pending_bits >= 8; pending_bits -= 8, pending >>= 8U)
       u8(static_cast<uint8_t>(pending));
   }
+  CHECK_DEBUG(pending_bits < 8 && pending >> pending_bits == 0);
   if (pending_bits > 0) u8(static_cast<uint8_t>(pending));
 }
 
@@ -154,6 +158,7 @@ QuantisedPose ByteReader::position(const char* what) {
 
 std::span<const uint8_t> ByteReader::rest() {
   if (failed()) return {};
+  CHECK(next_ <= bytes_.size());
   const std::span<const uint8_t> rest = bytes_.subspan(next_);
   next_ = bytes_.size();
   return rest;

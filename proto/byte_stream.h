@@ -1,7 +1,7 @@
 // Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/.
 //
-// A reader never fails half-way through an expression: after the first breach it remembers why and answers
-// zeros, and whoever reads looks at failed() before it believes, allocates or loops.
+// After the first error, a reader keeps its reason and returns zeros, so that expressions of several reads
+// stay simple. The caller tests failed() before it uses a value, allocates memory or loops.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace scree {
 
-/// Signed to unsigned and back, small numbers staying small: 0, −1, 1, −2 … become 0, 1, 2, 3 …
+/// Maps signed to unsigned numbers and back, small to small: 0, −1, 1, −2 … become 0, 1, 2, 3 …
 constexpr uint64_t fold_sign(int64_t value) {
   return (static_cast<uint64_t>(value) << 1U) ^ static_cast<uint64_t>(value >> 63);
 }
@@ -45,11 +45,11 @@ class ByteWriter {
 
 class ByteReader {
  public:
-  /// `subject` begins every reason that the reader gives.
+  /// `subject` is the first word of every refusal. `bytes` and `subject` must outlive the reader.
   ByteReader(std::span<const uint8_t> bytes, const char* subject) : bytes_(bytes), subject_(subject) {}
 
   uint64_t varint(const char* what, uint64_t max = std::numeric_limits<uint64_t>::max());
-  /// Within ± max.
+  /// A number within ± max.
   int64_t zigzag(const char* what, int64_t max);
   uint8_t u8(const char* what, uint8_t max);
   uint32_t u32(const char* what);
@@ -57,13 +57,14 @@ class ByteReader {
   glm::vec3 vec3(const char* what);
   /// x, y and z of a pose.
   QuantisedPose position(const char* what);
+  /// All remaining bytes.
   std::span<const uint8_t> rest();
 
   bool at_end() const { return failed() || next_ == bytes_.size(); }
   bool failed() const { return !error_.message.empty(); }
-  /// The first refusal wins.
+  /// Keeps the reason, unless there is an earlier one.
   void refuse(const std::string& reason);
-  /// Refuses bytes left over.
+  /// Refuses remaining bytes.
   void finish();
   const Error& error() const { return error_; }
 
@@ -76,7 +77,7 @@ class ByteReader {
   Error error_;
 };
 
-/// Differences of coordinates, one entry after the other.
+/// Writes coordinates, each as its difference to the one before.
 template <typename Tag>
 void write_coords(ByteWriter& writer, std::span<const Coord<Tag>> coords) {
   Coord<Tag> before;
@@ -88,7 +89,7 @@ void write_coords(ByteWriter& writer, std::span<const Coord<Tag>> coords) {
   }
 }
 
-/// The entry after `before`, each number within ± max.
+/// Reads the coordinate after `before`; each number is within ± max.
 template <typename Tag>
 Coord<Tag> read_coord(ByteReader& reader, const Coord<Tag>& before, int32_t max, const char* what) {
   const auto axis = [&](int32_t from) {

@@ -68,7 +68,7 @@ struct Writing {
 HelloMessage read(const wire::Hello& from, FieldChecker& check) {
   HelloMessage hello;
   hello.protocol = from.protocol();
-  // Another version may mean other things by its fields: only its number is read, to be answered.
+  // In another version the fields may have another meaning: only its number is read, for the refusal.
   if (hello.protocol != protocol_version) return hello;
   hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
   hello.eye_m = check.vec3(from.eye(), "eye");

@@ -1,8 +1,8 @@
 // Messages to bytes and back. proto/scree.proto is the specification.
 //
-// What is written is trusted: senders keep within shared/base/limits.h and proto/limits.h. What is read is
-// not: every number is checked for being finite and in range, every count before memory is allocated for it,
-// and a refusal names the field and the limit. Pure functions, safe to call from any thread.
+// Encoders trust their input: senders keep within shared/base/limits.h and proto/limits.h. Decoders trust
+// nothing: they check that every number is finite and in range, and every count before they allocate memory
+// for it; a refusal names the field and the limit. Pure functions, safe to call from any thread.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace scree {
 /// Bytes of the length in front of every message: u32, little-endian, without itself.
 inline constexpr size_t length_prefix_bytes = 4;
 
-/// The message as it crosses the wire, length in front. Above limits::message_bytes_max the peer refuses it:
-/// whoever builds frames splits them (only bricks ever come near).
+/// The bytes on the wire, with the length in front. The peer refuses a message above
+/// limits::message_bytes_max; the sender must not send it. Only bricks and pieces come near that.
 std::vector<uint8_t> encode(const ServerMessage& message);
 std::vector<uint8_t> encode(const ClientMessage& message);
 
-/// `body` is one whole message without its length, as FrameReader hands it out.
+/// `body` is one whole message without its length, as FrameReader::next() returns it.
 ///
-/// A carve or fill is decoded whatever its size, so that the world can answer it with a reply; only what is
-/// no number or no known kind is refused here.
+/// A carve or fill of any size is decoded, so that the world can refuse it with a reply; only numbers that
+/// are not finite, and unknown kinds, are refused here.
 Result<ServerMessage> decode_server(std::span<const uint8_t> body);
 Result<ClientMessage> decode_client(std::span<const uint8_t> body);
 

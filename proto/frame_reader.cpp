@@ -3,10 +3,12 @@
 #include <string>
 
 #include "proto/codec.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 void FrameReader::push(std::span<const uint8_t> bytes) {
+  CHECK(start_ <= buffer_.size());
   buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<ptrdiff_t>(start_));
   start_ = 0;
   buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());

@@ -1,5 +1,5 @@
-// Bounds on what a message may hold; with shared/base/limits.h, all that a decoder enforces.
-// A sender keeps within them; a receiver refuses what is beyond, naming the limit, before it allocates.
+// Bounds of a message's content. A decoder enforces these and shared/base/limits.h.
+// A sender keeps within them; a receiver refuses more, naming the limit, before it allocates memory.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace scree::limits {
 
-/// Bricks in one message: 2 MiB of codes, about what compresses into message_bytes_max. A tick that changes
-/// more for one client drops chunks instead and streams them again.
+/// Bricks in one message: 2 MiB of codes, which compress to about message_bytes_max. When a tick changes more
+/// for one client, whole chunks are streamed instead.
 inline constexpr size_t bricks_per_message_max = 4096;
 
-/// Operations in one frame. A tick merges and carves a few dozen; the rest is margin.
+/// Operations in one frame. A tick has a few dozen; the rest is margin.
 inline constexpr size_t operations_per_frame_max = 4096;
 
 /// Chunks dropped, or pieces removed or moved, in one frame.
@@ -25,10 +25,10 @@ inline constexpr size_t repair_chunks_max = 1024;
 /// Length of a client's name, bytes.
 inline constexpr size_t client_name_bytes_max = 64;
 
-/// Length of a person's name, bytes; an encoder cuts what is longer.
+/// Length of a person's name, bytes; an encoder cuts a longer one.
 inline constexpr size_t person_name_bytes_max = 32;
 
-/// Cursors in one message; of more persons in one place the others are not shown.
+/// Cursors in one message. Above: the others are not shown.
 inline constexpr size_t cursors_max = 64;
 
 /// Bodies, corners of one body, contacts and bricks in one Physics message: about 150 KiB at most. The rest
@@ -41,10 +41,11 @@ inline constexpr size_t watched_bricks_max = 1024;
 /// Work that fits into a tick, microseconds: a tick takes a second at most.
 inline constexpr uint32_t tick_budget_max_us = 1'000'000;
 
-/// Length of a refusal or a reply's reason, bytes; an encoder cuts what is longer.
+/// Length of a refusal or a reply's reason, bytes; an encoder cuts a longer one.
 inline constexpr size_t reason_bytes_max = 1024;
 
-/// Voxel coordinates lie within ± this, so that no sum of an offset and a window overflows an int32.
+/// Voxel coordinates lie within ± this, so that no sum of a coordinate and a window's side overflows an
+/// int32.
 inline constexpr int32_t voxel_coordinate_max = 1 << 24;
 
 /// Quantised positions lie within ± this, just under 2^20 m: with their sign they fit 31 bits.

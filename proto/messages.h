@@ -1,5 +1,5 @@
-// The messages between server and client as plain values: what is sent, and in which order it is applied.
-// Their encoding is proto/scree.proto; proto/codec.h turns one into the other and checks every byte.
+// The messages between server and client as plain values. proto/scree.proto specifies their encoding and the
+// order in which a client applies them; proto/codec.h converts and checks every byte.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace scree {
 
 inline constexpr uint32_t protocol_version = 1;
 
-/// TCP port of a server when nobody says otherwise.
+/// Default TCP port of a server.
 inline constexpr uint16_t default_port = 4177;
 
 // ---- client to server
@@ -30,14 +30,14 @@ struct HelloMessage {
   std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
 };
 
-/// Where the client looks from; it follows the chunks and pieces within the radius.
+/// The client's eye; the client follows the chunks and pieces within the radius.
 struct InterestMessage {
   glm::vec3 eye_m{0.0F};
   float interest_radius_m = 0.0F;
 };
 
-/// Where clients put a carve's centre: so far behind the point that they strike, in radii. Most of it is rock
-/// then, it opens the surface, and the pieces are thrown out of it.
+/// Depth of a carve's centre behind the struck point, in radii, as clients choose it. Most of the shape is
+/// rock then, the carve opens the surface, and the pieces are thrown out.
 inline constexpr float carve_depth_in_radii = 0.4F;
 
 struct CarveMessage {
@@ -48,7 +48,7 @@ struct CarveMessage {
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};
   float blast_speed_m_s = 6.0F;
-  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
+  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`: `seeds` places; else none
 };
 
 struct FillMessage {
@@ -63,7 +63,7 @@ struct PaintMessage {
   Material material = Material::rock;
 };
 
-/// Chunks whose hash at `tick` was not what the frame's check said.
+/// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairRequest {
   Tick tick = 0;
   std::vector<ChunkCoord> chunks;
@@ -78,17 +78,17 @@ struct AckMessage {
 /// Changes the server's settings, all of them or none; answered with a reply.
 struct AdminMessage {
   uint32_t request = 0;
-  std::string token;  ///< what the server was started with
+  std::string token;  ///< must be equal to the server's
   SettingValues settings;
 };
 
-/// Where a person looks from and what they aim at, for others to see.
+/// A person's eye and aim, shown to others.
 struct CursorMessage {
   glm::vec3 eye_m{0.0F};
   glm::vec3 aim_m{0.0F};
 };
 
-/// Asks for PhysicsMessages, or for no more of them.
+/// Switches PhysicsMessages on or off.
 struct WatchMessage {
   bool physics = false;
 };
@@ -109,19 +109,19 @@ struct WelcomeMessage {
   bool replay = false;             ///< a recording: requests to carve are refused
 };
 
-/// Says why, then the server closes the connection.
+/// The reason for which the server closes the connection.
 struct RefusalMessage {
   std::string reason;
 };
 
-/// A brick's new codes, and what it is painted.
+/// A brick's new codes and paint.
 struct BrickPatch {
   BrickCoord coord;
   Brick brick;
   std::optional<Material> paint = std::nullopt;
 };
 
-/// One tick, as this client needs it. Apply: operations in order, then patches, then drops, then the pieces.
+/// One tick, as selected for this client. Apply operations in order, then patches, then drops, then pieces.
 struct FrameMessage {
   Tick tick = 0;
   std::vector<Operation> operations;
@@ -134,7 +134,7 @@ struct FrameMessage {
       0;  ///< fold of Σ chunk hash over the chunks that operations and patches of this frame changed
 };
 
-/// A chunk's edited bricks, whole: replaces whatever edits the client had there; from now on it is followed.
+/// All edited bricks of a chunk: they replace the client's edits there; from now on the client follows it.
 struct ChunkMessage {
   ChunkCoord chunk;
   Tick version = 0;
@@ -142,14 +142,14 @@ struct ChunkMessage {
   uint64_t hash = 0;  ///< Σ brick_hash
 };
 
-/// A piece whose making the client did not see.
+/// A piece whose creating operation the client did not get.
 struct PieceMessage {
   PieceId id = 0;
   Volume volume;
   QuantisedPose pose;
 };
 
-/// Forget every edit and piece; what follows is a join anew.
+/// Tells the client to forget every edit and piece, as if it had just joined.
 struct ResetMessage {};
 
 struct ReplyMessage {
@@ -162,19 +162,19 @@ struct ReplyMessage {
 inline constexpr std::array<const char*, 8> stage_names{"carve", "spawn",     "bodies",  "impacts",
                                                         "rest",  "recombine", "islands", "publish"};
 
-/// What the ticks of the last second had to do by the server's model, and what did not fit into them.
+/// The work of the last second's ticks by the server's model, and the counts of work that did not fit.
 struct WorkStatus {
   uint32_t budget_us = 0;         ///< of a tick; 0: not known, as in a replay
-  uint32_t worst_us = 0;          ///< most that a tick had to do
+  uint32_t worst_us = 0;          ///< largest work of a tick
   uint32_t requests_waiting = 0;  ///< most at a tick's end
   uint32_t merges_put_off = 0;    ///< most at a tick's end
   uint32_t breaks_left_out = 0;   ///< in all
   uint32_t dents_left_out = 0;    ///< in all
   uint32_t ticks_cut_short = 0;   ///< in which any of these happened
   uint32_t ticks_merging_sooner = 0;
-  uint32_t supports_put_off = 0;   ///< most bricks at a tick's end, around which what holds is not searched
-  uint32_t islands_put_off = 0;    ///< most at a tick's end that hang loose and wait to fall
-  uint32_t islands_too_large = 0;  ///< in all, taken for ground
+  uint32_t supports_put_off = 0;   ///< most bricks at a tick's end that await a search for support
+  uint32_t islands_put_off = 0;    ///< most islands at a tick's end that wait to fall
+  uint32_t islands_too_large = 0;  ///< components taken for ground, in all
 
   bool operator==(const WorkStatus&) const = default;
 };
@@ -210,16 +210,16 @@ struct PlayerCursor {
   bool operator==(const PlayerCursor&) const = default;
 };
 
-/// The other persons within interest, all of them.
+/// The cursors of all other persons within interest.
 struct CursorsMessage {
   std::vector<PlayerCursor> cursors;
 };
 
-/// A rigid body, beyond its pose.
+/// A rigid body without its pose.
 struct WatchedBody {
   PieceId id = 0;
   bool awake = false;
-  bool island = false;            ///< touches terrain by points of its own surface
+  bool island = false;            ///< collides with terrain by points of its own surface
   std::vector<glm::vec3> hull_m;  ///< corners that collide, from the centre of mass, in the volume's axes
 };
 
@@ -229,12 +229,12 @@ struct WatchedContact {
   float impulse_n_s = 0.0F;
 };
 
-/// What the bodies do, for people who want to see it. Lengths are rounded to 1/256 m on the wire.
+/// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
 struct PhysicsMessage {
   Tick tick = 0;
   std::vector<WatchedBody> bodies;  ///< ordered by id
   std::vector<WatchedContact> contacts;
-  std::vector<BrickCoord> searched;  ///< bricks around which islands are looked for
+  std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,

@@ -23,10 +23,10 @@ enum Kind : uint8_t {
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
 
-/// Of a stamp's shift, its sign folded in. What is above them is the method, so that the usual one takes no
-/// byte of its own.
+/// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
+/// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
-/// In place of the method: it is `stamp`, and others follow.
+/// In place of the method: a stamp of several pieces by the method `stamp`.
 constexpr uint64_t method_group = static_cast<uint64_t>(StampMethod::sphere) + 1;
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
@@ -51,7 +51,7 @@ Shape read_shape(ByteReader& reader) {
   return shape;
 }
 
-/// Low and high half of a byte.
+/// The pattern in the low half of a byte, the cutter in the high half.
 uint8_t packed(SeedPattern pattern, Cutter cutter) {
   return static_cast<uint8_t>(static_cast<unsigned>(pattern) | static_cast<unsigned>(cutter) << 4U);
 }
@@ -119,7 +119,7 @@ PaintOperation read_paint(ByteReader& reader) {
   return paint;
 }
 
-/// The part that whatever makes pieces has in common.
+/// Reads the fields that carve and shatter share.
 template <typename Breaking>
 void read_seeds(ByteReader& reader, PieceId first_piece, SeedPattern last_pattern, Breaking& out) {
   const uint8_t byte = reader.u8("pattern and cutter", 0xFF);

@@ -1,7 +1,7 @@
-// Operations, bricks and volumes as packed bytes: inside messages, and inside recordings.
-// The layouts are specified in proto/scree.proto (Frame.operations, Frame.patches, Piece.volume).
+// Operations, bricks and volumes as packed bytes, in messages and in recordings.
+// proto/scree.proto specifies the layouts (Frame.changes, Frame.patches, Piece.volume).
 //
-// Decoders check everything, also that no byte is left over. Pure functions, safe to call from any thread.
+// Decoders check everything, and refuse remaining bytes. Pure functions, safe to call from any thread.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ void append_operation(std::vector<uint8_t>& bytes, const Operation& operation);
 
 std::vector<uint8_t> encode_operation(const Operation& operation);
 std::vector<uint8_t> encode_operations(std::span<const Operation> operations);
-/// Exactly one operation.
+/// Decodes exactly one operation.
 Result<Operation> decode_operation(std::span<const uint8_t> bytes);
-/// All of them; at most limits::operations_per_frame_max.
+/// Decodes at most limits::operations_per_frame_max operations.
 Result<std::vector<Operation>> decode_operations(std::span<const uint8_t> bytes);
 
-/// Bytes that the operation takes within a frame.
+/// Size of the encoded operation within a frame, bytes.
 size_t operation_bytes(const Operation& operation);
 
-/// A brick that someone else owns.
+/// A brick by reference.
 struct BrickView {
   BrickCoord coord;
   const Brick* brick = nullptr;

@@ -7,6 +7,7 @@
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -18,7 +19,7 @@ constexpr uint32_t tick_rate_max_hz = 1000;
 
 std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message) {
   std::vector<uint8_t> bytes(message.ByteSizeLong());
-  message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
+  CHECK(message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size())));
   return bytes;
 }
 
@@ -49,6 +50,7 @@ RecordedLedger read(const recorded::Ledger& from) {
 }
 
 std::string without_length(const std::vector<uint8_t>& message) {
+  CHECK(message.size() >= length_prefix_bytes);
   return {message.begin() + length_prefix_bytes, message.end()};
 }
 
@@ -91,7 +93,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   FieldChecker check("header of the recording");
   RecordedHeader header;
   header.format = from->format();
-  // Another format may mean other things by its fields: only its number is read, to be answered.
+  // In another format the fields may have another meaning: only its number is read, for the refusal.
   if (header.format != recording_format) return header;
   header.program = check.text(from->program(), program_bytes_max, "program");
   header.terrain.kind = static_cast<TerrainKind>(

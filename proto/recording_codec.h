@@ -1,7 +1,7 @@
-// The blobs of a recording as plain values, to bytes and back. proto/recording.proto is the specification.
+// Converts the blobs of a recording between plain values and bytes. proto/recording.proto is the
+// specification.
 //
-// Decoders check everything: a recording is a file that anybody may have written. Pure functions, safe to
-// call from any thread.
+// Decoders check everything: a recording is an untrusted file. Pure functions, safe to call from any thread.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace scree {
 
-/// Of the blobs and the tables together. A reader refuses any other.
+/// Version of the blobs and the tables. A reader refuses any other.
 inline constexpr uint32_t recording_format = 3;
 
 struct RecordedHeader {
@@ -28,7 +28,7 @@ struct RecordedHeader {
   SettingValues settings;  ///< to start with
 };
 
-/// As server/world/tick_delta.h, Ledger.
+/// The same values as Ledger in server/world/tick_delta.h.
 struct RecordedLedger {
   int64_t terrain = 0;
   int64_t pieces = 0;
@@ -40,7 +40,7 @@ struct RecordedLedger {
 struct RecordedFrame {
   Tick tick = 0;
   std::vector<Operation> operations;
-  std::vector<PieceState> moved;  ///< new, or elsewhere than a tick before; ordered by id
+  std::vector<PieceState> moved;  ///< pieces that are new or have another pose than before; ordered by id
   RecordedLedger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;

@@ -1,5 +1,7 @@
 #include "proto/transforms.h"
 
+#include <algorithm>
+
 #include "proto/byte_stream.h"
 #include "shared/base/check.h"
 
@@ -16,6 +18,11 @@ int32_t coordinate(ByteReader& reader, int32_t before) {
   return static_cast<int32_t>(value);
 }
 
+bool is_in_range(const QuantisedPose& pose) {
+  constexpr int32_t most = limits::pose_coordinate_max;
+  return std::max({pose.x, pose.y, pose.z}) <= most && std::min({pose.x, pose.y, pose.z}) >= -most;
+}
+
 }  // namespace
 
 std::vector<uint8_t> pack_transforms(std::span<const PieceState> pieces) {
@@ -24,6 +31,7 @@ std::vector<uint8_t> pack_transforms(std::span<const PieceState> pieces) {
   PieceState before;
   for (const PieceState& piece : pieces) {
     CHECK(&piece == pieces.data() || piece.id > before.id);
+    CHECK_DEBUG(is_in_range(piece.pose));
     writer.varint(piece.id - before.id);
     writer.zigzag(int64_t{piece.pose.x} - before.pose.x);
     writer.zigzag(int64_t{piece.pose.y} - before.pose.y);

@@ -1,4 +1,4 @@
-// The poses of many pieces in one run of bytes: FrameMessage::transforms.
+// The poses of many pieces as packed bytes: FrameMessage::transforms.
 //
 // Ordered by id, strictly ascending. Per piece: id as a varint difference to the one before, position as
 // three zigzag varint differences to the one before (neighbours were often cut from the same rock), 32 bits
@@ -15,10 +15,12 @@
 
 namespace scree {
 
-/// `pieces` must be ordered by id without repetition; none gives no bytes.
+/// `pieces` must be ordered by id without repetition, positions within ± limits::pose_coordinate_max. No
+/// pieces give no bytes.
 std::vector<uint8_t> pack_transforms(std::span<const PieceState> pieces);
 
-/// Refuses disorder, positions out of range, bytes left over, and more than limits::entries_per_frame_max.
+/// Refuses ids that do not ascend, positions out of range, remaining bytes, and more than
+/// limits::entries_per_frame_max pieces.
 Result<std::vector<PieceState>> unpack_transforms(std::span<const uint8_t> bytes);
 
 }  // namespace scree

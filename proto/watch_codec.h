@@ -1,11 +1,11 @@
-// Cursors and physics, between our types and Protobuf's. Internal to proto/.
+// Converts cursors and physics between the types of proto/messages.h and Protobuf's. Internal to proto/.
 #pragma once
 
 #include "proto/wire_values.h"
 
 namespace scree {
 
-/// What is over the limits is left out.
+/// Leaves out entries beyond the limits.
 void write(wire::Cursors& to, const CursorsMessage& from);
 void write(wire::Physics& to, const PhysicsMessage& from);
 

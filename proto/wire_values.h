@@ -1,4 +1,4 @@
-// Values that several messages share, between our types and Protobuf's. Internal to proto/.
+// Converts the values that several messages share between our types and Protobuf's. Internal to proto/.
 #pragma once
 
 #include <scree.pb.h>
@@ -13,7 +13,7 @@ namespace scree {
 
 using WireSettings = google::protobuf::RepeatedPtrField<wire::Setting>;
 
-/// Believes nothing that was parsed: each call checks one field; the first breach is remembered and named.
+/// Checks parsed fields, one a call. Keeps the first error, which names the field.
 class FieldChecker {
  public:
   explicit FieldChecker(const char* subject) : subject_(subject) {}
@@ -32,7 +32,7 @@ class FieldChecker {
   /// Points, packed as 3 × f32 each.
   std::vector<glm::vec3> points(const std::string& packed, size_t count_max, const char* what);
   SettingValues settings(const WireSettings& values);
-  /// What another decoder gave; its refusal becomes this one's.
+  /// The value of another decoder's result; keeps its error if it has one.
   template <typename T>
   T take(Result<T> result) {
     if (result) return std::move(*result);
@@ -52,7 +52,7 @@ class FieldChecker {
 void write(wire::Vec3& to, glm::vec3 from);
 void write(wire::Shape& to, const Shape& from);
 void write(WireSettings& to, const SettingValues& from);
-/// Cut to the limit at the end of a character, control characters replaced.
+/// The text cut to the limit at the end of a character, with control characters replaced by spaces.
 std::string clean_text(std::string text, size_t bytes_max);
 std::string pack_chunks(const std::vector<ChunkCoord>& chunks);
 std::string pack_points(const std::vector<glm::vec3>& points);
@@ -64,7 +64,7 @@ inline std::span<const uint8_t> as_span(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-/// Length in front, then the message.
+/// The serialised message with its length in front.
 std::vector<uint8_t> frame_of(const google::protobuf::MessageLite& message);
 
 }  // namespace scree

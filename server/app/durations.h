@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 class Durations {
  public:
   void add(double ms) {
+    CHECK(ms >= 0.0);
     ++bins_[bin_of(ms)];
     ++count_;
     worst_ms_ = std::max(worst_ms_, ms);
@@ -19,6 +22,7 @@ class Durations {
   double worst_ms() const { return worst_ms_; }
   /// Within 1 %; 0 when nothing was added. `share` in 0 … 1.
   double quantile_ms(double share) const {
+    CHECK(share >= 0.0 && share <= 1.0);
     if (count_ == 0) return 0.0;
     const auto wanted = static_cast<uint64_t>(std::ceil(share * static_cast<double>(count_)));
     uint64_t below = 0;

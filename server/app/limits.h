@@ -1,4 +1,4 @@
-// Bounds of the programs. Each says its unit, its reason, and what happens there.
+// Bounds of the programs. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -6,23 +6,23 @@
 
 namespace scree::limits {
 
-/// Ticks that a late simulation makes up for at once; what is beyond is lost, and counted as overruns.
+/// Ticks that a late simulation catches up with. Above: the ticks are lost, and counted as overruns.
 inline constexpr int catch_up_ticks_max = 5;
 
-/// Ticks a second that a server may be asked for.
+/// Ticks a second of a server's options. Above: refused.
 inline constexpr uint32_t tick_rate_max_hz = 240;
 
-/// Around each client's eye, terrain is generated before anything touches it: so far, in chunks (32 m at
-/// voxels of 0.25 m), the reach of a viewer's tools. Beyond, the first touch generates it, inside its tick.
+/// Radius around each client's eye within which terrain is generated before anything touches it, chunks: 32 m
+/// at voxels of 0.25 m, the reach of a viewer's tools. Beyond: the first touch generates it, inside its tick.
 inline constexpr int ahead_chunks = 4;
 
-/// Chunks that a tick looks at for whether they are generated: a few microseconds.
+/// Chunks that a tick tests for being generated: a few microseconds.
 inline constexpr size_t ahead_looks_per_tick = 64;
 
-/// Pieces alive at once that a server may be asked for. Beyond, no machine of today keeps the tick.
+/// Pieces alive at once of a server's options. No machine of today keeps the tick with more. Above: refused.
 inline constexpr uint32_t pieces_max_max = 20000;
 
-/// Sessions that a server may be asked for.
+/// Sessions of a server's options. Above: refused.
 inline constexpr uint32_t sessions_max_max = 4096;
 
 /// Speed of a replay, times real time.

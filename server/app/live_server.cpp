@@ -10,6 +10,7 @@
 #include "server/app/terrain_ahead.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -17,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often a server that waits for its first clients looks for them.
+/// Period at which a server that waits for its first clients counts them.
 constexpr std::chrono::milliseconds wait_period{5};
 
 Clock::duration seconds(double s) {
@@ -43,17 +44,17 @@ struct LiveServer::State {
 
   LiveConfig config;
   CommandQueue commands;
-  std::unique_ptr<TickFeed> feed;  ///< the simulation thread's own
+  std::unique_ptr<TickFeed> feed;  ///< used by the simulation thread only
   std::unique_ptr<NetServer> net;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
-  std::unique_ptr<Trace> trace;         ///< null: not asked for
+  std::unique_ptr<Trace> trace;         ///< null: no trace
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
-  bool record_failed = false;  ///< the simulation thread's own
+  bool record_failed = false;  ///< used by the simulation thread only
 
-  mutable std::mutex mutex;  ///< guards what follows
+  mutable std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
   bool stopping = false;
   bool running = true;
@@ -99,7 +100,7 @@ void LiveServer::State::end(const std::string& error) {
   if (!report.error) report.error = error;
 }
 
-/// A recording that cannot be written ends; the server goes on.
+/// When the recording cannot be written, it ends, and the server goes on.
 void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out) {
   recorder->push(std::move(delta), std::move(carried_out));
   if (record_failed) return;
@@ -109,7 +110,7 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
   spdlog::error("the recording ends after {} ticks: {}", recorder->ticks_written(), *error);
 }
 
-/// One tick. False when it was the last.
+/// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
   if (World* world = feed->world()) {
@@ -155,8 +156,8 @@ bool LiveServer::State::wait_for_clients() {
   return true;
 }
 
-/// When the next tick is due. A simulation that is late catches up a little; what is more is lost, and
-/// counted.
+/// The time at which the next tick is due. A late simulation catches up limits::catch_up_ticks_max ticks; the
+/// others are lost, and counted.
 Clock::time_point LiveServer::State::pace(Clock::time_point due) {
   due += period;
   const Clock::time_point now = Clock::now();
@@ -165,6 +166,7 @@ Clock::time_point LiveServer::State::pace(Clock::time_point due) {
   ++report.late_ticks;
   const auto behind = static_cast<uint64_t>((now - due) / period);
   if (behind <= limits::catch_up_ticks_max) return due;
+  CHECK(due + period * static_cast<int64_t>(behind + 1) > now);
   report.overruns += behind;
   spdlog::warn("tick {} came {} ticks late: they are lost", report.last_tick, behind);
   return due + period * static_cast<int64_t>(behind);

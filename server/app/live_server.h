@@ -1,8 +1,8 @@
-// A whole server in one object: ticks from the simulation or a recording, clients, and a recording on the
-// side. The program scree-server is this and a command line; tests and benches run it in-process.
+// A whole server in one object: ticks from the simulation or from a recording, clients, and a recorder. The
+// program scree-server adds a command line; tests and benches run the object in their own process.
 //
-// Threads: the simulation's own (unless stepped by hand), the network's, the storage's. All public functions
-// are for one thread, the owner's.
+// Threads: the simulation thread (unless stepped by hand), the network thread, the storage thread, and one
+// that generates terrain ahead. The owner's thread calls all public functions.
 #pragma once
 
 #include <memory>
@@ -23,40 +23,40 @@ struct LiveConfig {
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording
-  std::string trace_path;   ///< of what took how long (shared/base/trace.h); empty: none
+  std::string trace_path;   ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
-  Tick ticks_max = 0;         ///< ends after so many ticks; 0: does not
-  double seconds_max = 0.0;   ///< ends after so many seconds; 0: does not
-  uint32_t wait_clients = 0;  ///< the first tick waits until so many have joined
+  Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
+  double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never
+  uint32_t wait_clients = 0;  ///< the first tick waits until so many clients have joined
 };
 
 class LiveServer {
  public:
   /// Listens, opens the recordings, and starts to tick.
   static Result<std::unique_ptr<LiveServer>> start(const LiveConfig& config);
-  /// Stops.
+  /// Calls stop().
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
 
   uint16_t port() const;
 
-  /// Pacing::by_hand: one tick, and everything that it sends is on its way when this returns. False when
-  /// there is no tick any more: the end of a recording, ticks_max, or an error.
+  /// Pacing::by_hand: runs one tick; its messages are handed to the sockets when this returns. False when it
+  /// was the last tick: the end of a recording, ticks_max, or an error.
   bool step_once();
 
-  /// Whether ticks still come.
+  /// Whether more ticks follow.
   bool running() const;
 
-  /// Stops ticking, says goodbye to every client, and finishes the recording. What went wrong, if anything
-  /// did. Harmless when repeated.
+  /// Stops ticking, tells every client, and finishes the recording. Returns the first error since the start.
+  /// A second call does nothing more.
   Result<void> stop();
 
   ServerReport report() const;
 
-  /// Pacing::by_hand: the simulation, between steps; null for a replay. The tick before, null before the
-  /// first.
+  /// Pacing::by_hand: the simulation, for use between steps; null for a replay.
   World* world();
+  /// The result of the last tick; null before the first.
   std::shared_ptr<const TickDelta> last_delta() const;
 
  private:

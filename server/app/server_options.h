@@ -15,8 +15,8 @@ struct ServerOptions {
   std::string log_level = "info";
 };
 
-/// The options; or, when there is nothing to run, the exit code: 0 after --help, 2 after a mistake, which has
-/// been printed.
+/// The options; or the exit code when there is nothing to run: 0 after --help, 2 after an error, which is
+/// printed.
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// What a server did, for people and programs. Filled tick by tick.
+// The report of a server's run, for people and programs. It grows tick by tick.
 #pragma once
 
 #include <map>
@@ -11,12 +11,12 @@
 
 namespace scree {
 
-/// What ticks had to do by the model (server/world/work.h), and what did not fit into them.
+/// The ticks' work by the model (server/world/work.h), and the counts of work that did not fit.
 struct WorkReport {
   uint32_t budget_us = 0;
   uint32_t worst_us = 0;
-  uint64_t ticks_cut_short = 0;  ///< in which anything was put off or left out
-  Tick first_cut_short = 0;      ///< 0: none was
+  uint64_t ticks_cut_short = 0;  ///< ticks in which any work was put off or left out
+  Tick first_cut_short = 0;      ///< 0: none
   Tick last_cut_short = 0;
   uint64_t ticks_merging_sooner = 0;
   uint32_t requests_waiting_most = 0;
@@ -41,14 +41,14 @@ struct ServerReport {
   uint64_t islands = 0;   ///< pieces of terrain that fell
   uint64_t pieces_made = 0;
   uint64_t pieces_merged = 0;
-  uint64_t pieces_lost = 0;  ///< that left the world and became dust
+  uint64_t pieces_lost = 0;  ///< pieces that left the world and became dust
   uint64_t pieces_alive = 0;
   Ledger ledger;
-  SettingValues settings;  ///< as they stand at the end
+  SettingValues settings;  ///< at the end
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   WorkReport work;
-  uint64_t late_ticks = 0;  ///< began after their time, and were made up for
+  uint64_t late_ticks = 0;  ///< ticks that began after their time
   uint64_t overruns = 0;    ///< ticks of real time that were lost
   std::map<std::string, Durations>
       stages;  ///< carve, spawn, recombine: of ticks that had any; others: of all
@@ -56,7 +56,7 @@ struct ServerReport {
   std::string record_path;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;
-  std::optional<std::string> error;  ///< why it ended before its time
+  std::optional<std::string> error;  ///< the reason of an early end
 
   void add(const TickDelta& delta);
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/app/limits.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -59,7 +60,7 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
   wake_.notify_all();
 }
 
-/// The chunks that the field lacks, of the next limits::ahead_looks_per_tick around an eye.
+/// Those of the next limits::ahead_looks_per_tick chunks around an eye that the field lacks.
 std::vector<ChunkCoord> TerrainAhead::look_around(const Field& field, std::span<const glm::vec3> eyes_m) {
   if (step_ >= around_.size()) {
     step_ = 0;
@@ -87,7 +88,8 @@ void TerrainAhead::run() {
     lock.unlock();
     GeneratedChunk chunk = generate_chunk(source_, coord);
     lock.lock();
-    // Kept until now: while anything is wanted, nothing more is asked for.
+    // Kept until now: serve() requests chunks only while none is wanted.
+    CHECK(!wanted_.empty() && wanted_.back() == coord);
     wanted_.pop_back();
     ready_.push_back({coord, std::move(chunk)});
   }

@@ -1,8 +1,8 @@
 // Generates the terrain around clients' eyes before anything touches it, so that the first carve there costs
-// a tick no more than the next. What a chunk holds is a function of its place: who generates it, and when,
-// makes no difference to the simulation.
+// a tick no more than later ones. A chunk's content is a function of its place, so the thread and the time of
+// its generation make no difference to the simulation.
 //
-// One thread of its own; the public functions are for the simulation's.
+// One worker thread; the simulation thread calls the public functions.
 #pragma once
 
 #include <condition_variable>
@@ -19,14 +19,15 @@ namespace scree {
 class TerrainAhead {
  public:
   explicit TerrainAhead(const TerrainSource& source);
-  /// What is being generated is dropped.
+  /// Drops chunks that are not handed over yet.
   ~TerrainAhead();
   TerrainAhead(const TerrainAhead&) = delete;
   TerrainAhead& operator=(const TerrainAhead&) = delete;
 
-  /// Once a tick: gives the field, which has the constructor's source, what is ready, and looks for more
-  /// around the eyes (metres), nearest chunks first, a bounded part of them at a time. Stops short of what
-  /// would make the field drop its generated chunks (limits::generated_chunks_max).
+  /// Hands the generated chunks to the field, which has the constructor's source, and requests chunks that it
+  /// lacks around the eyes (metres): the nearest first, limits::ahead_looks_per_tick at a time. Requests none
+  /// when the field is so full that it would drop generated chunks (limits::generated_chunks_max). Call once
+  /// a tick.
   void serve(Field& field, std::span<const glm::vec3> eyes_m);
 
  private:
@@ -40,13 +41,13 @@ class TerrainAhead {
 
   const TerrainSource source_;
   std::vector<ChunkCoord> around_;  ///< chunks relative to an eye's, nearest first
-  size_t eye_ = 0;                  ///< where the look around goes on: of the eyes,
-  size_t step_ = 0;                 ///< and of `around_`
+  size_t eye_ = 0;                  ///< the eye at which the next look begins
+  size_t step_ = 0;                 ///< the entry of `around_` at which it begins
 
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable wake_;
   bool stopping_ = false;
-  std::vector<ChunkCoord> wanted_;  ///< the next one last
+  std::vector<ChunkCoord> wanted_;  ///< chunks to generate, the next one last
   std::vector<Ready> ready_;
   std::thread thread_;
 };

@@ -1,4 +1,4 @@
-// Where a server's ticks come from: the simulation, or a recording. All else is the same.
+// The source of a server's ticks: the simulation, or a recording.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class TickFeed {
  public:
   virtual ~TickFeed() = default;
 
-  /// The next tick; null when there is none any more.
+  /// The next tick; null at the end.
   virtual Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) = 0;
   /// The simulation behind it; null for a recording.
   virtual World* world() { return nullptr; }

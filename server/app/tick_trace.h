@@ -6,8 +6,8 @@
 
 namespace scree {
 
-/// The tick's stages, one after the other from `begin` on the track of the simulation, and how many pieces it
-/// left.
+/// Adds the tick's stages, one after the other from `begin`, to the simulation's track, and the number of
+/// pieces.
 void trace_tick(Trace& trace, Trace::Clock::time_point begin, const TickDelta& delta);
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 
 #include "proto/codec.h"
 #include "server/net/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -116,9 +117,11 @@ void ClientSession::send(const ServerMessage& message) {
 
 void ClientSession::send(SharedBytes bytes) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
+  CHECK(bytes != nullptr && bytes->size() >= length_prefix_bytes);
   if (backlog_bytes_ == 0) progress_s_ = steady_now_s();
   backlog_bytes_ += bytes->size();
   outbox_.push_back(std::move(bytes));
+  CHECK_DEBUG(backlog_adds_up());
   if (backlog_bytes_ > limits::outbox_hard_bytes) {
     was_cut_ = true;
     return close("read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
@@ -146,6 +149,7 @@ void ClientSession::write() {
 
 void ClientSession::write_done(size_t bytes) {
   progress_s_ = steady_now_s();
+  CHECK(bytes <= backlog_bytes_);
   backlog_bytes_ -= bytes;
   size_t sent = front_sent_bytes_ + bytes;
   while (!outbox_.empty() && sent >= outbox_.front()->size()) {
@@ -153,6 +157,7 @@ void ClientSession::write_done(size_t bytes) {
     outbox_.pop_front();
   }
   front_sent_bytes_ = sent;
+  CHECK_DEBUG(backlog_adds_up());
   if (outbox_.empty() && phase_ == Phase::refused) return finish_sending();
   write();
 }
@@ -166,8 +171,14 @@ void ClientSession::refuse(const std::string& reason) {
   host_.refused(*this, reason);
 }
 
-/// Closing a socket with unread bytes resets the connection, and the refusal could be lost: so the sending
-/// half is closed first, and the rest when the client has closed, too, or its time is over.
+bool ClientSession::backlog_adds_up() const {
+  size_t sum = 0;
+  for (const SharedBytes& bytes : outbox_) sum += bytes->size();
+  return sum == backlog_bytes_ + front_sent_bytes_;
+}
+
+/// Closing a socket with unread bytes resets the connection, and the client could lose the refusal: so the
+/// sending side is closed first, and the socket when the client has closed it, too, or its time is over.
 void ClientSession::finish_sending() {
   if (peer_ended_) return close("refused before");
   asio::error_code ignored;

@@ -1,7 +1,7 @@
-// One client's connection. Used by net_server.cpp only (Asio); everything happens on the network thread.
+// One client's connection. Used by net_server.cpp only (Asio). All calls are on the network thread.
 //
-// waiting for hello → joined → refused (a reason is on its way; what still comes in is thrown away) → closed.
-// The bytes that wait for the client are bounded: the publisher slows down and stops long before
+// Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed.
+// The bytes that wait for the client are bounded: the publisher sends less and stops long before
 // limits::outbox_hard_bytes, where the client is cut off.
 #pragma once
 
@@ -21,13 +21,13 @@ namespace scree {
 
 class ClientSession;
 
-/// Who owns the sessions, and hears from them.
+/// The owner of the sessions, which handles their events.
 class SessionHost {
  public:
   virtual ~SessionHost() = default;
-  /// The first message. What it returns is sent: the welcome, or why the client is refused.
+  /// Handles the first message. Returns the welcome to send, or the reason of a refusal.
   virtual Result<WelcomeMessage> admit(ClientSession& session, const HelloMessage& hello) = 0;
-  /// Any later message but a hello. An error is sent as a refusal, and ends the session.
+  /// Handles any later message but a hello. An error is sent as a refusal, and ends the session.
   virtual Result<void> receive(ClientSession& session, const ClientMessage& message) = 0;
   virtual void refused(ClientSession& session, const std::string& reason) = 0;
   /// The last call for this session.
@@ -50,11 +50,11 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void start();
   void send(SharedBytes bytes);
   void send(const ServerMessage& message);
-  /// Sends the reason, and closes once the client has had the time to read it.
+  /// Sends the reason, and closes when the client has read it or limits::linger_seconds_max are over.
   void refuse(const std::string& reason);
   /// Closes at once.
   void close(const std::string& reason);
-  /// Called a few times a second: ends what has been silent, or has not read, for too long.
+  /// Ends the session if the client sent no hello, or has not read, for too long. Call a few times a second.
   void check_time(double now_s);
 
   uint64_t id() const { return id_; }
@@ -72,6 +72,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void write();
   void write_done(size_t bytes);
   void finish_sending();
+  /// Whether backlog_bytes_ is the rest of the outbox's bytes; for CHECK_DEBUG.
+  bool backlog_adds_up() const;
 
   asio::ip::tcp::socket socket_;
   uint64_t id_;
@@ -81,16 +83,16 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   Phase phase_ = Phase::hello;
   bool was_cut_ = false;
   double phase_since_s_;
-  double progress_s_;  ///< when the client last read something, or had nothing to read
+  double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;
   RateLimit messages_;
   FrameReader reader_;
   std::array<uint8_t, 16384> incoming_{};
   std::deque<SharedBytes> outbox_;
-  size_t front_sent_bytes_ = 0;  ///< of the first in the outbox
-  size_t backlog_bytes_ = 0;
+  size_t front_sent_bytes_ = 0;  ///< sent bytes of the first message in the outbox
+  size_t backlog_bytes_ = 0;     ///< bytes in the outbox that are not sent
   bool writing_ = false;
-  bool peer_ended_ = false;  ///< it sends nothing any more
+  bool peer_ended_ = false;  ///< the client closed its sending side
 };
 
 }  // namespace scree

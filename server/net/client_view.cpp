@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "server/net/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -45,9 +46,12 @@ TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const
 }
 
 ClientView::ClientView(glm::vec3 eye_m, float radius_m)
-    : eye_m_(eye_m), radius_m_(radius_m), next_eye_m_(eye_m), next_radius_m_(radius_m) {}
+    : eye_m_(eye_m), radius_m_(radius_m), next_eye_m_(eye_m), next_radius_m_(radius_m) {
+  CHECK(radius_m >= 0.0F);
+}
 
 void ClientView::set_interest(glm::vec3 eye_m, float radius_m) {
+  CHECK(radius_m >= 0.0F);
   next_eye_m_ = eye_m;
   next_radius_m_ = radius_m;
   rescan_due_ = true;
@@ -78,8 +82,8 @@ bool ClientView::near(const QuantisedPose& pose, float factor) const {
   return glm::length(dequantise(pose).position_m - eye_m_) <= radius_m_ * factor;
 }
 
-/// An operation can be applied by a client that has, bit for bit, every brick that it reads: held chunks, and
-/// chunks that nothing has changed yet but operations of this very frame.
+/// Whether the client has, bit for bit, every brick that the operation reads: in held chunks, and in chunks
+/// that nothing but operations of this frame has ever changed.
 bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges& changes,
                            const ChunkSet& tainted) const {
   const auto readable = [&](ChunkCoord chunk) {
@@ -124,7 +128,7 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
     frame.operations.push_back(i);
     for (const ChunkCoord chunk : operation.writes) {
       changed.insert(chunk);
-      // A write beyond interest is followed all the same, until the next scan drops it.
+      // A written chunk beyond the interest is followed, too, until the next scan drops it.
       if (held_.insert(chunk).second && !near(chunk, changes.voxel_size_m)) rescan_due_ = true;
     }
     for (const PieceId id : operation.created) known_[id] = {};
@@ -156,7 +160,7 @@ void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tain
   }
 }
 
-/// Follows the eye: what came into interest is wanted, what left it is dropped.
+/// Follows the eye: edited chunks that came into the interest are wanted, chunks that left it are dropped.
 void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame) {
   eye_m_ = next_eye_m_;
   radius_m_ = next_radius_m_;
@@ -166,7 +170,7 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   const auto drop_far = [&](ChunkSet& chunks) {
     std::erase_if(chunks, [&](ChunkCoord chunk) {
       if (distance_m(chunk, changes.voxel_size_m) <= keep_m) return false;
-      if (changed.contains(chunk)) {  // checked in this frame: dropped after the next scan
+      if (changed.contains(chunk)) {  // this frame's check covers it: the next scan drops it
         rescan_due_ = true;
         return false;
       }
@@ -200,18 +204,28 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
   }
 }
 
+bool ClientView::is_sound(const ChunkSet& changed) const {
+  const auto is_held = [this](ChunkCoord chunk) { return held_.contains(chunk); };
+  return std::ranges::all_of(changed, is_held) && std::ranges::none_of(wanted_, is_held) &&
+         std::ranges::none_of(stale_, is_held) &&
+         std::ranges::all_of(stale_, [this](ChunkCoord chunk) { return wanted_.contains(chunk); });
+}
+
 FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_poses) {
+  CHECK_EQ(changes.state.tick(), changes.delta.tick);
   FrameSelection frame;
   ChunkSet tainted = changes.orphan;
   ChunkSet changed;
   select_operations(changes, frame, tainted, changed);
-  // A chunk may have been changed by operations that were sent before one that was not.
+  // In a tainted chunk, some operations of this tick were sent and others not.
   for (const ChunkCoord chunk : tainted) changed.erase(chunk);
   select_patches(changes, tainted, frame, changed);
   if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
     rescan(changes, changed, frame);
   if (with_poses) select_poses(changes, frame);
   std::ranges::sort(frame.removed);
+  CHECK_DEBUG(is_sound(changed));
+  CHECK_DEBUG(std::ranges::adjacent_find(frame.removed, std::ranges::greater_equal{}) == frame.removed.end());
   frame.has_check = !changed.empty();
   frame.check = check_of(changed, changes.state);
   return frame;

@@ -1,9 +1,9 @@
-// What one client knows of the world, and what it needs next: pure selection, no bytes, no sockets.
+// One client's knowledge of the world, and the selection of what to send next: no bytes, no sockets.
 //
-// Invariants: `held` chunks read on the client exactly as published, once it has applied what was selected so
-// far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it. An
-// edited chunk within interest is held or wanted. `known` pieces are those that the client has.
-// Lengths in metres. Not thread-safe.
+// Invariants: `held` chunks on the client are exactly as published, once it has applied everything selected
+// so far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it.
+// An edited chunk within interest is held or wanted, never both; a stale chunk is wanted and not held.
+// `known` pieces are those that the client has. Lengths in metres. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ namespace scree {
 
 using ChunkSet = std::unordered_set<ChunkCoord, CoordHash>;
 
-/// What a tick changed, prepared once for all clients. `state` is that after the tick.
+/// The changes of a tick, prepared once for all clients. `state` is that after the tick.
 struct TickChanges {
   const TickDelta& delta;
   const PublishedState& state;
   float voxel_size_m = 0.0F;
   std::unordered_map<ChunkCoord, std::vector<const BrickState*>, CoordHash> bricks;
-  ChunkSet fresh;   ///< changed in this tick, never before
-  ChunkSet orphan;  ///< changed by no operation (a keyframe)
+  ChunkSet fresh;   ///< changed for the first time in this tick
+  ChunkSet orphan;  ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
               float voxel_size_m);
@@ -48,26 +48,28 @@ struct FrameSelection {
 
 class ClientView {
  public:
+  /// The radius is not negative.
   ClientView(glm::vec3 eye_m, float radius_m);
 
   glm::vec3 eye_m() const { return next_eye_m_; }
   float radius_m() const { return next_radius_m_; }
-  /// Takes effect within limits::rescan_ticks_min ticks.
+  /// Changes eye and radius within limits::rescan_ticks_min ticks. The radius is not negative.
   void set_interest(glm::vec3 eye_m, float radius_m);
 
-  /// Selects a frame and takes note of it as sent. `with_poses`: also what moved, came and went out of
-  /// interest.
+  /// Selects the frame of a tick, and notes it as sent. Call once for each tick whose frame is sent.
+  /// `with_poses`: includes poses, and removes pieces that ended or left the interest.
   FrameSelection select_frame(const TickChanges& changes, bool with_poses);
 
   /// Up to `count` chunks (pieces) to send whole, nearest first.
   std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
   std::vector<PieceId> next_pieces(const PublishedState& state, size_t count) const;
+  /// Notes that a chunk (piece) was sent whole: from now on it is followed.
   void sent_chunk(ChunkCoord chunk);
   void sent_piece(PieceId piece, const QuantisedPose& pose);
 
-  /// The client's copy of a held chunk is wrong: it will be sent again, whole.
+  /// Notes that the client's copy of a chunk is wrong: if it is held, it will be sent again, whole.
   void distrust(ChunkCoord chunk);
-  /// The client forgot everything.
+  /// Notes that the client has no edits and no pieces.
   void reset();
 
   const ChunkSet& held() const { return held_; }
@@ -77,7 +79,7 @@ class ClientView {
 
  private:
   struct Known {
-    std::optional<QuantisedPose> sent;  ///< nothing yet: the client has it where it was cut
+    std::optional<QuantisedPose> sent;  ///< nothing yet: the client has the pose at which it was cut
   };
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;
@@ -92,6 +94,8 @@ class ClientView {
   void select_poses(const TickChanges& changes, FrameSelection& frame);
   void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
   void forget_piece(PieceId piece, FrameSelection& frame);
+  /// Whether the invariants hold, and `changed` chunks are held; for CHECK_DEBUG.
+  bool is_sound(const ChunkSet& changed) const;
 
   glm::vec3 eye_m_;
   float radius_m_;
@@ -100,7 +104,8 @@ class ClientView {
   bool rescan_due_ = true;
   Tick rescanned_ = 0;
   ChunkSet held_;
-  ChunkSet stale_;   ///< not held, but the client has edits there: replaced by a whole chunk, or dropped
+  ChunkSet
+      stale_;  ///< not held, but the client has edits there, to be replaced by the whole chunk or dropped
   ChunkSet wanted_;  ///< edited, within interest, not held
   std::map<PieceId, Known> known_;
 };

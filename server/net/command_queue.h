@@ -1,5 +1,5 @@
-// Commands on their way from the network to the simulation. Bounded: what does not fit is refused, never
-// waited for. Safe to use from any thread.
+// The queue of commands from the network to the simulation. Bounded: push() refuses a command that does not
+// fit, and never waits. Safe to use from any thread.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class CommandQueue {
     return true;
   }
 
-  /// Everything that waits, in order of arrival.
+  /// Takes all commands out, in order of arrival.
   std::vector<Command> drain() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(commands_, {});

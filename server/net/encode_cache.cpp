@@ -3,6 +3,7 @@
 #include "proto/codec.h"
 #include "proto/transforms.h"
 #include "server/net/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -10,6 +11,12 @@ namespace {
 
 SharedBytes share(std::vector<uint8_t> bytes) {
   return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+/// For CHECK_DEBUG: clients accept the message. An oversized one is not sent.
+bool decodes(const SharedBytes& bytes) {
+  const auto body = std::span(*bytes).subspan(length_prefix_bytes);
+  return body.size() > limits::message_bytes_max || decode_server(body).has_value();
 }
 
 FrameMessage frame_of(const FrameSelection& selection, const TickChanges& changes) {
@@ -44,6 +51,7 @@ const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const Tic
   frame.selection = std::move(selection);
   frame.transform_bytes = message.transforms.size();
   frame.bytes = share(encode(ServerMessage(message)));
+  CHECK_DEBUG(decodes(frame.bytes));
   return frame;
 }
 
@@ -59,12 +67,15 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
   for (const auto& [brick, state] : chunk.bricks)
     message.bricks.push_back({brick, *state.brick, state.paint});
   encoded = {chunk.version, chunk.hash, share(encode(ServerMessage(std::move(message))))};
+  CHECK(chunks_.size() <= limits::encoded_chunks_max);
+  CHECK_DEBUG(decodes(encoded.bytes));
   return encoded.bytes;
 }
 
 SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
   SharedBytes& bytes = pieces_[id];
   if (!bytes) bytes = share(encode(ServerMessage(PieceMessage{id, *piece.volume, piece.pose})));
+  CHECK_DEBUG(decodes(bytes));
   return bytes;
 }
 

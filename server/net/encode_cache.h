@@ -1,5 +1,5 @@
-// Encode once, send to many: the bytes of a tick's frames, chunks and pieces, shared by all clients that get
-// the same. Bounded by limits::encoded_chunks_max. Not thread-safe.
+// Encodes a tick's frames, chunks and pieces once; all clients with the same selection share the bytes. Holds
+// at most limits::encoded_chunks_max chunks. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,10 @@ class EncodeCache {
     size_t transform_bytes = 0;
   };
 
-  /// Forgets what belonged to the tick before.
+  /// Forgets the frames and pieces of the tick before.
   void start_tick();
 
+  /// Bytes include the length prefix. A frame is valid until start_tick().
   const Frame& frame(FrameSelection selection, const TickChanges& changes);
   SharedBytes chunk(ChunkCoord coord, const PublishedChunk& chunk);
   SharedBytes piece(PieceId id, const PublishedPiece& piece);

@@ -1,4 +1,4 @@
-// Bounds of the server's network side. Each says its unit, its reason, and what happens there.
+// Bounds of the server's network side. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace scree::limits {
 
-/// Interest ends, and what a client follows is dropped, at this multiple of its radius: a viewer that walks
-/// to and fro across the edge must not have its chunks sent again and again.
+/// Chunks and pieces that a client follows are dropped at this multiple of its radius of interest, so that a
+/// viewer that moves to and fro across the edge does not get them again and again.
 inline constexpr float interest_keep_factor = 1.25F;
 
 /// Bytes of chunks sent to one client in a tick: about 1 MB/s at 60 Hz. Above: the rest waits for the next
@@ -18,10 +18,10 @@ inline constexpr int64_t chunk_bytes_per_tick = 16 * 1024;
 inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
 
 /// Bricks sent as patches to one client in one frame: 512 KiB of codes, so that a frame stays within
-/// message_bytes_max even when nothing compresses. Chunks beyond are streamed as wholes instead.
+/// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
 inline constexpr size_t patch_bricks_max = 1024;
 
-/// Ticks between two walks over the edited chunks for one client that moves; bounds what fast movement costs.
+/// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
 inline constexpr uint32_t rescan_ticks_min = 6;
 
 /// Bytes waiting for one client above which it gets no transforms and no streaming: it has enough to read.
@@ -30,17 +30,16 @@ inline constexpr size_t outbox_soft_bytes = 256 * 1024;
 /// Bytes waiting for one client above which it gets no frames: when it has read all, it joins anew.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
 
-/// Bytes waiting for one client at which it is cut off, whatever they are: replies that it never reads.
+/// Bytes of any kind waiting for one client, as replies that it never reads. Above: it is cut off.
 inline constexpr size_t outbox_hard_bytes = 16 * 1024 * 1024;
 
-/// Bytes of the kernel's send buffer for one client; what lies there can no longer be replaced by newer
-/// state.
+/// Bytes of the kernel's send buffer for one client; newer state cannot replace the bytes in it.
 inline constexpr int socket_send_buffer_bytes = 256 * 1024;
 
-/// Encoded chunks kept to be sent to several clients; above: all are forgotten and encoded anew.
+/// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
 inline constexpr size_t encoded_chunks_max = 1024;
 
-/// Seconds within which a client must read something of what waits for it; beyond: cut off.
+/// Seconds within which a client must read some of the bytes that wait for it. Above: it is cut off.
 inline constexpr double stall_seconds_max = 20.0;
 
 /// Seconds from the connection to the hello; beyond: refused and closed.

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "proto/codec.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/token.h"
 
@@ -13,7 +14,7 @@ namespace scree {
 
 namespace {
 
-/// How often sessions are looked at for having been silent for too long, and while stopping.
+/// Period of the check for silent sessions; the shorter one while stopping.
 constexpr std::chrono::milliseconds timer_period{100};
 constexpr std::chrono::milliseconds timer_period_stopping{5};
 /// Given to clients to read the goodbye.
@@ -77,6 +78,7 @@ Result<void> NetHost::listen() {
 }
 
 void NetHost::run() {
+  CHECK(network_thread_.is_the_same());
   context_.run();
 }
 
@@ -98,6 +100,7 @@ void NetHost::accepted(asio::ip::tcp::socket socket) {
   const size_t pending = sessions_.size() - joined_count();
   const double burst = std::max(
       1.0, config_.requests_per_second * limits::requests_burst_max / limits::requests_per_second_max);
+  CHECK(!sessions_.contains(id));
   sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst), {}});
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (pending >= limits::pending_sessions_max)
@@ -199,7 +202,7 @@ void NetHost::refuse_request(ClientSession& session, uint32_t request, const std
   session.send(ServerMessage(ReplyMessage{request, reason, 0}));
 }
 
-/// One guess at the token a connection.
+/// A wrong token ends the connection, so that each connection has one attempt.
 Result<void> NetHost::administer(ClientSession& session, const AdminMessage& message) {
   if (config_.admin_token.empty()) {
     ++counts_.requests;
@@ -236,6 +239,8 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
 }
 
 void NetHost::publish(const TickDelta& delta) {
+  CHECK(network_thread_.is_the_same());
+  CHECK_EQ(publisher_.clients(), joined_count());
   const auto backlog = [this](uint64_t id) {
     const auto entry = sessions_.find(id);
     return entry == sessions_.end() ? size_t{0} : entry->second.session->backlog_bytes();

@@ -12,6 +12,7 @@
 
 #include "server/net/client_session.h"
 #include "server/net/net_server.h"
+#include "shared/base/thread_check.h"
 
 namespace scree {
 
@@ -20,9 +21,10 @@ class NetHost final : public SessionHost {
   NetHost(const NetConfig& config, CommandQueue& commands);
   ~NetHost() override = default;
 
-  /// Before the thread runs.
+  /// Call before the thread runs.
   Result<void> listen();
   uint16_t port() const { return port_; }
+  /// The network thread: returns after shut_down().
   void run();
 
   // ---- on the network thread
@@ -66,6 +68,7 @@ class NetHost final : public SessionHost {
   std::map<uint64_t, Entry> sessions_;
   Publisher publisher_;
   std::atomic<bool> watched_{false};
+  ThreadCheck network_thread_;
   NetStats counts_;
   mutable std::mutex stats_mutex_;
   NetStats stats_;                 ///< guarded by stats_mutex_

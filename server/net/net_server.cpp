@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/net/net_host.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -40,6 +41,7 @@ uint16_t NetServer::port() const {
 }
 
 void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
+  CHECK(delta != nullptr);
   {
     std::unique_lock lock(impl_->mutex);
     if (impl_->in_flight >= limits::deltas_in_flight_max) ++impl_->waits;
@@ -52,6 +54,7 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
     impl->host.publish(*delta);
     {
       const std::scoped_lock lock(impl->mutex);
+      CHECK(impl->in_flight > 0 && impl->in_flight <= limits::deltas_in_flight_max);
       --impl->in_flight;
     }
     impl->taken.notify_all();

@@ -1,8 +1,9 @@
 // The server's network side: accepts clients, hands their requests to the simulation, and sends them what the
 // Publisher selects for them.
 //
-// All sockets live on one thread of its own; it only queues, decodes and sends. The simulation calls
-// publish(), which costs it a post. A client that misbehaves is told why and closed; no other client notices.
+// One network thread owns all sockets; it only queues, decodes and sends. The simulation calls publish(),
+// which only posts. A client that breaks the protocol gets the reason and is closed; other clients do not
+// notice.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,13 @@ namespace scree {
 
 struct NetConfig {
   std::string bind = "127.0.0.1";
-  uint16_t port = 0;  ///< 0: one that is free
+  uint16_t port = 0;  ///< 0: any free one
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
   uint32_t sessions_max = limits::sessions_max_default;
   bool replay = false;      ///< a recording: carves and fills are refused
-  std::string admin_token;  ///< lets a client change settings; empty: none may
+  std::string admin_token;  ///< a client with it may change settings; empty: no client may
   double requests_per_second = limits::requests_per_second_max;
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
@@ -36,8 +37,8 @@ struct NetStats {
   PublisherStats published;
   uint32_t sessions = 0;  ///< now
   uint64_t sessions_joined = 0;
-  uint64_t sessions_refused = 0;  ///< or closed with a reason
-  uint64_t sessions_cut = 0;      ///< for not reading
+  uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
+  uint64_t sessions_cut = 0;      ///< cut off because they did not read
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
@@ -47,28 +48,28 @@ class NetServer {
  public:
   /// Listens at once. `commands` must outlive the server.
   static Result<std::unique_ptr<NetServer>> listen(const NetConfig& config, CommandQueue& commands);
-  /// Stops.
+  /// Calls stop().
   ~NetServer();
   NetServer(const NetServer&) = delete;
   NetServer& operator=(const NetServer&) = delete;
 
   uint16_t port() const;
 
-  /// Hands a tick to the network thread; waits when limits::deltas_in_flight_max are there already. From one
+  /// Hands a tick to the network thread; waits while limits::deltas_in_flight_max ticks wait there. From one
   /// thread only.
   void publish(std::shared_ptr<const TickDelta> delta);
 
-  /// Waits until everything published has been taken by the network thread and handed to the sockets.
+  /// Waits until the network thread has handed all published ticks to the sockets.
   void flush();
 
   /// As of the last tick that was sent. From any thread.
   NetStats stats() const;
-  /// Where the clients look from, as of the last tick that was sent; metres. From any thread.
+  /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;
-  /// Whether any client wants to see what the bodies do. From any thread.
+  /// Whether any client asked for PhysicsMessages. From any thread.
   bool is_watched() const;
 
-  /// Tells every client that the server stops, closes, and joins the thread. Harmless when repeated.
+  /// Tells every client that the server stops, closes, and joins the thread. A second call does nothing.
   void stop();
 
  private:

@@ -8,13 +8,14 @@
 #include "server/net/limits.h"
 #include "server/net/watching.h"
 #include "server/world/world.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
 
 namespace {
 
-/// Chunks or pieces looked at in one go; a budget of bytes ends the streaming long before.
+/// Chunks or pieces in one list to stream; the budget of bytes ends the streaming much earlier.
 constexpr size_t stream_batch = 64;
 
 SharedBytes bytes_of(const ServerMessage& message) {
@@ -91,8 +92,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
     state_ = PublishedState();
     for (auto& [session, client] : clients_) client.reset_due = true;
   }
-  // What was edited before this tick must be known, and the state is not copied for it: changes are prepared
-  // against the old state, and refer to the same object after apply().
+  // TickChanges must know the chunks edited before this tick: it reads the old state here, and refers to the
+  // same object after apply(), so that no copy is needed.
   const TickChanges changes(delta, state_, state_, config_.voxel_size_m);
   state_.apply(delta);
   clock_.add(delta.times, delta.work);
@@ -100,6 +101,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   cache_.start_tick();
   for (auto& [session, client] : clients_) serve(client, changes, backlog_bytes(session));
   send_replies(delta);
+  CHECK(stats_.transform_bytes <= stats_.frame_bytes);
+  CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes <= stats_.sent_bytes);
   return std::exchange(out_, {});
 }
 
@@ -115,7 +118,7 @@ void Publisher::count_operations(const TickDelta& delta) {
   }
 }
 
-/// Whether the client takes frames at all in this tick; a client that fell behind comes back here.
+/// Whether the client gets a frame in this tick. A stopped client that has read everything starts again.
 bool Publisher::ready(Client& client, size_t backlog_bytes) {
   if (!client.stopped && backlog_bytes > limits::outbox_resync_bytes) client.stopped = true;
   if (client.stopped) {
@@ -149,7 +152,8 @@ void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog
 bool Publisher::send_frame(Client& client, const TickChanges& changes, bool with_poses) {
   const EncodeCache::Frame& frame = cache_.frame(client.view.select_frame(changes, with_poses), changes);
   if (frame.bytes->size() > limits::message_bytes_max) {
-    // No frame of this size may cross the wire: the client starts afresh and gets it all in small messages.
+    // A frame of this size must not cross the wire: the client is reset, and gets the state in small
+    // messages.
     client.reset_due = true;
     return false;
   }
@@ -181,7 +185,7 @@ void Publisher::stream_pieces(Client& client) {
     if (client.piece_credit_bytes <= 0) return;
     const PublishedPiece& piece = state_.pieces().at(id);
     const SharedBytes bytes = cache_.piece(id, piece);
-    if (bytes->size() > limits::message_bytes_max) continue;  // its merge will reach the client as bricks
+    if (bytes->size() > limits::message_bytes_max) continue;  // the client gets its merge as bricks
     client.piece_credit_bytes -= size_of(bytes);
     stats_.piece_bytes += bytes->size();
     client.view.sent_piece(id, piece.pose);

@@ -1,11 +1,11 @@
-// Turns the ticks of the world into messages for each client: selection by ClientView, encoding once for all
-// clients that get the same bytes, and less for those that read slowly.
+// Turns the ticks of the world into messages for each client. ClientView selects; clients with the same
+// selection share the encoded bytes; slow readers get less.
 //
-// A slow client gets newer state, not a longer queue: above limits::outbox_soft_bytes waiting it gets no
-// poses and no streaming, above outbox_resync_bytes no frames either; when it has read everything it is told
-// to forget what it has (ResetMessage) and joins anew.
+// A slow client gets newer state, not a longer queue: while more than limits::outbox_soft_bytes wait for it,
+// it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
+// everything, a ResetMessage tells it to forget its edits and pieces, and it joins anew.
 //
-// No sockets and no clock: whoever owns it delivers the bytes in order. Not thread-safe.
+// No sockets and no clock: the owner delivers the bytes in order. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Outgoing {
 /// Counts since the start, over all clients.
 struct PublisherStats {
   uint64_t sent_bytes = 0;
-  uint64_t frame_bytes = 0;      ///< of which transform_bytes
+  uint64_t frame_bytes = 0;      ///< including transform_bytes
   uint64_t transform_bytes = 0;  ///< packed poses within frames
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
@@ -55,19 +55,19 @@ class Publisher {
   void join(uint64_t session, glm::vec3 eye_m, float radius_m);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
-  /// Chunks whose hash the client got wrong are sent again, and no others.
+  /// Sends those of the request's chunks again whose hash differs from the server's at that tick.
   void repair(uint64_t session, const RepairRequest& request);
 
-  /// What the session's person looks at, for others to see.
+  /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
-  /// Whether the client is told what the bodies do, where the ticks say so.
+  /// Whether the client gets PhysicsMessages of the ticks that have them.
   void watch(uint64_t session, bool physics);
   bool is_watched() const;
-  /// Of every client, by session.
+  /// Eyes of all clients, by session.
   std::vector<glm::vec3> eyes_m() const;
 
-  /// Takes the next tick and says what each client gets. `backlog_bytes(session)` is what still waits for it.
-  /// A tick out of sequence is a keyframe: the world starts anew with it, and so does every client.
+  /// Takes the next tick and returns the messages for each client. `backlog_bytes(session)`: bytes that still
+  /// wait for it. A tick out of sequence is a keyframe: it replaces the state, and resets every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<size_t(uint64_t)>& backlog_bytes);
 
   const PublishedState& state() const { return state_; }
@@ -82,7 +82,7 @@ class Publisher {
     ClientView view;
     int64_t chunk_credit_bytes = 0;
     int64_t piece_credit_bytes = 0;
-    bool stopped = false;  ///< gets no frames until it has read what waits
+    bool stopped = false;  ///< gets no frames until it has read all that waits
     bool reset_due = false;
     uint64_t sent_bytes = 0;
     uint32_t repairs = 0;

@@ -1,16 +1,23 @@
-// A token bucket: so many a second, and a burst of so many at once. Time comes in as an argument (seconds).
+// A token bucket: a number of tokens a second, and a larger number at once. Time is an argument (seconds).
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include "shared/base/check.h"
 
 namespace scree {
 
 class RateLimit {
  public:
-  RateLimit(double per_second, double burst) : per_second_(per_second), burst_(burst), tokens_(burst) {}
+  /// The burst holds at least one token.
+  RateLimit(double per_second, double burst) : per_second_(per_second), burst_(burst), tokens_(burst) {
+    CHECK(per_second >= 0.0 && burst >= 1.0);
+  }
 
-  /// Takes one, if there is one.
+  /// Takes a token; false when there is none.
   [[nodiscard]] bool take(double now_s) {
+    CHECK(std::isfinite(now_s));
     tokens_ = std::min(burst_, tokens_ + std::max(0.0, now_s - last_s_) * per_second_);
     last_s_ = now_s;
     if (tokens_ < 1.0) return false;

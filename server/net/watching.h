@@ -1,4 +1,4 @@
-// What of cursors and physics concerns one client: pure selection.
+// Selects the cursors and the physics within one client's interest.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,7 +13,8 @@ namespace scree {
 std::vector<PlayerCursor> cursors_for(uint64_t session, const std::map<uint64_t, PlayerCursor>& cursors,
                                       glm::vec3 eye_m, float radius_m);
 
-/// What lies within the radius, at most as much as a message holds. `state` says where the pieces are.
+/// The bodies, contacts and bricks within the radius, up to the limits of a message (proto/limits.h). `state`
+/// has the pieces' poses.
 PhysicsMessage physics_for(const PhysicsMessage& physics, const PublishedState& state, float voxel_size_m,
                            glm::vec3 eye_m, float radius_m);
 

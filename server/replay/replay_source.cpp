@@ -6,6 +6,7 @@
 #include <set>
 
 #include "server/world/applied_operation.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -22,6 +23,7 @@ std::string hex(uint64_t hash) {
 struct ReplaySource::State {
   explicit State(std::unique_ptr<RecordingReader> r) : reader(std::move(r)) { restart(); }
 
+  /// Goes back to the untouched terrain before tick 1.
   void restart();
   Result<void> restore(const RecordedKeyframe& keyframe);
   Result<std::shared_ptr<const TickDelta>> advance();
@@ -42,7 +44,7 @@ struct ReplaySource::State {
   SettingValues settings;
   uint64_t state_hash = 0;
   Tick tick = 0;
-  bool keyframe_due = false;
+  bool keyframe_due = false;  ///< next() returns the whole state
 };
 
 void ReplaySource::State::restart() {
@@ -108,10 +110,12 @@ Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickD
     if (pose == poses.end()) return damaged("piece " + std::to_string(id) + " is nowhere");
     delta.pieces.push_back({id, pose->second});
   }
+  CHECK_EQ(poses.size(), pieces.size());
   return {};
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::State::advance() {
+  CHECK(tick < reader->last_tick());
   const auto frame = reader->frame(tick + 1);
   if (!frame) return tl::unexpected(frame.error());
   auto delta = std::make_shared<TickDelta>();
@@ -191,6 +195,7 @@ Result<void> ReplaySource::seek(Tick tick) {
     if (auto restored = state_->restore(**keyframe); !restored) return restored;
   while (state_->tick < tick)
     if (const auto delta = state_->advance(); !delta) return tl::unexpected(delta.error());
+  CHECK_EQ(state_->tick, tick);
   state_->keyframe_due = tick != 0;
   return {};
 }

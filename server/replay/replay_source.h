@@ -1,7 +1,7 @@
-// A recording as a stream of ticks, with the same content as live ones: a viewer cannot tell the difference.
+// A recording as a stream of ticks with the same content as live ones: a viewer cannot tell the difference.
 //
-// Needs no simulation: operations are applied to a plain field by the kernels that everybody shares. Every
-// tick is checked against its recorded hash. One thread at a time.
+// No simulation runs: the kernels in `shared` apply the operations to a plain field. The hash of every tick
+// is compared with the recorded one. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,20 @@ namespace scree {
 
 class ReplaySource {
  public:
-  /// `from`: where to start, as in seek().
+  /// Opens a recording, and seeks to tick `from`.
   static Result<std::unique_ptr<ReplaySource>> open(const std::string& path, Tick from = 0);
   ~ReplaySource();
 
   const RecordingHeader& header() const;
-  Tick tick() const;
+  Tick tick() const;  ///< the last one that was played; 0 at the start
   Tick last_tick() const;
 
-  /// The next tick; null at the end. A tick that cannot be applied, or whose field does not hash to what was
-  /// recorded, is an error that names it.
+  /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
+  /// recorded, is an error that names the tick.
   Result<std::shared_ptr<const TickDelta>> next();
 
-  /// Goes on after `tick`, by the nearest keyframe: next() then gives the whole state after `tick` as one
-  /// keyframe. 0: goes on with tick 1.
+  /// Continues after `tick`, starting from the nearest keyframe: the following next() returns the whole state
+  /// after `tick` as one keyframe. 0: continues with tick 1. An error beyond last_tick().
   Result<void> seek(Tick tick);
 
  private:

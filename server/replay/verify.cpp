@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "server/world/world.h"
+#include "shared/base/check.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -39,6 +40,7 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
     const auto commands = recording.commands(tick);
     if (!commands) return tl::unexpected(commands.error());
     const auto delta = world.step(*commands);
+    CHECK_EQ(delta->tick, tick);
     report.ticks = tick;
     report.commands += commands->size();
     report.field_hash = delta->field_hash;

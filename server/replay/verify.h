@@ -1,4 +1,4 @@
-// Proves a recording: simulates again from its commands, and compares the hashes of every tick.
+// Verifies a recording: simulates again from its commands, and compares the hashes of every tick.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,10 @@
 namespace scree {
 
 struct VerifyReport {
-  Tick ticks = 0;             ///< compared
-  uint64_t commands = 0;      ///< fed
+  Tick ticks = 0;             ///< ticks that were compared
+  uint64_t commands = 0;      ///< commands that were simulated
   Tick first_difference = 0;  ///< 0: every tick agrees
-  std::string difference;     ///< what differed there, and how
+  std::string difference;     ///< the two hashes that differ there
   uint64_t field_hash = 0;    ///< after the last tick that was simulated
   uint64_t state_hash = 0;
   double seconds = 0.0;
@@ -20,8 +20,8 @@ struct VerifyReport {
   bool agrees() const { return first_difference == 0; }
 };
 
-/// Ends at the first tick that differs. `progress(done, all)` is called now and then. An error: the recording
-/// cannot be read.
+/// Ends at the first tick that differs. Calls `progress(done, all)` every 32 ticks. A recording that cannot
+/// be read is an error.
 Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress = {});
 
 }  // namespace scree

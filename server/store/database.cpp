@@ -5,12 +5,13 @@
 #include <xxhash.h>
 
 #include "server/store/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
-/// How long one program waits for another one that has the file open, ms.
+/// Time that one program waits for another one that has the file open, ms.
 constexpr int busy_timeout_ms = 2000;
 
 int64_t checksum_of(std::span<const uint8_t> data) {
@@ -44,7 +45,8 @@ Result<Database> Database::create(const std::string& path) {
 
 Result<Database> Database::open(const std::string& path) {
   sqlite3* raw = nullptr;
-  // What a crash left beside the file can be merged into it only by who may write; others read what is there.
+  // A crash leaves a log beside the file. Only a process that may write can merge it; others read it in
+  // place.
   int code = sqlite3_open_v2(path.c_str(), &raw, SQLITE_OPEN_READWRITE | SQLITE_OPEN_EXRESCODE, nullptr);
   if (code != SQLITE_OK) {
     sqlite3_close_v2(raw);
@@ -90,6 +92,8 @@ Result<std::string> Database::text(const std::string& sql) {
 
 Result<void> Database::put(const Statement& insert, uint64_t tick, std::span<const uint8_t> data) {
   sqlite3_stmt* statement = insert.get();
+  CHECK_EQ(sqlite3_bind_parameter_count(statement), 3);
+  CHECK(sqlite3_stmt_busy(statement) == 0);
   sqlite3_reset(statement);
   sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
   sqlite3_bind_blob64(statement, 2, data.data(), data.size(), SQLITE_STATIC);
@@ -103,6 +107,9 @@ Result<void> Database::put(const Statement& insert, uint64_t tick, std::span<con
 
 Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& select, uint64_t tick) {
   sqlite3_stmt* statement = select.get();
+  CHECK_EQ(sqlite3_bind_parameter_count(statement), 1);
+  CHECK_EQ(sqlite3_column_count(statement), 2);
+  CHECK(sqlite3_stmt_busy(statement) == 0);
   sqlite3_reset(statement);
   sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
   const int code = sqlite3_step(statement);

@@ -1,4 +1,4 @@
-// A thin wrapper of SQLite: blobs by tick, every one with its checksum, and errors in words. Internal to
+// A thin wrapper of SQLite: blobs by tick, each with a checksum, and errors that name the file. Internal to
 // server/store. One thread at a time.
 #pragma once
 
@@ -26,20 +26,22 @@ using Statement = std::unique_ptr<sqlite3_stmt, StatementCloser>;
 
 class Database {
  public:
-  /// A new file; it must not exist.
+  /// Creates a file. An error if it exists.
   static Result<Database> create(const std::string& path);
-  /// An existing one. Its content is not looked at yet.
+  /// Opens an existing file, without reading its content.
   static Result<Database> open(const std::string& path);
 
   Result<void> execute(const std::string& sql);
   /// The first column of the first row; nothing when there is no row or it is null.
   Result<std::optional<int64_t>> number(const std::string& sql);
+  /// The first column of the first row as text; no row is an error.
   Result<std::string> text(const std::string& sql);
 
   Result<Statement> prepare(const std::string& sql);
-  /// For statements with the parameters (tick, data, checksum).
+  /// Runs an insert with the parameters (tick, data, checksum).
   Result<void> put(const Statement& insert, uint64_t tick, std::span<const uint8_t> data);
-  /// For statements with the parameter (tick) and the columns (data, checksum). The checksum is verified.
+  /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its
+  /// checksum is an error. Nothing when there is no row.
   Result<std::optional<std::vector<uint8_t>>> get(const Statement& select, uint64_t tick);
 
   const std::string& path() const { return path_; }

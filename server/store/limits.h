@@ -1,4 +1,4 @@
-// Bounds of the server's storage. Each says its unit, its reason, and what happens there.
+// Bounds of the server's storage. Each says its unit, its reason, and its effect at the limit.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace scree::limits {
 
-/// Ticks between two keyframes of a recording: 10 s at 60 Hz. Seeking applies at most so many frames.
+/// Ticks between two keyframes of a recording: 10 s at 60 Hz. Seeking applies at most that many frames.
 inline constexpr uint64_t ticks_per_keyframe = 600;
 
-/// Seconds of frames in one transaction: what a crash may cost of a recording.
+/// Seconds of frames in one transaction: a crash loses at most that much of a recording.
 inline constexpr double seconds_per_commit = 0.5;
 
 /// Ticks that wait for the storage thread; above: the simulation waits for it, and the wait is counted.
@@ -18,7 +18,7 @@ inline constexpr size_t recorder_queue_max = 600;
 /// Bytes of one row of a recording; a longer one is refused as damaged.
 inline constexpr size_t row_bytes_max = size_t{1} << 29;
 
-/// Bytes of what SQLite keeps beside the file before it is merged into it.
+/// Pages in SQLite's write-ahead log, a file beside the recording. Above: SQLite merges them into the file.
 inline constexpr int wal_pages_max = 4096;
 
 }  // namespace scree::limits

@@ -8,6 +8,7 @@
 
 #include "server/store/limits.h"
 #include "server/store/recording_writer.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -27,11 +28,11 @@ struct Recorder::State {
   void write(const std::deque<Entry>& entries);
   void note(const Result<void>& result);
 
-  std::unique_ptr<RecordingWriter> writer;  ///< the storage thread's own
+  std::unique_ptr<RecordingWriter> writer;  ///< used by the storage thread only
   Clock::time_point committed = Clock::now();
   std::thread thread;
 
-  mutable std::mutex mutex;  ///< guards what follows
+  mutable std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
   std::deque<Entry> queue;
   bool stopping = false;
@@ -98,13 +99,16 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, cons
 }
 
 void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands) {
+  CHECK(delta != nullptr);
   {
     std::unique_lock lock(state_->mutex);
     const auto room = [&] { return state_->error || state_->queue.size() < limits::recorder_queue_max; };
     if (!room()) ++state_->waits;
     state_->changed.wait(lock, room);
     if (state_->error || state_->stopping) return;
+    CHECK(state_->queue.empty() || delta->tick == state_->queue.back().delta->tick + 1);
     state_->queue.push_back({std::move(delta), std::move(commands)});
+    CHECK(state_->queue.size() <= limits::recorder_queue_max);
   }
   state_->changed.notify_all();
 }

@@ -1,7 +1,7 @@
-// Records ticks on a thread of its own, so that the simulation never waits for a disk, unless the disk is
-// hopelessly behind: limits::recorder_queue_max ticks may wait, beyond that push() does, and counts it.
+// Records ticks on a storage thread, so that the simulation does not wait for the disk. At most
+// limits::recorder_queue_max ticks wait in the queue; when it is full, push() waits and counts it.
 //
-// When writing fails the recording ends there, playable up to the last commit; the simulation goes on, and
+// When writing fails, the recording ends and is playable up to the last commit. The simulation goes on, and
 // error() says why.
 #pragma once
 
@@ -19,21 +19,22 @@ namespace scree {
 class Recorder {
  public:
   static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header);
-  /// Finishes.
+  /// Calls finish().
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// The next tick, the first being 1. From one thread only.
+  /// Queues the next tick, without a gap from 1 on, and the commands that it carried out. From one thread
+  /// only. Does nothing after an error or after finish().
   void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands);
 
-  /// Writes everything, closes the file, joins the thread. What went wrong since the start, if anything did.
+  /// Writes all queued ticks, closes the file and joins the thread. Returns the first error since the start.
   Result<void> finish();
 
-  /// Why the recording ended before its time. From any thread.
+  /// The first error, which ended the recording. From any thread.
   std::optional<std::string> error() const;
-  uint64_t ticks_written() const;
-  uint64_t waits() const;  ///< times that push() had to wait
+  uint64_t ticks_written() const;  ///< from any thread
+  uint64_t waits() const;          ///< times that push() had to wait; from any thread
 
  private:
   struct State;

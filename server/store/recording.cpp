@@ -1,6 +1,7 @@
 #include "server/store/recording.h"
 
 #include "server/world/settings.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -72,6 +73,7 @@ std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
 }
 
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {
+  CHECK_EQ(delta.tick, before.tick() + 1);
   RecordedFrame frame;
   frame.tick = delta.tick;
   for (const AppliedOperation& applied : delta.operations) frame.operations.push_back(applied.operation);
@@ -87,12 +89,16 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
 }
 
 RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
+  CHECK(delta.operations.empty());
+  CHECK_EQ(delta.spawned.size(), delta.pieces.size());
   RecordedKeyframe keyframe;
   keyframe.tick = delta.tick;
   for (const BrickState& state : delta.bricks)
     keyframe.bricks.push_back({state.coord, *state.brick, state.paint});
-  for (size_t i = 0; i < delta.spawned.size(); ++i)
+  for (size_t i = 0; i < delta.spawned.size(); ++i) {
+    CHECK_DEBUG(delta.spawned[i].id == delta.pieces[i].id);
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
+  }
   keyframe.ledger = to_recorded(delta.ledger);
   keyframe.field_hash = delta.field_hash;
   keyframe.state_hash = delta.state_hash;

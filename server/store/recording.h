@@ -1,4 +1,4 @@
-// What a recording holds, in the simulation's own types.
+// Converts between the simulation's types and those of a recording (proto/recording_codec.h).
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@
 namespace scree {
 
 struct RecordingHeader {
-  std::string program;  ///< name and version of what recorded
+  std::string program;  ///< name and version of the program that recorded
   WorldConfig world;
 };
 
@@ -29,9 +29,10 @@ Ledger from_recorded(const RecordedLedger& ledger);
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands);
 std::vector<Command> from_recorded(std::span<const RecordedCommand> commands);
 
-/// The frame that takes `before` to the state after `delta`.
+/// The frame of tick `delta`, which follows the state `before`.
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before);
 
+/// `keyframe`: from PublishedState::as_delta().
 RecordedKeyframe to_recorded_keyframe(const TickDelta& keyframe);
 
 }  // namespace scree

@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::string_view sqlite_magic("SQLite format 3\0", 16);
 
-/// SQLite takes what is missing of the last page for zeros. What a crash left beside the file completes it.
+/// SQLite reads the missing end of a last page as zeros. After a crash, the log beside the file has that end.
 Result<void> check_whole_pages(const std::string& path, const std::string& start) {
+  CHECK(start.size() >= sqlite_magic.size() + 2);
   const auto byte = [&](size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(start[at])); };
   const unsigned stored = (byte(16) << 8U) | byte(17);  // SQLite file format, 1.3.2
   const unsigned page_bytes = stored == 1 ? 65536 : stored;
@@ -25,7 +26,7 @@ Result<void> check_whole_pages(const std::string& path, const std::string& start
   return fail(path + ": damaged or cut short: " + std::to_string(bytes) + " bytes are no whole pages");
 }
 
-/// Says what a file is not, before SQLite is asked to open it.
+/// Refuses a file that is no SQLite file before SQLite opens it.
 Result<void> check_magic(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return fail(path + ": there is no such file");
@@ -174,6 +175,7 @@ Result<RecordedFrame> RecordingReader::frame(Tick tick) {
 }
 
 Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
+  CHECK(tick >= 1 && tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_commands, tick);
   if (!bytes) return tl::unexpected(bytes.error());
   if (!bytes->has_value()) return std::vector<Command>();
@@ -183,6 +185,7 @@ Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
 }
 
 Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {
+  CHECK(tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_keyframe, tick);
   if (!bytes) return tl::unexpected(bytes.error());
   if (!bytes->has_value()) return std::optional<RecordedKeyframe>();

@@ -1,5 +1,6 @@
-// Reads a recording. Every byte is checked: a file that is none, is foreign, newer, cut short or damaged is
-// refused in words that name it; nothing that it holds can crash the program. One thread at a time.
+// Reads a recording. Every byte is checked: a file that is no recording, of another program or release, cut
+// short or damaged is refused with an error that names it. No content can crash the program. One thread at a
+// time.
 #pragma once
 
 #include <memory>
@@ -19,16 +20,17 @@ class RecordingReader {
 
   const std::string& path() const;
   const RecordingHeader& header() const;
-  /// Ticks are 1 … last_tick(), without a gap; a recording holds one at least.
+  /// The recording holds the ticks 1 … last_tick() without a gap, at least one.
   Tick last_tick() const;
   uint64_t keyframes() const;
   uint64_t bytes() const;  ///< of the file
 
   /// `tick` within 1 … last_tick().
   Result<RecordedFrame> frame(Tick tick);
-  /// None for most ticks.
+  /// The commands of a tick within 1 … last_tick(); most ticks have none.
   Result<std::vector<Command>> commands(Tick tick);
-  /// The latest keyframe that is not after `tick`; nothing when there is none: start before tick 1.
+  /// The latest keyframe up to `tick`, which is at most last_tick(); nothing when there is none: then play
+  /// from tick 1.
   Result<std::optional<RecordedKeyframe>> keyframe_before(Tick tick);
 
  private:

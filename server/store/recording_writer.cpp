@@ -3,6 +3,8 @@
 #include "server/store/database.h"
 #include "server/store/limits.h"
 #include "server/store/schema.h"
+#include "shared/base/check.h"
+#include "shared/base/thread_check.h"
 
 namespace scree {
 
@@ -15,8 +17,9 @@ struct RecordingWriter::State {
   Statement insert_frame;
   Statement insert_keyframe;
   Statement insert_commands;
-  PublishedState published;
+  PublishedState published;  ///< after the last tick that was added
   bool in_transaction = false;
+  ThreadCheck storage_thread;
 };
 
 Result<void> RecordingWriter::State::begin() {
@@ -35,7 +38,9 @@ Result<void> RecordingWriter::State::prepare(const RecordingHeader& header) {
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
   auto insert_header = database.prepare(schema::insert_into("header"));
   if (!insert_header) return tl::unexpected(insert_header.error());
-  if (auto done = database.put(*insert_header, 0, encode(to_recorded(header))); !done) return done;
+  const std::vector<uint8_t> bytes = encode(to_recorded(header));
+  CHECK_DEBUG(decode_recorded_header(bytes).has_value());
+  if (auto done = database.put(*insert_header, 0, bytes); !done) return done;
   if (auto done = database.execute("COMMIT"); !done) return done;
   const auto take = [this](Statement& statement, const char* table) -> Result<void> {
     auto prepared = database.prepare(schema::insert_into(table));
@@ -65,17 +70,20 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
 
 Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands) {
   State& state = *state_;
+  CHECK(state.storage_thread.is_the_same());
   if (auto begun = state.begin(); !begun) return begun;
-  const RecordedFrame frame = to_recorded(delta, state.published);
-  if (auto put = state.database.put(state.insert_frame, delta.tick, encode(frame)); !put) return put;
+  const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
+  CHECK_DEBUG(decode_recorded_frame(frame).has_value());
+  if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
   if (!commands.empty()) {
-    const std::vector<RecordedCommand> recorded = to_recorded(commands);
-    if (auto put = state.database.put(state.insert_commands, delta.tick, encode(recorded)); !put) return put;
+    const std::vector<uint8_t> recorded = encode(to_recorded(commands));
+    if (auto put = state.database.put(state.insert_commands, delta.tick, recorded); !put) return put;
   }
   state.published.apply(delta);
   if (delta.tick % limits::ticks_per_keyframe != 0) return {};
   const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(state.published.as_delta()));
-  // A world too large for one row is sought from an earlier keyframe.
+  CHECK_DEBUG(decode_recorded_keyframe(keyframe).has_value());
+  // A keyframe too large for a row is left out: seeking starts from an earlier one.
   if (keyframe.size() > limits::row_bytes_max) return {};
   return state.database.put(state.insert_keyframe, delta.tick, keyframe);
 }
@@ -88,6 +96,7 @@ Result<void> RecordingWriter::commit() {
 
 Result<void> RecordingWriter::finish() {
   if (auto committed = commit(); !committed) return committed;
+  CHECK(!state_->in_transaction);
   return state_->database.execute("PRAGMA journal_mode = DELETE");
 }
 

@@ -1,5 +1,5 @@
-// Writes a recording, tick by tick, in transactions: what is committed stays playable whatever happens next.
-// One thread at a time.
+// Writes a recording, tick by tick, in transactions: committed ticks stay playable after any later error or
+// crash. All calls after create() come from one thread.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,16 @@ class RecordingWriter {
  public:
   static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
                                                          const RecordingHeader& header);
-  /// Commits what was added, as far as possible.
+  /// Commits, and ignores errors.
   ~RecordingWriter();
 
-  /// The next tick, the first being 1, and the commands that it carried out.
+  /// Adds the next tick, without a gap from 1 on, and the commands that it carried out. The caller stops
+  /// adding after an error.
   Result<void> add(const TickDelta& delta, std::span<const Command> commands);
+  /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();
-  /// Commits, and leaves one plain file, that can be read where nothing may be written. The last call.
+  /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder. The last
+  /// call.
   Result<void> finish();
 
  private:

@@ -1,4 +1,4 @@
-// The tables of a recording: one SQLite file. What the blobs hold: proto/recording.proto.
+// The tables of a recording: one SQLite file. proto/recording.proto specifies the blobs.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace scree::schema {
 
-/// PRAGMA application_id, "SCRE": tells a recording from other SQLite files. PRAGMA user_version is the
-/// format.
+/// PRAGMA application_id, "SCRE": distinguishes a recording from other SQLite files. PRAGMA user_version is
+/// the format.
 inline constexpr int64_t application_id = 0x53435245;
 
-/// frames: one row for every tick, without a gap. commands: for ticks that had any. keyframes: the state
-/// after the tick. header: one row, tick 0. checksum: XXH3 of the data.
+/// frames: one row for every tick, without a gap. commands: one row for each tick with commands. keyframes:
+/// the state after the tick. header: one row, tick 0. checksum: XXH3 of the data.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(recording_format) + ";";

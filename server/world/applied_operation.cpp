@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 AppliedOperation describe(const Operation& operation, const VoxelBox& reads, const Applied& applied) {
@@ -15,6 +17,8 @@ AppliedOperation describe(const Operation& operation, const VoxelBox& reads, con
                          described.writes.end());
   described.created.reserve(applied.created.size());
   for (const CreatedPiece& piece : applied.created) described.created.push_back(piece.id);
+  CHECK_DEBUG(std::ranges::is_sorted(described.reads));
+  CHECK_DEBUG(std::ranges::includes(described.reads, described.writes));
   return described;
 }
 

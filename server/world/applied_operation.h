@@ -1,6 +1,5 @@
-// What a publisher needs to know about an operation that was applied: the chunks it read and changed, the
-// pieces it made. The live world and a replay both say it with this one function, so that a viewer cannot
-// tell the difference.
+// Describes an applied operation for the publisher: the chunks that it read and changed, and the pieces that
+// it made. The live world and a replay share this function, so that a viewer cannot tell the difference.
 #pragma once
 
 #include "server/world/tick_delta.h"

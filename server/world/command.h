@@ -1,4 +1,4 @@
-// What clients ask of the world. A request is untrusted until World::step has validated it.
+// The requests of clients to the world. A request is untrusted until World::step() has validated it.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct CarveRequest {
   SeedPattern pattern = SeedPattern::radial;
   uint32_t seeds = 32;
   uint32_t random_seed = 0;
-  glm::vec3 impact_m{0.0F};  ///< where the blow struck; pieces fly out towards it
+  glm::vec3 impact_m{0.0F};  ///< place of the blow; pieces fly out towards it
   float blast_speed_m_s = 6.0F;
-  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
+  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`: `seeds` places; else none
 
   bool operator==(const CarveRequest&) const = default;
 };
@@ -38,7 +38,7 @@ struct PaintRequest {
   bool operator==(const PaintRequest&) const = default;
 };
 
-/// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
+/// Changes settings of the simulation (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
 
@@ -46,8 +46,8 @@ struct SettingsRequest {
 };
 
 struct Command {
-  uint64_t session = 0;  ///< who asked; 0: the server itself
-  uint32_t request = 0;  ///< the asker's number for it, returned in the reply
+  uint64_t session = 0;  ///< session of the client; 0: the server itself
+  uint32_t request = 0;  ///< the client's number of the request, returned in the reply
   std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest> body;
 
   bool operator==(const Command&) const = default;

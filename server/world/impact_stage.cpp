@@ -7,6 +7,7 @@
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "server/world/work.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/roots.h"
@@ -16,14 +17,14 @@ namespace scree {
 
 namespace {
 
-/// An impact, and how many times over it breaks the piece; below 1 the piece holds.
+/// An impact, compared with the piece's strength.
 struct Blow {
   BodyImpact impact;
-  float speed_m_s = 0.0F;  ///< by which it changed the piece's
-  float excess = 0.0F;
+  float speed_m_s = 0.0F;  ///< change of the piece's speed
+  float excess = 0.0F;     ///< that change over strength_m_s(); up to 1 the piece holds
 };
 
-/// Change of speed that breaks the piece.
+/// The change of speed above which the piece breaks.
 float strength_m_s(const World::State& state, PieceId id) {
   const float dx = state.config.terrain.voxel_size_m;
   const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel * dx * dx * dx;
@@ -41,7 +42,7 @@ std::vector<Blow> blows_of(const World::State& state) {
   return blows;
 }
 
-/// Seeds that a break of the piece may have; fewer than 2: it stays whole.
+/// Seeds of a break of the piece, as far as the limits allow; below 2 the piece stays whole.
 uint32_t seeds_for(const World::State& state, const Blow& blow) {
   const Volume& volume = *state.pieces.at(blow.impact.id);
   const MassUnits mass = volume.mass;
@@ -61,9 +62,9 @@ uint32_t random_seed(const World::State& state, PieceId id) {
   return static_cast<uint32_t>(state.tick) * 0x9E3779B1U + id;
 }
 
-/// What the children of a break start out with: the motion of the piece at their places, and a push away from
-/// the blow. The sum of the momenta is the piece's, exactly up to rounding: what the pushes, and the
-/// difference between the piece's centre and its children's, add to it is taken off all of them alike.
+/// The initial states of the children of a break: the piece's motion at their places, and a push away from
+/// the blow. The sum of their momenta is the piece's, up to rounding: the surplus from the pushes, and from
+/// the distance between the piece's centre of mass and the children's, is subtracted from all of them alike.
 class Breakup {
  public:
   Breakup(const World::State& state, const Blow& blow)
@@ -90,7 +91,7 @@ class Breakup {
     return state;
   }
 
-  /// In the voxel frame of the piece.
+  /// The place of the blow in the voxel frame of the piece.
   glm::vec3 impact_voxels() const {
     const glm::vec3 off_m =
         glm::conjugate(parent_.pose.rotation) * (blow_.impact.point_m - parent_.pose.position_m);
@@ -116,13 +117,13 @@ class Breakup {
   glm::vec3 surplus_{0.0F};
 };
 
-/// Breaks or dents in one tick: up to a limit, and as far as the tick's work goes.
+/// Breaks or dents in one tick: up to a limit, and as far as the tick's budget goes.
 struct Quota {
   uint32_t max = 0;
   float cost_us = 0.0F;
   uint32_t done = 0;
 
-  /// Counts those for which there is no room.
+  /// Whether there is room for one more; else counts it as left out.
   bool take(WorkBudget& work, uint32_t& left_out) {
     if (done >= max || !work.affords(cost_us)) {
       ++left_out;
@@ -136,6 +137,7 @@ struct Quota {
 
 void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const PieceId id = blow.impact.id;
+  CHECK(blow.excess > 1.0F);
   const uint32_t seeds = seeds_for(state, blow);
   if (seeds < 2 || !quota.take(state.work, delta.work.breaks_left_out)) return;
   Breakup breakup(state, blow);
@@ -145,6 +147,7 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
       ShatterOperation{id, SeedPattern::radial, seeds, random_seed(state, id), breakup.impact_voxels(),
                        state.next_piece, state.methods.cutter},
       delta);
+  CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   breakup.balance(applied, state.pieces);
@@ -153,8 +156,8 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   spawn(state, applied, born, delta);
 }
 
-/// Radius of the ball that takes this much out of flat ground when its centre is a quarter of it above: the
-/// cap is three quarters of the radius deep, π h² (3 r − h) / 3.
+/// Radius r of the ball that takes this volume out of flat ground when its centre is r/4 above it: a cap of
+/// height h = ¾ r has the volume π h² (3 r − h) / 3.
 float dent_radius_m(float volume_m3) {
   return std::min(cube_root(volume_m3 / 1.325F), limits::dent_radius_max_m);
 }

@@ -1,5 +1,5 @@
-// Impacts: a contact harder than a piece is strong breaks the piece again, where it was struck; a contact
-// hard enough dents soft ground, and throws out what was pressed from it.
+// Impacts: a contact harder than a piece's strength breaks the piece again around the point of contact; a
+// contact hard enough dents soft ground, and throws out the pieces of the dent.
 //
 // The strongest impacts come first, up to limits::breaks_per_tick_max and dents_per_tick_max; pieces that may
 // not break (too small, broken too often already, or no room under WorldConfig::pieces_max) stay whole.

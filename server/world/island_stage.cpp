@@ -5,6 +5,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
+#include "shared/base/check.h"
 #include "shared/falling/island.h"
 #include "shared/recombine/specks.h"
 
@@ -12,7 +13,7 @@ namespace scree {
 
 namespace {
 
-/// Whether the island is still there: an earlier one of this tick may have been the same.
+/// Whether the island is still there: an earlier island of this tick may have been the same.
 bool still_there(Field& field, const Island& island) {
   const VoxelCoord v = island.start;
   return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
@@ -34,7 +35,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   spawn(state, applied, at_rest, delta);
 }
 
-/// Lifting it, with what surrounds it.
+/// Estimated cost of lifting the island out of its surroundings.
 float cost_us(const Island& island) {
   const VoxelCoord size = lift_box(island.box).size();
   return limits::lift_voxel_cost_us * static_cast<float>(size.x) * static_cast<float>(size.y) *
@@ -45,8 +46,8 @@ bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
   return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });
 }
 
-/// One search, or several where cuts of many ticks have waited for islands to be switched on: a search over
-/// all of them would start afresh with every change anywhere among them.
+/// Adds one search for this tick's cuts; or several, when the cuts of many ticks waited for Methods::islands:
+/// a search over all of them would restart with every change among them.
 void take_cuts(World::State& state) {
   std::vector<BrickCoord> part;
   for (const BrickCoord brick : state.cut) {
@@ -96,6 +97,7 @@ bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
   const unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
   size_t own = bricks << doublings;
   const bool finished = first.search->advance(own);
+  CHECK(own >> doublings <= bricks);
   bricks = own >> doublings;
   if (!finished) return false;
   Falling falling{first.search->islands(), std::move(first.search)};
@@ -109,6 +111,7 @@ bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
 }
 
 void IslandQueue::pop() {
+  CHECK(!falling_.empty() && !falling_.front().islands.empty());
   falling_.front().islands.pop_back();
   if (falling_.front().islands.empty()) falling_.pop_front();
 }
@@ -141,7 +144,7 @@ void drop_islands(World::State& state, TickDelta& delta) {
 }
 
 void sweep_specks(World::State& state, TickDelta& delta) {
-  // What one leaves behind may make its neighbour light enough: again, until none is left.
+  // A speck's fall may leave another speck behind: so this repeats until none is found.
   while (!state.unswept.empty()) {
     const std::vector<BrickCoord> bricks(state.unswept.begin(), state.unswept.end());
     state.unswept.clear();

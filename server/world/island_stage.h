@@ -1,16 +1,16 @@
-// Terrain that a change cut off from the ground falls.
+// Islands: terrain that a change cut off from the ground falls.
 //
-// Every tick's cuts make one search (shared/falling/island_search.h), taken up in the order of the cuts. A
-// tick looks at limits::island_bricks_per_tick bricks; what is not finished goes on in the next tick, and
-// starts afresh when what it has seen changed in between. With every fresh start its budget doubles, so that
-// each search ends. Part of the simulation: it counts bricks, never time.
+// The cuts of a tick make one search (shared/falling/island_search.h); searches run in the order of the cuts.
+// A tick looks at limits::island_bricks_per_tick bricks. An unfinished search continues in the next tick, and
+// restarts when a brick that it has read changed in between. Each restart doubles its budget, so that every
+// search ends. Part of the simulation: it counts bricks, never time.
 //
-// What a search found falls in the same tick, as long as the tick's budget of work lasts, and one at least: a
-// large island comes in blocks (island_search.h), of which some wait. What waits is searched afresh when
-// anything but an island's fall changed what the search had seen: it may have been propped up.
+// The islands that a search found fall in the same tick, at least one, and more as far as the tick's budget
+// of work goes; the others wait. A large island comes in blocks (island_search.h), which fall one by one.
+// Waiting islands are searched again when a brick that their search read changed by anything but the fall of
+// an island: they may have a support now.
 //
-// Switched off (Methods::islands), cuts and unfinished searches wait; switched on again, what they loosened
-// meanwhile falls.
+// While Methods::islands is off, cuts and unfinished searches wait; when it is on again, they continue.
 #pragma once
 
 #include <deque>
@@ -26,32 +26,34 @@ namespace scree {
 
 class IslandQueue {
  public:
-  /// Searches around bricks that lost rock. Nothing for none.
+  /// Adds a search around bricks that lost rock; none for an empty list.
   void push(std::vector<BrickCoord> cut);
-  /// These bricks changed: searches that have read one of them start afresh.
+  /// Restarts the searches, finished or not, that have read one of these changed bricks.
   void changed(std::span<const BrickCoord> bricks);
-  /// These fell: likewise, but what waits to fall is not propped up by that.
+  /// The same for bricks that the fall of an island changed: finished searches stay valid.
   void fell(std::span<const BrickCoord> bricks);
-  /// Searches on; false when `bricks` are used up, or nothing is left to search. What the first search found
-  /// when it ended waits to fall; returns through `too_large` how many components it took for ground.
+  /// Continues the first search, by at most `bricks` bricks, and subtracts those that it read. True when it
+  /// ended: its islands wait to fall, and `too_large` grows by the components that it took for ground. False
+  /// when `bricks` are used up or there is no search.
   bool search(Field& field, size_t& bricks, uint32_t& too_large);
-  /// The next that waits to fall, until pop(). Null: nothing waits.
+  /// The next island that waits to fall, valid until pop(); null when none waits.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.front().islands.back(); }
+  /// Removes the next island; there must be one.
   void pop();
-  /// How many wait to fall.
+  /// Number of islands that wait to fall.
   size_t falling() const;
-  /// Nothing is searched, and nothing waits to fall.
+  /// Whether there is no search, and no island waits to fall.
   bool idle() const { return waiting_.empty() && falling_.empty(); }
-  /// Bricks whose searches are not finished, for people to look at.
+  /// Bricks of unfinished searches, for display.
   std::vector<BrickCoord> waiting() const;
 
  private:
   struct Waiting {
     std::vector<BrickCoord> cut;
-    std::unique_ptr<IslandSearch> search;  ///< null until its turn comes
+    std::unique_ptr<IslandSearch> search;  ///< null until its turn
     uint32_t restarts = 0;
   };
-  /// What a search found, the next to fall last; never empty.
+  /// The islands that a search found, the next to fall last; never empty.
   struct Falling {
     std::vector<Island> islands;
     std::unique_ptr<IslandSearch> search;
@@ -60,12 +62,12 @@ class IslandQueue {
   std::deque<Falling> falling_;
 };
 
-/// Finds what this tick's cuts loosened, and lets it fall: after the tick's requests, impacts and merges.
+/// Searches around this tick's cuts, and drops the islands found. Call after requests, impacts and merges.
 void drop_islands(World::State& state, TickDelta& delta);
 
-/// What merges and islands left hanging loose that is too light for a piece becomes dust
-/// (shared/recombine/specks.h); after carves and dents the search for islands does the same. Whatever the
-/// settings; call after the other two.
+/// Turns loose terrain that is too light for a piece, as merges and falling islands leave it, into dust
+/// (shared/recombine/specks.h). The search for islands does the same after carves and dents. Does not depend
+/// on settings. Call after drop_islands() and break_overloads().
 void sweep_specks(World::State& state, TickDelta& delta);
 
 }  // namespace scree

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "server/world/limits.h"
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/operation/prepared_stamp.h"
 #include "shared/operation/stamp_groups.h"
 
@@ -10,7 +12,7 @@ namespace scree {
 
 namespace {
 
-/// By the model, in microseconds. What is off merges nothing.
+/// Cost of a merge by the model, microseconds. `off` never merges.
 float cost_us(Recombination recombination) {
   switch (recombination) {
     case Recombination::slices:
@@ -24,7 +26,8 @@ float cost_us(Recombination recombination) {
   return limits::stamp_cost_us;
 }
 
-/// As many as are merged in any tick, and fewer, down to a few, where its budget ends.
+/// Merges in this tick: WorldConfig::merges_per_tick_max, or fewer, down to limits::merges_per_tick_min, as
+/// far as the tick's budget goes.
 size_t merges_max(const World::State& state) {
   const uint32_t most = state.config.merges_per_tick_max;
   const auto room = static_cast<int>(state.work.left_us() / cost_us(state.methods.recombine));
@@ -58,7 +61,7 @@ std::vector<PieceId> settled(World::State& state, TickDelta& delta) {
 
 namespace {
 
-/// What is off merges nothing; a caller that merges all the same gets stamps.
+/// `off` never merges, so its value does not matter.
 StampMethod method_of(Recombination recombination) {
   switch (recombination) {
     case Recombination::slices:
@@ -72,8 +75,9 @@ StampMethod method_of(Recombination recombination) {
   return StampMethod::stamp;
 }
 
-/// The field gains what the pieces weighed, and with it the dust that earlier merges could not place.
+/// The field gains the pieces' mass, and with it dust that earlier merges could not place.
 void merge_group(World::State& state, const std::vector<StampedPiece>& group, TickDelta& delta) {
+  CHECK(!group.empty() && group.size() <= limits::stamp_group_max);
   MassUnits mass = 0;
   for (const StampedPiece& one : group) mass += state.pieces.at(one.piece)->mass;
   const MassUnits budget = stamp_budget(mass, state.ledger.dust);

@@ -1,16 +1,17 @@
-// Recombination: pieces that have come to rest become terrain again.
+// Recombination: pieces at rest become terrain again.
 #pragma once
 
 #include "server/world/world_state.h"
 
 namespace scree {
 
-/// The pieces that may merge in this tick, from the ground up. Where nothing merges they freeze instead, and
-/// there are none. Call once a tick, after the bodies' step.
+/// The pieces that may merge in this tick, from the ground up. With Recombination::off, freezes them instead
+/// and returns none. Call once a tick, after the bodies' step.
 std::vector<PieceId> settled(World::State& state, TickDelta& delta);
 
-/// Merges pieces where they lie, in that order; with Methods::group_merges those that stamp_groups puts
-/// together in one operation. What the field cannot gain of their mass becomes dust; dust goes out with it.
+/// Merges pieces where they lie, in that order; with Methods::group_merges, the pieces of each group by
+/// stamp_groups() in one operation. Mass that the field cannot gain becomes dust; earlier dust is merged too,
+/// within stamp_budget().
 void merge(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta);
 
 }  // namespace scree

@@ -1,6 +1,6 @@
-// How the simulation does what can be done in more than one way. Starts with WorldConfig's and changes by
-// SettingsRequests while running; settings.h gives each member its name. Part of the simulation: the same
-// commands give the same hashes.
+// The settings of the simulation: its choices between methods. They start as WorldConfig says and change by
+// SettingsRequests; settings.h names each member. Part of the simulation: the same commands give the same
+// hashes.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace scree {
 
-/// How pieces at rest become terrain again: by one of the methods of shared/recombine/stamp_method.h, or
-/// never: then they stay bodies.
+/// How pieces at rest become terrain again: by a method of shared/recombine/stamp_method.h; `off`: they stay
+/// bodies.
 enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3 };
 
 struct Methods {

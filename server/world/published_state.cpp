@@ -10,20 +10,26 @@ namespace scree {
 namespace {
 
 void remember(ChunkHistory& history, Tick version, uint64_t hash) {
+  CHECK(history.entries.empty() || history.entries.back().version <= version);
   if (!history.entries.empty() && history.entries.back().version == version) {
     history.entries.back().hash = hash;
     return;
   }
   if (history.entries.size() == ChunkHistory::depth) history.entries.erase(history.entries.begin());
   history.entries.push_back({version, hash});
+  CHECK(history.entries.size() <= ChunkHistory::depth);
 }
 
 }  // namespace
 
 void PublishedState::apply(const TickDelta& delta) {
   CHECK(tick_ == 0 || delta.tick == tick_ + 1);
+  CHECK_DEBUG(std::ranges::adjacent_find(delta.bricks, std::ranges::greater_equal{}, &BrickState::coord) ==
+              delta.bricks.end());
+  CHECK_DEBUG(std::ranges::is_sorted(delta.pieces, {}, &PieceState::id));
   tick_ = delta.tick;
   for (const BrickState& state : delta.bricks) {
+    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.paint));
     PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
     BrickState& slot = chunk.bricks[state.coord];
     chunk.hash += state.hash - slot.hash;
@@ -49,6 +55,13 @@ void PublishedState::apply(const TickDelta& delta) {
   if (!delta.settings.empty()) settings_ = delta.settings;
   field_hash_ = delta.field_hash;
   state_hash_ = delta.state_hash;
+  CHECK_DEBUG(field_hash_ == sum_of_chunks());
+}
+
+uint64_t PublishedState::sum_of_chunks() const {
+  uint64_t sum = 0;
+  for (const auto& [coord, chunk] : chunks_) sum += chunk.hash;
+  return sum;
 }
 
 TickDelta PublishedState::as_delta() const {

@@ -1,6 +1,9 @@
-// The world as published so far, rebuilt from TickDeltas alone. The network's publisher serves late joiners
-// from it, the recorder writes its keyframes from it; neither ever touches the simulation. Buffers are shared
-// and immutable.
+// The world as published so far, rebuilt from TickDeltas. The publisher serves late joiners from it, the
+// recorder writes keyframes from it; neither reads the simulation. Buffers are shared and immutable. Not
+// thread-safe.
+//
+// Invariants: ticks have no gap. A chunk's version is the last tick that changed it, and its hash is the sum
+// of its bricks' hashes; the field's hash is the sum over chunks. Every piece alive has its volume.
 #pragma once
 
 #include <array>
@@ -14,7 +17,7 @@
 
 namespace scree {
 
-/// Hashes of a chunk at its latest versions, newest last; older ones fall off.
+/// Hashes of a chunk at its latest versions, the newest last; versions ascend.
 struct ChunkHistory {
   static constexpr size_t depth = 32;
   struct Entry {
@@ -38,11 +41,11 @@ struct PublishedPiece {
 
 class PublishedState {
  public:
-  /// Deltas come in order of tick, without a gap.
+  /// Applies the next tick. The first may have any number, as a keyframe; then there is no gap.
   void apply(const TickDelta& delta);
 
-  /// One delta that takes an empty state to this one: no operations, every edited brick, every piece. A
-  /// keyframe.
+  /// A keyframe: one delta that takes an empty state to this one, with every edited brick, every piece, and
+  /// no operations.
   TickDelta as_delta() const;
 
   Tick tick() const { return tick_; }
@@ -54,10 +57,13 @@ class PublishedState {
   uint64_t pieces_made() const { return pieces_made_; }
   uint64_t pieces_merged() const { return pieces_merged_; }
 
-  /// The chunk's hash at that version; nothing when it has been forgotten or never was.
+  /// The chunk's hash at that version; nothing when the version is older than its history or never existed.
   std::optional<uint64_t> hash_at(ChunkCoord chunk, Tick version) const;
 
  private:
+  /// Σ chunk hash, which is the field's; for CHECK_DEBUG.
+  uint64_t sum_of_chunks() const;
+
   Tick tick_ = 0;
   std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
   std::map<PieceId, PublishedPiece> pieces_;

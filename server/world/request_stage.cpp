@@ -8,6 +8,7 @@
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
@@ -16,14 +17,14 @@ namespace scree {
 
 namespace {
 
-/// A blow throws a piece out towards where it struck, the less the farther off, and sets it spinning: away
-/// from the point that lies as deep behind the shape's centre as the impact lies before it. Away from the
-/// impact itself, most pieces would only be pressed into the rock behind them.
+/// The initial state of a piece of a carve: it flies away from the mirror image of the impact behind the
+/// shape's centre, so towards the impact, more slowly with distance, and spins. Away from the impact itself,
+/// most pieces would be pressed into the rock behind them.
 BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
   const glm::vec3 source_m = 2.0F * centre_of(request.shape) - request.impact_m;
   const glm::vec3 away = centre_m - source_m;
   const float distance_m = std::sqrt(glm::dot(away, away));
-  // A lift along up: a blow against flat ground would otherwise press half of the pieces into it.
+  // Plus a part upwards: a blow against flat ground would otherwise press half of the pieces into it.
   const glm::vec3 direction = away / std::max(distance_m, 0.01F) + glm::vec3(0.0F, 0.7F, 0.0F);
   const float reach_m = std::max(reach_of(request.shape), 0.01F);
   const float speed = request.blast_speed_m_s * reach_m / (reach_m + distance_m);
@@ -91,6 +92,7 @@ Result<uint32_t> change(World::State& state, const SettingsRequest& request, Tic
   if (Result<void> done = set_all(state.methods, request.settings); !done)
     return tl::unexpected(done.error());
   if (state.methods != before) delta.settings = print(state.methods);
+  CHECK(delta.settings.size() <= limits::settings_max);
   state.bodies.set_terrain_collider(state.methods.collider);
   return 0U;
 }
@@ -136,6 +138,7 @@ void carry_out(World::State& state, std::span<const Command> commands, TickDelta
     state.work.spend(cost);
     state.waiting.pop_front();
   }
+  CHECK(state.waiting.size() <= limits::requests_waiting_max);
   delta.work.requests_waiting = static_cast<uint32_t>(state.waiting.size());
 }
 

@@ -7,11 +7,11 @@
 
 namespace scree {
 
-/// Carries out what waits and then these, as far as the tick's budget goes, and at least one; the others
-/// wait, in order. More than limits::requests_waiting_max are refused.
+/// Carries out the waiting commands and then these: at least one, and more as far as the tick's budget goes.
+/// The others wait, in order; beyond limits::requests_waiting_max they are refused. Each gets one reply.
 void carry_out(World::State& state, std::span<const Command> commands, TickDelta& delta);
 
-/// Carries out one request, or refuses it by name; either way the delta has a reply to it.
+/// Carries out one request, or refuses it with a reason; the delta gets the reply.
 void execute(World::State& state, const Command& command, TickDelta& delta);
 
 }  // namespace scree

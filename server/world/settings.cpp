@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-/// What the values of a choice are called, in their order.
+/// The names of a choice's values, in their order.
 template <typename Choice>
 constexpr std::array<std::string_view, 0> names_of{};
 template <>
@@ -60,7 +60,7 @@ constexpr std::array table{
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
 };
 
-/// Bound one by one, so that a member that is new and not in the table does not compile.
+/// Each member is bound by name: a new member that is not in the table does not compile.
 constexpr size_t members() {
   const auto [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       Methods{};

@@ -4,6 +4,7 @@
 
 #include "server/fracture/hull.h"
 #include "server/world/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -11,6 +12,7 @@ void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
   for (const PieceHull& hull :
        make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m, state.methods.simplifier)) {
+    CHECK_EQ(hull.id, state.next_piece);
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;

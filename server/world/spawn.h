@@ -7,15 +7,15 @@
 
 namespace scree {
 
-/// How a new piece starts out; `body.id` is filled in by spawn().
+/// The initial state of a new piece; spawn() fills in `body.id`.
 struct Newborn {
   BodyState body;
   PieceTraits traits;
-  bool may_be_concave = false;  ///< touches the ground with its own surface, not with its hull's
+  bool may_be_concave = false;  ///< collides with the ground by its own surface instead of its hull's
 };
 
-/// Each piece that the operation made gets a hull, a body and its traits, is entered in the delta, and uses
-/// up its id. Call right after apply_and_record().
+/// Gives each piece that the operation made a hull, a body and its traits, enters it in the delta, and
+/// advances State::next_piece past its id. Call right after apply_and_record().
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta);
 

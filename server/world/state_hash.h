@@ -1,5 +1,5 @@
-// One number for everything that decides how a world goes on. Equal hashes at every tick are what
-// `scree-replay verify` and the determinism tests compare.
+// A hash of all state that decides how a world continues. `scree-replay verify` and the determinism tests
+// compare it at every tick.
 #pragma once
 
 #include <cstdint>

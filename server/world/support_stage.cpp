@@ -6,6 +6,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/falling/support_search.h"
 
@@ -13,8 +14,9 @@ namespace scree {
 
 namespace {
 
-/// The first brick that waits, and those near it.
+/// The first waiting brick, and those near it.
 std::vector<BrickCoord> first_cluster(const std::set<BrickCoord>& strained) {
+  CHECK(!strained.empty());
   const BrickCoord first = *strained.begin();
   const auto near = [](int a, int b) { return std::abs(a - b) < limits::support_cluster_bricks; };
   std::vector<BrickCoord> cluster;
@@ -30,6 +32,7 @@ CarveOperation crushing(const World::State& state, const VoxelBox& voxels, int64
   const auto at = [&](VoxelCoord v) {
     return (glm::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) - 0.5F) * dx;
   };
+  CHECK(!voxels.empty() && section_voxels >= 0);
   const glm::vec3 lo = at(voxels.lo), hi = at(voxels.hi);
   CarveOperation operation;
   operation.shape = box(0.5F * (lo + hi), 0.5F * (hi - lo));
@@ -59,7 +62,7 @@ void crush(World::State& state, const CarveOperation& operation, TickDelta& delt
   spawn(state, applied, thrown, delta);
 }
 
-/// Halves of a box that is longer than one edit reaches, halved again.
+/// Crushes a box; one that is longer than the reach of an edit in halves, recursively.
 void crush_by_halves(World::State& state, const VoxelBox& box, int64_t section_voxels, TickDelta& delta) {
   const VoxelCoord size = box.size();
   const int longest = std::max({size.x, size.y, size.z});
@@ -77,7 +80,7 @@ void crush_by_halves(World::State& state, const VoxelBox& box, int64_t section_v
   crush_by_halves(state, second, section_voxels / 2, delta);
 }
 
-/// False when there are too many pieces to break it now.
+/// False when there is no room for the pieces under WorldConfig::pieces_max: the rest waits.
 bool break_off(World::State& state, const Overload& overload, TickDelta& delta) {
   for (const Neck& neck : overload.necks) {
     if (state.pieces.size() + limits::neck_seeds_max > state.config.pieces_max) return false;
@@ -102,7 +105,7 @@ void break_overloads(World::State& state, TickDelta& delta) {
     bool room = true;
     for (const Overload& overload : found.overloads) room = room && break_off(state, overload, delta);
     if (!room) state.strained.insert(cluster.begin(), cluster.end());
-    whole = found.overloads.empty();  // what broke off falls first
+    whole = found.overloads.empty();  // the islands of a break fall before the next search
   }
   delta.work.supports_put_off = static_cast<uint32_t>(state.strained.size());
 }

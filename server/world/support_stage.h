@@ -1,20 +1,20 @@
-// Terrain that is too heavy for what holds it breaks off (shared/falling/support_search.h).
+// Support: terrain that is too heavy for its support breaks off (shared/falling/support_search.h).
 //
-// Around every brick that changed, whatever changed it, what holds is searched: changes near each other in
-// one search, one search a tick at least and more as the tick's budget goes; what waits is counted. The neck
-// of a mass that is too heavy is crushed by an ordinary carve, and what hung on it is an island of the next
-// tick. Every break takes rock away, so that it ends. While islands wait, to be searched or to fall, nothing
-// is known of what holds: then all of it waits.
+// Every changed brick is searched for support: changes near each other in one search, at least one search a
+// tick, and more as far as the tick's budget goes; waiting bricks are counted. The neck of a mass that is too
+// heavy is crushed by an ordinary carve, and the mass beyond it is an island of the next tick. Every break
+// takes rock away, so that the breaking ends. While searches for islands or islands wait, support is not
+// known: then all searches for support wait.
 //
-// Switched off (Methods::support, or Methods::islands, without which nothing would fall), changes are not
-// remembered: what was left standing meanwhile stands until something touches it again.
+// While Methods::support or Methods::islands is off, changes are not remembered: terrain that became too
+// heavy meanwhile stands until something touches it again.
 #pragma once
 
 #include "server/world/world_state.h"
 
 namespace scree {
 
-/// After the tick's islands fell.
+/// Call after drop_islands().
 void break_overloads(World::State& state, TickDelta& delta);
 
 }  // namespace scree

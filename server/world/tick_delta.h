@@ -1,4 +1,4 @@
-// What one tick did. Immutable once published: the publisher, the recorder and the metrics all read this one
+// The result of one tick. Immutable once published: the publisher, the recorder and the metrics all read this
 // value, and nothing else leaves the simulation.
 #pragma once
 
@@ -18,11 +18,11 @@ namespace scree {
 /// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust =
 /// poured.
 struct Ledger {
-  MassUnits terrain = 0;  ///< what the terrain gained since the start (negative: lost)
-  MassUnits pieces = 0;   ///< in pieces alive
-  MassUnits dust = 0;     ///< waits to go out with the next merges
+  MassUnits terrain = 0;  ///< gain of the terrain since the start (negative: loss)
+  MassUnits pieces = 0;   ///< in pieces alive; not negative
+  MassUnits dust = 0;     ///< merges take it up again
   MassUnits poured = 0;   ///< added by fills
-  MassUnits moved = 0;    ///< carved out since the start, in all; for scale
+  MassUnits moved = 0;    ///< taken out of the terrain since the start, in all; for scale
 
   MassUnits error() const { return terrain + pieces + dust - poured; }
   bool operator==(const Ledger&) const = default;
@@ -36,23 +36,23 @@ struct StageTimes {
   double impacts_ms = 0.0;    ///< breaks and dents
   double rest_ms = 0.0;       ///< rest detection
   double recombine_ms = 0.0;  ///< planning and applying stamps
-  double islands_ms = 0.0;    ///< search for what hangs loose, and its fall
+  double islands_ms = 0.0;    ///< search for islands, and their fall
   double publish_ms = 0.0;    ///< hashes, copies of changed bricks, transforms
   double total_ms = 0.0;
 };
 
-/// How much there was to do in a tick by the model of server/world/work.h, and what was put off or left out.
+/// A tick's work by the model of server/world/work.h, and the counts of work that was put off or left out.
 struct TickWork {
   uint32_t budget_us = 0;
-  uint32_t estimate_us = 0;  ///< at the tick's end; over the budget where the least was done all the same
+  uint32_t estimate_us = 0;        ///< at the tick's end; over the budget when the minimum of work was more
   uint32_t requests_waiting = 0;   ///< put off to a later tick
   uint32_t merges_put_off = 0;     ///< pieces that are at rest and wait their turn
   uint32_t breaks_left_out = 0;    ///< blows that would have broken a piece
   uint32_t dents_left_out = 0;     ///< blows that would have dented the ground
-  bool merging_sooner = false;     ///< a crowd: half of the rest will do
-  uint32_t supports_put_off = 0;   ///< bricks that changed, around which what holds is not searched yet
-  uint32_t supports_given_up = 0;  ///< searches for what holds that were too intricate
-  uint32_t islands_put_off = 0;    ///< that hang loose, or blocks of such, and wait their turn to fall
+  bool merging_sooner = false;     ///< a crowd: half of the rest time is enough
+  uint32_t supports_put_off = 0;   ///< changed bricks that await a search for support
+  uint32_t supports_given_up = 0;  ///< searches for support that ended without a result
+  uint32_t islands_put_off = 0;    ///< islands, or blocks of islands, that wait to fall
   uint32_t islands_too_large = 0;  ///< components so large that they were taken for ground
 
   bool cut_short() const {
@@ -62,7 +62,7 @@ struct TickWork {
   }
 };
 
-/// An operation as it was applied, with what a publisher needs to know to send it.
+/// An applied operation, with the facts by which a publisher selects it.
 struct AppliedOperation {
   Operation operation;
   std::vector<ChunkCoord> reads;   ///< chunks that apply() reads

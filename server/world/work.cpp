@@ -12,7 +12,7 @@ float cost_of(const Bodies& bodies) {
          limits::contact_cost_us * static_cast<float>(bodies.contact_points());
 }
 
-/// Nothing for what will be refused: it may be too large, or too far away, to be counted at all.
+/// Voxels of an edit's box; 0 for a shape that will be refused: its box may not fit integers.
 float voxels_of(const Shape& shape, float voxel_size_m) {
   if (!validate(Operation(FillOperation{shape}), {})) return 0.0F;
   const VoxelCoord size = band_box(in_voxels(shape, voxel_size_m)).size();
@@ -38,7 +38,9 @@ struct Costing {
 }  // namespace
 
 WorkBudget::WorkBudget(uint32_t tick_rate_hz)
-    : budget_us_(limits::work_share * 1e6F / static_cast<float>(tick_rate_hz)) {}
+    : budget_us_(limits::work_share * 1e6F / static_cast<float>(tick_rate_hz)) {
+  CHECK(tick_rate_hz > 0);
+}
 
 void WorkBudget::begin(const Bodies& bodies) {
   bodies_us_ = cost_of(bodies);
@@ -49,6 +51,7 @@ void WorkBudget::stepped(const Bodies& bodies) {
   const float before_us = bodies_us_;
   bodies_us_ = cost_of(bodies);
   spent_us_ += bodies_us_ - before_us;
+  CHECK(spent_us_ >= 0.0F);
 }
 
 bool WorkBudget::crowded() const {

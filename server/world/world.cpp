@@ -1,5 +1,6 @@
 #include "server/world/world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "server/world/impact_stage.h"
@@ -33,6 +34,15 @@ void discard_lost(World::State& state, TickDelta& delta) {
   }
 }
 
+/// For CHECK_DEBUG: pieces and bricks are in order, without duplicates.
+bool is_ordered(const TickDelta& delta) {
+  const auto ascend = [](const auto& list, auto key) {
+    return std::ranges::adjacent_find(list, std::ranges::greater_equal{}, key) == list.end();
+  };
+  return ascend(delta.bricks, &BrickState::coord) && ascend(delta.pieces, &PieceState::id) &&
+         ascend(delta.spawned, &SpawnedPiece::id);
+}
+
 void publish(World::State& state, TickDelta& delta) {
   for (const BrickCoord coord : state.changed) {
     auto brick = std::make_shared<const Brick>(state.field.brick(coord));
@@ -47,9 +57,11 @@ void publish(World::State& state, TickDelta& delta) {
   delta.field_hash = state.field.hash();
   delta.state_hash =
       state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});
+  CHECK_EQ(delta.pieces.size(), state.pieces.size());
+  CHECK_DEBUG(is_ordered(delta));
 }
 
-/// What people who look at the bodies get to see.
+/// Enters the bodies' hulls and contacts, and the searches for islands, for display.
 void describe_physics(World::State& state, TickDelta& delta) {
   auto physics = std::make_shared<PhysicsMessage>();
   physics->tick = state.tick;
@@ -65,6 +77,7 @@ World::~World() = default;
 
 std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) {
   State& s = *state_;
+  CHECK(s.thread.is_the_same());
   Stopwatch whole, watch;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
@@ -88,7 +101,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   delta->times.islands_ms = watch.lap_ms();
   publish(s, *delta);
   if (s.watched && s.tick % ticks_per_watch == 0) describe_physics(s, *delta);
-  CHECK(s.ledger.error() == 0);
+  s.check();
   delta->times.publish_ms = watch.lap_ms();
   delta->times.total_ms = whole.lap_ms();
   return delta;

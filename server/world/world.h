@@ -1,7 +1,7 @@
 // The simulation: field, pieces, bodies and ledger, advanced tick by tick.
 //
-// A pure function of its configuration and of the commands by tick: same in, same hashes out, on any build.
-// Reads no clock but for StageTimes. Not thread-safe; everything that others may see is in the TickDelta.
+// A pure function of its configuration and of the commands by tick: the same input gives the same hashes, in
+// any build. It reads a clock for StageTimes only. One thread calls step(); all results are in the TickDelta.
 #pragma once
 
 #include <memory>
@@ -43,9 +43,9 @@ class World {
   Tick tick() const;
   /// The terrain's gain since the start, measured afresh from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
-  /// From now on, or no more: every ticks_per_watch-th delta tells what the bodies do. Changes nothing else.
+  /// Switches TickDelta::physics, in every ticks_per_watch-th delta, on or off. Changes nothing else.
   void watch(bool wanted);
-  /// Between steps. Nobody changes it but apply().
+  /// For reading between steps; only apply() changes it.
   Field& field();
 
   struct State;  ///< world_state.h, for the stages in this folder alone

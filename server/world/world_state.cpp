@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "server/world/applied_operation.h"
+#include "server/world/limits.h"
+#include "server/world/settings.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -16,6 +19,7 @@ BodiesConfig bodies_config(const WorldConfig& config) {
 }
 
 VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
+  CHECK(!bricks.empty());
   VoxelBox box{first_voxel(bricks.front()), first_voxel(bricks.front())};
   for (const BrickCoord brick : bricks) {
     const VoxelCoord v = first_voxel(brick);
@@ -26,8 +30,8 @@ VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
   return box;
 }
 
-/// Whether something may hang loose after it. What an island's going lays bare was no part of it; a stamp's
-/// redistancing takes a little here and there, but opens no gap.
+/// Whether terrain may be loose after the operation. Terrain around a fallen island was not connected to it;
+/// a stamp's redistancing lowers some codes, but opens no gap.
 bool cuts(const Operation& operation, const Applied& applied) {
   return applied.terrain_gain < 0 && !std::holds_alternative<IslandOperation>(operation) &&
          !std::holds_alternative<StampOperation>(operation);
@@ -41,12 +45,17 @@ World::State::State(const WorldConfig& world_config)
       field(config.terrain),
       bodies(field, bodies_config(config)),
       rest(RestConfig{}, config.tick_rate_hz),
-      work(config.tick_rate_hz) {}
+      work(config.tick_rate_hz) {
+  Methods parsed;
+  CHECK(set_all(parsed, print(methods)) && parsed == methods);
+}
 
 Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,
                                        const PreparedStamp* prepared) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
   Applied applied = apply(operation, field, pieces, prepared);
+  CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
+              applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());
@@ -55,11 +64,15 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
     unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
-  for (const PieceId ended : pieces_ended_by(operation)) traits.erase(ended);
+  for (const PieceId ended : pieces_ended_by(operation)) {
+    CHECK(!pieces.contains(ended));
+    traits.erase(ended);
+  }
   return applied;
 }
 
 void World::State::enter_taken(const Applied& applied) {
+  CHECK(applied.dust >= 0);
   ledger.moved -= applied.terrain_gain;
   ledger.dust += applied.dust;
   ledger.pieces -= applied.terrain_gain + applied.dust;
@@ -68,6 +81,25 @@ void World::State::enter_taken(const Applied& applied) {
 PieceTraits World::State::traits_of(PieceId id) const {
   const auto found = traits.find(id);
   return found == traits.end() ? PieceTraits{} : found->second;
+}
+
+MassUnits World::State::mass_of_pieces() const {
+  MassUnits mass = 0;
+  for (const auto& [id, volume] : pieces) mass += volume->mass;
+  return mass;
+}
+
+void World::State::check() const {
+  CHECK(ledger.error() == 0);
+  CHECK(ledger.pieces >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
+  CHECK_EQ(bodies.size(), pieces.size());
+  CHECK_EQ(traits.size(), pieces.size());
+  CHECK(pieces.empty() || pieces.rbegin()->first < next_piece);
+  CHECK(waiting.size() <= limits::requests_waiting_max);
+  CHECK_DEBUG(ledger.pieces == mass_of_pieces());
+  CHECK_DEBUG(std::ranges::all_of(pieces, [this](const auto& piece) {
+    return bodies.contains(piece.first) && traits.contains(piece.first);
+  }));
 }
 
 }  // namespace scree

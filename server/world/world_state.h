@@ -1,9 +1,11 @@
-// Everything that a world is made of, as the stages of a tick see it. Private to this folder: world.h is what
-// others use.
+// The state of a world, as the stages of a tick use it. Private to this folder; others use world.h.
 //
-// A stage is a function of this state and of the tick's delta; World::step calls them in order. Whatever
-// changes the field goes through apply_and_record, which keeps the delta, the bodies and the ledger's terrain
-// in step with it.
+// A stage is a function of this state and of the tick's delta; World::step() calls them in order. Every
+// change of the field goes through apply_and_record(), which keeps the delta, the bodies and the ledger's
+// terrain consistent with it.
+//
+// Invariants between stages: a piece has a volume in `pieces`, a body, and traits, or none of them; ids below
+// next_piece are used up; the ledger's sum is right.
 #pragma once
 
 #include <deque>
@@ -16,43 +18,49 @@
 #include "server/world/island_stage.h"
 #include "server/world/work.h"
 #include "server/world/world.h"
+#include "shared/base/thread_check.h"
 #include "shared/field/material.h"
 
 namespace scree {
 
-/// What a piece keeps for life.
+/// Properties that a piece keeps for life.
 struct PieceTraits {
-  uint8_t generation = 0;  ///< how often its ancestors broke
+  uint8_t generation = 0;  ///< number of breaks among its ancestors
 };
 
 struct World::State {
   explicit State(const WorldConfig& world_config);
 
-  /// Applies a valid operation; whoever calls it enters in the ledger where the mass came from or went to.
+  /// Applies a valid operation. Enters the terrain's gain in the ledger; the caller enters the other side.
   Applied apply_and_record(const Operation& operation, TickDelta& delta,
                            const PreparedStamp* prepared = nullptr);
-  /// Enters what an operation took out of the terrain: pieces, and the rest dust.
+  /// Enters the mass that an operation took out of the terrain: in pieces, and the rest in dust.
   void enter_taken(const Applied& applied);
   PieceTraits traits_of(PieceId id) const;
+  /// Checks the invariants between stages. O(1).
+  void check() const;
+  /// The sum of the pieces' masses; for CHECK_DEBUG.
+  MassUnits mass_of_pieces() const;
 
   WorldConfig config;
-  Methods methods;  ///< as they stand; config.methods: as they were at the start
+  Methods methods;  ///< the current ones; config.methods: those at the start
   VdbField field;
   PieceTable pieces;
   Bodies bodies;                          ///< one for each of `pieces`
-  std::map<PieceId, PieceTraits> traits;  ///< of pieces that have others than the default ones
+  std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
   RestDetector rest;
   Ledger ledger;
   Tick tick = 0;
   PieceId next_piece = 1;
-  std::set<BrickCoord> changed;  ///< in this tick
-  std::set<BrickCoord> cut;      ///< those that lost rock, which may have held something up: not searched yet
-  std::set<BrickCoord> strained;  ///< those that changed, around which what holds is not searched yet
-  std::set<BrickCoord> unswept;   ///< changed by merges and by islands' going: specks may lie there
+  std::set<BrickCoord> changed;   ///< in this tick
+  std::set<BrickCoord> cut;       ///< bricks that lost rock and await a search for islands
+  std::set<BrickCoord> strained;  ///< changed bricks that await a search for support
+  std::set<BrickCoord> unswept;   ///< changed by merges and falling islands: specks may lie there
   IslandQueue islands;
   WorkBudget work;
-  std::deque<Command> waiting;  ///< requests that no tick had room for yet, in order
-  bool watched = false;         ///< somebody wants to see the bodies
+  std::deque<Command> waiting;  ///< requests that wait for a tick with room for them, in order
+  bool watched = false;         ///< a client wants to see the bodies
+  ThreadCheck thread;           ///< that of step()
 };
 
 }  // namespace scree
