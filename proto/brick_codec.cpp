@@ -20,7 +20,6 @@ constexpr int compression_level = 3;
 constexpr int32_t brick_coordinate_max = limits::voxel_coordinate_max / brick_size;
 
 void append_compressed(std::vector<uint8_t>& bytes, std::span<const Code> codes) {
-  CHECK_DEBUG(std::ranges::find(codes, Code{-128}) == codes.end());
   const size_t start = bytes.size();
   bytes.resize(start + ZSTD_compressBound(codes.size()));
   const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, codes.data(), codes.size(),

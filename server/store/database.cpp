@@ -113,8 +113,11 @@ Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& selec
   sqlite3_reset(statement);
   sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
   const int code = sqlite3_step(statement);
-  if (code == SQLITE_DONE) return std::optional<std::vector<uint8_t>>();
-  if (code != SQLITE_ROW) return failure("tick " + std::to_string(tick) + " cannot be read");
+  if (code != SQLITE_ROW) {
+    sqlite3_reset(statement);
+    if (code == SQLITE_DONE) return std::optional<std::vector<uint8_t>>();
+    return failure("tick " + std::to_string(tick) + " cannot be read");
+  }
   const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 0));
   const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, 0));
   std::vector<uint8_t> bytes(data, data + size);

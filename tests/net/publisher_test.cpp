@@ -331,6 +331,7 @@ TEST_F(PublisherTest, a_tick_that_changes_more_than_a_frame_may_hold_is_streamed
     brick.brick = std::make_shared<const Brick>(source.field().brick(brick.coord));
     brick.hash = brick_hash(brick.coord, *brick.brick);
   }
+  delta.field_hash = source.field().hash();
   deliver(delta);
   EXPECT_LE(followers.at(session).patches, limits::patch_bricks_max);
   for (int i = 0; i < 20; ++i) {
