@@ -1,4 +1,4 @@
-// Every way to draw at every resolution: a frame, what an edit takes until it is shown, memory. The paper's
+// Every drawing method at every resolution: a frame, the time until an edit is shown, memory. The paper's
 // figures 21 and 23, in percent of its 1280 × 720, and full HD; and 16 and 18, by the grid's cells along a
 // side.
 #include <array>

@@ -1,5 +1,5 @@
-// What a frame of the raymarcher costs as carves add up, beside the paper's list of carves; and whether its
-// picture is that of an atlas built afresh from the same field.
+// The cost of a raymarched frame against the number of carves, beside the paper's list of carves; and a
+// comparison of its picture with that of an atlas newly built from the same field.
 #include <fmt/format.h>
 
 #include "bench/peers/csg_list.h"
@@ -16,7 +16,7 @@ constexpr int width = 640;
 constexpr int height = 360;
 constexpr float half_width_m = 40.0F;
 constexpr float radius_m = 1.5F;
-/// Share of the frames that counts as what a frame takes when nothing else runs.
+/// Quantile of the frames' times that counts as the time on an idle machine.
 constexpr double undisturbed = 0.1;
 
 /// From over the carved ground, across it.

@@ -7,8 +7,8 @@
 
 namespace scree::peers {
 
-/// The distances of the box, in metres: leaves where the surface is; what is solid without one is filled in
-/// from them.
+/// The distances of the box, in metres: leaves at the surface; solid regions without leaves are filled from
+/// them.
 openvdb::FloatGrid::Ptr level_set_of(Field& field, const VoxelBox& box);
 
 }  // namespace scree::peers

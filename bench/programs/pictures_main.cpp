@@ -1,5 +1,5 @@
-// Draws the pictures of docs/: small scenes, simulated tick by tick and drawn at chosen ticks. The same on
-// every run but for what the graphics driver makes of it.
+// Draws the pictures of docs/: small scenes, simulated tick by tick and drawn at chosen ticks. Every run
+// gives the same pictures, except for differences between graphics drivers.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// The three terrain colliders on the same scenes: how deep pieces get into the rock, how many fall through,
-// what each costs in a tick, and what one carve costs it.
+// The three terrain colliders on the same scenes: the pieces' depth in the rock, the number that fall
+// through, the cost of a tick, and the cost of a carve.
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ float depth_voxels(Field& field, glm::vec3 p_m) {
   return -sample(field, p_m / field.source().voxel_size_m).distance_voxels;
 }
 
-/// What one run of the scene showed.
+/// The results of one run of the scene.
 struct Run {
   std::vector<double> bodies_ms;  ///< of each tick
   double depth_sum = 0.0;
@@ -133,7 +133,7 @@ class Scene {
   std::vector<std::pair<Pose, PieceId>> poses_;  ///< at every look
 };
 
-/// Of several runs each tick's least time counts, free of what else the machine did.
+/// Runs the scene several times, and takes each tick's least time, to exclude other work of the machine.
 Run play_scene(TerrainColliderKind kind, Tick ticks, int rounds) {
   Run least;
   for (int round = 0; round < rounds; ++round) {
@@ -165,7 +165,7 @@ void report_run(BenchReport& report, TerrainColliderKind kind, const Run& run) {
                            run.made, run.lost));
 }
 
-/// What finding the contacts costs, at the same poses for each collider: those of one run, in its order.
+/// The cost of finding contacts, at the same poses for each collider: those of one run, in order.
 struct Contacts {
   double us_per_piece = 0.0;
   size_t found = 0;
@@ -189,8 +189,8 @@ Contacts time_contacts(TerrainColliderKind kind, Scene& lived) {
   return contacts;
 }
 
-/// One carve among pieces that lie all about it: what all of them need until each has looked at the ground
-/// afresh, beside what they need when nothing changed. Milliseconds, the least of some rounds.
+/// A carve among pieces that lie around it: the time in which all read the ground again, and the time without
+/// a change. Milliseconds, the least of some rounds.
 struct Rebuild {
   double quiet_ms = 1e9;
   double after_carve_ms = 1e9;

@@ -51,8 +51,8 @@ double volume_within(const std::vector<glm::dvec3>& planes, double reach, Polygo
   return moments_of(mesh).volume;
 }
 
-/// Of the convex hull of points. Its polar dual is what lies below the planes that they are the duals of, and
-/// the corners of that are the duals of the hull's faces.
+/// The volume of the convex hull of points, by its polar dual: the intersection of the half-spaces dual to
+/// the points, whose corners are the duals of the hull's faces.
 double hull_volume(const std::vector<glm::vec3>& points) {
   glm::dvec3 middle(0.0);
   for (const glm::vec3& p : points) middle += glm::dvec3(p) / static_cast<double>(points.size());

@@ -55,7 +55,7 @@ struct Spot {
   glm::vec3 right_m;
 };
 
-/// Whether all the ground that the arch could touch lies lower than what is cut of its feet.
+/// Whether all ground that the arch could touch lies lower than the cut through its feet.
 bool is_level(const Spot& spot) {
   const float low_m = std::min(spot.left_m.y, spot.right_m.y);
   for (float x = spot.left_m.x - 3.0F; x <= spot.right_m.x + 3.0F; x += 1.0F)

@@ -9,7 +9,7 @@ namespace scree {
 namespace {
 
 constexpr int ticks_between_carves = 30;
-/// Of the mass moved: what the issue allows the ledger, and the terrain measured afresh.
+/// Largest error of the ledger, and of the measured terrain, as a share of the mass moved.
 constexpr double ledger_error_max = 1e-6;
 constexpr double drift_max = 1e-3;
 constexpr int ticks_to_settle_max = 3600;
@@ -21,7 +21,7 @@ bool settle(World& world) {
   return false;
 }
 
-/// What happened besides the carves that were asked for.
+/// Counts of events besides the requested carves.
 struct Events {
   uint64_t breaks = 0;
   uint64_t dents = 0;

@@ -70,7 +70,7 @@ struct Distance {
   double rms() const { return std::sqrt(squares / std::max(samples, 1.0)); }
 };
 
-/// Where lattice edges cross the surface of `merged`, what distance `exact` gives there.
+/// Adds the distances of `exact` at the points where lattice edges cross the surface of `merged`.
 void add_distances(const Window& merged, const Window& exact, Distance& distance) {
   const VoxelCoord steps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const VoxelBox inner = merged.box.grown(-1);
@@ -89,8 +89,8 @@ void add_distances(const Window& merged, const Window& exact, Distance& distance
         }
 }
 
-/// What one method showed: medians over the rounds of a piece's mean time, the worst of everything else but
-/// the mean error.
+/// The figures of one method: medians over the rounds of a piece's mean time, the mean error, and the worst
+/// of everything else.
 struct MethodFigures {
   std::vector<double> plan_us;  ///< gather, and find the shift
   std::vector<double> apply_us;
@@ -179,7 +179,7 @@ void merge_heap(bool grouped, Field& field, PieceTable pieces, MethodFigures& fi
   figures.rms_voxels = std::max(figures.rms_voxels, distance.rms());
 }
 
-/// The carved terrain, generated wherever pieces will come to rest: that is not what is timed.
+/// The carved terrain, already generated wherever pieces will come to rest, so that generation is not timed.
 std::unique_ptr<Field> carved_field(uint32_t random_seed, PieceTable& pieces, Applied& carved) {
   auto field = std::make_unique<MapField>(source);
   carved = apply(carve_operation(random_seed), *field, pieces);

@@ -1,4 +1,4 @@
-// Carving a ball and merging its pieces back where they were, over and over: what does that do to the field?
+// The change of the field when a ball is carved and its pieces are merged back in place, again and again.
 // Beside it the same with plain min and max, as constructive solid geometry on sampled fields does it.
 #include <cmath>
 #include <fmt/format.h>
@@ -115,7 +115,7 @@ Cycles stamp_cycles(const History& history) {
   });
 }
 
-/// What was left after several histories: the worst of each figure.
+/// The results after several histories: the worst of each figure.
 struct Figures {
   double lost_percent = 0.0;
   double lost_voxels = 0.0;
@@ -175,7 +175,7 @@ void check_figures(BenchReport& report, const std::string& name, const Figures& 
 
 BenchReport run_seams_bench(const BenchOptions& options) {
   const int cycles = options.quick ? 5 : 50;
-  // What a history leaves differs a good deal from the next one's: the worst of several counts.
+  // The results of histories differ much: the worst of several counts.
   const int histories = options.quick ? 1 : 5;
   BenchReport report;
   report.metric("cycles", cycles);

@@ -16,7 +16,7 @@ constexpr int blasts = 5;
 constexpr Tick blast_ticks_max = 1200;
 constexpr Tick half_merged_ticks = 240, all_merged_ticks = 720;
 
-/// What one tick of the storm cost, and how many pieces it left alive.
+/// The cost of one tick of the storm, and the number of pieces alive after it.
 struct StormTick {
   double total_ms = 0.0;
   double bodies_ms = 0.0;
@@ -55,8 +55,7 @@ std::vector<StormTick> rage(World& world, Tick ticks_max) {
   return ticks;
 }
 
-/// The same storm is the same work: of several runs each tick's least time counts, free of what else the
-/// machine did meanwhile.
+/// Keeps each tick's least time over several runs of the same storm, to exclude other work of the machine.
 void keep_least(std::vector<StormTick>& least, const std::vector<StormTick>& again) {
   CHECK(least.size() == again.size());
   for (size_t i = 0; i < least.size(); ++i) {
@@ -66,8 +65,8 @@ void keep_least(std::vector<StormTick>& least, const std::vector<StormTick>& aga
   }
 }
 
-/// Median tick of a world that nobody touched, and of one after the storm; in turns, so that whatever else
-/// the machine does hits both.
+/// Median tick of an untouched world, and of one after the storm; in turns, so that other work of the machine
+/// slows both.
 std::pair<double, double> idle_us(World& world, size_t rounds) {
   World fresh(world.config());
   std::vector<double> before, after;
@@ -85,7 +84,7 @@ std::vector<double> total_of(const std::vector<StormTick>& ticks, size_t alive_m
   return total_ms;
 }
 
-/// What was put off or left out, and how well the model's estimate follows the clock.
+/// Reports the work that was put off or left out, and how well the model's estimate follows the clock.
 void report_work(BenchReport& report, const std::string& when, const std::vector<StormTick>& ticks) {
   double cut = 0.0, sooner = 0.0, waiting = 0.0, put_off = 0.0, left_out = 0.0;
   std::vector<double> per_estimate;
@@ -160,7 +159,7 @@ void storm(BenchReport& report, bool merging, const BenchOptions& options) {
   report_storm(report, when, ticks);
 }
 
-/// Ticks until the given share of what a blow makes is terrain again; blast_ticks_max when it never is.
+/// Ticks until the given share of a blow's pieces is terrain again; blast_ticks_max when it never is.
 struct Merged {
   Tick half = blast_ticks_max;
   Tick all = blast_ticks_max;

@@ -1,4 +1,4 @@
-// The form of every benchmark: a name, what it measures, and a report of metrics and checks.
+// The form of every benchmark: a name, a summary, and a report of metrics and checks.
 //
 // A bench measures its peer in the same run and checks the result that it timed; it never decides a test.
 #pragma once

@@ -27,8 +27,8 @@ void reset_heap_peak() {
 
 }  // namespace scree
 
-// Arrays, sized and nothrow forms come down to these two. What another thread frees is not counted: benches
-// that ask work on one.
+// Array, sized and nothrow forms call these two. Memory that another thread frees is not counted: benches
+// that use this work on one thread.
 void* operator new(size_t size) {
   void* block = std::malloc(size);
   if (block == nullptr) throw std::bad_alloc();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int ticks_to_settle_max = 3600;
 
-/// What a client that can apply every operation is sent for a tick, transforms aside.
+/// Bytes of a tick's frame for a client that can apply every operation, without transforms.
 size_t frame_bytes(const TickDelta& delta) {
   FrameMessage frame;
   frame.tick = delta.tick;

@@ -56,7 +56,7 @@ Result<void> Bot::connect() {
   return {};
 }
 
-/// What belongs to the connection goes into the report, and the connection goes.
+/// Adds the connection's counts to the report, and drops the connection.
 void Bot::leave() {
   if (!mirror_) return;
   report_.seen += mirror_->counters();

@@ -113,7 +113,7 @@ std::string to_json(const BotReport& report) {
                   {"per_s", report.ticks_per_s},
                   {"median_ms", quantile(report.tick_medians_ms, 0.5)},
                   {"worst_ms", report.tick_worst_ms}};
-  // Reasons come off the wire: what is no UTF-8 is replaced, not thrown about.
+  // Reasons come from the wire: bytes that are no UTF-8 are replaced, so that nothing is thrown.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

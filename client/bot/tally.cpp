@@ -8,7 +8,7 @@ namespace scree {
 
 namespace {
 
-/// What a bytes field takes within its message: tag, length, content.
+/// Size of a bytes field within its message: tag, length, content.
 size_t field_bytes(size_t content) {
   if (content == 0) return 0;
   size_t bytes = content + 2;

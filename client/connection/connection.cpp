@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using asio::ip::tcp;
 
-/// About what the decoded message takes; a few compressed bytes can hold megabytes of codes.
+/// Approximate memory of the decoded message, bytes; a few compressed bytes can hold megabytes of codes.
 size_t memory_of(const ServerMessage& message) {
   size_t bytes = sizeof(ServerMessage);
   if (const auto* frame = std::get_if<FrameMessage>(&message)) {
@@ -135,7 +135,7 @@ void Connection::Impl::read() {
   });
 }
 
-/// Hands on what the reader holds, as far as the queue has room; then reads on.
+/// Moves the reader's messages into the queue, as far as it has room; then continues to read.
 void Connection::Impl::take_messages() {
   while (!ended) {
     {
@@ -204,7 +204,7 @@ void Connection::Impl::write() {
   asio::async_write(socket, asio::buffer(outbox.front()), [this](const asio::error_code& error, size_t) {
     if (error == asio::error::operation_aborted || ended) return;
     if (error) {
-      // The server may have said why before it closed: what is still to be read says more than this error.
+      // The server may have sent its reason before it closed: unread bytes say more than this error.
       outbox.clear();
       outbox_bytes = 0;
       return;

@@ -94,7 +94,7 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
   apply_patches(frame.patches, changed, changes);
   held_.insert(changed.begin(), changed.end());
   tick_ = frame.tick;
-  // Before the drops: what is checked is what operations and patches left.
+  // Before the drops: the check covers the state after operations and patches.
   check(frame, changed);
   for (const ChunkCoord chunk : frame.dropped_chunks) {
     forget_chunk(chunk, changes);
@@ -129,7 +129,7 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, Chun
   return {};
 }
 
-/// What a piece breaks into starts where the piece was last seen; all others where they were cut.
+/// Fragments of a piece begin at the piece's last pose; all other pieces at the place of their cut.
 Mirror::Birthplace Mirror::birthplace_of(const Operation& operation) const {
   const auto* shatter = std::get_if<ShatterOperation>(&operation);
   if (shatter == nullptr) return {};

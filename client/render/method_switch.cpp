@@ -40,7 +40,7 @@ Result<void> MethodSwitch::follow(const MirrorChanges& changes, const Scene& sce
   if (shown_fits) next_ = {};
   if (!shown_fits && (!wanted.method || wanted.entry != chosen_)) {
     if (Result<void> begun = begin(wanted, scene); !begun) return begun;
-    // The scene holds what changed; said twice, it would be meshed twice.
+    // The scene holds the changes; passed twice, they would be meshed twice.
     wanted.method->update(scene, camera);
     if (&wanted == &shown_) return {};
   } else if (next_.method) {

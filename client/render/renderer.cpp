@@ -24,7 +24,7 @@ const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
 
 constexpr int image_samples = 4;
 
-/// What a method keeps beyond its reach, and the corners of its box, still lie before the far plane.
+/// The far plane, in reaches: beyond the terrain that a method keeps, and the corners of its box.
 constexpr float far_per_reach = limits::view_radius_keep * 2.0F;
 
 std::string describe() {
@@ -64,7 +64,7 @@ struct Canvas {
   }
 };
 
-/// What an image is drawn into, and what its samples are then averaged into.
+/// The target into which an image is drawn, and the one into which its samples are averaged.
 struct Canvases {
   int width;
   int height;

@@ -123,7 +123,7 @@ Result<void> run(ViewerOptions options) {
   const Result<std::unique_ptr<AppWindow>> window =
       AppWindow::open(options.width, options.height, options.gl_debug);
   if (!window) return fail(window.error().message);
-  // Another driver may lack what the one of last time had.
+  // The driver may lack a feature that an earlier run's driver had.
   if (!options.given.method && options.method->missing()) options.method = &all_methods().front();
   const Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options);
   if (!viewing) return fail(viewing.error().message);

@@ -12,7 +12,7 @@ namespace scree {
 
 class WindowApp {
  public:
-  /// The window and what is viewed in it must outlive the app.
+  /// `window` and `viewing` must outlive the app.
   WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept);
 
   /// From the person's input to the picture.

@@ -27,7 +27,7 @@ inline constexpr uint32_t rescan_ticks_min = 6;
 /// Bytes waiting for one client above which it gets no transforms and no streaming: it has enough to read.
 inline constexpr size_t outbox_soft_bytes = 256 * 1024;
 
-/// Bytes waiting for one client above which it gets no frames: when it has read all, it joins anew.
+/// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
 
 /// Bytes of any kind waiting for one client, as replies that it never reads. Above: it is cut off.

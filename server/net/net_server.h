@@ -1,5 +1,5 @@
-// The server's network side: accepts clients, hands their requests to the simulation, and sends them what the
-// Publisher selects for them.
+// The server's network side: accepts clients, hands their requests to the simulation, and sends them the
+// messages that the Publisher selects.
 //
 // One network thread owns all sockets; it only queues, decodes and sends. The simulation calls publish(),
 // which only posts. A client that breaks the protocol gets the reason and is closed; other clients do not

@@ -45,7 +45,7 @@ struct PublisherStats {
   uint64_t stamps = 0;
   uint64_t stamp_operation_bytes = 0;
   uint64_t repairs = 0;  ///< chunks sent again because a check failed
-  uint64_t resets = 0;   ///< clients that fell behind and joined anew
+  uint64_t resets = 0;   ///< clients that fell behind and were reset
 };
 
 class Publisher {

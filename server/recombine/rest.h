@@ -20,7 +20,7 @@ namespace scree {
 
 struct RestConfig {
   uint32_t rest_ticks = 20;        ///< ⅓ s at 60 Hz: a piece at the apex of a toss falls 0.14 m beside it
-  float leash_m = 0.06F;           ///< a quarter of a default voxel: what a merge rounds away anyway
+  float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
   uint32_t patience_ticks = 120;   ///< age at which the leash begins to grow
   float leash_growth_m_s = 0.05F;  ///< growth of the leash from that age on
   float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving

@@ -19,12 +19,12 @@ struct Methods {
   TerrainColliderKind collider = TerrainColliderKind::field;  ///< how bodies find the terrain
   bool impacts = true;                                        ///< hard contacts break pieces again
   bool dents = true;                                          ///< hard contacts dent soft ground
-  bool islands = true;                                        ///< what is cut off from the ground falls
-  bool support = false;                                       ///< what is too heavy for its neck breaks off
-  Recombination recombine = Recombination::stamp;             ///< how pieces at rest become terrain again
-  bool group_merges = false;                 ///< pieces that rest together become terrain in one pass
-  Cutter cutter = Cutter::field;             ///< how what breaks is cut into pieces
-  Simplifier simplifier = Simplifier::hull;  ///< which points of a piece collide
+  bool islands = true;                             ///< terrain that is cut off from the ground falls
+  bool support = false;                            ///< terrain that is too heavy for its neck breaks off
+  Recombination recombine = Recombination::stamp;  ///< how pieces at rest become terrain again
+  bool group_merges = false;                       ///< pieces that rest together become terrain in one pass
+  Cutter cutter = Cutter::field;                   ///< how breaking terrain is cut into pieces
+  Simplifier simplifier = Simplifier::hull;        ///< which points of a piece collide
 
   bool operator==(const Methods&) const = default;
 };

@@ -41,7 +41,7 @@ class World {
   const WorldConfig& config() const;
   const Methods& methods() const;
   Tick tick() const;
-  /// The terrain's gain since the start, measured afresh from every edited brick. Must equal the ledger's.
+  /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_watch-th delta, on or off. Changes nothing else.
   void watch(bool wanted);

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// Far beyond what anything here takes, under a sanitizer and beside other tests, too.
+/// Far longer than any wait here takes, even under a sanitizer and beside other tests.
 constexpr auto patience = 30s;
 
 /// Ticks without a change after which a session is at rest.

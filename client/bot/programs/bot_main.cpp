@@ -85,7 +85,7 @@ void add_ending(CLI::App& app, Options& options) {
   app.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 
-/// The rest of the configuration follows from what was parsed.
+/// Derives the rest of the configuration from the parsed options.
 void complete(Options& options) {
   scree::CarverConfig& carver = options.bot.carver;
   if (options.pattern == "uniform") carver.pattern = scree::SeedPattern::uniform;

@@ -17,7 +17,7 @@ namespace {
 /// As shaders/bricks.glsl declares its arrays.
 constexpr size_t levels_max = 8;
 
-/// The border of shaders/bricks.glsl, and one more for what is rounded.
+/// The border of shaders/bricks.glsl, and one more for rounding.
 constexpr int border_bricks = 3;
 
 /// The finest level reaches two thirds of the view radius at least: beyond, a pixel is hardly smaller than

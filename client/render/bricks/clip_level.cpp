@@ -147,7 +147,7 @@ void ClipLevel::read(Field& field, BrickCoord brick, BrickAtlas& atlas) {
   } else {
     entry.field = now.kind == LevelBrick::Kind::empty ? clip_empty : ClipEntry::solid << 24U;
   }
-  // What was generated never changes: a brick of it stays where it is.
+  // Generated codes never change: a brick of them keeps its slot.
   const bool keeps = now.before_kind == LevelBrick::Before::mixed && old.has_before_slot();
   entry.before = keeps ? old.before : store_before(now.before_kind, now.before, atlas);
   entry.paint(now.paint);

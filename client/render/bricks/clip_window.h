@@ -23,7 +23,7 @@ struct ClipEntry {
   enum Kind : uint32_t { unloaded = 0, stored = 254, solid = 255 };  ///< between: empty, the distance
 
   uint32_t field = 0;  ///< kind << 24 | slot z << 16 | y << 8 | x
-  /// Paint as SurfaceVertex::paint << 28; the field as generated: kind << 24, and the slot of what is mixed.
+  /// Paint as SurfaceVertex::paint << 28; the generated field: kind << 24, and the slot of a mixed brick.
   uint32_t before = 0;
 
   /// Of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a brick.

@@ -12,7 +12,7 @@ class ErrorLog {
   /// Receives the debug output, if the context has it; else poll() is all there is.
   void attach();
   void detach();
-  /// Also counts what glGetError still holds.
+  /// Also counts the errors that glGetError returns.
   void poll();
 
   uint64_t count() const { return count_; }

@@ -56,7 +56,7 @@ GpuTimers::~GpuTimers() = default;
 
 void GpuTimers::begin_frame(Trace* trace) {
   if (!available_) return;
-  // The oldest first; the one about to be written over gives up what is still not there.
+  // The oldest first; the one about to be overwritten drops its missing results.
   for (size_t i = 1; i <= frames; ++i) collect((current_ + i) % frames, trace);
   current_ = (current_ + 1) % frames;
   frames_[current_].names.clear();

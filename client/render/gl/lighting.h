@@ -1,5 +1,4 @@
-// What the shaders of atmosphere.glsl, bricks.glsl, rock.glsl and shadow.glsl take: one light for all
-// methods.
+// The uniforms of atmosphere.glsl, bricks.glsl, rock.glsl and shadow.glsl: one light for all methods.
 #pragma once
 
 #include "client/render/gl/gl.h"

@@ -172,7 +172,7 @@ void GridMethod::draw_pieces(const DrawPass& pass, const Frustum& frustum) {
   glBindVertexArray(0);
 }
 
-/// Of the last frame that the GPU is known to have drawn: nobody waits for it.
+/// Triangles of the last frame that the GPU has reported: no thread waits for it.
 size_t GridMethod::terrain_triangles() const {
   GLuint ready = GL_FALSE;
   if (counted_) glGetQueryObjectuiv(triangles_.name(), GL_QUERY_RESULT_AVAILABLE, &ready);

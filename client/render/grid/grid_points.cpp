@@ -10,7 +10,7 @@ namespace {
 constexpr GLsizei points_per_block = grid_block * grid_block * grid_block;
 
 /// At each point the level with two voxels to the coarser of the spacings beside it, as far as there is one:
-/// distances saturate at three voxels, beyond what an edge that is crossed can have at its ends.
+/// distances saturate at three voxels, more than the ends of a crossed edge can have.
 std::vector<int> levels_of(const std::vector<int>& points) {
   std::vector<int> levels(points.size());
   const auto spacing_after = [&](size_t i) { return static_cast<unsigned>(points[i + 1] - points[i]); };

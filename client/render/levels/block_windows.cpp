@@ -29,7 +29,7 @@ bool is_bit(uint64_t bits, int index) {
   return ((bits >> index) & 1U) != 0;
 }
 
-/// What the bricks of a box have in common.
+/// The common properties of a box's bricks.
 struct Survey {
   bool air = true;
   bool rock = true;

@@ -31,7 +31,7 @@ struct BlockWindows {
 /// Nothing when all the bricks around are air, or all are rock.
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned);
 
-/// What SurfaceVertex::paint says of a painted brick; and of what a cut lays bare, where that is no rock.
+/// SurfaceVertex::paint of a painted brick; and of terrain that a cut lays bare, where that is not rock.
 inline uint8_t paint_number(std::optional<Material> paint) {
   return paint ? static_cast<uint8_t>(1 + static_cast<int>(*paint)) : uint8_t{0};
 }

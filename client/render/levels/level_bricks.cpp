@@ -7,8 +7,8 @@
 namespace scree {
 namespace {
 
-/// Air farther from rock than this, in voxels, is empty: nearer air is kept for what asks for distances
-/// beside the surface (shadows, occlusion).
+/// Air farther from rock than this, in voxels, is empty: nearer air is kept for the distances beside the
+/// surface that shadows and occlusion read.
 constexpr float air_kept_voxels = 1.5F;
 
 /// Beyond this code either way, all looks the same (shaders/rock.glsl, cut_of and heap_of).

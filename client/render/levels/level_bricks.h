@@ -16,7 +16,7 @@ struct LevelBrick {
   enum class Kind { empty, solid, stored } kind = Kind::empty;
   AtlasBrick field;  ///< when stored
 
-  /// As generated: the same where nothing was edited; else what fresh rock and rubble are told by.
+  /// The generated field: `same` without edits; else it distinguishes fresh rock and rubble.
   enum class Before { same, mixed, air, rock } before_kind = Before::same;
   AtlasBrick before;  ///< when mixed
   uint8_t paint = 0;  ///< as SurfaceVertex::paint; on level 0 alone

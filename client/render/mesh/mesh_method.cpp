@@ -107,7 +107,7 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
   glUniform1f(program.voxel_m, voxel_m_);
-  // Near ones first: what they hide is not shaded.
+  // Near ones first: surfaces behind them are not shaded.
   visible_.clear();
   for (const auto& [node, block] : blocks_) {
     const float side_m = voxel_m_ * static_cast<float>(block_size << node.level);

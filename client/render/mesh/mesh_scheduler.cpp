@@ -141,13 +141,13 @@ void MeshScheduler::begin_growth(Field& field, glm::vec3 eye_m) {
   ask_for_terrain(field);
 }
 
-/// The forest is again what is shown; what is being generated for it will be there when it grows next.
+/// Undoes the forest's growth; the terrain that is being generated for it will be ready when it grows again.
 void MeshScheduler::give_way() {
   forest_->undo();
   batch_.reset();
 }
 
-/// What the mirror changed.
+/// Begins a batch of the mirror's changes.
 void MeshScheduler::begin_changes(const Scene& scene) {
   batch_ = std::make_unique<Batch>();
   batch_->of_changes = true;

@@ -27,7 +27,7 @@ namespace scree {
 
 /// Meshes to show from now on, all at once.
 struct MeshUpdate {
-  std::vector<NodeMesh> nodes;  ///< replace what the node showed; empty ones show nothing
+  std::vector<NodeMesh> nodes;  ///< replace the nodes' meshes; empty ones show nothing
   std::vector<SurfaceNode> gone;
   std::vector<PieceMesh> pieces;
   std::vector<PieceId> removed_pieces;

@@ -12,7 +12,7 @@
 namespace scree {
 namespace {
 
-/// Cells of the finer level known around a node's own: a leaf beside it, and what that leaf is divided by.
+/// Cells of the finer level known around a node's own: a leaf beside it, and the leaves that divide it.
 constexpr int known_around = 4;
 /// Sides of the node's own leaves, in cells of the finer level.
 constexpr int own_side = 2;
@@ -72,7 +72,7 @@ class NodeRules final : public LeafRules {
         finer_place_(finer_place),
         node_(scaled(samples_of(job.node), own_side)) {}
 
-  /// Of what is not surface nets' own.
+  /// Whether the polygon is not one of the surface nets.
   bool owns(std::span<const Leaf> around) const override {
     BlockCoord last{-1, -1, -1};
     bool any = false;
@@ -88,7 +88,7 @@ class NodeRules final : public LeafRules {
     return !all_plain && any && last == BlockCoord{};
   }
 
-  /// By the samples of its own level: whoever asks, the answer is the same.
+  /// The place by the samples of the leaf's own level: the same for every node that asks.
   glm::vec3 place(const Leaf& leaf, std::span<const LeafCrossing> crossings) const override {
     return leaf.side == 1 ? finer_place_(leaf.at, crossings) : own_place_(own_cell(leaf), crossings);
   }
@@ -105,8 +105,8 @@ class NodeRules final : public LeafRules {
   VoxelBox node_;
 };
 
-/// What lies about the finer nodes' places, as far as polygons beside them depend on it: the leaves that they
-/// touch, two more until surface nets take over, and one that tells these ones' sheets apart.
+/// The box around the finer nodes on which polygons beside them depend: the leaves that they touch, two more
+/// until surface nets take over, and one to distinguish the sheets of these.
 VoxelBox border_box(const NodeJob& job) {
   constexpr int around = 5 * own_side;
   const VoxelBox node = scaled(samples_of(job.node), own_side);
@@ -152,7 +152,7 @@ LeafGrid grid_of(const NodeJob& job, const Window& own, const Window& finer) {
   });
   for_each_place(job.around, node, known_around, [&](Neighbour kind, const VoxelBox& box) {
     if (kind != Neighbour::finer) return;
-    // Whatever finer nodes touch has their samples.
+    // Points that finer nodes touch have the samples of those.
     for (int x = box.lo.x; x <= box.hi.x; ++x)
       for (int y = box.lo.y; y <= box.hi.y; ++y)
         std::copy_n(&finer.codes[finer.index(x, y, box.lo.z)], box.hi.z - box.lo.z + 1,
@@ -252,7 +252,7 @@ LeafMesh border_polygons(const NodeJob& job, const CellMask& plain, const Window
   return leaf_surface(grid, border_leaves(job), rules);
 }
 
-/// What mesh_inside leaves out where finer nodes touch the node; in samples of those.
+/// The part that mesh_inside() leaves out, where finer nodes touch the node; in samples of those.
 SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
   const VoxelBox own = samples_of(job.node);
   const BlockWindows& coarse = job.own ? *job.own : plain_windows(own, job.own_is_rock);
@@ -265,7 +265,7 @@ SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
   return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, finer);
 }
 
-/// What the node's own samples make of it.
+/// The mesh by the node's own samples.
 SurfaceMesh mesh_inside(const NodeJob& job, const CellMask* plain) {
   if (!job.own) return {};
   if (job.polygoniser == Polygoniser::cubes) return job.own->mesh_by_cubes(plain);

@@ -177,7 +177,7 @@ std::vector<SurfaceForest::Change> SurfaceForest::wishes(glm::vec3 eye_m) const 
     if (leaves) changes.push_back({node, false, 0.0F});
   }
   for (Change& change : changes) change.distance_m = distance_m(change.node, eye_m);
-  // Coarse levels first: what is near comes into sight at once, then in detail.
+  // Coarse levels first: near terrain appears at once, then in detail.
   std::ranges::sort(changes, [](const Change& a, const Change& b) {
     return std::tuple(-a.node.level, a.distance_m, a.node) < std::tuple(-b.node.level, b.distance_m, b.node);
   });
@@ -205,7 +205,7 @@ ForestStep SurfaceForest::grow(glm::vec3 eye_m, size_t steps_max) {
   return step;
 }
 
-/// Leaves about those nodes: those whose neighbours are not what they were have changed.
+/// Enters the leaves around those nodes whose neighbours changed.
 void SurfaceForest::refresh(const std::vector<SurfaceNode>& touched, ForestStep& step) {
   std::unordered_set<SurfaceNode, SurfaceNodeHash> near;
   for (const SurfaceNode& node : touched)

@@ -2,8 +2,8 @@
 // GL.
 //
 // A node of level k is a block of 16³ cells with a side of 2^k voxels each. Leaves that touch, be it by a
-// corner, differ by one level at most. The forest grows towards what the eye wants by a few splits and joins
-// at a time, nearest first, each of which keeps that balance. Not thread-safe.
+// corner, differ by one level at most. The forest grows to the detail that the eye's place needs by a few
+// splits and joins at a time, nearest first, each of which keeps that balance. Not thread-safe.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t entries_at_first = size_t{PieceVolumes::entries_row} * 64;
 
-/// What holds all rock of a volume, and nothing if there is none.
+/// The smallest box with all rock of a volume; empty if there is none.
 VoxelBox rock_box(const Window& window) {
   VoxelBox rock{window.box.hi, window.box.lo};
   size_t i = 0;

@@ -65,7 +65,7 @@ Result<Programs> link_programs() {
                   std::move(*composite)};
 }
 
-/// Radius that a pixel covers at one metre: half of what lies between two rays.
+/// Radius that a pixel covers at one metre: half the distance between two rays.
 float pixel_at_one_metre(const glm::mat4& inverse, int height) {
   const auto ray = [&](float y) {
     const glm::vec4 far = inverse * glm::vec4(0.0F, y, 1.0F, 1.0F);

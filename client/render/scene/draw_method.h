@@ -51,7 +51,7 @@ struct DrawPass {
   glm::vec3 eye_m{0.0F};
   Lighting lighting;
   float render_scale = 1.0F;    ///< pixels that are marched, along a side, for one that is shown
-  GpuTimers* timers = nullptr;  ///< for what a method likes to measure of itself; may be null
+  GpuTimers* timers = nullptr;  ///< for a method's own measurements; may be null
 };
 
 /// For the HUD and for benches.

@@ -37,7 +37,7 @@ inline constexpr int grid_shells = 4;
 
 /// Coordinates of the points along one axis, resolution + 1 of them, voxels. When the spacing grows, the
 /// inner half of the cells has the finest; then it doubles after each sixth, or a little later, at a multiple
-/// of what follows.
+/// of the next spacing.
 std::vector<int> grid_line(const GridShape& shape, float eye_voxels);
 
 /// Least distance from the eye to the grid's border, voxels.

@@ -7,8 +7,8 @@
 
 namespace scree::limits {
 
-/// Radius within which terrain is drawn, metres: at least one chunk, at most what a server lets one follow.
-/// Other values are refused by the viewer's options.
+/// Radius within which terrain is drawn, metres: at least one chunk, at most the interest that a server
+/// grants. Other values are refused by the viewer's options.
 inline constexpr float view_radius_min_m = 8.0F;
 inline constexpr float view_radius_max_m = interest_radius_max_m;
 
@@ -17,7 +17,7 @@ inline constexpr float view_radius_max_m = interest_radius_max_m;
 inline constexpr float view_radius_keep = 1.15F;
 
 /// Chunks being generated at any moment: work for the threads through a slow frame. Edits overtake them. The
-/// rest waits, nearest first, and is chosen anew when the camera has moved.
+/// rest waits, nearest first, and is chosen again when the camera has moved.
 inline constexpr size_t chunks_generating_max = 96;
 
 /// Waiting chunks looked at in one frame: bounds the main thread's part (about 0.3 ms).
@@ -45,7 +45,7 @@ inline constexpr int shadow_map_side = 2048;
 inline constexpr int image_side_max = 8192;
 
 /// Texels along a side of the raymarcher's atlas, 128 MiB at the most; less where the driver's textures are
-/// smaller. What does not fit is shown by a coarser level.
+/// smaller. A coarser level shows the bricks that do not fit.
 inline constexpr int atlas_side_max = 512;
 
 /// Bricks with a surface in a column of a level's window that the atlas has room for. The rough open terrain
@@ -61,8 +61,8 @@ inline constexpr float render_scale_min = 0.25F;
 inline constexpr float render_scale_max = 2.0F;
 
 /// Cells along a side of the grid of the method grid, a multiple of grid_resolution_step so that both halves
-/// are whole blocks of it; others are refused. The most, 16.8 million points, is beyond what software draws
-/// in seconds.
+/// are whole blocks of it; others are refused. Software takes more than seconds to draw the most, 16.8
+/// million points.
 inline constexpr int grid_resolution_min = 32;
 inline constexpr int grid_resolution_max = 256;
 inline constexpr int grid_resolution_step = 16;

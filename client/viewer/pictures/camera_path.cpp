@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 constexpr float radians_per_degree = 0.01745329F;
 constexpr float pitch_max = 89.0F * radians_per_degree;
 
-/// The fields of one key, or what is wrong with them.
+/// The fields of one key, or an error that names the wrong one.
 Result<std::pair<double, Camera>> key_of(const Json& json) {
   if (!json.is_object() || !json.contains("time_s") || !json["time_s"].is_number())
     return fail("it has no number time_s");

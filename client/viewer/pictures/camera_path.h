@@ -16,8 +16,8 @@
 
 namespace scree {
 
-/// x, y, z in metres, yaw and pitch in degrees. Refuses what is not finite or outside the world; a pitch
-/// beyond straight up or down is cut.
+/// x, y, z in metres, yaw and pitch in degrees. Refuses values that are not finite, or outside the world; a
+/// pitch beyond straight up or down is cut.
 Result<Camera> camera_of(const std::array<float, 5>& values);
 
 class CameraPath {

@@ -21,7 +21,7 @@ void Playback::push(ServerMessage message, double now_s) {
 
 void Playback::note_arrival(Tick tick, double now_s) {
   const double start_s = now_s - static_cast<double>(tick) / rate_hz_;
-  // A jump: a replay that was moved, or a machine that slept. Begin anew.
+  // A jump: a replay that was moved, or a machine that slept. The clock restarts.
   if (start_s_ && std::abs(start_s - *start_s_) > limits::playback_jump_s) {
     start_s_.reset();
     clock_ = 0.0;

@@ -64,7 +64,7 @@ class Reader {
   std::string error_;
 };
 
-/// What changed from `start` to `end`, else what was loaded.
+/// The value at the `end` if it changed since the `start`, else the loaded one.
 template <typename T>
 T merged(const T& loaded, const T& start, const T& end) {
   return start == end ? loaded : end;

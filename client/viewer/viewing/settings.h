@@ -34,8 +34,8 @@ struct Settings {
 /// Empty without XDG_CONFIG_HOME and HOME: then nothing is kept.
 std::string settings_file();
 
-/// What the text says; what it does not say is as in `Settings{}`. An error names what is wrong; numbers out
-/// of range, and names that nothing has, are wrong.
+/// The settings in the text; missing ones are those of `Settings{}`. An error names the wrong one: a number
+/// out of range, or an unknown name.
 Result<Settings> parse_settings(const std::string& text);
 std::string to_text(const Settings& settings);
 

@@ -25,7 +25,7 @@ struct HudFacts {
   size_t held_chunks = 0;    ///< that follow the server
   size_t edited_chunks = 0;  ///< of them with edits
   size_t edited_bricks = 0;
-  MemoryCounts memory;  ///< of the drawing method, of the mirror, and of what waits to be applied
+  MemoryCounts memory;  ///< of the drawing method, of the mirror, and of waiting messages
 };
 
 /// Caches costly counts for limits::count_interval_s.

@@ -28,7 +28,7 @@ void show_ledger(const StatusMessage& status) {
               status.pieces);
 }
 
-/// What the server's ticks had to do against their budget, and what did not fit.
+/// Shows the work of the server's ticks against their budget, and the work that did not fit.
 void show_work(const WorkStatus& work) {
   if (work.budget_us == 0) return;
   constexpr double us_per_ms = 1000.0;

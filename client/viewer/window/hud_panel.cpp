@@ -1,4 +1,4 @@
-// The HUD's panel: which method draws, and what a strike does.
+// The HUD's panel: the drawing method, and the tool.
 #include <algorithm>
 #include <array>
 #include <bit>

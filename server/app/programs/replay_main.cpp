@@ -1,4 +1,4 @@
-// scree-replay: says what a recording holds, and proves it by simulating it again.
+// scree-replay: describes a recording, and verifies it by simulating it again.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -44,7 +44,7 @@ void print(const Json& json, bool as_json) {
   }
 }
 
-/// What the frames and commands of a recording add up to.
+/// Counts over all frames and commands of a recording.
 struct Sums {
   uint64_t commands = 0, carves = 0, fills = 0, merges = 0, lost = 0, shatters = 0, islands = 0;
   RecordedFrame last;
