@@ -17,7 +17,7 @@ class Talk {
 
   void send(const ClientMessage& message) { connection_->send(message); }
 
-  /// The next message of one kind; others are passed over.
+  /// The next message of one kind; skips others.
   template <typename T>
   Result<T> next(const char* what) {
     for (;;) {
@@ -25,7 +25,7 @@ class Talk {
         const ServerMessage& message = received_[at_++].message;
         if (const T* wanted = std::get_if<T>(&message)) return *wanted;
       }
-      // Asked before the last messages are taken: none can come after the end.
+      // Read before the last messages are taken: no message can come after the end.
       const bool open = connection_->connected();
       received_ = connection_->wait(wait_step);
       at_ = 0;

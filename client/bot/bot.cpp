@@ -48,7 +48,7 @@ Result<void> Bot::connect() {
   report_.welcome = connection_->welcome();
   mirror_ = std::make_unique<Mirror>(report_.welcome);
   if (report_.connections++ == 0) {
-    // Only now the ground is known.
+    // The ground is known from the welcome on.
     const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
     set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
   }

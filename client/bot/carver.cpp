@@ -40,7 +40,7 @@ Carver::Hit Carver::look(Field& field) {
   const float z_m = config_.centre_m.z + around(config_.area_m);
   const float ground_m = ground_height_m(terrain, x_m, z_m);
   const glm::vec3 eye_m(x_m, ground_m + eye_height_m, z_m);
-  // Every second look is slanted: it finds cliffs, overhangs and arches, which none from above would.
+  // Every second ray is slanted: it finds cliffs, overhangs and arches, which a vertical one would miss.
   glm::vec3 direction(0.0F, -1.0F, 0.0F);
   const glm::vec3 slanted = glm::normalize(glm::vec3(around(1.0F), -0.2F - random_.unit(), around(1.0F)));
   if (random_.below(2) == 1) direction = slanted;

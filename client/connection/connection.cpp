@@ -44,8 +44,8 @@ size_t memory_of(const ServerMessage& message) {
 
 }  // namespace
 
-/// Members without `mutex` are the network thread's. Until the welcome, connect() runs the context on its own
-/// thread; from then on `thread` does.
+/// The network thread alone uses the members that `mutex` does not guard. Until the welcome, connect() runs
+/// the context on its caller's thread; then `thread` runs it.
 struct Connection::Impl {
   struct Waiting {
     Received received;

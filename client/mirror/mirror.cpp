@@ -210,7 +210,8 @@ Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick t
     if (found == motions_.end())
       return fail("the pose of piece " + std::to_string(state.id) + ", which is not known here");
     PieceMotion& motion = found->second;
-    // A piece that lay still had no pose sent: it starts where it lay, not where it was long ago.
+    // The server sends no poses of a piece at rest: its motion starts at the last tick, not at its last
+    // pose's.
     const Tick start = tick > ticks_per_transform_ ? tick - ticks_per_transform_ : 0;
     motion.from = motion.to;
     motion.from_tick = std::max(motion.to_tick, start);

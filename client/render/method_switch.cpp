@@ -23,7 +23,7 @@ Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
   Result<std::unique_ptr<DrawMethod>> made = chosen_->make(pool_, view_radius_m_);
   if (!made) return fail(made.error().message);
   slot = {std::move(*made), chosen_};
-  // It comes late: all pieces are new to it.
+  // The method starts late: all pieces are new to it.
   MirrorChanges known;
   for (const auto& [id, piece] : scene.pieces) known.pieces_added.push_back(id);
   slot.method->changed(known);

@@ -11,7 +11,7 @@
 namespace scree {
 namespace {
 
-/// Between two looks at the session: far below a tick.
+/// Pause between two steps of the session: far below a tick.
 constexpr std::chrono::milliseconds pause{2};
 constexpr int differs_status = 3;
 

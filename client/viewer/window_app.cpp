@@ -24,7 +24,7 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
 }
 
-/// Flies along the path by the clock, once the world is there; afterwards the person has the camera.
+/// Flies along the path by the clock, once the world is loaded; then the person moves the camera.
 void WindowApp::follow_path(double now_s) {
   if (!path_begun_s_ && viewing_.joined(now_s)) path_begun_s_ = now_s;
   const double flown_s = path_begun_s_ ? now_s - *path_begun_s_ : 0.0;

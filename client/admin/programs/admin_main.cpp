@@ -1,5 +1,5 @@
-// scree-admin: shows how a running server stands, and shows and changes its settings. Exit status: 0 fine, 1
-// failed or refused, 2 wrong usage.
+// scree-admin: shows the status of a running server, and shows and changes its settings. Exit status: 0
+// success, 1 failure or refusal, 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>

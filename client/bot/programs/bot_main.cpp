@@ -48,7 +48,7 @@ void add_carving(CLI::App& app, Options& options) {
       ->envname("SCREE_RATE")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  // Over the server's limit is allowed: the server's answer is worth seeing.
+  // A radius over the server's limit is allowed, to show the server's refusal.
   app.add_option("--radius", bot.carver.radius_m, "of a carve, metres")
       ->envname("SCREE_RADIUS")
       ->capture_default_str();

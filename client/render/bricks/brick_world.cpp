@@ -63,7 +63,7 @@ BrickWorld::BrickWorld(WorkPool& pool, const TerrainSource& source, float view_r
 
 void BrickWorld::update(Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m) {
   size_t left = limits::chunks_read_max;
-  // The coarsest first: it shows wherever a finer one is not there yet.
+  // The coarsest first: it is shown where a finer one is not loaded yet.
   for (size_t i = levels_.size(); i-- > 0;) {
     ClipLevel& level = levels_[i];
     level.follow(eye_m, atlas_);

@@ -100,7 +100,7 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
   if (!soil && height_m <= layers.ice_above_m) return 0;
-  // As a rule the window tells that the ground's surface is farther above than the layer is deep.
+  // Mostly the window shows that the ground's surface is farther above than the layer's depth.
   const float end = p.y + (soil ? soil_depth_m : ice_depth_m) / source.voxel_size_m;
   const VoxelCoord above{floor_to_int(p.x), std::min(floor_to_int(end) + 1, before->box.hi.y - 1),
                          floor_to_int(p.z)};
@@ -113,7 +113,7 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
 void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
   constexpr int steps = static_cast<int>(surface_steps_per_voxel);
-  // One look for two voxels a side, in a block of usual size.
+  // One sample for two voxels along a side, in a block of usual size.
   constexpr int looks = 10;
   std::array<uint8_t, looks * looks * looks> looked{};  // 1 + the layer's number
   for (SurfaceVertex& vertex : mesh.vertices) {

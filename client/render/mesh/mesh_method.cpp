@@ -59,7 +59,7 @@ class MeshMethod final : public DrawMethod {
 void MeshMethod::update(const Scene& scene, const Camera& camera) {
   voxel_m_ = scene.field.source().voxel_size_m;
   show(scheduler_.update(scene, camera.eye_m));
-  // One that has merged stays where it was until the rock is shown.
+  // A merged piece stays at its last pose until the rock is shown.
   pieces_.move(scene.pieces);
 }
 

@@ -72,7 +72,8 @@ class NodeRules final : public LeafRules {
         finer_place_(finer_place),
         node_(scaled(samples_of(job.node), own_side)) {}
 
-  /// Whether the polygon is not one of the surface nets.
+  /// Whether this node has the polygon: it is the last node of its level around it, and surface nets leave it
+  /// out.
   bool owns(std::span<const Leaf> around) const override {
     BlockCoord last{-1, -1, -1};
     bool any = false;

@@ -7,7 +7,8 @@
 namespace scree {
 namespace {
 
-/// A node is joined again only this much farther away than it is split: pacing about a border builds nothing.
+/// Ratio of the distance at which a node is joined again to that at which it is split: movement to and fro
+/// across a border builds nothing.
 constexpr float join_per_split = 1.15F;
 
 SurfaceNode parent_of(const SurfaceNode& node) {
@@ -19,7 +20,7 @@ SurfaceNode child_of(const SurfaceNode& node, int i) {
           {node.at.x * 2 + (i >> 2), node.at.y * 2 + ((i >> 1) & 1), node.at.z * 2 + (i & 1)}};
 }
 
-/// Of a leaf that has not been looked around from yet: no leaf is beyond itself.
+/// Neighbours of a new leaf, not determined yet: no leaf is beyond itself.
 Neighbours not_yet() {
   Neighbours around;
   around.fill(Neighbour::beyond);
@@ -83,7 +84,7 @@ bool SurfaceForest::may_join(const SurfaceNode& node) const {
   return may;
 }
 
-/// To be called before each change.
+/// Keeps a node's state for undo(). Call before each change.
 void SurfaceForest::note(const SurfaceNode& node) {
   const auto leaf = leaves_.find(node);
   before_.push_back({node, leaf == leaves_.end() ? std::nullopt : std::optional(leaf->second),
@@ -224,7 +225,7 @@ void SurfaceForest::refresh(const std::vector<SurfaceNode>& touched, ForestStep&
     leaf->second = around;
     step.changed.push_back(node);
   }
-  // Split and joined again within one step, or come back: it is there.
+  // A node that was split and joined again within one step, or came back, is not gone.
   std::erase_if(step.gone, [this](const SurfaceNode& node) { return leaves_.contains(node); });
 }
 

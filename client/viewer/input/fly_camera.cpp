@@ -12,7 +12,7 @@ constexpr float speed_m_s = 9.0F;
 constexpr float fast_factor = 4.0F;
 constexpr float radians_per_pixel = 0.0025F;
 constexpr float pitch_max = 1.55F;
-/// After a stall one does not leap.
+/// Longest step, seconds: after a stall, the camera does not jump.
 constexpr float step_max_s = 0.1F;
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace scree {
 namespace {
 
-/// Worn sticks do not come back to their middle.
+/// Tilt that counts as none: worn sticks do not return to their middle.
 constexpr float dead_zone = 0.15F;
 constexpr float look_pixels_per_s = 900.0F;  ///< of the mouse's, at full tilt
 
-/// From the edge of the dead zone on, growing with the square: fine near the middle.
+/// The tilt from the edge of the dead zone on, squared: fine control near the middle.
 float tilt(float axis) {
   const float past = std::abs(axis) - dead_zone;
   if (past <= 0.0F) return 0.0F;

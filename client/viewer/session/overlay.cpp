@@ -33,8 +33,8 @@ void add_chunk(LineList& lines, ChunkCoord chunk, float voxel_m, LineColour colo
   lines.box(lo_m, lo_m + side_m, colour);
 }
 
-/// No hull's faces are known, but near corners of a convex body are mostly joined: each with its three
-/// nearest.
+/// The message has no faces of hulls, but near corners of a convex body mostly share an edge: so each corner
+/// is joined with its three nearest.
 void add_hull(LineList& lines, const WatchedBody& body, const Pose& pose, LineColour colour) {
   const auto place = [&](const glm::vec3& corner_m) { return pose.position_m + pose.rotation * corner_m; };
   std::vector<size_t> others(body.hull_m.size());

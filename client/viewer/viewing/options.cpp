@@ -45,7 +45,7 @@ Result<void> parse_camera(const std::string& text, Camera& camera) {
   return {};
 }
 
-/// The options as text, before they are understood.
+/// The options as text, before parsing.
 struct Texts {
   std::string size = "1280x720";
   std::string camera = default_camera;

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads one field after the other; the first that is wrong is remembered.
+/// Reads one field after the other; keeps the first error.
 class Reader {
  public:
   explicit Reader(const Json& json) : json_(json) {}

@@ -89,7 +89,7 @@ Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
   const Result<Image> image = picture(now_s);
   if (!image) return fail(image.error().message);
   if (Result<void> written = write_png(order.file, *image); !written) return written;
-  // Standard output is for figures alone.
+  // Standard output is for figures only.
   std::fprintf(stderr, "wrote %s\n", order.description().c_str());
   if (options.reference.empty()) return {};
   const Result<Image> reference = read_png(options.reference);

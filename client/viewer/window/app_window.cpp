@@ -44,7 +44,7 @@ struct AppWindowEvents {
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
     if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
-    // On the panel the mouse is the panel's.
+    // The panel takes clicks on it.
     if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse) return;
     // The first click takes the mouse; only the following ones carve.
     if (of(window).holds_mouse_) {
@@ -167,7 +167,7 @@ std::pair<int, int> AppWindow::window_size() const {
 
 void AppWindow::show_frame() {
   if (minimised()) {
-    // Buffers of a window that is not shown may be swapped without any wait.
+    // Swapping the buffers of a hidden window may not wait for the display.
     glfwWaitEventsTimeout(minimised_pause_s);
   } else {
     glfwSwapBuffers(window_);

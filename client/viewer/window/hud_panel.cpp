@@ -20,7 +20,7 @@ void choose(E& value, const std::array<E, n>& all) {
   }
 }
 
-/// Those that this driver cannot draw by are grey, and say why.
+/// Methods that this driver cannot make are grey, with the reason.
 const MethodEntry* choose_method(const MethodEntry& chosen) {
   const MethodEntry* picked = nullptr;
   for (const MethodEntry& entry : all_methods()) {
@@ -34,7 +34,7 @@ const MethodEntry* choose_method(const MethodEntry& chosen) {
   return picked;
 }
 
-/// Resolutions and scales go by steps, so that the shape stays valid.
+/// Resolutions and scales change in steps, so that the shape stays valid.
 void choose_grid(GridShape& grid) {
   int steps = grid.resolution / limits::grid_resolution_step;
   const std::string cells = std::to_string(grid.resolution);
