@@ -1,5 +1,5 @@
-// What counts as ground to those who ask what holds terrain up: a chunk that was never edited and lies below
-// the terrain's floor, where generated terrain is nothing but rock (floor_m).
+// Ground, for the searches that ask which terrain is held up: a chunk is ground when it was never edited and
+// lies below the terrain's floor, where generated terrain is only rock (floor_m).
 #pragma once
 
 #include "shared/field/field.h"

@@ -30,11 +30,12 @@ void for_each_voxel(const VoxelBox& box, F&& f) {
       for (int z = box.lo.z; z < box.hi.z; ++z) f(x, y, z);
 }
 
-/// Marks what connects to the start by faces of solid voxels, within the box.
+/// Marks the solid voxels that connect to the start by faces, within the box.
 Marks component(const Window& window, const VoxelBox& box, VoxelCoord start) {
   Marks marks(window.codes.size(), 0);
   std::vector<VoxelCoord> ahead;
   const auto reach = [&](VoxelCoord v) {
+    CHECK_DEBUG(box.holds(v));
     const size_t at = window.index(v.x, v.y, v.z);
     if (window.codes[at] >= 0 || marks[at] != 0) return;
     marks[at] = 1;
@@ -68,7 +69,7 @@ void spread(uint8_t* line, ptrdiff_t stride, int count, int by, std::vector<uint
   for (int i = 0; i < count; ++i) line[i * stride] = scratch[static_cast<size_t>(i)];
 }
 
-/// Marks also what lies within `by` voxels, along every axis, of what is marked.
+/// Adds the voxels within `by` voxels of a marked one along every axis.
 Marks grown(Marks marks, const Window& window, int by) {
   const VoxelCoord size = window.box.size();
   const auto [step_x, step_y, step_z] = strides(window);
@@ -85,7 +86,7 @@ Marks grown(Marks marks, const Window& window, int by) {
   return marks;
 }
 
-/// Marks what is marked, and the voxels at its faces.
+/// Adds the voxels at the faces of marked ones.
 Marks beside_of(const Window& window, const Marks& marks) {
   const VoxelCoord size = window.box.size();
   const auto [step_x, step_y, step_z] = strides(window);
@@ -107,14 +108,14 @@ Marks beside_of(const Window& window, const Marks& marks) {
   return beside;
 }
 
-/// Marks what is solid and not gone, and the voxels at its faces.
+/// Marks the solid voxels that are not gone, and the voxels at their faces.
 Marks near_rest(const Window& window, const Marks& gone) {
   Marks rest(gone.size());
   for (size_t i = 0; i < rest.size(); ++i) rest[i] = window.codes[i] < 0 && gone[i] == 0 ? 1 : 0;
   return beside_of(window, rest);
 }
 
-/// Bounds of what is solid, not gone, and marked in `within`.
+/// Bounds of the voxels that are solid, not gone, and marked in `within`.
 VoxelBox rest_box(const Window& window, const Marks& gone, const Marks& within) {
   VoxelBox box{window.box.hi, window.box.lo};
   size_t at = 0;
@@ -127,8 +128,8 @@ VoxelBox rest_box(const Window& window, const Marks& gone, const Marks& within) 
   return box;
 }
 
-/// What remains gets a face where it was cut: halfway between its last voxels and the first that are gone.
-/// Returns the solids whose distance that changes: those within the band of the cut.
+/// Gives the remaining solid a face at the cut: halfway between its last voxels and the first that are gone.
+/// Returns the solid voxels whose distances change: those within the band of the cut.
 Marks bare_cut(Window& window, const Marks& gone, const Marks& near) {
   Marks cut(window.codes.size(), 0);
   bool any = false;
@@ -146,8 +147,9 @@ Marks bare_cut(Window& window, const Marks& gone, const Marks& near) {
   return bared;
 }
 
-/// Takes the marked solids out, and gives them and their band the distance to what remains.
+/// Removes the marked solids, and gives their voxels and their band the distances to the remaining solid.
 void strip(Window& window, const Marks& gone) {
+  CHECK_EQ(gone.size(), window.codes.size());
   const Marks within = grown(gone, window, 2 * band);
   const VoxelBox rest = rest_box(window, gone, within);
   const Marks near = near_rest(window, gone);
@@ -169,9 +171,9 @@ void strip(Window& window, const Marks& gone) {
   });
 }
 
-/// The own field of the marked voxels, which lie in the box.
+/// The field of the marked voxels alone, which lie in the box.
 Window alone(const Window& window, const VoxelBox& box, const Marks& marks) {
-  // What lies just outside the island's band has its own band inside.
+  // Solids just outside the island's band have a band of their own, which reaches inside.
   Window own = part_of(window, box.grown(2 * band));
   Marks others(own.codes.size(), 0);
   size_t at = 0;
@@ -194,6 +196,7 @@ glm::vec3 centre_of_mass(const Window& window) {
     sum_y += int64_t{units} * (y - origin.y);
     sum_z += int64_t{units} * (z - origin.z);
   });
+  CHECK(sum > 0);
   const auto mean = [&](int64_t total, int from) {
     return static_cast<float>(static_cast<double>(total) / static_cast<double>(sum) + from);
   };
@@ -207,7 +210,7 @@ VoxelBox lift_box(const VoxelBox& island) {
 }
 
 Volume lift(Window& window, const VoxelBox& box, VoxelCoord start) {
-  CHECK(window.codes.size() >= Window::count(lift_box(box)));
+  CHECK(window.box.covers(lift_box(box)) && box.holds(start));
   Volume volume;
   if (window.at(start.x, start.y, start.z) >= 0) return volume;
   const Marks marks = component(window, box, start);
@@ -216,6 +219,8 @@ Volume lift(Window& window, const VoxelBox& box, VoxelCoord start) {
   volume.mass = mass_of(window);
   strip(window, marks);
   volume.mass -= mass_of(window);
+  CHECK(window.at(start.x, start.y, start.z) >= 0);
+  CHECK_DEBUG(volume.mass >= 0);
   return volume;
 }
 

@@ -1,13 +1,13 @@
-// Lifting an island out of the terrain: its voxels become a piece, and the field around closes as if it had
-// never been there. Where the box cuts it off from what goes on outside, both get a flat face halfway between
-// their voxels. Lengths in voxels.
+// Lifting an island out of the terrain: its voxels become a piece, and the field around it becomes that of a
+// terrain without it. Where the box cuts through solid terrain, both sides get a flat face halfway between
+// their voxels. Pure; lengths in voxels.
 #pragma once
 
 #include "shared/field/piece.h"
 
 namespace scree {
 
-/// The voxels that lifting an island with that box may read; all that it may change lie inside.
+/// The voxels that lifting an island with that box may read; those that it may change lie inside.
 VoxelBox lift_box(const VoxelBox& island);
 
 /// Takes the solid voxels (code < 0) that connect to `start` within `box` out of the window, and the mass in

@@ -22,6 +22,7 @@ class BlockGrid {
     hi_ = {std::max(hi_.x, brick.x), std::max(hi_.y, brick.y), std::max(hi_.z, brick.z)};
   }
   void divide(const BlockLimits& limits) {
+    CHECK(limits.side_bricks > 0 && limits.bricks > 0);  // or the halving would never end
     sides_ = hi_ - lo_ + BrickCoord{1, 1, 1};
     for (;;) {
       int& longest = sides_.x >= std::max(sides_.y, sides_.z) ? sides_.x
@@ -31,7 +32,7 @@ class BlockGrid {
       longest = (longest + 1) / 2;
     }
   }
-  /// Of a brick of the island.
+  /// The block of a brick. Bricks next to the island may get the number of a block, too.
   BrickCoord block(BrickCoord brick) const {
     const BrickCoord at = brick - lo_;
     return {at.x / sides_.x, at.y / sides_.y, at.z / sides_.z};
@@ -61,6 +62,7 @@ struct Found {
       island.start = start;
     }
     island.voxels += bits.count();
+    CHECK_DEBUG(island.box.holds(island.start));
   }
 };
 
@@ -89,6 +91,7 @@ void IslandSearch::add_floods(BrickCoord brick, BrickBits among) {
   const Site& here = site(brick);
   for (among = among & here.solid & ~taken(here); among.any();) {
     const BrickBits bits = flooded(first_of(among), here.solid);
+    CHECK_DEBUG(bits.any());
     const auto flood = static_cast<uint32_t>(floods_.size());
     floods_.push_back({flood, Verdict::open, 0, {}});
     open_.push_back(flood);
@@ -102,7 +105,7 @@ void IslandSearch::begin(std::span<const BrickCoord> changed) {
     const BrickBits solid = site(brick).solid;
     add_floods(brick, solid);
     for (size_t face = 0; face < brick_faces.size(); ++face) {
-      const BrickBits bared = across(~solid, face);  // what may have leant on the brick through this face
+      const BrickBits bared = across(~solid, face);  // voxels that the brick may have held through this face
       if (bared.any()) add_floods(brick + brick_faces[face], bared);
     }
   }
@@ -117,12 +120,14 @@ bool IslandSearch::is_later(uint32_t a, uint32_t b) const {
 }
 
 uint32_t IslandSearch::root(uint32_t flood) const {
+  CHECK_DEBUG(flood < floods_.size());
   while (floods_[flood].parent != flood) flood = floods_[flood].parent;
   return flood;
 }
 
 void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood) {
   Site& here = site(brick);
+  CHECK_DEBUG(bits.any() && !(bits & ~here.solid).any() && !(bits & taken(here)).any());
   const auto part = static_cast<uint32_t>(parts_.size());
   parts_.push_back({brick, bits, flood, here.first});
   here.first = part;
@@ -132,7 +137,7 @@ void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t fl
   if (++into.parts > parts_max_) into.verdict = Verdict::too_large;
 }
 
-/// Two floods met: they are one. Returns it.
+/// Makes one flood of two that met. Returns it.
 uint32_t IslandSearch::unite(uint32_t a, uint32_t b) {
   a = root(a);
   b = root(b);
@@ -175,6 +180,7 @@ void IslandSearch::cross(uint32_t part, size_t face) {
 
 void IslandSearch::grow(uint32_t flood) {
   Flood& growing = floods_[flood];
+  CHECK_DEBUG(growing.parent == flood && !growing.ahead.empty());
   std::ranges::pop_heap(growing.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
   const uint32_t part = growing.ahead.back();
   growing.ahead.pop_back();
@@ -219,11 +225,12 @@ std::vector<uint32_t> IslandSearch::parts_of_islands() const {
 }
 
 std::vector<Island> IslandSearch::islands(const BlockLimits& limits) const {
+  CHECK(open_.empty());  // the search is finished
   const std::vector<uint32_t> parts = parts_of_islands();
   std::map<uint32_t, BlockGrid> grids;  // by flood
   for (const uint32_t part : parts) grids[root(parts_[part].flood)].add(parts_[part].brick);
   for (auto& [flood, grid] : grids) grid.divide(limits);
-  // What connects within a block has the same group: its first part.
+  // Parts that connect within a block have the same group: the first of them.
   std::vector<uint32_t> groups(parts_.size());
   std::iota(groups.begin(), groups.end(), 0U);
   const auto group = [&](uint32_t part) {

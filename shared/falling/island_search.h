@@ -1,16 +1,16 @@
 // Finds islands: solid terrain that a change cut off from the ground.
 //
-// Solid is a code < 0; voxels connect by faces; ground is what ground.h says. An island is a component that
-// touches the changed bricks, or lies against their faces, and does not reach the ground. What hangs in the
-// air elsewhere, as generated or poured, stays until a change touches it.
+// Solid is a code < 0; voxels connect by faces; ground.h defines the ground. An island is a component that
+// touches the changed bricks, or lies against their faces, and does not reach the ground. Loose terrain
+// elsewhere, as generated or poured, stays until a change touches it.
 //
-// Two things count as ground without reaching it: components of more parts, one for each brick as a rule,
-// than a search is told to follow, and those that hold a whole unedited chunk below the floor.
+// Two kinds of component count as ground without reaching it: those of more parts (one a brick, as a rule)
+// than a search may follow, and those that hold a whole unedited chunk below the floor.
 //
-// Hierarchical: deep chunks are ground as a whole, bricks flood 64 voxels at a time, only faces meet. All
-// floods start at the change and grow at once, each from its lowest brick; a flood ends when it meets the
-// ground or another, so the cost depends on what hangs loose and on how deep the ground lies, not on the
-// world. Deterministic; the order of the islands too. Not thread-safe.
+// Hierarchical: deep chunks are ground as a whole, and bricks are flooded 64 voxels at a time. All floods
+// start at the change and grow in turn, each from its lowest brick; a flood ends when it meets the ground,
+// and two that meet become one. So the cost depends on the size of the loose terrain and on the depth of the
+// ground, not on the world. Deterministic, also in the order of the islands. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct Island {
   bool operator==(const Island&) const = default;
 };
 
-/// What may fall in one piece.
+/// The largest block that falls in one piece.
 struct BlockLimits {
   int side_bricks = limits::island_side_max_bricks;
   int bricks = 256;  ///< of its box: lifting takes 13 ms then
@@ -43,21 +43,21 @@ struct BlockLimits {
 
 class IslandSearch {
  public:
-  /// `changed`: bricks in any order. `field` must outlive this, and hold still while it runs: see visited().
-  /// Components of more than `parts_max` parts count as ground.
+  /// `changed`: bricks in any order. `field` must outlive this; none of the visited() bricks may change while
+  /// the search runs. Components of more than `parts_max` parts count as ground.
   IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max = SIZE_MAX);
 
-  /// Looks at up to `bricks` more bricks; true when the search is finished. What it took is subtracted.
+  /// Visits up to `bricks` more bricks and subtracts their number; true when the search is finished.
   bool advance(size_t& bricks);
 
-  /// Whether the search has read this brick: if it changes, the search must start afresh.
+  /// Whether the search has read this brick: if the brick changes, a new search must begin.
   bool visited(BrickCoord brick) const { return sites_.contains(brick); }
   size_t bricks_visited() const { return sites_.size(); }
 
-  /// Of a finished search, ordered by start. An island over the limits comes in blocks: halves along its
-  /// longest side, halved again, cut along the faces of bricks; what connects within a block is one entry.
+  /// The islands of a finished search, ordered by start. An island over the limits is cut along the faces of
+  /// bricks into blocks: halves along its longest side, halved again; each component of a block is one entry.
   std::vector<Island> islands(const BlockLimits& limits = {}) const;
-  /// Components that count as ground because there is too much of them.
+  /// Number of components that count as ground because they have more than parts_max parts.
   size_t too_large() const;
 
  private:

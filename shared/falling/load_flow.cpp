@@ -1,8 +1,7 @@
 #include "shared/falling/load_flow.h"
 
 #include <algorithm>
-
-#include "shared/base/check.h"
+#include <numeric>
 
 namespace scree {
 
@@ -13,6 +12,7 @@ uint32_t LoadFlow::add_node(int64_t load) {
 }
 
 void LoadFlow::ground(uint32_t node) {
+  CHECK(node < nodes_.size());
   nodes_[node].grounded = true;
 }
 
@@ -22,6 +22,7 @@ void LoadFlow::add_arc(uint32_t from, uint32_t to, int64_t room) {
 }
 
 void LoadFlow::link(uint32_t a, uint32_t b, int64_t forth, int64_t back) {
+  CHECK(a != b && a < nodes_.size() && b < nodes_.size());
   CHECK(forth >= 0 && back >= 0);
   add_arc(a, b, forth);
   add_arc(b, a, back);
@@ -50,10 +51,11 @@ void LoadFlow::activate(uint32_t node) {
   highest_ = std::max(highest_, at.label);
 }
 
-/// No node has this label any more, so that none above it reaches the ground.
+/// No node has this label any more: the nodes above it cannot reach the ground.
 void LoadFlow::close_gap(uint32_t label) {
   for (Node& node : nodes_) {
     if (node.label <= label || node.label >= unreachable()) continue;
+    CHECK_DEBUG(with_label_[node.label] > 0);
     --with_label_[node.label];
     node.label = unreachable();
   }
@@ -69,6 +71,7 @@ void LoadFlow::relabel(uint32_t node, size_t& steps) {
   const uint32_t left = at.label;
   --with_label_[left];
   at.label = std::min(label, unreachable());
+  CHECK_DEBUG(at.label > left);  // labels only grow, which bounds the number of relabels
   at.at = at.first;
   if (at.label < unreachable()) ++with_label_[at.label];
   if (with_label_[left] == 0) close_gap(left);
@@ -89,6 +92,7 @@ void LoadFlow::discharge(uint32_t node, size_t& steps) {
       continue;
     }
     const int64_t passed = std::min(at.load, arc.room);
+    CHECK_DEBUG(passed > 0);
     const bool was_idle = to.load == 0;
     arc.room -= passed;
     arcs_[at.at ^ 1U].room += passed;
@@ -98,7 +102,13 @@ void LoadFlow::discharge(uint32_t node, size_t& steps) {
   }
 }
 
+int64_t LoadFlow::total_load() const {
+  return std::accumulate(nodes_.begin(), nodes_.end(), int64_t{0},
+                         [](int64_t sum, const Node& node) { return sum + node.load; });
+}
+
 bool LoadFlow::run(size_t steps) {
+  const int64_t total = total_load();
   active_.assign(unreachable() + 1, {});
   with_label_.assign(unreachable() + 1, 0);
   measure();
@@ -115,6 +125,7 @@ bool LoadFlow::run(size_t steps) {
     // A gap may have lifted it meanwhile; then it is overloaded.
     if (nodes_[node].label == highest_) discharge(node, steps);
   }
+  CHECK_EQ(total_load(), total);
   if (steps == 0) return false;
   measure();
   held_.resize(nodes_.size());

@@ -1,30 +1,38 @@
-// How much of the load in a network of supports reaches the ground: nodes with a load each, links that carry
-// so much each way, and nodes that stand on the ground. Where not all of it does, the overloaded nodes are
-// those beyond the least cut: whatever they weigh, the links around them cannot carry it, and no other set
-// of nodes has more load over what its links carry (max-flow and min-cut, Ford and Fulkerson 1956).
+// The load in a network of supports that reaches the ground: nodes with a load each, links with a capacity
+// each way, and nodes that stand on the ground. Where the capacities are too small, the overloaded nodes are
+// those beyond the least cut: their load is more than their links to the rest can carry, and no other set of
+// nodes has a larger excess (max-flow and min-cut, Ford and Fulkerson 1956).
 //
-// Push-relabel (Goldberg and Tarjan 1988), highest label first, from the true distances to the ground: loads
-// that find their way straight down take one push a link. Integers, so exact. Deterministic.
+// Push-relabel (Goldberg and Tarjan 1988), highest label first, starting from the true distances to the
+// ground: a load that can flow straight down takes one push a link. Integers, so exact. Invariant: loads are
+// moved, never made or lost. Deterministic. Not thread-safe.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 class LoadFlow {
  public:
+  /// Returns the node's index, from 0 up. The load must not be negative.
   uint32_t add_node(int64_t load);
-  /// Stands on the ground: takes any load.
+  /// The node stands on the ground: it takes any load.
   void ground(uint32_t node);
-  /// What may flow from `a` to `b`, and back. Not negative.
+  /// Links two nodes; capacities from `a` to `b` and back, not negative.
   void link(uint32_t a, uint32_t b, int64_t forth, int64_t back);
 
-  /// False when `steps` were not enough: then nothing is known. A step is a look at one link.
+  /// Computes the flow. False when `steps` did not suffice: then nothing is known. A step is a look at one
+  /// link.
   bool run(size_t steps);
-  /// After run(): whether its load, or that of those leaning on it, does not all reach the ground.
-  bool overloaded(uint32_t node) const { return !held_[node]; }
+  /// After run() returned true: whether a part of the load on the node cannot reach the ground.
+  bool overloaded(uint32_t node) const {
+    CHECK(node < held_.size());
+    return !held_[node];
+  }
 
  private:
   static constexpr uint32_t none = UINT32_MAX;
@@ -35,13 +43,14 @@ class LoadFlow {
     uint32_t at = none;     ///< arc at which to go on
     bool grounded = false;
   };
-  /// Its reverse is the one with the other last bit.
+  /// The index of its reverse differs in the last bit.
   struct Arc {
     uint32_t to = 0;
     uint32_t next = none;
     int64_t room = 0;
   };
 
+  int64_t total_load() const;
   uint32_t unreachable() const { return static_cast<uint32_t>(nodes_.size()) + 1; }
   void add_arc(uint32_t from, uint32_t to, int64_t room);
   /// Labels become the distances to the ground, over arcs with room.

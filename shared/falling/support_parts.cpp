@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
+#include "shared/base/check.h"
 #include "shared/field/paint.h"
 
 namespace scree {
@@ -68,6 +70,7 @@ std::array<uint8_t, brick_size> layer_counts(const BrickBits& bits, int axis) {
 
 /// The layer up to which half of the voxels lie.
 int middle_of(const std::array<uint8_t, brick_size>& layers, int voxels) {
+  CHECK_DEBUG(std::accumulate(layers.begin(), layers.end(), 0) == voxels);
   size_t k = 0;
   for (int below = layers[0]; 2 * below < voxels; below += layers[k]) ++k;
   return static_cast<int>(k);
@@ -87,7 +90,7 @@ void measure(SupportPart& part) {
   }
 }
 
-/// A place inside, for what it is made of.
+/// The middle of the part's bounds, where its material is read.
 glm::vec3 middle_m(const SupportPart& part, float voxel_size_m) {
   const VoxelCoord at = first_voxel(part.brick);
   const VoxelBox box = bounds_of(part.bits);
@@ -109,6 +112,7 @@ BrickCoord most(BrickCoord a, BrickCoord b) {
 SupportParts::SupportParts(Field& field, std::span<const BrickCoord> changed, int reach_bricks,
                            size_t parts_max)
     : field_(field), ground_(field), parts_max_(parts_max) {
+  CHECK(reach_bricks >= 0 && parts_max < unread);
   if (changed.empty()) return;
   BrickCoord lo = changed.front(), hi = changed.front();
   for (const BrickCoord brick : changed) {
@@ -135,6 +139,7 @@ bool SupportParts::inside(BrickCoord brick) const {
 }
 
 uint32_t& SupportParts::first_of_brick(BrickCoord brick) {
+  CHECK_DEBUG(inside(brick));
   const BrickCoord at = brick - lo_;
   return firsts_[(static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
                      static_cast<size_t>(size_.z) +
@@ -180,20 +185,21 @@ uint32_t SupportParts::load(BrickCoord brick) {
 }
 
 void SupportParts::connect(uint32_t part, size_t face) {
-  if (parts_[part].held) return;  // what it leans on needs no looking at
+  if (parts_[part].held) return;  // the parts below it do not matter
   const BrickBits reached = across(parts_[part].bits, face);
   if (!reached.any()) return;
   const BrickCoord beyond = parts_[part].brick + brick_faces[face];
   const bool up = face % 2 == 0;
   for (uint32_t i = load(beyond); i != SupportPart::none; i = parts_[i].next) {
     if (!(parts_[i].bits & reached).any()) continue;
-    // Each pair once: from the lower one, or from the upper when the lower one does not look.
+    // Each pair once: from the lower part, or from the upper one when the lower is held and makes no links.
     if (!up && !parts_[i].held) continue;
     links_.push_back(link_of(up ? part : i, up ? i : part, static_cast<int>(face / 2)));
   }
 }
 
 int SupportParts::section(const SupportLink& link, int at) const {
+  CHECK_DEBUG(at > -brick_size && at < brick_size);
   const SupportPart& lower = parts_[link.lower];
   const SupportPart& upper = parts_[link.upper];
   const auto axis = static_cast<size_t>(link.axis);
@@ -222,6 +228,7 @@ SupportLink SupportParts::link_of(uint32_t lower, uint32_t upper, int axis) cons
     link.section = there;
     link.at = at;
   }
+  CHECK(link.section > 0);  // both parts connect from the face to their middles
   return link;
 }
 

@@ -1,5 +1,5 @@
-// The parts that support_search.h looks at: what connects inside each brick, its sections and weight, and
-// which of them touch.
+// The parts of a support search (support_search.h): the components inside each brick, their sections and
+// sizes, and the links between parts that touch. Not thread-safe.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct SupportPart {
   std::array<int, 3> middle{};  ///< layer along each axis up to which half of the voxels lie
   int voxels = 0;
   Material material = Material::rock;
-  bool held = false;     ///< touches ground, or leaves the surroundings
-  uint32_t next = none;  ///< of the same brick
+  bool held = false;     ///< touches ground, or continues outside the surroundings
+  uint32_t next = none;  ///< next part of the same brick
 };
 
 /// Two parts that touch, `upper` beyond the + face of `lower` along the axis (0: x, 1: y, 2: z).
@@ -32,23 +32,24 @@ struct SupportLink {
   uint32_t lower = 0;
   uint32_t upper = 0;
   int axis = 0;
-  int at = 0;       ///< of the thinnest section: layers beyond the face, negative in the lower brick
+  int at = 0;       ///< place of the thinnest section: layers beyond the face, negative in the lower brick
   int section = 0;  ///< voxels
 };
 
 class SupportParts {
  public:
-  /// Every part that connects to the bricks, or to their neighbours, within `reach_bricks` of them.
+  /// Every part that connects to the changed bricks, or to their neighbours, through the surroundings: the
+  /// bricks' bounds grown by `reach_bricks`. `field` must outlive this.
   SupportParts(Field& field, std::span<const BrickCoord> changed, int reach_bricks, size_t parts_max);
 
   const std::vector<SupportPart>& parts() const { return parts_; }
   const std::vector<SupportLink>& links() const { return links_; }
-  /// There were more than `parts_max`.
+  /// Whether there are more than `parts_max` parts; then some are missing.
   bool overflow() const { return overflow_; }
 
   /// Section of a link, `at` layers beyond the face: between layer at − 1 and at; within −7 … 7.
   int section(const SupportLink& link, int at) const;
-  /// First and last place between the middles of the two.
+  /// First and last place of a section between the middles of the two parts.
   int first_place(const SupportLink& link) const;
   int last_place(const SupportLink& link) const;
   /// Voxels on both sides of that section, in the field's coordinates.
@@ -57,7 +58,7 @@ class SupportParts {
  private:
   bool inside(BrickCoord brick) const;
   uint32_t& first_of_brick(BrickCoord brick);
-  /// Its parts are made at the first look. Index of the first.
+  /// Index of the brick's first part; the first call finds its parts.
   uint32_t load(BrickCoord brick);
   bool is_held(const SupportPart& part) const;
   void add(BrickCoord brick, const BrickBits& bits, uint32_t& first);

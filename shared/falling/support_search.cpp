@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/falling/load_flow.h"
 #include "shared/falling/support_parts.h"
@@ -84,7 +85,7 @@ class Search {
     return flow_.run(steps_per_part * std::max<size_t>(parts_.parts().size(), 1));
   }
 
-  /// Gives every overloaded part the first one that it connects to by overloaded ones: its mass.
+  /// Gives every overloaded part its mass: the first part that it connects to through overloaded parts.
   void label() {
     mass_.resize(parts_.parts().size());
     for (uint32_t i = 0; i < mass_.size(); ++i) mass_[i] = i;
@@ -99,7 +100,7 @@ class Search {
     return part;
   }
 
-  /// Links from a mass to what holds, that lie in one plane and near each other.
+  /// Links from a mass to parts that hold it, in one plane and near each other.
   using NeckKey = std::tuple<uint32_t, int, int, int, int>;
 
   std::map<uint32_t, Overload> gather() {
@@ -141,6 +142,7 @@ class Search {
       first = std::max(first, parts_.first_place(link));
       last = std::min(last, parts_.last_place(link));
     }
+    CHECK(first <= 0 && last >= 0);
     Neck neck{{}, INT64_MAX};
     int place = 0;
     for (int at = first; at <= last; ++at) {
@@ -151,6 +153,7 @@ class Search {
       neck.section_voxels = sum;
       place = at;
     }
+    CHECK(neck.section_voxels > 0);
     neck.box = {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
     for (const SupportLink& link : links) {
       if (parts_.section(link, place) == 0) continue;

@@ -1,16 +1,15 @@
-// Finds terrain that is connected to the ground and yet hangs too heavy: a mass whose weight is more than its
-// thinnest necks can carry.
+// Finds terrain that is connected to the ground but overloaded: a mass that weighs more than its thinnest
+// necks can carry.
 //
-// Looks at what is solid around a change, brick by brick: in each brick, what connects is a part with a
-// weight. Between parts that touch, load flows as far as the thinnest section from one's middle to the
-// other's carries it: most when it presses down, less when it hangs, least when it sticks out sideways. What
-// leaves the surroundings, or reaches ground, is held. Where not all load can flow to what is held
-// (load_flow.h), the least cut is the neck: of all masses that there are, none weighs more over what holds
-// it.
+// The solid terrain around a change is divided into parts, the components inside each brick, each with a
+// weight. Load flows between parts that touch; the capacity is that of the thinnest section between their
+// middles: largest under pressure, smaller when the load hangs, smallest when it sticks out sideways. Parts
+// that continue outside the surroundings, or touch the ground, are held. Where not all load can flow to held
+// parts (load_flow.h), the least cut is the neck.
 //
 // A model of sections, not of leverage: a beam breaks at 25 m whatever its height. Only masses that the
-// change touched, or whose neck it touched, count: what stood before stands on. Deterministic; integers
-// after the first conversion. Lengths in voxels.
+// change touched, or whose neck it touched, are reported: terrain that stood before keeps standing.
+// Deterministic; integers after the first conversion. Lengths in voxels.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +29,7 @@ struct Bearing {
 };
 Bearing bearing_of(Material material);
 
-/// Where a mass breaks off: voxels to be crushed, two layers on each side of the thinnest section.
+/// The place where a mass breaks off: voxels to be crushed, two layers on each side of the thinnest section.
 struct Neck {
   VoxelBox box;
   int64_t section_voxels = 0;  ///< area of that section, in faces of voxels
@@ -39,24 +38,24 @@ struct Neck {
 };
 
 struct Overload {
-  int64_t voxels = 0;  ///< of the mass beyond the necks, as far as it was looked at
-  VoxelCoord start;    ///< one of them
+  int64_t voxels = 0;  ///< of the mass beyond the necks, within the surroundings
+  VoxelCoord start;    ///< one of these voxels
   std::vector<Neck> necks;
 };
 
 struct SupportFound {
   std::vector<Overload> overloads;  ///< ordered by their first parts
-  size_t parts = 0;                 ///< looked at; what the search cost
-  bool given_up = false;            ///< over the limit: too intricate; nothing is found
+  size_t parts = 0;                 ///< parts of the search, a measure of its cost
+  bool given_up = false;            ///< the terrain is too intricate for the limits; nothing is found
 };
 
-/// Around these bricks, as many farther in every direction as `reach_bricks` says.
+/// Searches the bounds of the changed bricks, grown by `reach_bricks` in every direction.
 SupportFound find_overloads(Field& field, std::span<const BrickCoord> changed, int reach_bricks);
 
 /// Voxels that a mass must have to break off: 4 of the smallest pieces. Less than this hangs on.
 inline constexpr int64_t overload_voxels_min = 8;
 
-/// Parts that one search looks at: more than there are in any solid ground, 10 ms. Above: given up.
+/// Parts of one search: more than any solid ground has; 10 ms. Above, the search gives up.
 inline constexpr size_t support_parts_max = 16384;
 
 }  // namespace scree
