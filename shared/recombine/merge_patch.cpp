@@ -17,7 +17,8 @@ constexpr int roundness_half = (stamp_roundness_max + 1) / 2;
 
 /// Edges and clefts give way by an eighth of the sum of the six differences at the most: 2^-8 a shift.
 constexpr int curvature_bits = 8;
-constexpr int curvature_max = 1016;  // its product with roundness_half fits 16 bits
+constexpr int curvature_max = 1016;
+static_assert(curvature_max * roundness_half <= INT16_MAX);
 
 /// Half a voxel over the second half of the shifts: 11/16 code each.
 constexpr int uniform_sixteenths = 11;
@@ -94,7 +95,7 @@ void find_bends(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code*
     const auto touch =
         static_cast<int8_t>(t[0] | t[-1] | t[1] | t[-step_y] | t[step_y] | t[-step_x] | t[step_x]);
     const int16_t out = bend(piece + i, step_x, step_y);
-    // Twice: what is left of seams must close before the surface moves (measured: bench seams).
+    // Twice: the rest of a seam must close before the surface moves (measured: bench seams).
     const auto back = static_cast<int16_t>(-2 * bend(united + i, step_x, step_y));
     convex[i] = static_cast<int16_t>(std::clamp<int16_t>(out, 0, curvature_max) & near &
                                      static_cast<int8_t>(touched[i]));
@@ -130,8 +131,8 @@ void shrink(size_t count, Amounts by, const Code* __restrict united, const Code*
   }
 }
 
-/// Fills voxels just outside, near the piece, that lie between rock along two axes or all three: what is left
-/// of seams.
+/// Fills voxels just outside, near the piece, that lie between rock along two axes or all three: the rest of
+/// a seam.
 SCREE_VECTOR_CLONES
 void fill_pits(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
                const uint8_t* __restrict core, Code* __restrict out) {
@@ -204,6 +205,7 @@ void mark_inner(const VoxelCoord& size, int layers, uint8_t* mask) {
 }  // namespace
 
 MassUnits settling_gain(const Window& window) {
+  CHECK(std::min({window.box.size().x, window.box.size().y, window.box.size().z}) >= 3);
   const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
   const ptrdiff_t first = step_x + step_y + 1;
   std::vector<uint8_t> inner(window.codes.size());
@@ -233,7 +235,8 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece)
       marks_(core_ + all_),
       convex_(bend_room_.data()),
       concave_(convex_ + all_) {
-  CHECK(box_ == piece.box.grown(margin));
+  CHECK(box_ == piece.box.grown(margin) && !piece.box.empty());
+  CHECK(all_ <= size_t{1} << 23U);  // sums of 254 units a voxel fit an int
   mark_inner(box_.size(), 1, inner_);
   mark_inner(box_.size(), 2, core_);
   before_ = inner_sum(all_, terrain_, inner_);
@@ -256,6 +259,7 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece)
 
 MassUnits MergePatch::shape(int roundness) {
   const int size = roundness < 0 ? -roundness : roundness;
+  CHECK(size <= stamp_roundness_max + 1);
   const int curved = std::min(size, roundness_half);
   const Amounts by{static_cast<int16_t>(curved),
                    static_cast<int16_t>((size - curved) * uniform_sixteenths / 16)};
@@ -285,9 +289,9 @@ void MergePatch::list_surface() {
     }
 }
 
-/// Which voxels of the surface move first, and where these are spent the next, and the next.
+/// Lists the voxels of the surface that a tier moves.
 void MergePatch::list_movable(int direction, Tier tier) {
-  // Where filling, or rounding, lets it lie better: what is left of seams fades (measured: bench seams).
+  // Clefts are filled and edges rounded first, so that the rest of a seam fades (measured: bench seams).
   constexpr int bent_min = 10;
   const Code near = tier == Tier::around ? near_surface : ramp_end + 1;
   movable_.clear();
@@ -316,6 +320,7 @@ MassUnits MergePatch::move_some(int direction, MassUnits count) {
     due -= able;
     codes_[i] = static_cast<Code>(codes_[i] - direction);
   }
+  CHECK(due == 0);  // exactly `moved` voxels were moved
   return moved;
 }
 
@@ -340,7 +345,7 @@ MassUnits MergePatch::place(MassUnits units) {
   constexpr int step = 6;  // units a code on the ramp
   list_surface();
   const int direction = units < 0 ? -1 : 1;
-  // Rounded down: what is left is for single units, which only add.
+  // Rounded down: the rest is met by single units, which only add.
   MassUnits steps = units < 0 ? (step - 1 - units) / step : units / step;
   MassUnits placed = 0;
   for (const Tier tier : {Tier::bent, Tier::piece, Tier::around}) {
@@ -354,6 +359,7 @@ MassUnits MergePatch::place(MassUnits units) {
     }
   }
   if (units - placed > 0 && units - placed < step) placed += move_ramp_ends(static_cast<int>(units - placed));
+  CHECK(units < 0 ? placed > units - step : placed <= units);
   return placed;
 }
 

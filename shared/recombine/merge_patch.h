@@ -1,5 +1,5 @@
-// What a stamp works on: the terrain around a posed piece, united with it, and the ways in which its mass is
-// met. All integer arithmetic. Voxels and codes.
+// The terrain around a posed piece, united with it, and the operations by which the merge meets its mass.
+// Calls come in the order shape(), place(), codes(). Integer arithmetic; voxels and codes. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,32 @@ namespace scree {
 
 class MergePatch {
  public:
-  /// Voxels around a posed piece's window that the terrain's must hold more.
+  /// Voxels by which the terrain's window is larger than the posed piece's, on every side.
   static constexpr int margin = 2;
 
-  /// Unites the two and closes the gaps between them. `terrain` is the piece's box grown by the margin, and
-  /// must outlive the patch; `piece` has a layer at least around the voxels that may become rock.
+  /// Unites the two and closes the gaps between them. `terrain` has the piece's box grown by the margin, and
+  /// must outlive the patch; `piece` has at least one layer around the voxels that may become rock.
   MergePatch(const Window& terrain, const Window& piece);
   MergePatch(Window&& terrain, const Window& piece) = delete;
   MergePatch(const MergePatch&) = delete;
   MergePatch& operator=(const MergePatch&) = delete;
 
-  /// Rounds edges or fills clefts, and moves the surface (stamp_roundness_max). Returns what the terrain's
-  /// mass will have changed by, once redistanced.
+  /// Rounds edges (roundness < 0) or fills clefts, and moves the surface (stamp_roundness_max). Returns the
+  /// change of the terrain's mass once redistanced.
   MassUnits shape(int roundness);
 
-  /// Units that half a code on every voxel of the surface near the piece is worth, before any shape.
+  /// Mass of half a code on every voxel of the surface near the piece, before any shape().
   MassUnits single_codes() const { return single_codes_; }
 
-  /// Then moves voxels at the surface by single codes, all over the piece, until the mass has changed by
-  /// `units`; returns by how much it has. Once after each `shape`.
+  /// Moves voxels at the surface by single codes, all over the piece, until the mass has changed by `units`
+  /// more; returns the change reached. Once after each shape().
   MassUnits place(MassUnits units);
 
-  /// The terrain united with the piece, as `shape` and `place` left it, not redistanced.
+  /// The terrain united with the piece, as shape() and place() left it, not redistanced.
   const std::vector<Code>& codes() const { return codes_; }
 
  private:
-  /// Voxels of the surface near the piece that lie in a cleft or at an edge; all that the piece reaches; all.
+  /// The surface voxels that move: those in a cleft or at an edge; all that the piece reaches; all.
   enum class Tier { bent, piece, around };
 
   void mark_surface();
@@ -72,7 +72,7 @@ class MergePatch {
   MassUnits single_codes_ = 0;
 };
 
-/// What redistancing alone adds to the mass of a window at least three voxels wide.
+/// Mass that redistancing alone adds to a window, which has at least three voxels a side.
 MassUnits settling_gain(const Window& window);
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
 
 namespace scree {
@@ -173,6 +174,7 @@ void sample_plane(size_t count, const float* __restrict offsets, const Cells& ce
     const int outside =
         (at_x | at_y | at_z | (last_x - at_x) | (last_y - at_y) | (last_z - at_z)) >> 31;  // all ones or 0
     const int index = (at_x * step_x + at_y * step_y + at_z) & ~outside;
+    CHECK_DEBUG(index >= 0 && static_cast<size_t>(index + step_x) < cells.words.size());
     const uint32_t near = words[index], far = words[index + step_x];
     const float z00 = code_in<0>(near) + (code_in<1>(near) - code_in<0>(near)) * part_z;
     const float z01 = code_in<2>(near) + (code_in<3>(near) - code_in<2>(near)) * part_z;
@@ -219,8 +221,10 @@ VoxelBox posed_bounds(const Volume& volume, const QuantisedPose& pose, float vox
   // Interpolation carries a voxel's code less than one voxel along each of the volume's axes.
   const glm::vec3 reach = glm::abs(to_world[0]) + glm::abs(to_world[1]) + glm::abs(to_world[2]);
   const glm::vec3 first = axes.world_centre + lo - reach, last = axes.world_centre + hi + reach;
-  return {{ceil_to_int(first.x), ceil_to_int(first.y), ceil_to_int(first.z)},
-          {floor_to_int(last.x) + 1, floor_to_int(last.y) + 1, floor_to_int(last.z) + 1}};
+  const VoxelBox box{{ceil_to_int(first.x), ceil_to_int(first.y), ceil_to_int(first.z)},
+                     {floor_to_int(last.x) + 1, floor_to_int(last.y) + 1, floor_to_int(last.z) + 1}};
+  CHECK(!box.empty());
+  return box;
 }
 
 Window posed_codes(const Volume& volume, const QuantisedPose& pose, float voxel_size_m, const VoxelBox& box) {

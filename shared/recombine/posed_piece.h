@@ -1,4 +1,4 @@
-// A piece's volume as it lies on the terrain's grid. Deterministic; voxels.
+// A piece's volume at its pose, resampled on the terrain's grid. Pure, deterministic; voxels.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace scree {
 
-/// A box of the terrain's voxels with all that lie in the posed volume or less than half a voxel outside it,
-/// from the volume's rows: at most two voxels too wide on each side.
+/// A box of the terrain's voxels that holds all voxels in the posed volume or less than half a voxel outside
+/// it: at most two voxels too wide on each side, never empty.
 VoxelBox posed_bounds(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 
-/// The posed volume's codes on the terrain's grid over `box`, trilinearly; air where its window does not
-/// reach.
+/// The posed volume's codes on the terrain's grid over `box`, by trilinear interpolation; air outside its
+/// window.
 Window posed_codes(const Volume& volume, const QuantisedPose& pose, float voxel_size_m, const VoxelBox& box);
 
-/// Bounds of the window's voxels inside, or less than half a voxel outside; empty where there are none.
+/// Bounds of the window's voxels inside the surface or less than half a voxel outside; empty if there are
+/// none.
 VoxelBox near_box(const Window& window);
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/falling/island.h"
 #include "shared/field/brick_bits.h"
@@ -14,8 +15,8 @@ bool is_solid(Field& field, VoxelCoord v) {
   return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
 }
 
-/// What connects to the voxel, in the order in which it was found; more than a speck holds when there is
-/// more.
+/// The voxels that connect to one, in the order in which they were found; of a component too large for a
+/// speck, the first speck_voxels_max + 1.
 std::vector<VoxelCoord> connected(Field& field, VoxelCoord from) {
   std::vector<VoxelCoord> found{from};
   for (size_t i = 0; i < found.size(); ++i)
@@ -40,14 +41,14 @@ Island island_of(const std::vector<VoxelCoord>& voxels) {
   return island;
 }
 
-/// What the terrain would lose with it.
+/// Mass that the terrain would lose with the island.
 MassUnits weight(Field& field, const Island& island) {
   Window window = gather(field, lift_box(island.box));
   return lift(window, island.box, island.start).mass;
 }
 
-/// Those with all six neighbours solid, too, inside the brick. Seven such voxels weigh more than a speck
-/// wherever they hang, for nothing else lies nearer to them than across an edge.
+/// The voxels whose six neighbours are solid, too, inside the brick. Such a group of seven weighs more than a
+/// speck anywhere, as no other solid lies nearer to it than across an edge.
 BrickBits interior(const BrickBits& solid) {
   constexpr uint64_t inner_z = 0x7E7E7E7E7E7E7E7EULL;
   BrickBits bits;
@@ -79,6 +80,7 @@ void add_specks_of(Field& field, BrickCoord brick, const BrickBits& among, std::
 }  // namespace
 
 std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks) {
+  CHECK(std::ranges::is_sorted(bricks));
   std::vector<Island> specks;
   for (const BrickCoord brick : bricks) {
     const BrickBits solid = solid_bits(field.brick(brick));

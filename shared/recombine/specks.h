@@ -1,8 +1,8 @@
-// Finds specks: terrain of a few voxels that hangs loose, as an odd stamp may leave it.
+// Finds specks: loose terrain of a few voxels, which an odd stamp may leave.
 //
-// Solid is a code < 0; voxels connect by faces. Unlike a search for islands (island_search.h) it never asks
-// for the ground: whatever connects to more voxels than a speck has is none. It costs what the given bricks
-// hold, about a microsecond each. Deterministic.
+// Solid is a code < 0; voxels connect by faces. Unlike the search for islands (island_search.h) this one
+// never looks for the ground: a component of more voxels than speck_voxels_max is no speck. It costs about a
+// microsecond a brick. Deterministic.
 #pragma once
 
 #include <span>
@@ -12,12 +12,13 @@
 
 namespace scree {
 
-/// What has more voxels is no speck. A voxel in the air weighs 133 units and more, so three would do; but one
-/// that touches the ground by an edge or a corner weighs less, for the ground's own ramp takes its place.
+/// Voxels of the largest speck. A voxel in the air weighs 133 units and more, so three would suffice; but a
+/// voxel that touches the ground by an edge or a corner weighs less: removing it leaves the ground's own
+/// ramp.
 inline constexpr int speck_voxels_max = 32;
 
-/// Components lighter than limits::piece_mass_min that have a voxel in one of these bricks (in order), or
-/// against their faces, ordered by start: what an IslandOperation turns into dust.
+/// Components lighter than limits::piece_mass_min with a voxel in one of the bricks, or against their faces,
+/// ordered by start. An IslandOperation turns each into dust. The bricks must be in order.
 std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks);
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
 #include "shared/field/redistance.h"
 #include "shared/recombine/merge_patch.h"
 #include "shared/recombine/posed_piece.h"
@@ -10,10 +11,10 @@ namespace scree {
 
 namespace {
 
-/// The surface is where voxels that may become rock and their outside neighbours put it.
+/// Voxels that may become rock and their outside neighbours decide where the surface lies.
 constexpr int laid_margin = 1;
 
-/// A shift's two numbers; of the least shifts the roundness is one less than what plans use.
+/// A shift's two numbers. The lowest shifts have a roundness of −stamp_roundness_max − 1, which no plan uses.
 int roundness(int shift) {
   return shift >> stamp_dust_bits;
 }
@@ -49,6 +50,7 @@ StampPlan search_roundness(MergePatch& patch, MassUnits mass) {
     shift = static_cast<int>(std::clamp<MassUnits>(guess, low.shift + 1, high.shift - 1));
   }
   if (shift != best.shift) patch.shape(best.shift);
+  CHECK(std::abs(best.shift) <= stamp_roundness_max);
   return best;
 }
 
@@ -66,6 +68,7 @@ Window lay(const Volume& volume, const QuantisedPose& pose, float voxel_size_m) 
 }
 
 Window together(std::vector<Window> laid) {
+  CHECK(!laid.empty());
   if (laid.size() == 1) return std::move(laid.front());
   VoxelBox box = laid.front().box;
   for (const Window& one : laid) box = hull_of(box, one.box);
@@ -87,6 +90,7 @@ VoxelBox merge_box(const Window& laid) {
 }
 
 void stamp_laid(Window& window, const Window& laid, MassUnits piece_mass, int shift) {
+  CHECK(std::abs(shift) <= stamp_shift_max);
   MergePatch patch(window, laid);
   const MassUnits mass = piece_mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
   patch.place(mass - patch.shape(roundness(shift)));
@@ -102,6 +106,8 @@ StampPlan plan_laid(Window& window, const Window& laid, MassUnits piece_mass, Ma
   StampPlan plan = search_roundness(patch, mass);
   plan.gain += patch.place(mass - plan.gain);
   plan.shift = plan.shift * (1 << stamp_dust_bits) + dust;
+  CHECK_DEBUG(roundness(plan.shift) * (1 << stamp_dust_bits) + dust_steps(plan.shift) == plan.shift &&
+              dust_steps(plan.shift) == dust);
   window.codes = patch.codes();
   redistance(window);
   return plan;

@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "shared/base/check.h"
 #include "shared/field/redistance.h"
 #include "shared/recombine/merge_patch.h"
 #include "shared/recombine/shift_search.h"
@@ -92,8 +93,7 @@ void cross_columns(const Triangle& t, const VoxelCoord& size, std::vector<uint8_
     }
 }
 
-/// A voxel that the slices make rock, or one of air beside such a one; and where between two shifts it
-/// rounds.
+/// A voxel of rock in the slices, or one of air beside it, and the shift at which it rounds.
 struct Drawn {
   uint32_t at;
   uint32_t rounding;
@@ -124,8 +124,10 @@ std::vector<Drawn> drawn_voxels(const std::vector<uint8_t>& slices, const VoxelB
 
 /// Unites the slices with the window.
 void draw(Window& window, const std::vector<Drawn>& drawn, int shift) {
+  CHECK(std::abs(shift) <= stamp_shift_max);
   const auto from_rock = static_cast<uint32_t>(stamp_shift_max + shift);
   for (const Drawn& voxel : drawn) {
+    CHECK_DEBUG(voxel.at < window.codes.size() && voxel.rounding < shifts);
     const auto depth = static_cast<int>((code_gap * from_rock + voxel.rounding) / shifts);
     const int code = voxel.rock ? -std::max(depth, 1) : code_gap - depth;
     window.codes[voxel.at] = static_cast<Code>(std::min<int>(window.codes[voxel.at], code));

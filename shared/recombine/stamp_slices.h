@@ -4,9 +4,9 @@
 // slice is rock when a ray from it leaves the piece through an odd number of polygons. Crossings are counted
 // in integers (vertices on multiples of 1/256 voxel), so that no ray slips between two triangles.
 //
-// The slices are a density of 1 in rock and 0 in air, between which the surface lies where the density is
-// that of the iso-level: with which the mass is met. They are united with the terrain, and the neighbourhood
-// is redistanced. Surfaces come out in steps of a voxel.
+// The slices are a density, 1 in rock and 0 in air. The surface lies where the density equals an iso-level;
+// the choice of the iso-level, the shift, meets the mass. The slices are united with the terrain, and the
+// neighbourhood is redistanced. The surfaces have steps of a voxel.
 #pragma once
 
 #include "shared/recombine/stamp.h"
@@ -17,13 +17,13 @@ namespace scree {
 std::vector<uint8_t> draw_slices(const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
                                  const VoxelBox& box);
 
-/// The surface runs between a pixel of rock and one of air in the middle at shift 0, along the one of rock at
-/// −stamp_shift_max and along the one of air at stamp_shift_max; each voxel rounds at a shift of its own. At
-/// −stamp_shift_max exactly nothing changes. `window` must cover stamp_box.
+/// Between a pixel of rock and one of air, the surface runs in the middle at shift 0, through the pixel of
+/// rock at −stamp_shift_max and through that of air at stamp_shift_max; each voxel rounds at a shift of its
+/// own. At −stamp_shift_max nothing changes. `window` must cover stamp_box().
 void stamp_slices(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
                   int shift);
 
-/// As plan_stamp, but the gain never exceeds a budget that is not negative.
+/// Plans like plan_stamp(), but the gain never exceeds a budget that is not negative.
 StampPlan plan_slices(const Window& window, const Volume& volume, const QuantisedPose& pose,
                       float voxel_size_m, MassUnits budget);
 

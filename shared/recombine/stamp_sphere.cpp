@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
 #include "shared/base/roots.h"
 #include "shared/field/edit.h"
 #include "shared/field/redistance.h"
@@ -25,6 +26,7 @@ Shape ball_of(const Volume& volume, const QuantisedPose& pose, float voxel_size_
 }
 
 Shape resized(Shape ball, int shift) {
+  CHECK(std::abs(shift) <= stamp_shift_max);
   const float share = static_cast<float>(shift) / static_cast<float>(stamp_shift_max);
   ball.radius_m *= 1.0F + (shift < 0 ? share : (growth_max - 1.0F) * share);
   return ball;
