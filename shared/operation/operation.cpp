@@ -50,6 +50,12 @@ void enter(Cut cut, PieceId id, MaterialOf&& material_of, PieceTable& pieces, Ap
   applied.dust = cut.dust;
 }
 
+MassUnits mass_created(const Applied& applied, const PieceTable& pieces) {
+  MassUnits sum = 0;
+  for (const CreatedPiece& created : applied.created) sum += pieces.at(created.id)->mass;
+  return sum;
+}
+
 std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
   if (op.pattern != SeedPattern::authored)
     return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
@@ -73,6 +79,7 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
         material_of, pieces, applied);
   applied.changed = scatter(field, after);
   applied.terrain_gain = mass_of(after) - mass_of(before);
+  CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
   return applied;
 }
 
@@ -97,7 +104,7 @@ std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
 
 using Volumes = std::vector<std::shared_ptr<const Volume>>;
 
-/// The terrain with the pieces, as far as they reach; and what it gained.
+/// The terrain around the pieces, merged with them, and its gain of mass.
 Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, MassUnits& gain) {
   const float dx = field.source().voxel_size_m;
   const Volume& volume = *volumes.front();
@@ -116,12 +123,19 @@ Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, M
   return window;
 }
 
+/// Whether a prepared stamp is what stamping now gives.
+bool gives(const StampOperation& op, Field& field, const Volumes& volumes, const PreparedStamp& prepared) {
+  MassUnits gain = 0;
+  return stamped(op, field, volumes, gain).codes == prepared.after.codes && gain == prepared.gain;
+}
+
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
                     const PreparedStamp* prepared) {
   Volumes volumes{take(pieces, op.piece)};
   for (const StampedPiece& other : op.others) volumes.push_back(take(pieces, other.piece));
   Applied applied;
   if (prepared != nullptr && prepared->holds(op, field, volumes)) {
+    CHECK_DEBUG(gives(op, field, volumes, *prepared));
     applied.terrain_gain = prepared->gain;
     applied.changed = scatter(field, prepared->after);
     return applied;
@@ -137,6 +151,7 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
       scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
   const auto parents = [&](const Volume&) { return volume->material; };
   enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, parents, pieces, applied);
+  CHECK_EQ(mass_created(applied, pieces) + applied.dust, volume->mass);
   return applied;
 }
 
@@ -279,6 +294,7 @@ size_t pieces_merged_by(const Operation& operation) {
 }
 
 bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
+  CHECK(!group.empty());
   if (group.size() > limits::stamp_group_max) return false;
   const glm::vec3 first_m = dequantise(group.front().pose).position_m;
   return std::ranges::all_of(group, [&](const StampedPiece& one) {

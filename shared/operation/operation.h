@@ -1,4 +1,4 @@
-// Operations: everything that ever changes a field, as it is simulated, sent, recorded and replayed.
+// Operations: the only changes of a field, as they are simulated, sent, recorded and replayed.
 //
 // apply() is the only way to change a field, on the server, in a client's mirror and in a replay: same field,
 // pieces and operation in, same bits out. Lengths in metres.
@@ -39,7 +39,7 @@ struct FillOperation {
   bool operator==(const FillOperation&) const = default;
 };
 
-/// Where a piece lies that becomes terrain with another.
+/// A piece that becomes terrain together with another, and its pose.
 struct StampedPiece {
   PieceId piece = 0;
   QuantisedPose pose;
@@ -53,7 +53,7 @@ struct StampedPiece {
 struct StampOperation {
   PieceId piece = 0;
   QuantisedPose pose;
-  int32_t shift = 0;  ///< how the mass is met; its meaning is the method's
+  int32_t shift = 0;  ///< decides how the mass is met, as the method defines it
   StampMethod method = StampMethod::stamp;
   std::vector<StampedPiece> others{};
 
@@ -81,7 +81,7 @@ struct ShatterOperation {
   bool operator==(const ShatterOperation&) const = default;
 };
 
-/// Terrain that hangs loose leaves the field: the solid voxels that connect to `start` within `box` become a
+/// Loose terrain leaves the field: the solid voxels that connect to `start` within `box` become a
 /// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and start in
 /// voxels, which are exact.
 struct IslandOperation {
@@ -109,8 +109,8 @@ std::vector<PieceId> pieces_ended_by(const Operation& operation);
 /// How many pieces the operation makes terrain.
 size_t pieces_merged_by(const Operation& operation);
 
-/// Whether these may merge in one pass: few, small, and near the first, so that what the pass works on stays
-/// small, too (limits::stamp_group_*).
+/// Whether these pieces may merge in one pass: few, small, and near the first, so that the pass's window
+/// stays small, too (limits::stamp_group_*). The group must not be empty, its pieces must be in the table.
 bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces);
 
 /// The ids that the operation may give to pieces: first, first + 1, … up to `count` of them.
@@ -120,8 +120,7 @@ struct PieceIds {
 };
 PieceIds ids_made_by(const Operation& operation);
 
-/// A piece that an operation made: its id, and where its seeds lie (voxels) for those who need the cells
-/// again.
+/// A piece that an operation made: its id, and its seeds, from which its cells can be computed again.
 struct CreatedPiece {
   PieceId id = 0;
   std::vector<uint32_t> seeds;  ///< indices into Applied::seeds_voxels
@@ -135,14 +134,14 @@ struct Applied {
   MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
 };
 
-/// The voxels that apply() reads. A field that holds these bricks (and, for a stamp, the piece) can apply it.
+/// The voxels that apply() reads: a field that holds their bricks can apply the operation.
 /// Empty for a discard and a shatter. `pieces` must hold the piece of a stamp.
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
 struct PreparedStamp;
 
 /// Applies a valid operation. A stamp, discard or shatter takes its piece out of the table; it must be there.
-/// The result of a stamp may be at hand already (prepared_stamp.h); it is checked whether it is this one's.
+/// `prepared` may hold the result of a stamp (prepared_stamp.h); it is used if it is this stamp's.
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
               const PreparedStamp* prepared = nullptr);
 

@@ -1,11 +1,13 @@
 #include "shared/operation/prepared_stamp.h"
 
+#include "shared/base/check.h"
 #include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
                float voxel_size_m) {
+  CHECK_EQ(volumes.size(), op.others.size() + 1);
   std::vector<Window> laid{lay(*volumes.front(), op.pose, voxel_size_m)};
   for (size_t i = 0; i < op.others.size(); ++i)
     laid.push_back(lay(*volumes[i + 1], op.others[i].pose, voxel_size_m));
@@ -14,6 +16,7 @@ Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const
 
 PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
                             MassUnits budget) {
+  CHECK(can_merge_together(group, pieces) || group.size() == 1);
   PreparedStamp prepared;
   prepared.field_hash = field.hash();
   StampOperation& op = prepared.operation;

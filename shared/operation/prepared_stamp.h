@@ -1,5 +1,5 @@
-// A stamp worked out before it is applied: whoever plans one has its codes already, and apply() takes them,
-// when nothing has changed since, instead of working them out again. What apply() does is the same without.
+// The result of a stamp, computed before the stamp is applied. Planning a stamp computes its codes; apply()
+// uses them, if nothing has changed since, instead of computing them again. Its result is the same without.
 #pragma once
 
 #include "shared/operation/operation.h"
@@ -20,16 +20,16 @@ struct PreparedStamp {
   }
 };
 
-/// Plans the merge of a piece at a pose, by a method: its operation's shift meets the budget as plan_stamp
-/// says. The piece must be in the table.
+/// Plans the merge of a piece at a pose by a method (plan_stamp()), which chooses the operation's shift for
+/// the budget. The piece must be in the table.
 PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
                             StampMethod method, MassUnits budget);
 
-/// The same of several pieces in one pass, which can_merge_together; the method is `stamp`.
+/// Plans the merge of several pieces in one pass by the method `stamp`; they can_merge_together().
 PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
                             MassUnits budget);
 
-/// All of the operation's pieces on the terrain's grid, as one; their volumes in its order.
+/// All of the operation's pieces on the terrain's grid, in one window; `volumes` has the operation's order.
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
                float voxel_size_m);
 

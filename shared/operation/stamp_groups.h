@@ -1,4 +1,4 @@
-// Which pieces that merge at the same time do so in one pass.
+// Groups pieces that merge at the same time, so that each group merges in one pass.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace scree {
 
-/// The pieces in groups, each led by the first in order. A piece joins the first group whose window its own
-/// overlaps so much that one window around all holds no more voxels than one for each would; as far as they
-/// can_merge_together.
+/// Divides the pieces into groups, each in the given order. A piece joins the first group whose window
+/// overlaps its own so much that one window around all has no more voxels than the separate ones, if they
+/// can_merge_together().
 std::vector<std::vector<StampedPiece>> stamp_groups(std::span<const StampedPiece> places,
                                                     const PieceTable& pieces, float voxel_size_m);
 
