@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
 
 namespace scree {
@@ -23,6 +24,7 @@ struct Bisector {
 
   Bisector(glm::vec3 own, glm::vec3 other) {
     const glm::vec3 along = other - own;
+    CHECK_DEBUG(glm::dot(along, along) > 0.0F);
     normal = along / std::sqrt(glm::dot(along, along));
     offset = -glm::dot(normal, (own + other) * 0.5F);
   }
@@ -77,7 +79,7 @@ inline void cut_voxels(const std::vector<Bisector>& planes, size_t own, glm::vec
                        const Code* from, Code* to, uint8_t* within) {
   CodeLanes codes = CodeLanes{} + code_air, shares{};
   std::memcpy(&codes, from, static_cast<size_t>(count));
-  // Of nothing but air no part gets anything.
+  // No part has a share in a row of air.
   constexpr uint64_t all_air = 0x7F7F7F7F7F7F7F7FU;
   uint64_t eight;
   std::memcpy(&eight, &codes, sizeof(eight));
@@ -95,7 +97,8 @@ inline void cut_voxels(const std::vector<Bisector>& planes, size_t own, glm::vec
   std::memcpy(within, &shares, static_cast<size_t>(count));
 }
 
-/// One part's claims as they stand in the window shared out: f(voxel there, voxel in the part, count).
+/// Calls f(x, y, index in the whole, index in the part) for each row of the part; x and y are relative to the
+/// whole.
 template <typename F>
 void for_each_row(const VoxelBox& whole, const VoxelBox& part, F&& f) {
   const VoxelCoord size = whole.size(), own = part.size();
@@ -122,6 +125,7 @@ void add(PartMass& part, MassUnits mass, int x, int y, int z) {
 SCREE_VECTOR_CLONES CellPart cut_part(const Window& volume, const VoxelBox& box,
                                       const std::vector<glm::vec3>& own,
                                       const std::vector<glm::vec3>& neighbours) {
+  CHECK(volume.box.covers(box) && !own.empty());
   std::vector<Bisector> planes;
   planes.reserve(own.size() * neighbours.size());
   for (const glm::vec3& other : neighbours)
@@ -148,12 +152,17 @@ SCREE_VECTOR_CLONES CellPart cut_part(const Window& volume, const VoxelBox& box,
 
 std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
                                 const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts) {
+  CHECK_EQ(lost.size(), Window::count(box));
+  CHECK_EQ(nearest.size(), lost.size());
   std::vector<uint16_t> claims(lost.size());
   for (const CellPart& part : parts) {
+    CHECK(box.covers(part.window.box));
     const auto count = static_cast<size_t>(part.window.box.size().z);
     for_each_row(box, part.window.box, [&](int, int, size_t to, size_t from) {
-      for (size_t k = 0; k < count; ++k)
+      for (size_t k = 0; k < count; ++k) {
+        CHECK_DEBUG(claims[to + k] + part.within[from + k] <= UINT16_MAX);
         claims[to + k] = static_cast<uint16_t>(claims[to + k] + part.within[from + k]);
+      }
     });
   }
   std::vector<uint8_t> left = lost;
@@ -167,6 +176,7 @@ std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>&
         const uint32_t own = part.within[from + static_cast<size_t>(k)];
         if (own == 0 || lost[at] == 0) continue;
         const uint32_t share = own == claims[at] ? lost[at] : lost[at] * own / claims[at];
+        CHECK_DEBUG(share <= left[at]);
         left[at] = static_cast<uint8_t>(left[at] - share);
         add(masses[i], share, x, y, z + k);
       }

@@ -11,13 +11,14 @@
 
 namespace scree {
 
-/// A part of a volume, and what share of each voxel of its window lies within its planes: 0 … 254.
+/// A part of a volume, and the share of each voxel of its window that lies within its planes: 0 … 254.
 struct CellPart {
   Window window;
   std::vector<uint8_t> within;
 };
 
-/// The part of the volume within `box` nearer to one of the own seeds than to any neighbour's.
+/// The part of the volume within `box` that is nearer to one of the own seeds than to any neighbour's. The
+/// box lies in the volume's; there is at least one own seed; no two seeds coincide.
 CellPart cut_part(const Window& volume, const VoxelBox& box, const std::vector<glm::vec3>& own,
                   const std::vector<glm::vec3>& neighbours);
 
@@ -29,8 +30,10 @@ struct PartMass {
   MassUnits z = 0;
 };
 
-/// Shares `lost` (units a voxel) out among the parts, voxel by voxel as they lie within their planes; what no
-/// part claims goes to `nearest`, a part's index a voxel. The sum is exactly that of `lost`.
+/// Shares the mass of each voxel in `lost` (units) out among the parts, by the shares of the voxel within
+/// their planes. Mass that no part claims goes to the part in `nearest` (an index a voxel). The sum is
+/// exactly that of `lost`. `lost` and `nearest` have a value for each voxel of `box`, which holds all the
+/// parts' windows.
 std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
                                 const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts);
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -13,12 +14,15 @@ static_assert(limits::seeds_max <= std::numeric_limits<CellLabel>::max());
 CellGroups::CellGroups(const std::vector<MassUnits>& cells,
                        const std::vector<std::pair<CellLabel, CellLabel>>& touching)
     : parent_(cells.size()), mass_(cells) {
+  CHECK(!cells.empty() && cells.size() <= limits::seeds_max);
+  CHECK_DEBUG(std::ranges::is_sorted(touching));
   std::iota(parent_.begin(), parent_.end(), CellLabel{0});
   for (bool joined = true; joined;) joined = join_round(touching);
   join_stragglers();
 }
 
 CellLabel CellGroups::root(CellLabel cell) const {
+  CHECK_DEBUG(cell < parent_.size());
   while (parent_[cell] != cell) cell = parent_[cell];
   return cell;
 }
@@ -29,6 +33,7 @@ bool CellGroups::light(CellLabel root) const {
 
 /// The lower index stays the root, so that pieces keep the order of their first seeds.
 void CellGroups::join(CellLabel a, CellLabel b) {
+  CHECK_DEBUG(a != b && parent_[a] == a && parent_[b] == b);
   const auto [low, high] = std::minmax(a, b);
   parent_[high] = low;
   mass_[low] += mass_[high];

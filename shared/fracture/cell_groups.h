@@ -1,4 +1,4 @@
-// Which cells of a broken volume make up which piece. Deterministic.
+// Groups the cells of a broken volume into pieces. Deterministic.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 namespace scree {
 
-/// Index of a cell: that of its seed.
+/// Index of a cell: the index of its seed.
 using CellLabel = uint16_t;
 
-/// Cells too light to stand alone (limits::piece_mass_min) join the heaviest piece that they touch; those
-/// that touch nothing, the heaviest there is.
+/// Cells too light to stand alone (limits::piece_mass_min) join the heaviest piece that they touch; cells
+/// that touch nothing join the heaviest of all. So no piece is light, unless all cells together are.
 class CellGroups {
  public:
-  /// Masses of the cells; pairs (low, high) of cells that touch, sorted.
+  /// `cells`: the masses of the cells, at least one. `touching`: pairs (low, high) of cells that touch,
+  /// sorted.
   CellGroups(const std::vector<MassUnits>& cells,
              const std::vector<std::pair<CellLabel, CellLabel>>& touching);
 

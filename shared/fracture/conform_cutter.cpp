@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "shared/base/check.h"
 #include "shared/fracture/triangle_grid.h"
 
 namespace scree {
@@ -18,7 +19,7 @@ struct Loop {
   glm::dvec3 corner(size_t i) const { return corners[i % corners.size()]; }
 };
 
-/// Where the line along which the surface crosses a face meets the face's own outline.
+/// The point where the line along which the surface crosses a face meets the face's outline.
 struct End {
   double at = 0.0;  ///< side, and how far along it: 0 … sides
   glm::dvec3 point{0.0};
@@ -80,8 +81,8 @@ class Conforming {
     return loop;
   }
 
-  /// Where the plane crosses a triangle, as an edge of what lies below the plane; its ends are the same for
-  /// both triangles that share them.
+  /// The line along which the plane crosses a triangle, directed as an edge of the cap of the solid below the
+  /// plane. Triangles that share an edge compute the same point on it.
   struct Segment {
     glm::dvec3 from, to;
   };
@@ -105,7 +106,7 @@ class Conforming {
     return crosses ? std::optional(segment) : std::nullopt;
   }
 
-  /// The part of the segment in the loop goes to `out`; where the loop's outline cut it off is an end.
+  /// Appends the part of the segment inside the loop; where the loop's outline cuts it off, adds an end.
   void clip_segment(const Segment& segment, const Loop& loop, PolygonMesh& out) {
     double begin = 0.0, end = 1.0;
     std::optional<size_t> begin_side, end_side;
@@ -141,11 +142,12 @@ class Conforming {
     out.edges.push_back({base, base + 1});
   }
 
-  /// What of a cell's face lies in the solid: bounded by the line along which the surface crosses it, and by
-  /// the parts of its own outline that lie in the solid.
+  /// Appends the part of a cell's face that lies in the solid, bounded by the line along which the surface
+  /// crosses the face and by the parts of its outline in the solid.
   void cap(const PolygonMesh& cell, const PolygonFace& face, const std::vector<uint32_t>& near,
            PolygonMesh& out) {
     const Loop loop = loop_of(cell, face);
+    CHECK_DEBUG(loop.size() >= 3);
     const size_t first = out.edges.size();
     ends_.clear();
     for (const uint32_t i : near)
@@ -164,6 +166,7 @@ class Conforming {
       }
       for (int k = 0; k < inside; ++k) append_edge(out, from, loop.corner(side + 1));
     }
+    CHECK_DEBUG(next == ends_.size());
     out.end_face(face.plane, face.neighbour, first);
   }
 

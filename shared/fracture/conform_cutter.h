@@ -8,11 +8,11 @@
 
 namespace scree {
 
-/// Of a closed mesh of triangles, the part in each cell (voronoi_cells.h), each straight from both: the
-/// triangles near the cell cut to it, and each face of the cell cut to the solid, along the line where the
-/// surface crosses the face. A cell that no triangle comes near is a part as it is, or none.
+/// The part of a closed mesh of triangles in each cell (voronoi_cells.h), computed directly from the two: the
+/// triangles near the cell are cut to the cell, and each face of the cell is cut to the solid, along the line
+/// where the surface crosses the face. A cell that no triangle comes near is a part as a whole, or empty.
 ///
-/// Parts are closed but for rounding: a face's corners are computed apart from its neighbours'.
+/// Parts are closed except for rounding: the corners of each face are computed separately.
 std::vector<PolygonMesh> conform_cells(const PolygonMesh& mesh, const std::vector<PolygonMesh>& cells);
 
 }  // namespace scree

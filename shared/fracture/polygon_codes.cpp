@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -21,8 +23,8 @@ double clamped(double x, double lo, double hi) {
   return x < lo ? lo : (x > hi ? hi : x);
 }
 
-/// Where an edge crosses a line of constant y: the same for an edge and its reverse, so that what two faces
-/// share cancels to the last bit.
+/// The place where an edge crosses a line of constant y: the same for an edge and its reverse, so that the
+/// crossings of two faces that share an edge cancel to the last bit.
 struct RowCrossing {
   double x = 0.0;
   int sign = 0;  ///< +1 when the edge climbs
@@ -81,7 +83,7 @@ class ColumnCrossings {
     }
   }
 
-  /// Of the face over (x, y). Where it stands upright any height of it does: the column runs along it.
+  /// Height of the face over (x, y). Of an upright face any of its heights will do: the column runs along it.
   static double height(const Plane& plane, const PolygonBounds& bounds, double x, double y) {
     constexpr double upright = 1e-12;
     const double slope = plane.normal.z;
@@ -127,6 +129,7 @@ double PolygonDistances::squared_distance(glm::dvec3 p, const Plane& plane, doub
 }
 
 void PolygonDistances::add(const PolygonMesh& mesh, const PolygonFace& face) {
+  CHECK_DEBUG(face.edges > 0);
   const glm::dvec3 steep(face.plane.normal * face.plane.normal);
   const int dropped = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
   const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
@@ -159,6 +162,7 @@ void PolygonDistances::add(const PolygonMesh& mesh, const PolygonFace& face) {
 }
 
 Window PolygonDistances::codes(const std::vector<uint8_t>& inside) const {
+  CHECK_EQ(inside.size(), squared_.size());
   Window window(box_);
   for (size_t i = 0; i < squared_.size(); ++i) {
     const double distance = std::sqrt(squared_[i]);
@@ -168,10 +172,11 @@ Window PolygonDistances::codes(const std::vector<uint8_t>& inside) const {
 }
 
 void mark_inside(const PolygonMesh& mesh, const VoxelBox& box, std::vector<uint8_t>& inside) {
+  CHECK_EQ(inside.size(), Window::count(box));
   const ColumnCrossings crossings(mesh, box);
   const auto nz = static_cast<size_t>(box.size().z);
   const std::vector<ColumnCrossing>& all = crossings.sorted();
-  // From below: outside, until more surfaces that face down were passed than such that face up.
+  // From below; inside once more surfaces that face down were passed than surfaces that face up.
   for (size_t i = 0; i < all.size();) {
     const size_t column = all[i].column;
     uint8_t* bytes = inside.data() + column * nz;

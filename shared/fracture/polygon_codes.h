@@ -1,4 +1,4 @@
-// Polygons turned into codes. Voxels; deterministic.
+// Codes from polygons: distances to them, and the voxels inside. Voxels; deterministic.
 #pragma once
 
 #include <cstdint>

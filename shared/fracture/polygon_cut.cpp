@@ -47,6 +47,7 @@ std::vector<std::pair<CellLabel, CellLabel>> touching_parts(const std::vector<Po
   for (size_t i = 0; i < parts.size(); ++i)
     for (const PolygonFace& face : parts[i].faces) {
       if (face.neighbour == own_surface || area_of(parts[i], face) < touch_area) continue;
+      CHECK_DEBUG(face.neighbour < parts.size() && face.neighbour != i);
       const auto here = static_cast<CellLabel>(i), there = static_cast<CellLabel>(face.neighbour);
       pairs.emplace_back(std::min(here, there), std::max(here, there));
     }
@@ -55,15 +56,17 @@ std::vector<std::pair<CellLabel, CellLabel>> touching_parts(const std::vector<Po
   return pairs;
 }
 
-/// Shares `total` out in proportion to the volumes: differences of what is due in all leave nothing over.
-/// Empty when there is no volume. A whole has at most 2^21 voxels and 2^29 units, so products stay below
-/// 2^60.
+/// Shares `total` out in proportion to the volumes; as each share is the difference of two cumulative ones,
+/// no unit is left over. Empty when there is no volume. A whole has at most 2^21 voxels and 2^29 units, so
+/// products stay below 2^62.
 std::vector<MassUnits> masses_by_volume(MassUnits total, const std::vector<PolygonMoments>& moments) {
   constexpr double shares_per_voxel = 1024.0;
   std::vector<int64_t> shares;
   for (const PolygonMoments& part : moments)
     shares.push_back(static_cast<int64_t>(std::max(part.volume, 0.0) * shares_per_voxel));
   const int64_t all = std::accumulate(shares.begin(), shares.end(), int64_t{0});
+  CHECK(total >= 0 && total <= MassUnits{1} << 29U);
+  CHECK_DEBUG(all < int64_t{1} << 33U);
   std::vector<MassUnits> masses;
   if (all == 0) return masses;
   int64_t before = 0;
@@ -77,7 +80,7 @@ std::vector<MassUnits> masses_by_volume(MassUnits total, const std::vector<Polyg
   return masses;
 }
 
-/// Makes pieces of parts.
+/// Makes pieces from the parts of a cut.
 class PieceMaker {
  public:
   PieceMaker(Cutter cutter, const PolygonParts& cut, const VoxelBox& box,
@@ -114,7 +117,7 @@ class PieceMaker {
   }
 
  private:
-  /// What lies in the whole and below all planes of the cell.
+  /// Marks the voxels that lie in the whole and below all planes of the cell.
   void mark_inside_cell(const PolygonMesh& cell, const VoxelBox& box, std::vector<uint8_t>& inside) const {
     const VoxelCoord size = box_.size();
     size_t i = 0;
@@ -159,7 +162,7 @@ PolygonParts cut_polygons(Cutter cutter, const Window& volume, const std::vector
 Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const Window& after,
                const std::vector<glm::vec3>& seeds_voxels) {
   if (cutter == Cutter::field) return cut_cells(volume, before, after, seeds_voxels);
-  CHECK(volume.codes.size() == before.codes.size() && volume.codes.size() == after.codes.size());
+  CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
   const MassUnits total = mass_lost(before, after);
   cut.dust = total;
@@ -185,6 +188,7 @@ Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const 
       cut.pieces.push_back({std::move(piece), std::move(cells[root])});
     }
   cut.dust = 0;
+  CHECK_EQ(std::accumulate(mass.begin(), mass.end(), MassUnits{0}), total);
   return cut;
 }
 

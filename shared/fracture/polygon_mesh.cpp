@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "shared/base/check.h"
 #include "shared/surface/surface_nets.h"
 
 namespace scree {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr uint32_t none = UINT32_MAX;
 
-/// Of a triangle; one without area gets some plane through it, and counts for nothing.
+/// The plane of a triangle; one without area gets some plane through it, which changes no result.
 Plane plane_through(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const glm::dvec3 across = glm::cross(b - a, c - a);
   const double length = std::sqrt(glm::dot(across, across));
@@ -24,6 +25,7 @@ Plane plane_through(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
 }  // namespace
 
 void PolygonMesh::end_face(const Plane& plane, uint32_t neighbour, size_t first_edge) {
+  CHECK_DEBUG(first_edge <= edges.size());
   if (first_edge == edges.size()) return;
   faces.push_back({plane, neighbour, static_cast<uint32_t>(first_edge),
                    static_cast<uint32_t>(edges.size() - first_edge)});
@@ -51,6 +53,17 @@ PolygonBounds bounds_of(const PolygonMesh& mesh) {
   return bounds;
 }
 
+bool is_closed(const PolygonMesh& mesh) {
+  std::vector<std::pair<uint32_t, uint32_t>> edges, reverses;
+  for (const PolygonEdge& edge : mesh.edges) {
+    edges.emplace_back(edge.from, edge.to);
+    reverses.emplace_back(edge.to, edge.from);
+  }
+  std::ranges::sort(edges);
+  std::ranges::sort(reverses);
+  return edges == reverses;
+}
+
 PolygonMesh polygonise(const Window& volume) {
   const SurfaceMesh surface = surface_nets_closed(volume);
   const glm::dvec3 origin(surface.origin.x, surface.origin.y, surface.origin.z);
@@ -66,10 +79,12 @@ PolygonMesh polygonise(const Window& volume) {
     mesh.edges.insert(mesh.edges.end(), {{a, b}, {b, c}, {c, a}});
     mesh.end_face(plane_through(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]), own_surface, i);
   }
+  CHECK_DEBUG(is_closed(mesh));
   return mesh;
 }
 
 PolygonMesh box_mesh(const PolygonBounds& bounds) {
+  CHECK(bounds.lo.x < bounds.hi.x && bounds.lo.y < bounds.hi.y && bounds.lo.z < bounds.hi.z);
   PolygonMesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.vertices.emplace_back((i & 4) != 0 ? bounds.hi.x : bounds.lo.x,
@@ -83,6 +98,7 @@ PolygonMesh box_mesh(const PolygonBounds& bounds) {
     mesh.end_face(plane_through(mesh.vertices[loop[0]], mesh.vertices[loop[1]], mesh.vertices[loop[2]]),
                   own_surface, first);
   }
+  CHECK_DEBUG(is_closed(mesh));
   return mesh;
 }
 
@@ -105,7 +121,7 @@ PolygonMoments moments_of(const PolygonMesh& mesh) {
   return moments;
 }
 
-/// Whether the plane cuts the mesh at all; one that lies wholly beyond is cleared by the caller.
+/// Computes the vertices' distances from the plane. Returns whether any vertex lies beyond it.
 bool Slicer::classify(const PolygonMesh& mesh, const Plane& plane) {
   distances_.resize(mesh.vertices.size());
   bool beyond = false;
@@ -128,6 +144,7 @@ uint32_t Slicer::cut(const PolygonMesh& mesh, PolygonEdge edge) {
   const auto [low, high] = std::minmax(edge.from, edge.to);
   for (uint32_t i = first_cut_[low]; i != none; i = cuts_[i].next)
     if (cuts_[i].other == high) return cuts_[i].vertex;
+  CHECK_DEBUG((distances_[low] <= 0.0) != (distances_[high] <= 0.0));
   const double t = distances_[low] / (distances_[low] - distances_[high]);
   const auto vertex = static_cast<uint32_t>(out_.vertices.size());
   out_.vertices.push_back(mesh.vertices[low] + (mesh.vertices[high] - mesh.vertices[low]) * t);
@@ -142,8 +159,8 @@ void Slicer::close(uint32_t from, uint32_t to) {
   cap_.push_back({to, from});
 }
 
-/// Joins where the face's loops leave to where they enter, along the cut: with more than one of each, by the
-/// winding number along the line, so that no edge bridges a gap.
+/// Joins the points where the face's loops leave the kept side to those where they enter, along the cut. With
+/// more than one of each the winding number along the line decides, so that no edge bridges a gap.
 void Slicer::close_face(glm::dvec3 along) {
   if (crossings_.size() == 2) {
     const size_t leaves = crossings_[0].sign < 0 ? 0 : 1;
@@ -155,6 +172,7 @@ void Slicer::close_face(glm::dvec3 along) {
     return a.along != b.along ? a.along < b.along : a.vertex < b.vertex;
   });
   int winding = 0;
+  CHECK_DEBUG(crossings_.size() % 2 == 0);  // closed loops leave as often as they enter
   for (size_t i = 0; i + 1 < crossings_.size(); ++i) {
     winding -= crossings_[i].sign;
     const uint32_t here = crossings_[i].vertex, next = crossings_[i + 1].vertex;
@@ -197,6 +215,7 @@ void Slicer::slice(PolygonMesh& mesh, const Plane& plane, uint32_t neighbour) {
   const size_t first = out_.edges.size();
   out_.edges.insert(out_.edges.end(), cap_.begin(), cap_.end());
   out_.end_face(plane, neighbour, first);
+  CHECK_DEBUG(is_closed(out_));
   std::swap(mesh, out_);
 }
 

@@ -1,9 +1,9 @@
-// Solids bounded by polygons: what the cutters `slice` and `conform` work on. Voxels, in double precision;
+// Solids bounded by polygons, for the cutters `slice` and `conform`. Voxels, in double precision;
 // deterministic.
 //
-// A face is a plane and directed edges in it, counter-clockwise seen from outside, in no order: one loop or
-// several, so that a cap with holes or of two islands needs no triangulation. A mesh is closed when every
-// directed edge occurs as often as its reverse.
+// A face is a plane and directed edges in it, counter-clockwise seen from outside, in any order: one loop or
+// several, so that a cap with holes or with several islands needs no triangulation. A mesh is closed when
+// every directed edge occurs as often as its reverse.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct PolygonEdge {
   uint32_t to = 0;
 };
 
-/// A face's `neighbour` is the seed of the cell across it, or this: the solid's own surface.
+/// A face's `neighbour` is the index of the seed of the cell across it, or this: the solid's own surface.
 inline constexpr uint32_t own_surface = UINT32_MAX;
 
 struct PolygonFace {
@@ -44,7 +44,7 @@ struct PolygonMesh {
   std::vector<PolygonFace> faces;
 
   bool empty() const { return faces.empty(); }
-  /// Ends the face whose edges were appended from `first_edge` on; without edges there is none.
+  /// Adds a face of the edges from `first_edge` on; none if there are no edges.
   void end_face(const Plane& plane, uint32_t neighbour, size_t first_edge);
   void clear();
 };
@@ -59,7 +59,10 @@ struct PolygonBounds {
 
 PolygonBounds bounds_of(const PolygonMesh& mesh);
 
-/// The surface of a volume, outside of whose window is air, as triangles: closed (surface_nets.h).
+/// Whether every directed edge occurs as often as its reverse.
+bool is_closed(const PolygonMesh& mesh);
+
+/// The surface of a volume as triangles; closed, as outside the volume's window is air (surface_nets.h).
 PolygonMesh polygonise(const Window& volume);
 
 /// A box's six faces.
@@ -72,10 +75,10 @@ struct PolygonMoments {
 };
 PolygonMoments moments_of(const PolygonMesh& mesh);
 
-/// Cuts away what lies beyond a plane, and caps the hole (paper, 2.3); the cap's neighbour is that given.
-/// A closed mesh stays closed whatever rounding does, also where the plane grazes vertices, edges or faces:
-/// each vertex is on one side (beyond, or not), each edge is cut once for both its faces, and the cap is made
-/// of the reverses of what closed the faces.
+/// Cuts off the part of a closed mesh beyond a plane, and caps the hole (paper, 2.3) with a face of the given
+/// neighbour. The mesh stays closed whatever rounding does, also where the plane grazes vertices, edges or
+/// faces: each vertex is on one side (beyond, or not), each edge is cut once for both its faces, and the cap
+/// consists of the reverses of the edges that closed the faces. Not thread-safe: it keeps its memory.
 class Slicer {
  public:
   void slice(PolygonMesh& mesh, const Plane& plane, uint32_t neighbour);

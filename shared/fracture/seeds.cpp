@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/fracture/voronoi.h"
 
@@ -10,7 +11,7 @@ namespace scree {
 
 namespace {
 
-/// A seed is given up after so many positions that were too near to others or lost the draw.
+/// Positions tried for a seed, on average: those too near to others or rejected by the draw are lost.
 constexpr uint32_t tries_per_seed = 32;
 constexpr float spacing_voxels = 1.0F;
 
@@ -25,7 +26,7 @@ class SpacedSeeds {
       const glm::vec3 off = found->second - p;
       if (glm::dot(off, off) < spacing_voxels * spacing_voxels) return false;
     }
-    // Two seeds of one cell can be a voxel apart; keeping one a cell is what makes the look-up simple.
+    // Two seeds of one cell can be a voxel apart; keeping only one of them makes the look-up simple.
     if (!cells_.try_emplace(home, p).second) return false;
     seeds.push_back(p);
     return true;
@@ -54,7 +55,7 @@ glm::vec3 as_vec3(VoxelCoord v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Where seeds gather: density ∝ 1/d² from the nearest of the places; without any, the same everywhere.
+/// The density of seeds: ∝ 1/d² from the nearest of the places, or uniform if there are none.
 class Density {
  public:
   Density(std::vector<glm::vec3> places, const std::vector<VoxelCoord>& solid) : places_(std::move(places)) {
@@ -79,6 +80,13 @@ class Density {
   float nearest2_ = 0.0F;
 };
 
+bool all_apart(const std::vector<glm::vec3>& seeds) {
+  for (size_t i = 0; i < seeds.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (glm::dot(seeds[i] - seeds[j], seeds[i] - seeds[j]) < spacing_voxels * spacing_voxels) return false;
+  return true;
+}
+
 constexpr uint32_t seeds_per_cluster = 8;
 /// Bounds what a seed's draw costs.
 constexpr size_t clusters_max = 64;
@@ -102,6 +110,7 @@ int rounded(float x) {
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels) {
   CHECK(pattern != SeedPattern::authored);
+  CHECK(count > 0 && count <= limits::seeds_max);
   const std::vector<VoxelCoord> solid = solid_voxels(volume);
   if (solid.empty()) return {};
   Random random(random_seed);
@@ -113,9 +122,10 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
     const float dx = random.unit() - 0.5F, dy = random.unit() - 0.5F, dz = random.unit() - 0.5F;
     const glm::vec3 p = as_vec3(voxel) + glm::vec3(dx, dy, dz);
     const float draw = random.unit();
-    // A pattern that keeps losing its draws falls back to uniform for the last quarter of the tries.
+    // In the last quarter of the tries every pattern becomes uniform.
     if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(p);
   }
+  CHECK_DEBUG(all_apart(out.seeds));
   return std::move(out.seeds);
 }
 

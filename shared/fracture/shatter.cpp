@@ -1,5 +1,6 @@
 #include "shared/fracture/shatter.h"
 
+#include "shared/base/check.h"
 #include "shared/fracture/polygon_cut.h"
 
 namespace scree {
@@ -9,8 +10,9 @@ Cut shatter(Cutter cutter, const Volume& piece, const std::vector<glm::vec3>& se
   Cut cut = cut_volume(cutter, piece.window, piece.window, nothing, seeds_voxels);
   MassUnits cells = 0;
   for (const CutPiece& child : cut.pieces) cells += child.volume.mass;
-  // Up to here in the order of the pieces; differences of what is due in all leave nothing over. The products
-  // stay below 2^60: a window has at most 128³ voxels of 254 units.
+  CHECK(cut.pieces.empty() || cells > 0);
+  // Each share is the difference of two cumulative ones, in the order of the pieces, so no unit is left over.
+  // The products stay below 2^60: a window has at most 128³ voxels of 254 units.
   MassUnits before = 0, given = 0;
   for (CutPiece& child : cut.pieces) {
     before += child.volume.mass;

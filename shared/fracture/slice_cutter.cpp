@@ -8,7 +8,7 @@ namespace scree {
 
 namespace {
 
-/// So far beyond its cells a group's mesh is cropped, voxels: no crop's cap then touches a cell.
+/// Distance from a group's cells at which its mesh is cropped, voxels: no cap of a crop then touches a cell.
 constexpr double crop_margin = 0.5;
 
 class Slicing {

@@ -7,10 +7,10 @@
 
 namespace scree {
 
-/// Of a closed mesh, the closed part in each cell (voronoi_cells.h): cut by the planes of the cell's faces,
-/// one after the other, each hole capped. The paper begins every cell with the whole mesh; here halves of the
-/// cells begin with what lies about them, halved again and again, so that the cost does not grow with mesh
-/// times cells.
+/// The closed part of a closed mesh in each cell (voronoi_cells.h): the mesh is cut by the planes of the
+/// cell's faces, one after the other, and each hole is capped. The paper cuts every cell from the whole mesh;
+/// here the cells are halved recursively, and each half begins with the mesh around it, so that the cost does
+/// not grow with the product of mesh and cells.
 std::vector<PolygonMesh> slice_by_cells(const PolygonMesh& mesh, const std::vector<PolygonMesh>& cells);
 
 }  // namespace scree

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
+
 namespace scree {
 
 namespace {
@@ -38,6 +40,7 @@ TriangleGrid::Blocks TriangleGrid::blocks_of(const PolygonBounds& bounds) const 
 }
 
 const std::vector<uint32_t>& TriangleGrid::block(int x, int y, int z) const {
+  CHECK_DEBUG(x >= 0 && y >= 0 && z >= 0 && x < size_.x && y < size_.y && z < size_.z);
   return blocks_[static_cast<size_t>((x * size_.y + y) * size_.z + z)];
 }
 

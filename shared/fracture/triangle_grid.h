@@ -1,4 +1,4 @@
-// The triangles of a mesh by where they are. Voxels; deterministic.
+// A spatial index of a mesh's triangles. Voxels; deterministic.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace scree {
 
-/// Faces of a mesh in the blocks of a grid. Not thread-safe: queries share marks.
+/// Faces of a mesh in the blocks of a grid. The mesh must outlive it.
 class TriangleGrid {
  public:
   explicit TriangleGrid(const PolygonMesh& mesh);
 
-  /// Faces that come near the bounds, each once, in order.
+  /// Indices of the faces near the bounds, each once, in order.
   std::vector<uint32_t> near(const PolygonBounds& bounds) const;
-  /// Whether the closed mesh holds the point: the winding number along z.
+  /// Whether the point lies in the closed mesh, by the winding number along z.
   bool holds(glm::dvec3 p) const;
 
  private:

@@ -40,6 +40,7 @@ void find_candidates(const std::vector<glm::vec3>& seeds, glm::vec3 centre, std:
   out.clear();
   for (size_t i = 0; i < seeds.size(); ++i)
     if (distances[i] <= nearest + 2.0F * half_diagonal) out.push_back(static_cast<Label>(i));
+  CHECK_DEBUG(!out.empty());
 }
 
 /// Labels a row of block_side voxels from (x, y, z) on; the lowest index wins a tie. In vectors, spelt out:
@@ -72,7 +73,7 @@ bool all_air(const Window& volume, const VoxelBox& block) {
   return true;
 }
 
-/// Index of the nearest seed of every voxel; 0 in blocks of nothing but air, which no piece has a part in.
+/// Index of the nearest seed of every voxel; 0 in blocks of only air, in which no piece has a part.
 std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec3>& seeds) {
   std::vector<Label> labels(volume.codes.size());
   std::vector<float> distances(seeds.size());
@@ -99,15 +100,17 @@ std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec
   return labels;
 }
 
-/// What the terrain lost, voxel by voxel.
+/// Mass that the terrain lost, voxel by voxel.
 std::vector<uint8_t> lost_units(const Window& before, const Window& after) {
   std::vector<uint8_t> lost(before.codes.size());
-  for (size_t i = 0; i < lost.size(); ++i)
+  for (size_t i = 0; i < lost.size(); ++i) {
+    CHECK_DEBUG(after.codes[i] >= before.codes[i]);  // the terrain gains nothing anywhere
     lost[i] = static_cast<uint8_t>(occupancy(before.codes[i]) - occupancy(after.codes[i]));
+  }
   return lost;
 }
 
-/// What was lost nearest to each seed: near enough to tell which cells are too light.
+/// Mass lost nearest to each seed: exact enough to tell which cells are too light.
 std::vector<MassUnits> rough_masses(const std::vector<uint8_t>& lost, const std::vector<Label>& labels,
                                     size_t cells) {
   std::vector<MassUnits> masses(cells);
@@ -120,7 +123,10 @@ class TouchMatrix {
  public:
   explicit TouchMatrix(size_t cells) : cells_(cells), words_((cells + 63) / 64), bits_(cells * words_) {}
 
-  void set(Label a, Label b) { bits_[a * words_ + b / 64] |= uint64_t{1} << (b % 64); }
+  void set(Label a, Label b) {
+    CHECK_DEBUG(a < cells_ && b < cells_);
+    bits_[a * words_ + b / 64] |= uint64_t{1} << (b % 64);
+  }
 
   /// Whether a row is one word; and all of it at once, then.
   bool narrow() const { return words_ == 1; }
@@ -218,14 +224,15 @@ std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>
 }
 
 glm::vec3 centre_of_mass(const PartMass& sum, VoxelCoord origin) {
+  CHECK(sum.mass >= limits::piece_mass_min);
   const auto mass = static_cast<double>(sum.mass);
   return {static_cast<float>(static_cast<double>(sum.x) / mass + origin.x),
           static_cast<float>(static_cast<double>(sum.y) / mass + origin.y),
           static_cast<float>(static_cast<double>(sum.z) / mass + origin.z)};
 }
 
-/// The masses of the parts; where one came out lighter than a piece may be, every voxel is all its nearest
-/// part's.
+/// The masses of the parts. If one is lighter than a piece may be, every voxel counts wholly for its nearest
+/// part instead.
 std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>& lost,
                                 const std::vector<Label>& nearest, std::vector<CellPart>& parts) {
   std::vector<PartMass> masses = share_out(box, lost, nearest, parts);
@@ -239,7 +246,7 @@ std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>&
 
 Cut cut_cells(const Window& volume, const Window& before, const Window& after,
               const std::vector<glm::vec3>& seeds_voxels) {
-  CHECK(volume.codes.size() == before.codes.size() && volume.codes.size() == after.codes.size());
+  CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
   const std::vector<uint8_t> lost = lost_units(before, after);
   const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
@@ -285,6 +292,9 @@ Cut cut_cells(const Window& volume, const Window& before, const Window& after,
     piece.mass = masses[i].mass;
     piece.centre_voxels = centre_of_mass(masses[i], before.box.lo);
   }
+  CHECK_EQ(std::accumulate(masses.begin(), masses.end(), MassUnits{0},
+                           [](MassUnits sum, const PartMass& part) { return sum + part.mass; }),
+           total);
   return cut;
 }
 

@@ -12,27 +12,27 @@ namespace scree {
 
 /// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
 /// clustered: density ∝ 1/d² from the nearest of a few places in the volume, one for every eight seeds, 64 at
-/// most. authored: where whoever asks wants them.
+/// most. authored: the places are given with the request.
 enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, authored = 3 };
 
-/// How a volume is cut along cells. field: its codes, without any mesh (cut_cells). slice: the paper's, its
-/// surface as polygons, cut by each cell's planes and capped (slice_cutter.h). conform: cells bounded by the
-/// shape itself (conform_cutter.h).
+/// The method that cuts a volume along cells. field: works on codes, without any mesh (cut_cells). slice: the
+/// paper's; the surface as polygons is cut by each cell's planes and capped (slice_cutter.h). conform: cells
+/// bounded by the shape itself (conform_cutter.h).
 enum class Cutter : uint8_t { field = 0, slice = 1, conform = 2 };
 
-/// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room.
-/// Of any pattern but `authored`.
+/// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room,
+/// none where the volume has no solid voxel. Any pattern but `authored`.
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels);
 
-/// Those of the points (voxels) that can be seeds, in their order: what lies outside the volume (its voxel is
-/// not solid) or nearer than a voxel to one before is dropped, so that every seed gets a cell. When none is
-/// left, one anywhere: the volume stays whole.
+/// The points (voxels) that can be seeds, in their order. A point outside the volume (its voxel is not
+/// solid), or nearer than a voxel to an earlier one, is dropped, so that every seed gets a cell. When none is
+/// left, one random seed is added: the volume stays whole.
 std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,
                                       uint32_t random_seed);
 
-/// A piece, and the seeds whose cells it is made of (indices): one, or several where cells were too small to
-/// stand alone and joined their largest neighbour.
+/// A piece, and the indices of the seeds whose cells it consists of: one, or several where cells were too
+/// small to stand alone and joined their largest neighbour.
 struct CutPiece {
   Volume volume;
   std::vector<uint32_t> seeds;

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "shared/base/check.h"
 #include "shared/base/random.h"
 
 namespace scree {
@@ -25,8 +26,9 @@ double farthest_corner2(const PolygonMesh& cell, glm::dvec3 from) {
   return farthest;
 }
 
-/// So far each seed is moved, voxels: far below what a code can say, but no plane between two of them then
-/// lies in a face of the surface, as planes between authored seeds easily would.
+/// Distance by which each seed is moved at most along each axis, voxels: far below the resolution of codes,
+/// but no plane between two seeds then lies in a face of the surface, as planes between authored seeds easily
+/// would.
 constexpr float jitter_voxels = 1.0F / 1024.0F;
 
 std::vector<glm::dvec3> jittered(const std::vector<glm::vec3>& seeds) {
@@ -40,7 +42,7 @@ std::vector<glm::dvec3> jittered(const std::vector<glm::vec3>& seeds) {
   return moved;
 }
 
-/// Which seeds coincide with an earlier one.
+/// For each seed whether it coincides with an earlier one.
 std::vector<bool> duplicates(const std::vector<glm::vec3>& seeds) {
   std::vector<bool> found(seeds.size());
   std::vector<uint32_t> order(seeds.size());
@@ -53,6 +55,7 @@ std::vector<bool> duplicates(const std::vector<glm::vec3>& seeds) {
 }
 
 Plane bisector(glm::dvec3 own, glm::dvec3 other, double distance2) {
+  CHECK_DEBUG(distance2 > 0.0);
   const glm::dvec3 normal = (other - own) / std::sqrt(distance2);
   return {normal, glm::dot(normal, (own + other) * 0.5)};
 }

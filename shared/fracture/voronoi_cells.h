@@ -7,10 +7,10 @@
 
 namespace scree {
 
-/// The cell of each seed within the bounds: a face each towards its neighbours, in the order of their
-/// distances, and what is left of the six of the bounds (`own_surface`). Cells fill the bounds without
-/// overlap, but for rounding. Of seeds that coincide the first has the cell, the others' are empty; so is the
-/// cell of a seed whose every place in the bounds is nearer to others.
+/// The cell of each seed within the bounds. It has a face towards each neighbour, in the order of their
+/// distances, and the remains of the bounds' six faces (`own_surface`). Cells fill the bounds without
+/// overlap, except for rounding. Where seeds coincide the first has the cell and the others' are empty; so is
+/// a cell that lies outside the bounds.
 ///
 /// Each cell is the box cut by the bisectors with the other seeds, nearest first, until the rest are farther
 /// than twice its farthest corner (as Rycroft 2009, "Voro++").
