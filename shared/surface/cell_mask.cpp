@@ -7,6 +7,7 @@ namespace {
 
 /// Bits lo … hi − 1.
 uint64_t bits(int lo, int hi) {
+  CHECK_DEBUG(lo >= 0 && lo < hi && hi <= 64);
   const uint64_t below = hi == 64 ? ~uint64_t{0} : (uint64_t{1} << hi) - 1;
   return below & ~((uint64_t{1} << lo) - 1);
 }

@@ -23,14 +23,14 @@ uint8_t number_of(const LeafEdge& edge) {
   return static_cast<uint8_t>(found - edges.begin());
 }
 
-/// Two edges that no face of the cell has both of.
+/// Whether no face of the cell has both edges.
 bool is_inner(uint8_t a, uint8_t b) {
   const CellEdge& one = cell_tables().edges[a];
   const CellEdge& other = cell_tables().edges[b];
   return ((one.from ^ one.to) | (other.from ^ other.to) | (one.from ^ other.from)) == cell_corners - 1;
 }
 
-/// Adds triangles that fill the polygon, without a diagonal in a face; false if there are none such.
+/// Adds triangles that fill the polygon without a diagonal in a face; false if that is impossible.
 bool fill(std::span<const uint8_t> polygon, Cycle& triangles) {
   if (polygon.size() < 3) return true;
   const size_t last = polygon.size() - 1, begun = triangles.size();

@@ -1,7 +1,7 @@
-// The triangles of marching cubes (Lorensen and Cline 1987), by the signs of a cell's 8 corners: for the CPU
-// (marching_cubes.h) and for the shader of the method grid alike. Derived, not written down: the loops of
-// leaf_loops.h, in which rock that meets across a face by two corners alone is cut apart, so that cells agree
-// on every face.
+// The triangles of marching cubes (Lorensen and Cline 1987), by the signs of a cell's 8 corners, for the CPU
+// (marching_cubes.h) and for the shader of the method grid. The table is computed from the loops of
+// leaf_loops.h, which separate rock that meets across a face by two corners alone, so that neighbouring cells
+// agree on every face.
 //
 // Corners and edges are numbered as in surface_cells.h. No diagonal of a loop lies in a face of the cell,
 // where the neighbour might have the same one: every edge of the whole surface is shared by exactly two

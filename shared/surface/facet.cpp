@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
 
 namespace scree {
@@ -13,11 +14,11 @@ namespace {
 /// Padded to whole vectors.
 constexpr size_t around = 32;
 constexpr size_t middle = 13;
-/// Of points past the 27, and of saturated ones: nothing agrees with it.
+/// The rise of points past the 27, and of saturated ones: no plane agrees with it.
 constexpr int32_t no_rise = 1 << 20;
-/// What the rounding of two codes does at most, and a little; codes.
+/// A little more than the largest error by the rounding of two codes; codes.
 constexpr float agreement = 1.7F;
-/// A face rises by a voxel in a voxel; what is steeper or flatter lies between faces.
+/// A face rises by a voxel in a voxel; a steeper or flatter gradient lies between faces.
 constexpr float slope_tolerance = 0.1F;
 
 struct Offsets {
@@ -98,7 +99,7 @@ SCREE_VECTOR_CLONES void sum_agreeing(const Rises& rises, const glm::vec3& g, Su
   sums = s;
 }
 
-/// The gradient that fits those best that agree with this one.
+/// The gradient that fits the points best that agree with this one.
 glm::vec3 fitted(const Rises& rises, glm::vec3 gradient) {
   Sums s;
   sum_agreeing(rises, gradient, s);
@@ -114,8 +115,8 @@ bool is_face(glm::vec3 gradient) {
   return std::abs(length_of(gradient) - codes_per_voxel) <= slope_tolerance * codes_per_voxel;
 }
 
-/// To either side along an axis; one where they say the same. Saturated points make differences that are no
-/// face's.
+/// The differences to the two sides along an axis; one where they agree. Differences from saturated points
+/// belong to no face.
 struct Sides {
   std::array<float, 2> rise;
   size_t count;
@@ -130,6 +131,7 @@ struct Sides {
 }  // namespace
 
 Facet facet_at(const Window& window, VoxelCoord point) {
+  CHECK_DEBUG(window.box.covers(VoxelBox{point, point + VoxelCoord{1, 1, 1}}.grown(1)));
   const Code here = window.at(point.x, point.y, point.z);
   if (is_saturated(here)) return {};
   Rises rises;
@@ -148,7 +150,7 @@ Facet facet_at(const Window& window, VoxelCoord point) {
         gradient = g;
       }
   if (best == 0) return {};
-  // Twice: once the rounding of the differences is out of it, others agree.
+  // Twice: the first fit removes the rounding of the differences, and more points agree.
   gradient = fitted(rises, fitted(rises, gradient));
   const int supporters = count_agreeing(rises, gradient);
   if (supporters <= 0 || !is_face(gradient)) return {};

@@ -1,5 +1,5 @@
-// Flat faces of the rock as the codes around a lattice point tell them: the planes that dual contouring's
-// vertices are placed by. Pure, safe from any thread. Units: voxels.
+// Flat faces of the rock, found from the codes around a lattice point. Dual contouring places its vertices by
+// these planes. Pure, safe from any thread. Units: voxels.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,14 +12,15 @@ namespace scree {
 struct Facet {
   glm::vec3 normal{0.0F};
   float offset = 0.0F;
-  int supporters = 0;  ///< of the 26 points around, those where the plane is right; 0: there is no plane
+  int supporters = 0;  ///< number of the 26 points around that agree with the plane; 0: there is no plane
 
   bool is_known() const { return supporters > 0; }
 };
 
-/// Of the face that the point is nearest to. Across an edge of the rock the differences to either side of the
-/// point differ, and of each axis only one belongs to that face: of the eight ways to choose, the one that
-/// most points around agree with, then fitted to these. The window holds the points around, too.
+/// The facet of the face nearest to the point. Near an edge of the rock the differences to the two sides of
+/// the point differ, and along each axis only one of them belongs to that face. Of the eight choices this
+/// takes the one that most points around agree with, fitted to these. The window must hold the 26 points
+/// around, too.
 Facet facet_at(const Window& window, VoxelCoord point);
 
 }  // namespace scree

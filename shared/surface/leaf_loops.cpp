@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "shared/base/check.h"
+
 namespace scree {
 namespace {
 
@@ -41,7 +43,7 @@ bool is_divided(const LeafGrid& grid, const Leaf& leaf, int axis, bool upper) {
   return leaf.side > 1 && is_finer(grid, leaf, beyond(leaf, axis, upper));
 }
 
-/// Of the leaf's edge along the third axis, at those sides of the two others.
+/// Whether the leaf's edge along the third axis, at those sides of the two others, is divided.
 bool is_edge_divided(const LeafGrid& grid, const Leaf& leaf, int u, bool upper_u, int v, bool upper_v) {
   if (leaf.side == 1) return false;
   return is_divided(grid, leaf, u, upper_u) || is_divided(grid, leaf, v, upper_v) ||
@@ -53,7 +55,10 @@ struct Polygon {
   std::array<VoxelCoord, 8> points;
   size_t count = 0;
 
-  void add(VoxelCoord p) { points[count++] = p; }
+  void add(VoxelCoord p) {
+    CHECK_DEBUG(count < points.size());
+    points[count++] = p;
+  }
 };
 
 Polygon square(VoxelCoord at, int u, int v, int side) {
@@ -86,10 +91,11 @@ LeafEdge edge_between(VoxelCoord a, VoxelCoord b) {
   const VoxelCoord d = b - a;
   const int axis = d.x != 0 ? 0 : (d.y != 0 ? 1 : 2);
   const int length = component(d, axis);
+  CHECK_DEBUG(length != 0 && std::abs(d.x) + std::abs(d.y) + std::abs(d.z) == std::abs(length));
   return length > 0 ? LeafEdge{a, axis, length} : LeafEdge{b, axis, -length};
 }
 
-/// Calls f(edge, edge) for each such run along the cycle.
+/// Calls f(edge, edge) for each run along the cycle, with the crossed edges at its two ends.
 template <typename F>
 void for_each_link(const LeafGrid& grid, const Polygon& polygon, LeafRuns runs, F&& f) {
   std::array<bool, 8> rock{};
@@ -133,7 +139,9 @@ size_t id_in(const Leaf& leaf, const LeafEdge& edge) {
   const VoxelCoord off = edge.from - leaf.at;
   const auto on_lattice = [&](int v) { return v * 2 / leaf.side; };
   const int point = (on_lattice(off.x) * 3 + on_lattice(off.y)) * 3 + on_lattice(off.z);
-  return static_cast<size_t>(point * 3 + edge.axis + (edge.length == leaf.side ? 81 : 0));
+  const auto id = static_cast<size_t>(point * 3 + edge.axis + (edge.length == leaf.side ? 81 : 0));
+  CHECK_DEBUG(point >= 0 && point < 27 && id < leaf_edge_ids);
+  return id;
 }
 
 bool is_crossed(const LeafGrid& grid, const LeafEdge& edge) {
@@ -141,6 +149,7 @@ bool is_crossed(const LeafGrid& grid, const LeafEdge& edge) {
 }
 
 float crossing_of(const LeafGrid& grid, const LeafEdge& edge) {
+  CHECK_DEBUG(is_crossed(grid, edge));
   const float a = grid.distance_at(edge.from), b = grid.distance_at(edge.to());
   return a / (a - b);
 }
@@ -213,6 +222,7 @@ std::vector<std::vector<LeafEdge>> cycles_of(const LeafGrid& grid, const Leaf& l
       cycle.push_back(edge);
       edge = *after;
     }
+    CHECK(cycle.empty() || edge == cycle.front());  // every loop closes
     if (!cycle.empty()) cycles.push_back(std::move(cycle));
   }
   return cycles;

@@ -1,5 +1,5 @@
-// The loops in which the surface crosses the boundary of one leaf of an octree: what leaf_surface and
-// marching_cubes are made of.
+// The loops in which the surface crosses the boundary of one leaf of an octree, for leaf_surface and
+// marching_cubes. Pure, safe from any thread. Units: sides of the smallest leaf.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// An edge between two neighbouring points of the division: from its lower end.
+/// An edge between two neighbouring points of a divided boundary, from its lower end.
 struct LeafEdge {
   VoxelCoord from;
   int axis = 0;
@@ -26,8 +26,9 @@ struct LeafLink {
   LeafEdge b;
 };
 
-/// Number of the edge among those that a leaf can have: its boundary lies on a lattice of 3³ points.
+/// Number of edges that a leaf can have: its boundary lies on a lattice of 3³ points.
 inline constexpr size_t leaf_edge_ids = 162;
+/// Index of one of the leaf's edges, below leaf_edge_ids.
 size_t id_in(const Leaf& leaf, const LeafEdge& edge);
 
 struct LeafLoops {
@@ -38,23 +39,23 @@ struct LeafLoops {
   int sheet(const Leaf& leaf, const LeafEdge& edge) const { return sheet_of[id_in(leaf, edge)]; }
 };
 
-/// What is cut off on its own: runs of rock, or of air.
+/// Whether runs of rock or runs of air are cut off, each on its own.
 enum class LeafRuns { rock, air };
 LeafLoops trace_loops(const LeafGrid& grid, const Leaf& leaf, LeafRuns runs);
 
-/// The same loops where rock is cut off, each as its edges in order, counter-clockwise seen from the air.
+/// The loops that cut off rock, each as its edges in order, counter-clockwise seen from the air.
 std::vector<std::vector<LeafEdge>> cycles_of(const LeafGrid& grid, const Leaf& leaf);
 
-/// Whether no smaller leaf touches it, be it by a corner.
+/// Whether no smaller leaf touches this one, not even by a corner.
 bool is_undivided(const LeafGrid& grid, const Leaf& leaf);
 
 /// The first face across which two links join the same sheet; -1 if there is none.
 int pinched_face(const LeafGrid& grid, const Leaf& leaf, const LeafLoops& loops);
 
-/// The links across face 2·axis + side, which is not divided.
+/// The links across the undivided face 2·axis + side.
 std::vector<LeafLink> links_of_face(const LeafGrid& grid, const Leaf& leaf, int face);
 
-/// Where on the edge the sign changes, from its start, 0..1.
+/// The place on a crossed edge where the sign changes, from its start, 0..1.
 float crossing_of(const LeafGrid& grid, const LeafEdge& edge);
 bool is_crossed(const LeafGrid& grid, const LeafEdge& edge);
 

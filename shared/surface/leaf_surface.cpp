@@ -73,7 +73,7 @@ class Mesher {
     return false;
   }
 
-  /// By all points that its boundary could be divided at, whether it is or not.
+  /// Whether the signs differ at the points where the leaf's boundary could be divided, whether it is or not.
   bool may_be_crossed(const Leaf& leaf) const {
     const int points = leaf.side == 1 ? 2 : 3, step = leaf.side == 1 ? 1 : leaf.side / 2;
     const bool rock = grid_.distance_at(leaf.at) < 0.0F;
@@ -139,7 +139,7 @@ class Mesher {
     return static_cast<uint32_t>(mesh_.points.size() - 1);
   }
 
-  /// Nothing when something beside the edge is unknown.
+  /// The leaves around an edge; none if one of them is unknown.
   Around around(const LeafEdge& edge) const {
     const int u = (edge.axis + 1) % 3, v = (edge.axis + 2) % 3;
     constexpr std::array<std::array<int, 2>, 4> quadrants{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
@@ -185,11 +185,12 @@ class Mesher {
 
   uint32_t vertex_at(const Leaf& leaf, const LeafEdge& edge) {
     const Known& there = known(leaf);
+    CHECK_DEBUG(static_cast<size_t>(there.loops.sheet(leaf, edge)) < there.vertices.size());
     return there.vertices[static_cast<size_t>(there.loops.sheet(leaf, edge))];
   }
 
-  /// The vertex on the face between the leaves that keeps this edge's link apart from another between the
-  /// same two sheets; if there is such another.
+  /// The vertex on the face between the leaves that separates this edge's link from another link between the
+  /// same two sheets, if there is one.
   std::optional<uint32_t> vertex_between(const Leaf& a, const Leaf& b, int axis, const LeafEdge& edge) {
     // Both polygons at the face must name it alike.
     const bool a_first = std::pair(a.side, a.at) < std::pair(b.side, b.at);
@@ -220,8 +221,7 @@ class Mesher {
     return found->second;
   }
 
-  /// A fan around the crossing shares no diagonal with anyone; a plain quad's diagonal is nobody else's
-  /// either.
+  /// Neither a fan around the crossing nor a plain quad has a diagonal that another polygon has, too.
   void add_polygon(const LeafEdge& edge, const Leaf& leaf, bool plain) {
     const size_t count = polygon_.size();
     if (count == 3) return add_triangle(polygon_[0], polygon_[1], polygon_[2]);
@@ -266,6 +266,7 @@ LeafGrid::LeafGrid(const VoxelBox& box)
       distances(Window::count({box.lo, box.hi + VoxelCoord{1, 1, 1}})) {}
 
 size_t LeafGrid::point_index(VoxelCoord p) const {
+  CHECK_DEBUG((VoxelBox{cells.lo, cells.hi + VoxelCoord{1, 1, 1}}.holds(p)));
   const VoxelCoord size = cells.size(), off = p - cells.lo;
   return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y + 1) + static_cast<size_t>(off.y)) *
              static_cast<size_t>(size.z + 1) +
@@ -273,6 +274,7 @@ size_t LeafGrid::point_index(VoxelCoord p) const {
 }
 
 size_t LeafGrid::index(VoxelCoord cell) const {
+  CHECK_DEBUG(cells.holds(cell));
   const VoxelCoord size = cells.size(), off = cell - cells.lo;
   return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
              static_cast<size_t>(size.z) +
@@ -281,6 +283,7 @@ size_t LeafGrid::index(VoxelCoord cell) const {
 
 Leaf LeafGrid::leaf_at(VoxelCoord cell) const {
   const int side = side_at(cell);
+  CHECK_DEBUG(side > 0 && (side & (side - 1)) == 0);
   return {{cell.x & -side, cell.y & -side, cell.z & -side}, side};
 }
 
@@ -289,6 +292,7 @@ LeafMesh leaf_surface(const LeafGrid& grid, std::span<const Leaf> leaves, const 
 }
 
 glm::vec3 mean_of(std::span<const LeafCrossing> crossings) {
+  CHECK(!crossings.empty());
   glm::vec3 sum(0.0F);
   for (const LeafCrossing& crossing : crossings) sum += crossing.at;
   return sum / static_cast<float>(crossings.size());

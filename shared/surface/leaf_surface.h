@@ -2,13 +2,13 @@
 // contouring's walk over edges (Ju et al. 2002), with a vertex for each sheet of surface in a leaf (Nielson
 // 2004).
 //
-// Neighbouring leaves, by corner, too, differ by at most a factor of two. The boundary of a leaf is divided
-// where smaller leaves touch it; on each of the polygons that result, crossed edges are linked so that each
-// run of rock is cut off on its own. Both leaves at a polygon see the same, so the loops of links close up
-// from leaf to leaf, and the dual of that surface (a vertex a loop, a polygon a crossed edge) has two
-// polygons at every edge. Where two leaves share two links between the same two loops, undivided ones
-// of one size cut off runs of air instead, as surface_nets does; between others a vertex on the face keeps
-// the two apart. Pure, safe from any thread. Units: sides of the smallest leaf there can be.
+// Leaves that touch, even by a corner, differ in size by at most a factor of two. The boundary of a leaf is
+// divided where smaller leaves touch it. On each of the resulting polygons, crossed edges are linked so that
+// each run of rock is cut off on its own. Both leaves at a polygon make the same links, so the loops of links
+// close from leaf to leaf, and the dual of that surface (a vertex a loop, a polygon a crossed edge) has two
+// polygons at every edge. Where two leaves share two links between the same two loops, undivided leaves of
+// one size cut off runs of air instead, as surface_nets does; between others a vertex on the face separates
+// the two. Pure, safe from any thread. Units: sides of the smallest possible leaf.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@
 
 namespace scree {
 
-/// In place of a side: nothing is known there. Edges beside it have no polygon.
+/// The side of cells whose leaf is not known. Edges beside such cells get no polygon.
 inline constexpr uint8_t leaf_unknown = 0;
 
-/// A leaf's lowest point, a multiple of its side.
+/// A leaf of an octree: a cube.
 struct Leaf {
-  VoxelCoord at;
-  int side = 1;
+  VoxelCoord at;  ///< its lowest point, a multiple of its side
+  int side = 1;   ///< a power of two
 
   bool operator==(const Leaf&) const = default;
 };
@@ -37,8 +37,8 @@ struct LeafGrid {
   VoxelBox cells;              ///< of side 1
   std::vector<uint8_t> sides;  ///< of the leaf that holds the cell, a power of two, in a window's order
   /// Distances, in any unit, at the points of `cells` and one more at the upper ends; negative in rock. Only
-  /// those where leaves have corners count. It is quickest when the others do not differ from those about
-  /// them.
+  /// the values at corners of leaves matter. Leaves are skipped fastest where the other points have the sign
+  /// of the corners around them.
   std::vector<float> distances;
 
   explicit LeafGrid(const VoxelBox& box);
@@ -54,25 +54,25 @@ struct LeafGrid {
   size_t point_index(VoxelCoord p) const;
 };
 
-/// Where the surface crosses an edge of a leaf.
+/// A crossing of the surface with an edge of a leaf.
 struct LeafCrossing {
   glm::vec3 at;  ///< 0..1, in sides of the leaf from its lowest corner
   int axis = 0;
 };
 
-/// What the caller decides.
+/// The decisions of the caller.
 class LeafRules {
  public:
   virtual ~LeafRules() = default;
-  /// Whether the polygon of the edge between these leaves, three or four, is to be made.
+  /// Whether to make the polygon of the edge between these three or four leaves.
   virtual bool owns(std::span<const Leaf> around) const = 0;
-  /// The vertex of a sheet that crosses the leaf's edges there, in sides of the leaf from its lowest corner;
-  /// it is moved into the leaf if it lies outside.
+  /// The vertex of the sheet with these crossings, in sides of the leaf from its lowest corner; a vertex
+  /// outside the leaf is moved into it.
   virtual glm::vec3 place(const Leaf& leaf, std::span<const LeafCrossing> crossings) const = 0;
 };
 
 struct LeafPoint {
-  Leaf leaf;                       ///< one that holds it
+  Leaf leaf;                       ///< a leaf that holds the point
   std::array<int32_t, 3> steps{};  ///< surface_steps_per_voxel to a side of 1, from the grid's origin
 };
 
@@ -84,7 +84,8 @@ struct LeafMesh {
 /// The polygons of all owned edges of these leaves, each once.
 LeafMesh leaf_surface(const LeafGrid& grid, std::span<const Leaf> leaves, const LeafRules& rules);
 
-/// The mean of the crossings: surface nets, and in an undivided leaf to the bit what surface_nets has.
+/// The mean of the crossings, at least one: the rule of surface nets, in an undivided leaf with the same bits
+/// as surface_nets.
 glm::vec3 mean_of(std::span<const LeafCrossing> crossings);
 
 }  // namespace scree

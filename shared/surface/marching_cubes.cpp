@@ -17,8 +17,10 @@ namespace {
 constexpr int steps_per_side = static_cast<int>(surface_steps_per_voxel);
 constexpr uint32_t no_vertex = 0xFFFFFFFFU;
 
-/// Where an edge is crossed, in 1/256 of it: off its ends, where other edges' crossings might be.
+/// The place where an edge is crossed, in 1/256 of it: never at its ends, where other edges' crossings may
+/// be.
 int crossing_steps(float from, float to) {
+  CHECK_DEBUG((from < 0.0F) != (to < 0.0F));
   const auto along = static_cast<int>(from / (from - to) * surface_steps_per_voxel + 0.5F);
   return std::clamp(along, 1, steps_per_side - 1);
 }
@@ -45,6 +47,7 @@ class Builder {
 
  private:
   size_t slot(int x, int y, int z, int axis) const {
+    CHECK_DEBUG(x <= cells_.x && y <= cells_.y && z <= cells_.z);
     const int point = (x * (cells_.y + 1) + y) * (cells_.z + 1) + z;
     return static_cast<size_t>(point * 3 + axis);
   }
@@ -187,10 +190,10 @@ SurfaceMesh marching_cubes(const Window& window, const VoxelBox& owned, const Wi
                            const CellMask* mask) {
   const VoxelBox needed = owned.grown(surface_nets_apron);
   const VoxelCoord size = owned.size();
-  CHECK(!owned.empty() && common(needed, window.box) == needed);
+  CHECK(!owned.empty() && window.box.covers(needed));
   CHECK(size.z <= marching_cubes_side_max && std::max(size.x, size.y) <= surface_side_max);
-  CHECK(before == nullptr || before->codes.size() == window.codes.size());
-  CHECK(mask == nullptr || common(owned, mask->cells()) == owned);
+  CHECK(before == nullptr || before->box == window.box);
+  CHECK(mask == nullptr || mask->cells().covers(owned));
   return Builder(window, owned, before, mask).build();
 }
 

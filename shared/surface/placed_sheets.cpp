@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
 #include "shared/surface/surface_cells.h"
 
 namespace scree {
@@ -24,6 +25,7 @@ std::vector<LeafCrossing> crossings_of(const Window& window, const CrossedSheet&
     const auto axis = static_cast<int>(e / 4);
     const VoxelCoord from = corner(tables.edges[e].from);
     const float a = code_at(tables.edges[e].from), b = code_at(tables.edges[e].to);
+    CHECK_DEBUG((a < 0.0F) != (b < 0.0F));
     glm::vec3 at(static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(from.z));
     at[axis] += a / (a - b);
     crossings.push_back({at, axis});
@@ -43,6 +45,7 @@ CellSteps steps_inside(glm::vec3 place, std::span<const CellSteps> sheets_before
   // Some may have been moved into the same corner of the cell.
   const int away = place.x < 0.5F ? 1 : -1;
   while (std::ranges::find(sheets_before, steps) != sheets_before.end()) steps[0] += away;
+  CHECK(steps[0] > 0 && steps[0] < side);
   return steps;
 }
 

@@ -1,5 +1,5 @@
-// Vertices of surface_nets at places that someone names, instead of the means of their crossings.
-// Pure, safe from any thread.
+// Vertices of surface_nets at places that the caller chooses, instead of the means of their crossings. Pure,
+// safe from any thread.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,18 @@
 
 namespace scree {
 
-/// Where the vertex of a sheet lies that crosses the edges of the cell there: as LeafRules::place() says.
+/// Returns the place of a sheet's vertex, given the sheet's crossings; the same contract as
+/// LeafRules::place().
 using SheetPlace = std::function<glm::vec3(VoxelCoord cell, std::span<const LeafCrossing> crossings)>;
 
-/// `origin` is the mesh's. Of each cell, its sheets follow one another.
+/// Places the vertices of sheets. `origin` is the mesh's; the sheets of one cell must follow one another.
 std::vector<PlacedVertex> placed_sheets(const Window& window, VoxelCoord origin,
                                         std::span<const CrossedSheet> sheets, const SheetPlace& place);
 
-/// 1/256 of the cell's side from its lowest corner, strictly inside, so that two cells' vertices never
-/// coincide; nor do those of sheets of one cell, of which this one has that many before it.
+/// A place in a cell, in 1/256 of its side from its lowest corner.
 using CellSteps = std::array<int, 3>;
+/// The steps of a place, moved strictly inside the cell, so that vertices of two cells never coincide, and
+/// away from those of the cell's earlier sheets.
 CellSteps steps_inside(glm::vec3 place, std::span<const CellSteps> sheets_before);
 
 }  // namespace scree

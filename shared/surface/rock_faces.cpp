@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
 
 namespace scree {
@@ -14,21 +15,21 @@ namespace {
 /// that in the cell.
 constexpr float same_normal = 0.9962F;
 constexpr float same_place_voxels = 0.15F;
-/// Facets with fewer supporters than the first say nothing; it takes one with the second to begin a face.
+/// Facets with fewer supporters than the first are ignored; only one with the second begins a face.
 constexpr int supporters_min = 6;
 constexpr int supporters_strong = 17;
-/// Supporters that a face's facets have together: fewer are chance.
+/// Least sum of supporters of a face's facets: fewer are chance.
 constexpr int face_supporters_min = 18;
 constexpr size_t faces_max = 5;
-/// Sine, squared, of the least angle at which faces meet: 10 degrees. And the least volume that three normals
-/// span.
+/// Squared sine of the least angle at which two faces meet: 10 degrees; and the least volume that the normals
+/// of three faces span.
 constexpr float angle_min = 0.03F;
 constexpr float volume_min = 0.05F;
-/// What misses the cell by no more than that may lie in it.
+/// A point this near to the cell may count as inside.
 constexpr float miss_voxels = 0.02F;
-/// A code farther than this from where the faces say is not explained.
+/// The largest difference between a code and the faces' distance at which the faces explain the code.
 constexpr float explained_voxels = 0.06F;
-/// On fewer points, faces explain nothing.
+/// With fewer points, faces explain nothing.
 constexpr int points_min = 4;
 
 const glm::vec3 cell_centre(0.5F);
@@ -57,10 +58,10 @@ constexpr Places make_places() {
 }
 constexpr Places places = make_places();
 
-/// Facets of one plane, summed up by their supporters.
+/// The sum of facets of one plane, weighted by their supporters.
 struct Sum {
-  glm::vec3 first_normal;  ///< the strongest one's
-  float first_distance;    ///< of the cell's centre from it
+  glm::vec3 first_normal;  ///< normal of the first facet
+  float first_distance;    ///< distance of the cell's centre from it
   glm::vec3 normal{0.0F};
   float offset = 0.0F;
   int supporters = 0;
@@ -85,6 +86,7 @@ void add(const Facet& facet, glm::vec3 at, std::vector<Sum>& sums) {
 
 RockFace face_of(const Sum& sum) {
   RockFace face{};
+  CHECK_DEBUG(sum.supporters >= face_supporters_min);
   face.normal = sum.normal / std::sqrt(glm::dot(sum.normal, sum.normal));
   face.offset = sum.offset / static_cast<float>(sum.supporters);
   face.supporters = sum.supporters;
@@ -93,7 +95,7 @@ RockFace face_of(const Sum& sum) {
   return face;
 }
 
-/// Of the line along which two faces meet.
+/// The point of the cell nearest to `to` on the line along which two faces meet.
 std::optional<glm::vec3> on_line(const RockFace& a, const RockFace& b, glm::vec3 to) {
   const glm::vec3 along = glm::cross(a.normal, b.normal);
   const float squared = glm::dot(along, along);
@@ -223,11 +225,13 @@ std::vector<RockFace> rock_faces(FacetMap& facets, VoxelCoord cell) {
 }
 
 std::optional<glm::vec3> meeting_point(std::span<const RockFace* const> faces, glm::vec3 to) {
+  CHECK(!faces.empty() && faces.size() <= 3);
   if (faces.size() == 1) return to - faces[0]->normal * faces[0]->distance_at(to);
   return faces.size() == 2 ? on_line(*faces[0], *faces[1], to) : at_corner(*faces[0], *faces[1], *faces[2]);
 }
 
 float explained_share(const PointBlock& block, std::span<const RockFace* const> faces, Corner corner) {
+  CHECK_DEBUG(!faces.empty());
   const bool convex = corner == Corner::convex;
   const int all = convex ? block.rock : block.air;
   if (all < points_min) return 0.0F;

@@ -1,5 +1,5 @@
-// The flat faces of the rock about a cell, and where they meet. Pure, but for the memory of facets: not
-// thread-safe. Units: voxels, from the cell's lowest corner.
+// The flat faces of the rock around a cell, and the points where they meet. FacetMap caches facets and is not
+// thread-safe; the rest is pure. Units: voxels, from the cell's lowest corner.
 #pragma once
 
 #include <array>
@@ -14,39 +14,39 @@
 
 namespace scree {
 
-/// The facets of a window, each found when it is first asked for.
+/// The facets of a window, each computed by the first call for it.
 class FacetMap {
  public:
   /// The window must outlive it.
   explicit FacetMap(const Window& window) : window_(window), slots_(window.codes.size()) {}
 
   const Window& window() const { return window_; }
-  /// The window holds the points around, too.
+  /// The facet at a point; the window must hold the 26 points around, too. The reference stays valid.
   const Facet& at(VoxelCoord point);
 
  private:
   const Window& window_;
-  std::vector<int32_t> slots_;  ///< of the window's points: index in facets_ + 1; 0: not asked for yet
-  std::deque<Facet> facets_;    ///< where they lie, they stay
+  std::vector<int32_t> slots_;  ///< of the window's points: index in facets_ + 1; 0: not computed yet
+  std::deque<Facet> facets_;    ///< references to its elements stay valid
 };
 
-/// The 4³ points about a cell, from one before it, z fastest.
+/// Number of the 4³ points around a cell, which begin one voxel before it, z fastest.
 inline constexpr size_t block_points = 64;
 
-/// Their distances.
+/// The distances at these points.
 struct PointBlock {
   std::array<float, block_points> distance;
-  std::array<int32_t, block_points> in_rock;  ///< 1 where they are known, not saturated, and in rock
-  std::array<int32_t, block_points> in_air;   ///< or in air
+  std::array<int32_t, block_points> in_rock;  ///< 1 at points in rock whose code is not saturated, else 0
+  std::array<int32_t, block_points> in_air;   ///< the same in air
   int rock = 0;
   int air = 0;
 
   PointBlock(const Window& window, VoxelCoord cell);
-  /// Whether one plane explains them all.
+  /// Whether one plane explains all of them.
   bool is_flat() const;
 };
 
-/// n · x = offset.
+/// The plane n · x = offset of a face.
 struct RockFace {
   glm::vec3 normal;
   float offset;
@@ -56,15 +56,16 @@ struct RockFace {
   float distance_at(glm::vec3 x) const { return normal.x * x.x + normal.y * x.y + normal.z * x.z - offset; }
 };
 
-/// The faces that facets about the cell lie in: the five with the most supporters, those first.
+/// The faces in which the facets around the cell lie: at most five, those with the most supporters first.
 std::vector<RockFace> rock_faces(FacetMap& facets, VoxelCoord cell);
 
-/// The point of the cell nearest to `to` where the faces meet, one, two or three; none if that is elsewhere.
+/// The point of the cell nearest to `to` where one, two or three faces meet; none if they meet elsewhere.
 std::optional<glm::vec3> meeting_point(std::span<const RockFace* const> faces, glm::vec3 to);
 
-/// Faces between which there is rock, or air. Where their distances are exact, in rock (the largest) or air
-/// (the smallest): the share of the points there that they explain.
+/// Faces with rock between them are convex, with air concave.
 enum class Corner { convex, concave };
+/// The share of points that the faces, at least one, explain, of those where the faces' distances are exact:
+/// in rock (the largest distance) at a convex corner, in air (the smallest) at a concave one.
 float explained_share(const PointBlock& block, std::span<const RockFace* const> faces, Corner corner);
 
 }  // namespace scree

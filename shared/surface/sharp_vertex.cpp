@@ -11,11 +11,10 @@
 namespace scree {
 namespace {
 
-/// Directions in which the planes say less than this share of the best are left alone: normals are off by
-/// some hundredths, which must not move a vertex along an edge.
+/// The vertex is not moved in directions that the planes fix by less than this share of the best one: normals
+/// have errors of some hundredths, which must not move a vertex along an edge.
 constexpr float weakest_share = 0.02F;
-/// The share of the codes that faces must explain. Others may be of a third face, about the corner next to
-/// it.
+/// The share of the codes that faces must explain. The others may belong to a third face, near a corner.
 constexpr float explained_min = 0.7F;
 
 struct Eigen {
@@ -47,7 +46,7 @@ Eigen eigen_of(glm::mat3 a) {
   return result;
 }
 
-/// Of the shapes that faces can have together, the best that was tried.
+/// The best of the corners tried so far.
 class BestCorner {
  public:
   BestCorner(const PointBlock& block, glm::vec3 mean) : block_(block), mean_(mean), at_(mean) {}
@@ -104,14 +103,14 @@ glm::vec3 SharpVertices::place(VoxelCoord cell, std::span<const LeafCrossing> cr
   return best.at() ? *best.at() : least_squares(cell, crossings, mean);
 }
 
-/// From the mean; directions that the planes do not fix are left alone.
+/// The least-squares solution nearest the mean; directions that the planes do not fix keep the mean's.
 glm::vec3 SharpVertices::least_squares(VoxelCoord cell, std::span<const LeafCrossing> crossings,
                                        glm::vec3 mean) {
   glm::mat3 a(0.0F);
   glm::vec3 b(0.0F);
   for (const LeafCrossing& crossing : crossings) {
     const auto [low, high] = ends_of(crossing);
-    // The end that more points agree about: the other one may see the face rounded off.
+    // The end with more supporters: near the other the face may be rounded.
     const Facet at_low = facets_.at(cell + low), at_high = facets_.at(cell + high);
     const bool is_low = at_low.supporters >= at_high.supporters;
     const Facet& facet = is_low ? at_low : at_high;

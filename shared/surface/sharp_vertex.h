@@ -1,13 +1,14 @@
 // The vertices of dual contouring (Ju et al. 2002): edges and corners of the rock stay sharp.
 //
-// Where the codes about a cell tell flat faces (rock_faces.h), and some of these, all convex or all concave,
-// explain the codes, the vertex lies where they meet, if that is in the cell. They are held against codes on
-// the side where the distance to such an edge is the largest of the planes', in rock, or the smallest, in
-// air: on the other side it is rounded. So a cell that an edge runs through knows of both faces, even if one
-// of them crosses no edge of the cell; cubes' edges are within 0.05 voxel. Elsewhere, least squares over the
-// planes at the crossings.
+// Flat faces are found from the codes around a cell (rock_faces.h). If some of these, all convex or all
+// concave, explain the codes, and meet in the cell, the vertex is that point. Faces are compared with codes
+// on the side where the distance to an edge is exact: in rock, where it is the largest of the planes'
+// distances, or in air, where it is the smallest; on the other side distances are rounded. So both faces at
+// an edge through the cell are found, even if one of them crosses no edge of the cell; the edges of cubes are
+// exact within 0.05 voxel. Elsewhere the vertex is the least-squares solution over the planes at the
+// crossings.
 //
-// Not thread-safe: it remembers what it found. Units: voxels.
+// Not thread-safe: it caches facets. Units: voxels.
 #pragma once
 
 #include <span>
@@ -22,8 +23,9 @@ class SharpVertices {
   /// The window must outlive it.
   explicit SharpVertices(const Window& window) : facets_(window) {}
 
-  /// For the sheet that crosses those edges of the cell, from whose lowest corner the window reaches two
-  /// voxels down and three up. In sides of the cell from its lowest corner; may lie outside of the cell.
+  /// The vertex of the sheet with these crossings of the cell, in sides of the cell from its lowest corner;
+  /// it may lie outside the cell. The window reaches two voxels down and three up from the cell's lowest
+  /// corner.
   glm::vec3 place(VoxelCoord cell, std::span<const LeafCrossing> crossings);
 
  private:

@@ -1,10 +1,11 @@
-// Rows of voxels along z as words of sign bits, and the cells between four of them.
+// Rows of voxels along z as words of sign bits, and the cells between four rows. Pure.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <cstring>
 
+#include "shared/base/check.h"
 #include "shared/field/brick.h"
 
 namespace scree {
@@ -20,6 +21,7 @@ inline uint64_t eight_signs(const Code* codes) {
 
 /// Bit i: codes[i] is rock. 8 <= count <= 64.
 inline uint64_t sign_bits(const Code* codes, int count) {
+  CHECK_DEBUG(count >= 8 && count <= 64);
   uint64_t bits = 0;
   for (int i = 0; i + 8 < count; i += 8) bits |= eight_signs(codes + i) << i;
   return bits | (eight_signs(codes + count - 8) << (count - 8));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/base/check.h"
+
 namespace scree {
 namespace {
 
@@ -18,6 +20,7 @@ int edge_between(const std::array<CellEdge, cell_edges>& edges, int a, int b) {
   const auto found = std::find_if(edges.begin(), edges.end(), [&](const CellEdge& edge) {
     return edge.from == std::min(a, b) && edge.to == std::max(a, b);
   });
+  CHECK(found != edges.end());
   return static_cast<int>(found - edges.begin());
 }
 
@@ -94,6 +97,7 @@ CellCase make_case(int signs, const std::array<CellEdge, cell_edges>& edges,
     if (is_rock(signs, edges[e].from) == is_rock(signs, edges[e].to)) continue;
     uint8_t& sheet = sheet_of_root[static_cast<size_t>(links.find(static_cast<int>(e)))];
     if (sheet == no_sheet) sheet = result.sheets++;
+    CHECK(result.sheets <= result.edges_of_sheet.size());
     result.sheet_of_edge[e] = sheet;
     result.edges_of_sheet[sheet] = static_cast<uint16_t>(result.edges_of_sheet[sheet] | (1U << e));
   }

@@ -1,4 +1,4 @@
-// Which sheets of surface a cell holds, by the signs of its 8 corners: the tables of surface_nets.
+// The sheets of surface in a cell, by the signs of its 8 corners: the tables of surface_nets.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct CellCase {
   uint8_t sheets = 0;                               ///< 0..4
   std::array<uint8_t, cell_edges> sheet_of_edge{};  ///< no_sheet where the edge is not crossed
   std::array<uint16_t, 4> edges_of_sheet{};         ///< bit e: the sheet crosses edge e
-  /// Of this one face both halves belong to one sheet. If the neighbour across says the same, the two cells
-  /// would share an edge of four triangles: both must then use the split case.
+  /// The face of which both halves belong to one sheet, if any. If the neighbour across has the same, the two
+  /// cells would share an edge of four triangles: both must then use the split case.
   uint8_t pinched_face = no_face;
 };
 
@@ -34,7 +34,8 @@ struct CellTables {
   std::array<CellEdge, cell_edges> edges;
   std::array<CellCase, 256> joined;  ///< ambiguous faces join their air corners
   std::array<CellCase, 256> split;   ///< ambiguous faces join their rock corners
-  /// Edges of the one sheet of the cases that have no more and no pinched face: nearly all; of others 0.
+  /// Edges of the only sheet in the cases with one sheet and no pinched face, which are nearly all; 0 in
+  /// others.
   std::array<uint16_t, 256> only_sheet;
   std::array<uint8_t, 256> first_edges;  ///< how many of the three edges at corner 0 are crossed
 };

@@ -1,5 +1,5 @@
-// Triangles of the field's surface, ready for the GPU: what surface_nets and its kin make. For the eye only.
-// Units: voxels.
+// Triangles of the field's surface, ready for the GPU: the result of surface_nets and marching_cubes. Units:
+// voxels.
 #pragma once
 
 #include <array>

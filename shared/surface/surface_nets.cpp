@@ -43,10 +43,12 @@ class Builder {
       add_placed_vertices(window_, before_, placed_sheets(window_, origin_, sheets_, *place_),
                           mesh_.vertices);
     }
+    CHECK_EQ(mesh_.vertices.size(), sheets_.size());
     mesh_.indices.resize(quads_ * 6);
     next_index_ = mesh_.indices.data();
     for (const Segment& segment : segments_)
       if (segment.crossed) add_quads(segment);
+    CHECK(next_index_ <= mesh_.indices.data() + mesh_.indices.size());
     mesh_.indices.resize(static_cast<size_t>(next_index_ - mesh_.indices.data()));
     return std::move(mesh_);
   }
@@ -146,6 +148,7 @@ class Builder {
   /// Of a cell that holds several, or shares a pinched face. Returns what its slot must hold.
   uint32_t add_sheets(CrossedSheet sheet, uint32_t signs) {
     const CellCase& split = case_of(sheet, signs);
+    CHECK_DEBUG(split.sheets > 0);
     const auto first = static_cast<uint32_t>(sheets_.size());
     for (size_t s = 0; s < split.sheets; ++s) {
       sheet.edges = split.edges_of_sheet[s];
@@ -185,6 +188,7 @@ class Builder {
 
   uint32_t vertex_at(const Corner& corner) const {
     if ((corner.slot & several) == 0) return corner.slot;
+    CHECK_DEBUG((corner.slot & ~several) < many_.size());
     const ManySheets& many = many_[corner.slot & ~several];
     return many.first_vertex + many.sheets->sheet_of_edge[corner.edge];
   }
@@ -228,7 +232,7 @@ class Builder {
     const uint32_t a = vertex_at(a_at), c = vertex_at(c_at);
     uint32_t b = vertex_at(b_at), d = vertex_at(d_at);
     if (!forward) std::swap(b, d);
-    // Told by the order of the corners, without a branch: whichever diagonal is shorter, nobody could guess.
+    // Chosen without a branch: no predictor could guess which diagonal is shorter.
     const bool bd = squared_length(a, c) > squared_length(b, d);
     const uint32_t first = bd ? d : a, second = bd ? a : b, third = bd ? b : c, fourth = bd ? c : d;
     const std::array<uint32_t, 6> triangles{first, second, third, first, third, fourth};
@@ -272,12 +276,10 @@ bool is_about(const CellMask& mask, const VoxelBox& owned) {
 SurfaceMesh build(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask,
                   const SheetPlace* place) {
   const VoxelBox needed = owned.grown(surface_nets_apron);
-  const VoxelBox& box = window.box;
-  CHECK(box.lo.x <= needed.lo.x && box.lo.y <= needed.lo.y && box.lo.z <= needed.lo.z);
-  CHECK(box.hi.x >= needed.hi.x && box.hi.y >= needed.hi.y && box.hi.z >= needed.hi.z);
+  CHECK(window.box.covers(needed));
   const VoxelCoord size = owned.size();
   CHECK(!owned.empty() && std::max({size.x, size.y, size.z}) <= surface_side_max);
-  CHECK(before == nullptr || before->codes.size() == window.codes.size());
+  CHECK(before == nullptr || before->box == window.box);
   CHECK(mask == nullptr || is_about(*mask, owned));
   return Builder(window, owned, before, mask, place).build();
 }

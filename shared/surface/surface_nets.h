@@ -1,5 +1,5 @@
-// Surface nets: triangles of the zero level of a window of codes (Gibson 1998), for the eye, and for cutters
-// and slices, which work on polygons (polygon_mesh.h, stamp_slices.h): deterministic.
+// Surface nets: triangles of the zero level of a window of codes (Gibson 1998), for drawing and for the
+// kernels that work on polygons (polygon_mesh.h, stamp_slices.h). Deterministic.
 //
 // A cell is the cube between 8 voxels; each sheet of surface in it gets one vertex, at the mean of the
 // crossings of its edges, and each grid edge that the surface crosses gets one quad. Where a cell holds
@@ -18,9 +18,10 @@
 namespace scree {
 
 /// Meshes `owned`; `window` must cover owned.grown(surface_nets_apron). `before`, if given, has the window's
-/// box: what the field was as generated, so that fresh surfaces can be told from weathered ones. `mask`, if
-/// given, says of all cells from owned.lo − 2 to owned.hi which are leaves of that size (leaf_surface.h):
-/// only quads between four such are made, and no other takes part in telling sheets apart.
+/// box and holds the field as generated, so that fresh surfaces can be distinguished from weathered ones.
+/// `mask`, if given, tells for all cells from owned.lo − 2 to owned.hi whether they are leaves of that size
+/// (leaf_surface.h): only quads between four such cells are made, and other cells do not affect how sheets
+/// are separated.
 SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Window* before = nullptr,
                          const CellMask* mask = nullptr);
 
@@ -28,7 +29,7 @@ SurfaceMesh surface_nets(const Window& window, const VoxelBox& owned, const Wind
 SurfaceMesh surface_nets_placed(const Window& window, const VoxelBox& owned, const Window* before,
                                 const CellMask* mask, const SheetPlace& place);
 
-/// Meshes a window outside of which all is air: a piece's volume.
+/// Meshes a piece's volume: a window outside which everything is air. The mesh is closed.
 SurfaceMesh surface_nets_closed(const Window& volume, const Window* before = nullptr);
 
 }  // namespace scree

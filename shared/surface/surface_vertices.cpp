@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
 #include "shared/surface/surface_cells.h"
 
@@ -213,6 +214,7 @@ SCREE_INLINE void store(const Source& source, const Batch& b, SurfaceVertex* ver
 
 SCREE_INLINE void load(const Source& source, const CrossedSheet* sheets, Batch& b) {
   for (int i = 0; i < batch; ++i) {
+    CHECK_DEBUG(sheets[i].edges != 0);
     b.cells[i] = sheets[i].cell;
     b.edges[i] = sheets[i].edges;
     b.x[i] = sheets[i].at[0];
@@ -242,8 +244,8 @@ SCREE_INLINE void step_into(const Lanes& part, Ints& whole) {
   whole = whole * static_cast<int>(surface_steps_per_voxel) + (above > 255 ? Ints{} + 255 : above);
 }
 
-/// Batches that are worked on together: what one stage has stored lane by lane has reached the cache when the
-/// next one loads it as vectors.
+/// Batches computed together: values that one stage stores lane by lane have reached the cache when the next
+/// stage loads them as vectors.
 constexpr size_t together = 4;
 constexpr size_t group = together * batch;
 
@@ -271,10 +273,11 @@ SCREE_VECTOR_CLONES void shade_placed(const Source& source, const PlacedVertex* 
   for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch);
 }
 
-/// Whole groups in place, what is left over by way of a padded copy.
+/// Runs the kernel on whole groups in place, and on the rest in a padded copy.
 template <typename Item, typename Kernel>
 void in_groups(const Window& window, const Window* before, std::span<const Item> items,
                std::vector<SurfaceVertex>& vertices, Kernel&& kernel) {
+  CHECK(before == nullptr || before->box == window.box);
   const VoxelCoord size = window.box.size();
   const Source source{window.codes.data(),
                       before == nullptr ? nullptr : before->codes.data(),

@@ -1,5 +1,5 @@
-// The vertices of a surface, eight at a time: where they lie in their cells, and what they look like.
-// Pure, safe from any thread; a vertex depends on the codes around its cell alone, not on its batch.
+// The vertices of a surface, computed eight at a time: their places in their cells, normals and openness.
+// Pure, safe from any thread; a vertex depends only on the codes around its cell, not on its batch.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,19 @@ struct CrossedSheet {
   std::array<uint8_t, 3> at{};  ///< the cell, from the mesh's origin
 };
 
-/// A vertex that lies at a known place.
+/// A vertex whose place is known.
 struct PlacedVertex {
   int32_t cell = 0;
   std::array<uint16_t, 3> position{};  ///< 1/256 voxel from the mesh's origin, for the vertex
   glm::vec3 fraction{0.0F};            ///< from the cell's lowest voxel, 0..1
 };
 
-/// At the mean of the crossings of the sheet's edges (Gibson 1998), strictly inside the cell. Appends one
+/// Places a vertex at the mean of the crossings of the sheet's edges (Gibson 1998), strictly inside the cell.
+/// Appends one
 /// vertex each. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
 void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
                         std::vector<SurfaceVertex>& vertices);
+/// Appends a vertex at each place, under the same conditions.
 void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedVertex> placed,
                          std::vector<SurfaceVertex>& vertices);
 
