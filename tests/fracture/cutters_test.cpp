@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <map>
 
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
@@ -35,16 +34,6 @@ struct Scene {
 glm::vec3 on_the_ground(TerrainKind kind) {
   const TerrainSource source{kind, 7, 0.25F};
   return glm::vec3(12.0F, ground_height_m(source, 3.0F, 11.0F) / 0.25F - 3.0F, 44.0F);
-}
-
-/// Every directed edge as often as its reverse.
-bool is_closed(const PolygonMesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> open;
-  for (const PolygonEdge& edge : mesh.edges) {
-    ++open[{edge.from, edge.to}];
-    --open[{edge.to, edge.from}];
-  }
-  return std::ranges::all_of(open, [](const auto& entry) { return entry.second == 0; });
 }
 
 double parts_volume(const PolygonParts& cut) {
