@@ -107,8 +107,8 @@ const Library* library_of(const std::string& include) {
   return nullptr;
 }
 
-std::string_view folder_of(std::string_view path) {
-  return path.substr(0, path.rfind('/') + 1);
+bool is_at_home(const Library& library, std::string_view path) {
+  return starts_with_any(path, library.homes);
 }
 
 bool is_header(std::string_view path) {
@@ -178,7 +178,7 @@ Complaints check_library_homes(const SourceFile& file) {
   Complaints complaints;
   for (const Include& include : includes_of(file)) {
     const Library* library = library_of(include.target);
-    if (library != nullptr && !starts_with_any(file.path, library->homes))
+    if (library != nullptr && !is_at_home(*library, file.path))
       complaints.push_back(file.path + ": includes <" + include.target + ">, but " +
                            std::string(library->name) + " belongs to " + std::string(library->homes.front()));
     if (include.angled && file.path.starts_with("shared/") &&
@@ -190,17 +190,17 @@ Complaints check_library_homes(const SourceFile& file) {
 }
 
 Complaints check_library_leaks(const std::vector<SourceFile>& files) {
-  std::map<std::string, std::string> leaky;  // header → library that it shows
+  std::map<std::string, const Library*> leaky;  // header → library that it shows
   for (const SourceFile& file : files)
     for (const Include& include : includes_of(file))
       if (const Library* library = library_of(include.target); library != nullptr && is_header(file.path))
-        leaky[file.path] = library->name;
+        leaky[file.path] = library;
   Complaints complaints;
   for (const SourceFile& file : files)
     for (const Include& include : includes_of(file))
-      if (auto it = leaky.find(include.target);
-          it != leaky.end() && folder_of(it->first) != folder_of(file.path))
-        complaints.push_back(file.path + ": includes \"" + it->first + "\", which shows " + it->second +
+      if (auto it = leaky.find(include.target); it != leaky.end() && !is_at_home(*it->second, file.path))
+        complaints.push_back(file.path + ": includes \"" + it->first + "\", which shows " +
+                             std::string(it->second->name) +
                              " to others; hide it behind a pointer to its implementation");
   return complaints;
 }

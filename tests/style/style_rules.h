@@ -39,7 +39,7 @@ Complaints check_pragma_once(const SourceFile& file);
 Complaints check_layering(const SourceFile& file);
 /// Each library is included in its home folders only; shared/ knows three small ones.
 Complaints check_library_homes(const SourceFile& file);
-/// A header that includes a homed library is included from its own folder only.
+/// A header that includes a homed library is included from the library's homes only.
 Complaints check_library_leaks(const std::vector<SourceFile>& files);
 /// No two headers define a class of the same name in `scree`: linked together, each would be used for the
 /// other.

@@ -54,7 +54,7 @@ struct Texts {
   std::vector<std::string> screenshots;
 };
 
-void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
+void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--host", options.host, "Server's name or address")->envname("SCREE_HOST");
   app.add_option("--port", options.port, "Server's TCP port")
       ->envname("SCREE_PORT")
@@ -83,6 +83,9 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--grid-spacing", texts.grid_spacing,
                  "Of grid: uniform, or growing with the distance from the camera, to eight times as much")
       ->envname("SCREE_GRID_SPACING");
+}
+
+void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
   app.add_option(
@@ -110,6 +113,11 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Root mean square of the difference of all colour values, 0 (equal) to 1")
       ->envname("SCREE_THRESHOLD")
       ->check(CLI::Range(0.0, 1.0));
+}
+
+void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
+  declare_view(app, options, texts);
+  declare_pictures(app, options, texts);
   app.add_flag("--overlay", options.overlay.shown,
                "Show borders, interest, bodies, contacts and other persons' cursors over the picture")
       ->envname("SCREE_OVERLAY");
