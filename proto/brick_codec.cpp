@@ -48,7 +48,7 @@ void read_paint(ByteReader& reader, std::span<BrickPatch> bricks) {
     const uint64_t skipped = reader.varint("bricks that are not painted");
     if (skipped >= bricks.size() - next) return reader.refuse("paint beyond the last brick");
     BrickPatch& patch = bricks[next + skipped];
-    patch.paint = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
+    patch.paint = reader.kind<Material>("material");
     next += skipped + 1;
   }
 }
@@ -160,7 +160,7 @@ Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(volume.centre_voxels[axis]) > static_cast<float>(limits::voxel_coordinate_max))
       reader.refuse("centre of mass is beyond ±2^24 voxels");
-  volume.material = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
+  volume.material = reader.kind<Material>("material");
   if (reader.failed()) return tl::unexpected(reader.error());
   volume.window = Window(VoxelBox{lo, lo + size});
   decompress(reader, volume.window.codes);

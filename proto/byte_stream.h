@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "proto/limits.h"
+#include "shared/base/kind_table.h"
 #include "shared/base/result.h"
 #include "shared/field/coord.h"
 #include "shared/field/piece.h"
@@ -52,6 +53,11 @@ class ByteReader {
   /// A number within ± max.
   int64_t zigzag(const char* what, int64_t max);
   uint8_t u8(const char* what, uint8_t max);
+  /// A byte that is the number of a known kind.
+  template <HasRows Kind>
+  Kind kind(const char* what) {
+    return static_cast<Kind>(u8(what, static_cast<uint8_t>(kind_count<Kind> - 1)));
+  }
   uint32_t u32(const char* what);
   float f32(const char* what);
   glm::vec3 vec3(const char* what);

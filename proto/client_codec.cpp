@@ -85,7 +85,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   CarveMessage carve;
   carve.request = from.request();
   carve.shape = check.shape(from.shape());
-  carve.pattern = static_cast<SeedPattern>(check.choice(from.pattern(), wire::AUTHORED, "pattern"));
+  carve.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
   carve.seeds = from.seeds();
   carve.random_seed = from.random_seed();
   carve.impact_m = check.vec3(from.impact(), "impact");
@@ -95,8 +95,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
 }
 
 PaintMessage read(const wire::Paint& from, FieldChecker& check) {
-  return {from.request(), check.shape(from.shape()),
-          static_cast<Material>(check.choice(from.material(), wire::ICE, "material"))};
+  return {from.request(), check.shape(from.shape()), check.kind<Material>(from.material(), "material")};
 }
 
 RepairRequest read(const wire::Repair& from, FieldChecker& check) {

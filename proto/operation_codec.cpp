@@ -38,20 +38,21 @@ void write_head(ByteWriter& writer, Kind kind, PieceId id) {
 void write_shape(ByteWriter& writer, const Shape& shape) {
   writer.u8(static_cast<uint8_t>(shape.kind));
   writer.vec3(shape.a);
-  if (shape.kind != ShapeKind::sphere) writer.vec3(shape.b);
+  if (row_of(shape.kind).has_b) writer.vec3(shape.b);
   writer.f32(shape.radius_m);
 }
 
 Shape read_shape(ByteReader& reader) {
   Shape shape;
-  shape.kind = static_cast<ShapeKind>(reader.u8("kind of shape", static_cast<uint8_t>(ShapeKind::capsule)));
+  shape.kind = reader.kind<ShapeKind>("kind of shape");
   shape.a = reader.vec3("shape");
-  if (shape.kind != ShapeKind::sphere) shape.b = reader.vec3("shape");
+  if (traits_of(shape.kind).has_b) shape.b = reader.vec3("shape");
   shape.radius_m = reader.f32("radius of the shape");
   return shape;
 }
 
 /// The pattern in the low half of a byte, the cutter in the high half.
+static_assert(kind_count<SeedPattern> <= 16);
 uint8_t packed(SeedPattern pattern, Cutter cutter) {
   return static_cast<uint8_t>(static_cast<unsigned>(pattern) | static_cast<unsigned>(cutter) << 4U);
 }
@@ -115,17 +116,21 @@ struct Writing {
 PaintOperation read_paint(ByteReader& reader) {
   PaintOperation paint;
   paint.shape = read_shape(reader);
-  paint.material = static_cast<Material>(reader.u8("material", static_cast<uint8_t>(Material::ice)));
+  paint.material = reader.kind<Material>("material");
   return paint;
 }
 
-/// Reads the fields that carve and shatter share.
+/// Reads the fields that carve and shatter share. The pattern in `out` is a valid one, even on failure.
 template <typename Breaking>
-void read_seeds(ByteReader& reader, PieceId first_piece, SeedPattern last_pattern, Breaking& out) {
+void read_seeds(ByteReader& reader, PieceId first_piece, Result<void> (*validate_pattern)(SeedPattern),
+                Breaking& out) {
   const uint8_t byte = reader.u8("pattern and cutter", 0xFF);
-  out.pattern = static_cast<SeedPattern>(byte & 0xFU);
+  const auto pattern = static_cast<SeedPattern>(byte & 0xFU);
+  if (const Result<void> valid = validate_pattern(pattern); valid)
+    out.pattern = pattern;
+  else
+    reader.refuse(valid.error().message);
   out.cutter = static_cast<Cutter>(byte >> 4U);
-  if (out.pattern > last_pattern) reader.refuse("seeds of a pattern that is none");
   if (out.cutter > Cutter::conform) reader.refuse("a cutter that is none");
   out.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
   if (out.seeds == 0) reader.refuse("a break without seeds");
@@ -137,9 +142,9 @@ void read_seeds(ByteReader& reader, PieceId first_piece, SeedPattern last_patter
 CarveOperation read_carve(ByteReader& reader, PieceId id) {
   CarveOperation carve;
   carve.shape = read_shape(reader);
-  read_seeds(reader, id, SeedPattern::authored, carve);
+  read_seeds(reader, id, validate_carve_pattern, carve);
   carve.impact_m = reader.vec3("impact");
-  if (carve.pattern != SeedPattern::authored) return carve;
+  if (!traits_of(carve.pattern).needs_points) return carve;
   if (carve.seeds > limits::authored_seeds_max) reader.refuse("more authored seeds than authored_seeds_max");
   for (uint32_t i = 0; i < carve.seeds && !reader.failed(); ++i)
     carve.authored_m.push_back(reader.vec3("authored seed"));
@@ -177,7 +182,7 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
 ShatterOperation read_shatter(ByteReader& reader, PieceId id) {
   ShatterOperation shatter;
   shatter.piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
-  read_seeds(reader, id, SeedPattern::clustered, shatter);
+  read_seeds(reader, id, validate_shatter_pattern, shatter);
   shatter.impact_voxels = reader.vec3("impact");
   return shatter;
 }

@@ -97,8 +97,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   // In another format the fields may have another meaning: only its number is read, for the refusal.
   if (header.format != recording_format) return header;
   header.program = check.text(from->program(), program_bytes_max, "program");
-  header.terrain.kind = static_cast<TerrainKind>(
-      check.within(from->terrain_kind(), 0, static_cast<uint32_t>(TerrainKind::canyon), "terrain_kind"));
+  header.terrain.kind = check.kind<TerrainKind>(from->terrain_kind(), "terrain_kind");
   header.terrain.random_seed = from->terrain_seed();
   header.terrain.voxel_size_m = check.finite(from->voxel_size_m(), "voxel_size_m");
   if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||

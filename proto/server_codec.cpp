@@ -159,8 +159,7 @@ WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
   welcome.tick = from.tick();
   welcome.tick_rate_hz = check.within(from.tick_rate_hz(), 1, rate_max, "tick_rate_hz");
   welcome.ticks_per_transform = check.within(from.ticks_per_transform(), 1, rate_max, "ticks_per_transform");
-  welcome.terrain.kind =
-      static_cast<TerrainKind>(check.choice(from.terrain().kind(), wire::CANYON, "kind of terrain"));
+  welcome.terrain.kind = check.kind<TerrainKind>(from.terrain().kind(), "kind of terrain");
   welcome.terrain.random_seed = from.terrain().random_seed();
   const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
   if (voxel_size_m < limits::voxel_size_min_m || voxel_size_m > limits::voxel_size_max_m)

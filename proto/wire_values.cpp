@@ -10,6 +10,12 @@ namespace scree {
 
 namespace {
 
+// Each kind has its value in scree.proto. That the names agree, too, is tested (tests/proto/kinds_test.cpp).
+static_assert(wire::ShapeKind_ARRAYSIZE == kind_count<ShapeKind>);
+static_assert(wire::SeedPattern_ARRAYSIZE == kind_count<SeedPattern>);
+static_assert(wire::TerrainKind_ARRAYSIZE == kind_count<TerrainKind>);
+static_assert(wire::Material_ARRAYSIZE == kind_count<Material>);
+
 bool is_control(char c) {
   const auto byte = static_cast<uint8_t>(c);
   return byte < 0x20 || byte == 0x7F;
@@ -55,17 +61,11 @@ std::string FieldChecker::text(const std::string& value, size_t bytes_max, const
   return failed() ? std::string() : value;
 }
 
-uint8_t FieldChecker::choice(int value, int max, const char* what) {
-  if (value >= 0 && value <= max) return static_cast<uint8_t>(value);
-  refuse(std::string(what) + " " + std::to_string(value) + " is unknown");
-  return 0;
-}
-
 Shape FieldChecker::shape(const wire::Shape& value) {
   Shape shape;
-  shape.kind = static_cast<ShapeKind>(choice(value.kind(), wire::CAPSULE, "kind of shape"));
+  shape.kind = kind<ShapeKind>(value.kind(), "kind of shape");
   shape.a = vec3(value.a(), "shape.a");
-  if (shape.kind != ShapeKind::sphere) shape.b = vec3(value.b(), "shape.b");
+  if (traits_of(shape.kind).has_b) shape.b = vec3(value.b(), "shape.b");
   shape.radius_m = finite(value.radius_m(), "shape.radius_m");
   return shape;
 }
@@ -122,7 +122,7 @@ void write(wire::Vec3& to, glm::vec3 from) {
 void write(wire::Shape& to, const Shape& from) {
   to.set_kind(static_cast<wire::ShapeKind>(from.kind));
   write(*to.mutable_a(), from.a);
-  if (from.kind != ShapeKind::sphere) write(*to.mutable_b(), from.b);
+  if (row_of(from.kind).has_b) write(*to.mutable_b(), from.b);
   to.set_radius_m(from.radius_m);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "shared/base/kind_table.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -24,8 +25,13 @@ class FieldChecker {
   uint32_t within(uint32_t value, uint32_t min, uint32_t max, const char* what);
   glm::vec3 vec3(const wire::Vec3& value, const char* what);
   std::string text(const std::string& value, size_t bytes_max, const char* what);
-  /// The number of a known value of an enum whose values are 0 … max.
-  uint8_t choice(int value, int max, const char* what);
+  /// A known kind by its number.
+  template <HasRows Kind>
+  Kind kind(int64_t number, const char* what) {
+    if (number >= 0 && number < static_cast<int64_t>(kind_count<Kind>)) return static_cast<Kind>(number);
+    refuse(std::string(what) + " " + std::to_string(number) + " is unknown");
+    return Kind{};
+  }
   Shape shape(const wire::Shape& value);
   /// Coordinates of chunks, packed.
   std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);

@@ -45,7 +45,7 @@ vec3 brick_gradient(uint entry, vec3 local) {
 
 // The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
 float generated_in(uvec2 entry, vec3 local, float same) {
-  uint kind = (entry.y >> 24u) & 15u;
+  uint kind = (entry.y >> 24u) & ((256u >> uint(paint_bits)) - 1u);
   if (kind == 1u) return brick_value(entry.y, local) / band;
   return kind == 2u ? 1.0 : kind == 3u ? -1.0 : same;
 }
@@ -71,15 +71,19 @@ float generated_at(vec3 from_eye, int level) {
   return generated_in(entry_at(at, level), p - vec3(at) * brick, field_at(from_eye, level) / band);
 }
 
-// What shows at a point of the surface, as SurfaceVertex::paint: the brick's paint, and the layer that a cut lays
-// bare, as shared/field/material.h has it: what lay less than the layer's depth below the ground.
+int paint_of(uvec2 entry) { return int(entry.y >> uint(32 - paint_bits)); }
+
+// The paint number (client/render/scene/paint_number.h) at a point of the surface: the brick's paint, or else the
+// layer that a cut lays bare, as shared/field/material.h has it: what lay less than the layer's depth below the ground.
 int paint_at(uvec2 entry, vec3 from_eye, float height_m, int level, float before) {
-  int paint = int(entry.y >> 28u);
+  int paint = paint_of(entry);
   if (paint != 0 || before >= cut_begins) return paint;
   bool soil = height_m < u_layers.x;
   if (!soil && height_m <= u_layers.z) return 0;
   float depth = soil ? u_layers.y : u_layers.w;
-  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) < 0.0 ? 0 : (soil ? 2 : 3) << 2;
+  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) < 0.0
+             ? 0
+             : (soil ? material_soil : material_ice) + paint_in_cuts;
 }
 
 // The finest level, from `level` on, that shows this point; u_levels beyond all.

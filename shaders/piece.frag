@@ -19,7 +19,7 @@ void main() {
   float there = generated_at(from_eye, 0);
   vec2 wear = mix(vec2(cut_of(before), heap_of(before)), vec2(cut_of(there), heap_of(there)), v_dust);
   Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, wear.x, wear.y, away);
-  vec3 albedo = painted(rock.albedo, int(hit.entry.y >> 28u), wear.x) * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
+  vec3 albedo = painted(rock.albedo, paint_of(hit.entry), wear.x) * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
   vec3 bent = normalize(rotated(v_rotation, rock.normal));
   int level = level_of(from_eye, 0);
   float open = 1.0;

@@ -1,4 +1,5 @@
-// What rock looks like in the light of atmosphere.glsl, the same for every way to draw it. Needs noise.glsl.
+// What rock looks like in the light of atmosphere.glsl, the same for every way to draw it. Needs noise.glsl and the
+// table of materials (client/render/gl/material_source.h).
 
 uniform vec3 u_eye;
 uniform float u_fog_m;  // distance at which fog hides nearly all
@@ -54,18 +55,17 @@ Rock rock_at(vec3 p, vec3 shape_normal, float cut, float heap, float away) {
   return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain));
 }
 
-// A material (1 rock, 2 soil, 3 ice) lends its colour to the grain of what lies there.
+// A material, by its number, lends its colour to the grain of what lies there.
 vec3 of_material(int material, vec3 albedo) {
   float grain = 0.55 + 1.1 * dot(albedo, vec3(0.3, 0.5, 0.2));
-  if (material == 1) return vec3(0.33, 0.31, 0.30) * grain;
-  return (material == 2 ? vec3(0.20, 0.12, 0.06) : vec3(0.62, 0.76, 0.86)) * grain;
+  return material_albedo[material - 1] * grain;
 }
 
-// `paint` as SurfaceVertex has it: what the brick is painted, or else the layer that shows as far as there is a cut.
+// `paint`: a paint number, of the brick's paint or of the layer that shows as far as there is a cut.
 vec3 painted(vec3 albedo, int paint, float cut) {
-  if ((paint & 3) != 0) return of_material(paint & 3, albedo);
-  if (paint != 0) return mix(albedo, of_material(paint >> 2, albedo), cut);
-  return albedo;
+  if (paint == 0) return albedo;
+  if (paint < paint_in_cuts) return of_material(paint, albedo);
+  return mix(albedo, of_material(paint - paint_in_cuts, albedo), cut);
 }
 
 // `sunlight`: cosine of the sun's angle, 0 in shadow. `openness`: 1 under the open sky, less in a crevice.

@@ -4,7 +4,7 @@ layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_openness;
 layout(location = 3) in float a_before;  // code / 127 of the field as generated
-layout(location = 4) in float a_paint;   // the brick's, 1 + material or 0; times 4, the layer's that a cut shows
+layout(location = 4) in float a_paint;   // the paint number (client/render/scene/paint_number.h)
 
 uniform mat4 u_view_projection;
 uniform float u_step;         // voxels a step of a_position

@@ -17,8 +17,8 @@ struct CarverConfig {
   float area_m = 20.0F;      ///< half a side of the square around the centre
   float radius_m = 2.0F;
   uint32_t seeds = 64;
-  /// Nothing: radial and uniform in turn. Authored: on the lattice of a wall, every second course half a
-  /// stone aside; no more than limits::authored_seeds_max.
+  /// Nothing: radial and uniform in turn. A pattern that needs points gets those of a wall's stones, every
+  /// second course half a stone aside; no more than limits::authored_seeds_max.
   std::optional<SeedPattern> pattern = SeedPattern::radial;
   float blast_speed_m_s = 6.0F;
 };

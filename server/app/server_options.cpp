@@ -37,8 +37,9 @@ void add_network(CLI::App& app, Raw& raw) {
 
 void add_world(CLI::App& app, Raw& raw) {
   WorldConfig& world = raw.options.live.world;
-  app.add_option("--terrain", raw.terrain, "flat, noise or canyon")
-      ->check(CLI::IsMember({"flat", "noise", "canyon"}))
+  const auto& terrains = kind_names<TerrainKind>;
+  app.add_option("--terrain", raw.terrain, listed(terrains))
+      ->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
       ->capture_default_str();
   app.add_option("--seed", world.terrain.random_seed, "of the terrain")->capture_default_str();
   app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres")
@@ -148,7 +149,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  raw.options.live.world.terrain.kind = *terrain_kind_named(raw.terrain);
+  raw.options.live.world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
   return raw.options;
 }
 

@@ -19,7 +19,7 @@ struct CarveRequest {
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};  ///< place of the blow; pieces fly out towards it
   float blast_speed_m_s = 6.0F;
-  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`: `seeds` places; else none
+  std::vector<glm::vec3> authored_m{};  ///< as many as seeds when the pattern needs points; else none
 
   bool operator==(const CarveRequest&) const = default;
 };

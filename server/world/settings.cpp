@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "shared/base/limits.h"
+#include "shared/base/listed.h"
 
 namespace scree {
 
@@ -72,13 +73,6 @@ constexpr size_t members() {
 static_assert(members() == table.size());
 
 }  // namespace
-
-std::string listed(std::span<const std::string_view> names) {
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
-  return list;
-}
 
 std::span<const Setting> settings() {
   return table;

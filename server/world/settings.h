@@ -23,9 +23,6 @@ struct Setting {
 
 std::span<const Setting> settings();
 
-/// "field, mesh or rays"
-std::string listed(std::span<const std::string_view> names);
-
 /// Changes one setting; the error names it and lists its values.
 Result<void> set(Methods& methods, const SettingValue& setting);
 /// Changes all settings or none. An error: a name is unknown or comes twice, or a value is unknown.

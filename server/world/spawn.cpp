@@ -16,7 +16,7 @@ void spawn(World::State& state, const Applied& applied,
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;
-    const MaterialTraits& material = traits_of(volume->material);
+    const MaterialRow& material = traits_of(volume->material);
     const float mass_kg = hull.size_m3 * material.density_kg_m3;
     BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}, {}};
     if (newborn.may_be_concave) {

@@ -31,11 +31,12 @@ struct Strength {
 Strength strength_of(Material material, float voxel_size_m) {
   constexpr float grams = 1000.0F;
   const float area_m2 = voxel_size_m * voxel_size_m;
-  const Bearing bearing = bearing_of(material);
+  const MaterialRow& traits = traits_of(material);
+  const Bearing& bearing = traits.bearing;
   const auto carried = [&](float pa) {
     return static_cast<int64_t>(pa * area_m2 / standard_gravity * grams);
   };
-  const float voxel_kg = traits_of(material).density_kg_m3 * area_m2 * voxel_size_m;
+  const float voxel_kg = traits.density_kg_m3 * area_m2 * voxel_size_m;
   return {static_cast<int64_t>(voxel_kg * grams), carried(bearing.pressed_pa), carried(bearing.hanging_pa),
           carried(bearing.sideways_pa)};
 }
@@ -44,8 +45,8 @@ class Search {
  public:
   Search(Field& field, std::span<const BrickCoord> changed, int reach_bricks)
       : parts_(field, changed, reach_bricks, support_parts_max), changed_(changed.begin(), changed.end()) {
-    for (size_t i = 0; i < strengths_.size(); ++i)
-      strengths_[i] = strength_of(static_cast<Material>(i), field.source().voxel_size_m);
+    for (const Material material : all_kinds<Material>)
+      strengths_[static_cast<size_t>(material)] = strength_of(material, field.source().voxel_size_m);
   }
 
   SupportFound run() {
@@ -169,23 +170,12 @@ class Search {
 
   SupportParts parts_;
   std::set<BrickCoord> changed_;
-  std::array<Strength, 3> strengths_;
+  std::array<Strength, kind_count<Material>> strengths_;  ///< by material
   LoadFlow flow_;
   std::vector<uint32_t> mass_;  ///< by part
 };
 
 }  // namespace
-
-Bearing bearing_of(Material material) {
-  // What a column of so many metres of rock weighs on its foot is 25,500 Pa a metre: rock carries 200 m of
-  // itself pressed, 50 m hanging and 25 m sideways, soil a tenth of that, ice in between.
-  constexpr std::array<Bearing, 3> bearings = {{
-      {5.1e6F, 1.27e6F, 6.4e5F},  // rock
-      {4.0e5F, 1.0e5F, 5.0e4F},   // soil
-      {1.35e6F, 3.4e5F, 1.7e5F},  // ice
-  }};
-  return bearings[static_cast<size_t>(material)];
-}
 
 SupportFound find_overloads(Field& field, std::span<const BrickCoord> changed, int reach_bricks) {
   return Search(field, changed, reach_bricks).run();

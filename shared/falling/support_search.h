@@ -21,14 +21,6 @@
 
 namespace scree {
 
-/// Pressure that a section carries, Pa, by how the load lies on it.
-struct Bearing {
-  float pressed_pa = 0.0F;
-  float hanging_pa = 0.0F;
-  float sideways_pa = 0.0F;
-};
-Bearing bearing_of(Material material);
-
 /// The place where a mass breaks off: voxels to be crushed, two layers on each side of the thinnest section.
 struct Neck {
   VoxelBox box;

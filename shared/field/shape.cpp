@@ -29,9 +29,15 @@ Bounds bounds_of(const Shape& shape) {
     case ShapeKind::capsule:
       return {glm::min(shape.a, shape.b) - radius, glm::max(shape.a, shape.b) + radius};
     case ShapeKind::sphere:
-      break;
+      return {shape.a - radius, shape.a + radius};
   }
-  return {shape.a - radius, shape.a + radius};
+  CHECK(is_known(shape.kind));
+  return {};
+}
+
+float sphere_distance(const Shape& shape, glm::vec3 p) {
+  const glm::vec3 off = p - shape.a;
+  return std::sqrt(glm::dot(off, off)) - shape.radius_m;
 }
 
 float box_distance(const Shape& shape, glm::vec3 p) {
@@ -63,10 +69,10 @@ float distance(const Shape& shape, glm::vec3 p) {
     case ShapeKind::capsule:
       return capsule_distance(shape, p);
     case ShapeKind::sphere:
-      break;
+      return sphere_distance(shape, p);
   }
-  const glm::vec3 off = p - shape.a;
-  return std::sqrt(glm::dot(off, off)) - shape.radius_m;
+  CHECK(is_known(shape.kind));
+  return 0.0F;
 }
 
 VoxelBox band_box(const Shape& shape_voxels) {
@@ -89,15 +95,19 @@ float reach_of(const Shape& shape) {
 }
 
 Result<void> validate(const Shape& shape) {
-  if (shape.kind > ShapeKind::capsule) return fail("the shape is of no known kind (sphere, box, capsule)");
+  if (Result<void> known = validate_kind(shape.kind, "kind of shape"); !known) return known;
   if (!finite(shape.a) || !finite(shape.b)) return fail("the shape's position is not a finite number");
   if (!std::isfinite(shape.radius_m)) return fail("the radius is not a finite number");
   if (shape.radius_m < 0.0F) return fail("the radius is negative");
-  if (shape.kind == ShapeKind::box) {
-    if (shape.b.x <= 0.0F || shape.b.y <= 0.0F || shape.b.z <= 0.0F)
-      return fail("a half extent of the box is not positive");
-  } else if (shape.radius_m == 0.0F) {
-    return fail("the radius is zero");
+  switch (shape.kind) {
+    case ShapeKind::box:
+      if (shape.b.x <= 0.0F || shape.b.y <= 0.0F || shape.b.z <= 0.0F)
+        return fail("a half extent of the box is not positive");
+      break;
+    case ShapeKind::sphere:
+    case ShapeKind::capsule:
+      if (shape.radius_m == 0.0F) return fail("the radius is zero");
+      break;
   }
   return {};
 }

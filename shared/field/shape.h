@@ -4,12 +4,30 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "shared/base/kind_table.h"
 #include "shared/base/result.h"
 #include "shared/field/coord.h"
 
 namespace scree {
 
 enum class ShapeKind : uint8_t { sphere = 0, box = 1, capsule = 2 };
+
+struct ShapeRow {
+  std::string_view name;
+  bool has_b;  ///< Shape::b means something; else messages leave it out
+};
+
+constexpr ShapeRow row_of(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::sphere:
+      return {.name = "sphere", .has_b = false};
+    case ShapeKind::box:
+      return {.name = "box", .has_b = true};
+    case ShapeKind::capsule:
+      return {.name = "capsule", .has_b = true};
+  }
+  return {};
+}
 
 /// In metres. sphere: centre a, radius. box: centre a, half extents b, corners rounded by radius (≥ 0).
 /// capsule: from a to b, radius.
@@ -45,7 +63,7 @@ VoxelBox band_box(const Shape& shape_voxels);
 glm::vec3 centre_of(const Shape& shape);
 float reach_of(const Shape& shape);
 
-/// Refuses what no world can take: a kind that is none, numbers that are not finite, radii that are negative,
+/// Refuses what no world can take: an unknown kind, numbers that are not finite, radii that are negative,
 /// a shape without volume.
 Result<void> validate(const Shape& shape);
 

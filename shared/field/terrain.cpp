@@ -125,10 +125,11 @@ float ground(TerrainKind kind, glm::vec3 p, float bump) {
     case TerrainKind::noise:
       return p.y + bump;
     case TerrainKind::canyon:
-      break;
+      const float step = blend(std::clamp(0.5F - p.x / 5.0F, 0.0F, 1.0F));
+      return p.y - cliff_height_m * step + canyon_roughness * bump;
   }
-  const float step = blend(std::clamp(0.5F - p.x / 5.0F, 0.0F, 1.0F));
-  return p.y - cliff_height_m * step + canyon_roughness * bump;
+  CHECK(is_known(kind));
+  return 0.0F;
 }
 
 /// Negative inside rock; the zero set is the surface. In metres, but not a distance. `bump` is the noise at
@@ -151,9 +152,10 @@ Heights heights(TerrainKind kind) {
     case TerrainKind::noise:
       return {-amplitude_sum_m, amplitude_sum_m};
     case TerrainKind::canyon:
-      break;
+      return {-amplitude_sum_m * canyon_roughness, cliff_height_m + amplitude_sum_m};
   }
-  return {-amplitude_sum_m * canyon_roughness, cliff_height_m + amplitude_sum_m};
+  CHECK(is_known(kind));
+  return {};
 }
 
 /// Densities at the even voxels of `box`, whose bounds are even.
@@ -231,24 +233,6 @@ GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
 }
 
 }  // namespace
-
-std::string_view name_of(TerrainKind kind) {
-  switch (kind) {
-    case TerrainKind::flat:
-      return "flat";
-    case TerrainKind::noise:
-      return "noise";
-    case TerrainKind::canyon:
-      break;
-  }
-  return "canyon";
-}
-
-std::optional<TerrainKind> terrain_kind_named(std::string_view name) {
-  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon})
-    if (name == name_of(kind)) return kind;
-  return std::nullopt;
-}
 
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
   const VoxelCoord first = first_voxel(chunk);

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <string_view>
 
+#include "shared/base/kind_table.h"
 #include "shared/field/brick.h"
 
 namespace scree {
@@ -17,6 +17,30 @@ namespace scree {
 /// canyon: noise, with a cliff along x = 0 and an arch in front of it.
 enum class TerrainKind : uint8_t { flat = 0, noise = 1, canyon = 2 };
 
+/// Soil covers ground below the one height, ice above the other (material.h).
+struct MaterialHeights {
+  float soil_below_m = 0.0F;
+  float ice_above_m = 0.0F;
+};
+
+/// What the terrain is made of beside its form, which terrain.cpp generates.
+struct TerrainRow {
+  std::string_view name;
+  MaterialHeights layers;
+};
+
+constexpr TerrainRow row_of(TerrainKind kind) {
+  switch (kind) {
+    case TerrainKind::flat:
+      return {.name = "flat", .layers = {.soil_below_m = 1.0F, .ice_above_m = 1000.0F}};
+    case TerrainKind::noise:
+      return {.name = "noise", .layers = {.soil_below_m = 5.0F, .ice_above_m = 8.0F}};
+    case TerrainKind::canyon:
+      return {.name = "canyon", .layers = {.soil_below_m = 8.0F, .ice_above_m = 19.0F}};
+  }
+  return {};
+}
+
 struct TerrainSource {
   TerrainKind kind = TerrainKind::canyon;
   uint32_t random_seed = 1;
@@ -24,9 +48,6 @@ struct TerrainSource {
 
   bool operator==(const TerrainSource&) const = default;
 };
-
-std::string_view name_of(TerrainKind kind);
-std::optional<TerrainKind> terrain_kind_named(std::string_view name);
 
 /// A chunk as generated. bricks[i] is never null; uniform bricks point to the shared ones.
 struct GeneratedChunk {

@@ -93,11 +93,19 @@ constexpr size_t clusters_max = 64;
 
 std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 impact,
                                  const std::vector<VoxelCoord>& solid, Random& random) {
-  if (pattern == SeedPattern::radial) return {impact};
   std::vector<glm::vec3> places;
-  if (pattern == SeedPattern::clustered)
-    for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
-      places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+  switch (pattern) {
+    case SeedPattern::radial:
+      places.push_back(impact);
+      break;
+    case SeedPattern::clustered:
+      for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
+        places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+      break;
+    case SeedPattern::uniform:
+    case SeedPattern::authored:  // never drawn (scatter_seeds)
+      break;
+  }
   return places;
 }
 
@@ -109,7 +117,7 @@ int rounded(float x) {
 
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels) {
-  CHECK(pattern != SeedPattern::authored);
+  CHECK(is_drawn(pattern));
   CHECK(count > 0 && count <= limits::seeds_max);
   const std::vector<VoxelCoord> solid = solid_voxels(volume);
   if (solid.empty()) return {};

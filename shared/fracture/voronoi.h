@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "shared/field/piece.h"
+#include "shared/fracture/seed_pattern.h"
 
 namespace scree {
-
-/// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
-/// clustered: density ∝ 1/d² from the nearest of a few places in the volume, one for every eight seeds, 64 at
-/// most. authored: the places are given with the request.
-enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, authored = 3 };
 
 /// The method that cuts a volume along cells. field: works on codes, without any mesh (cut_cells). slice: the
 /// paper's; the surface as polygons is cut by each cell's planes and capped (slice_cutter.h). conform: cells
@@ -21,7 +17,7 @@ enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, autho
 enum class Cutter : uint8_t { field = 0, slice = 1, conform = 2 };
 
 /// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room,
-/// none where the volume has no solid voxel. Any pattern but `authored`.
+/// none where the volume has no solid voxel. The pattern is one of drawn_patterns.
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels);
 

@@ -57,7 +57,7 @@ MassUnits mass_created(const Applied& applied, const PieceTable& pieces) {
 }
 
 std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
-  if (op.pattern != SeedPattern::authored)
+  if (!traits_of(op.pattern).needs_points)
     return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
   std::vector<glm::vec3> points;
   for (const glm::vec3& point_m : op.authored_m) points.push_back(point_m / voxel_size_m);
@@ -182,9 +182,7 @@ Result<void> known(PieceId id, const PieceTable& pieces) {
   return fail("there is no piece " + std::to_string(id));
 }
 
-Result<void> validate_seeds(SeedPattern pattern, Cutter cutter, uint32_t seeds, PieceId first_piece) {
-  if (pattern > SeedPattern::authored)
-    return fail("the seed pattern is none that is known (uniform, radial, clustered, authored)");
+Result<void> validate_seeds(Cutter cutter, uint32_t seeds, PieceId first_piece) {
   if (cutter > Cutter::conform) return fail("the cutter is none that is known (field, slice, conform)");
   if (seeds == 0) return fail("a carve needs at least one seed");
   if (seeds > limits::seeds_max)
@@ -199,10 +197,10 @@ bool is_finite(glm::vec3 v) {
 }
 
 Result<void> validate_authored(const CarveOperation& op) {
-  const size_t wanted = op.pattern == SeedPattern::authored ? op.seeds : 0;
+  const size_t wanted = traits_of(op.pattern).needs_points ? op.seeds : 0;
   if (op.authored_m.size() != wanted)
     return fail(std::to_string(op.authored_m.size()) + " authored seeds for a carve of " +
-                std::to_string(wanted) + " (the pattern authored has as many as seeds, others none)");
+                std::to_string(wanted) + " (a pattern that needs points has as many as seeds, others none)");
   if (wanted > limits::authored_seeds_max)
     return fail(std::to_string(wanted) + " authored seeds are over the limit of " +
                 std::to_string(limits::authored_seeds_max) + " (limits.authored_seeds_max)");
@@ -236,12 +234,13 @@ struct Validator {
     if (Result<void> valid = validate_place(op.shape); !valid) return valid;
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
+    if (Result<void> valid = validate_carve_pattern(op.pattern); !valid) return valid;
     if (Result<void> valid = validate_authored(op); !valid) return valid;
-    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
+    return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
   Result<void> operator()(const PaintOperation& op) const {
-    if (op.material > Material::ice) return fail("the material is none that is known (rock, soil, ice)");
+    if (Result<void> valid = validate_kind(op.material, "material"); !valid) return valid;
     return validate_place(op.shape);
   }
   Result<void> operator()(const StampOperation& op) const {
@@ -258,8 +257,8 @@ struct Validator {
   Result<void> operator()(const ShatterOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
-    if (op.pattern == SeedPattern::authored) return fail("a piece that breaks has no authored seeds");
-    return validate_seeds(op.pattern, op.cutter, op.seeds, op.first_piece);
+    if (Result<void> valid = validate_shatter_pattern(op.pattern); !valid) return valid;
+    return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {
     constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);

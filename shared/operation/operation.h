@@ -13,6 +13,7 @@
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
+#include "shared/fracture/seed_pattern.h"
 #include "shared/fracture/voronoi.h"
 #include "shared/recombine/stamp.h"
 
@@ -27,7 +28,7 @@ struct CarveOperation {
   glm::vec3 impact_m{0.0F};
   PieceId first_piece = 0;
   Cutter cutter = Cutter::field;
-  std::vector<glm::vec3> authored_m{};  ///< for the pattern `authored`, as many as seeds; else none
+  std::vector<glm::vec3> authored_m{};  ///< as many as seeds when the pattern needs points; else none
 
   bool operator==(const CarveOperation&) const = default;
 };
@@ -68,7 +69,7 @@ struct DiscardOperation {
 };
 
 /// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
-/// impact is in the voxel frame of its volume. Of any pattern but `authored`.
+/// impact is in the voxel frame of its volume. The pattern is one of drawn_patterns (seed_pattern.h).
 struct ShatterOperation {
   PieceId piece = 0;
   SeedPattern pattern = SeedPattern::radial;

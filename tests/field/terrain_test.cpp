@@ -72,8 +72,8 @@ TEST(terrain, ground_height_is_where_the_field_turns_solid) {
 
 TEST(terrain, names_and_kinds_correspond) {
   for (const TerrainSource& source : sources)
-    EXPECT_EQ(terrain_kind_named(name_of(source.kind)), source.kind);
-  EXPECT_FALSE(terrain_kind_named("lava").has_value());
+    EXPECT_EQ(kind_named<TerrainKind>(name_of(source.kind)), source.kind);
+  EXPECT_FALSE(kind_named<TerrainKind>("lava").has_value());
 }
 
 }  // namespace

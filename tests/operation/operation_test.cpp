@@ -49,18 +49,17 @@ TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
 
 TEST(operation, every_cutter_and_pattern_conserves_mass) {
   for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
-    for (const SeedPattern pattern :
-         {SeedPattern::uniform, SeedPattern::radial, SeedPattern::clustered, SeedPattern::authored}) {
+    for (const SeedPattern pattern : all_kinds<SeedPattern>) {
       MapField field(flat);
       PieceTable pieces;
       CarveOperation op = ball(4, pattern);
       op.cutter = cutter;
       // Two inside, one a hair beside the first, one in the air.
-      if (pattern == SeedPattern::authored)
+      if (traits_of(pattern).needs_points)
         op.authored_m = {{0.3F, -0.5F, 0.1F}, {0.31F, -0.5F, 0.1F}, {0.3F, 9.0F, 0.1F}, {-0.8F, -0.9F, 0.1F}};
       ASSERT_TRUE(validate(op, pieces).has_value());
       const Applied applied = apply(op, field, pieces);
-      EXPECT_EQ(pieces.size(), pattern == SeedPattern::authored ? 2U : 4U);
+      EXPECT_EQ(pieces.size(), traits_of(pattern).needs_points ? 2U : 4U);
       EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
       const MassUnits before = mass_of(pieces);
       const PieceId first = pieces.begin()->first;
@@ -253,8 +252,12 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(op, "limits.authored_seeds_max");
   op.pattern = SeedPattern::radial;
   refused(op, "257 authored seeds for a carve of 0");
-  op = ball(8, static_cast<SeedPattern>(4));
-  refused(op, "pattern");
+  op = ball(8, static_cast<SeedPattern>(kind_count<SeedPattern>));
+  refused(op, "pattern is none that is known (uniform, radial,");
+  const auto no_material = static_cast<Material>(kind_count<Material>);
+  refused(PaintOperation{sphere({0, 0, 0}, 1.0F), no_material}, "material is none that is known (rock, soil");
+  const auto no_shape = static_cast<ShapeKind>(kind_count<ShapeKind>);
+  refused(FillOperation{{no_shape, {}, {}, 1.0F}}, "kind of shape is none that is known (sphere, box");
   op = ball(8);
   op.cutter = static_cast<Cutter>(3);
   refused(op, "cutter");

@@ -210,7 +210,7 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   EXPECT_TRUE(names(server_refusal(frame), "piece ids"));
 }
 
-TEST(Codec, patterns_cutters_and_authored_seeds_beyond_the_known_are_refused_by_name) {
+TEST(Codec, cutters_and_authored_seeds_beyond_the_known_are_refused_by_name) {
   const auto refusal = [](const Operation& operation) {
     FrameMessage frame;
     frame.operations = {operation};
@@ -220,10 +220,6 @@ TEST(Codec, patterns_cutters_and_authored_seeds_beyond_the_known_are_refused_by_
   EXPECT_EQ(refusal(carve), "");
   carve.cutter = static_cast<Cutter>(3);
   EXPECT_TRUE(names(refusal(carve), "cutter"));
-  carve = samples::carve_operation();
-  carve.pattern = static_cast<SeedPattern>(4);
-  EXPECT_TRUE(names(refusal(carve), "pattern"));
-  EXPECT_TRUE(names(refusal(ShatterOperation{1, SeedPattern::authored, 2, 0, {}, 5}), "pattern"));
   carve = samples::authored_carve_operation();
   carve.authored_m.assign(limits::authored_seeds_max + 1, glm::vec3(0.0F));
   carve.seeds = limits::authored_seeds_max + 1;

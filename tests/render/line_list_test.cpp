@@ -11,8 +11,8 @@ namespace scree {
 namespace {
 
 TEST(LineList, outlines_lie_on_their_shapes) {
-  for (const Shape& shape :
-       {sphere({1, 2, 3}, 2.0F), box({-1, 0, 4}, {1, 2, 3}), capsule({0, 0, 0}, {3, 1, -2}, 0.5F)}) {
+  for (const ShapeKind kind : all_kinds<ShapeKind>) {
+    const Shape shape{kind, {1, 2, 3}, {2, 1, 3}, kind == ShapeKind::box ? 0.0F : 0.5F};
     LineList lines;
     lines.shape(shape, {});
     ASSERT_FALSE(lines.vertices().empty());

@@ -1,9 +1,11 @@
 // What the viewer keeps, what its tools ask for, and what a gamepad does.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <set>
 #include <sstream>
 
 #include "client/viewer/input/gamepad.h"
@@ -70,8 +72,8 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
   for (const std::string broken :
        {"{\"width\": 12", "[]", R"({"width": "wide"})", R"({"width": -5})", R"({"method": "magic"})",
-        R"({"tool": "spoon"})", R"({"help": 1})", R"({"radius_m": 1e30})", R"({"grid_resolution": 33})",
-        R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})"}) {
+        R"({"tool": "spoon"})", R"({"pattern": "authored"})", R"({"help": 1})", R"({"radius_m": 1e30})",
+        R"({"grid_resolution": 33})", R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
     const KeptSettings kept(settings_file());
@@ -114,7 +116,7 @@ TEST_F(SettingsTest, flags_win) {
 }
 
 TEST(Tool, every_shape_is_within_the_servers_limits) {
-  for (const ToolKind kind : {ToolKind::sphere, ToolKind::box, ToolKind::tunnel})
+  for (const ToolKind kind : all_kinds<ToolKind>)
     for (const float radius_m : {tool_radius_min_m, 2.0F, tool_radius_max_m}) {
       Tool tool;
       tool.kind = kind;
@@ -146,6 +148,26 @@ TEST(Tool, actions_stay_within_the_ranges) {
   EXPECT_EQ(tool.kind, ToolKind::tunnel);
   change(tool, Action::next_tool);
   EXPECT_EQ(tool.kind, ToolKind::sphere);
+}
+
+TEST(Tool, patterns_and_tools_go_round_and_none_is_offered_that_needs_points) {
+  Tool tool;
+  std::set<SeedPattern> patterns;
+  for (size_t i = 0; i < 2 * kind_count<SeedPattern>; ++i) {
+    change(tool, Action::next_pattern);
+    EXPECT_FALSE(traits_of(tool.pattern).needs_points) << name_of(tool.pattern);
+    patterns.insert(tool.pattern);
+  }
+  EXPECT_EQ(patterns.size(), static_cast<size_t>(std::ranges::count_if(all_kinds<SeedPattern>, is_drawn)));
+  tool.pattern = SeedPattern::authored;
+  change(tool, Action::next_pattern);
+  EXPECT_FALSE(traits_of(tool.pattern).needs_points);
+  std::set<ToolKind> tools;
+  for (size_t i = 0; i < kind_count<ToolKind>; ++i) {
+    change(tool, Action::next_tool);
+    tools.insert(tool.kind);
+  }
+  EXPECT_EQ(tools.size(), kind_count<ToolKind>);
 }
 
 TEST(Gamepad, sticks_fly_and_worn_ones_rest) {

@@ -131,7 +131,7 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
     EXPECT_EQ(delta->field_hash, 0U);
     return delta->replies.front().refusal;
   };
-  EXPECT_NE(refusal(static_cast<Material>(3), patch).find("material"), std::string::npos);
+  EXPECT_NE(refusal(static_cast<Material>(kind_count<Material>), patch).find("material"), std::string::npos);
   EXPECT_NE(refusal(Material::ice, sphere({}, 9.0F)).find("edit_reach_max_m"), std::string::npos);
   EXPECT_NE(refusal(Material::ice, sphere({}, -1.0F)).find("negative"), std::string::npos);
   EXPECT_NE(refusal(Material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
@@ -154,7 +154,7 @@ TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
   };
   refused(7, 3, "painted bricks");
   refused(8, 2, "beyond the last brick");
-  refused(9, 3, "material");
+  refused(9, kind_count<Material>, "material");
 }
 
 /// What a client gets of a world, from the tick at which it joins.

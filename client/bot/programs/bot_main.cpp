@@ -13,6 +13,14 @@ namespace {
 constexpr int exit_failed = 1;
 constexpr int exit_usage = 2;
 
+/// In place of a pattern's name: those that a bot takes in turn when it is told none.
+constexpr const char* both_patterns = "both";
+
+template <scree::HasRows Kind>
+std::vector<std::string> names_of() {
+  return {scree::kind_names<Kind>.begin(), scree::kind_names<Kind>.end()};
+}
+
 struct Options {
   scree::BotConfig bot;
   std::string pattern = "radial";
@@ -55,19 +63,24 @@ void add_carving(CLI::App& app, Options& options) {
   app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into")
       ->envname("SCREE_SEEDS")
       ->capture_default_str();
-  app.add_option("--pattern", options.pattern,
-                 "of the seeds: radial, uniform, both in turn, clustered, or authored (as stones of a wall)")
+  std::vector<std::string> patterns = names_of<scree::SeedPattern>();
+  patterns.emplace_back(both_patterns);
+  app.add_option(
+         "--pattern", options.pattern,
+         "of the seeds: " + scree::listed(scree::kind_names<scree::SeedPattern>) +
+             "; both: uniform and radial in turn. Points, if it needs any, are those of a wall's stones")
       ->envname("SCREE_PATTERN")
-      ->check(CLI::IsMember({"radial", "uniform", "both", "clustered", "authored"}))
+      ->check(CLI::IsMember(patterns))
       ->capture_default_str();
   app.add_option("--centre", options.centre_m, "x and z around which to carve, metres")->expected(2);
   app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres")
       ->envname("SCREE_AREA")
       ->check(CLI::Range(0.0F, scree::limits::world_half_width_m))
       ->capture_default_str();
-  app.add_option("--paint", options.paint, "paint the rock of each carve before: rock, soil or ice")
+  app.add_option("--paint", options.paint,
+                 "paint the rock of each carve before: " + scree::listed(scree::kind_names<scree::Material>))
       ->envname("SCREE_PAINT")
-      ->check(CLI::IsMember({"rock", "soil", "ice"}));
+      ->check(CLI::IsMember(names_of<scree::Material>()));
 }
 
 void add_ending(CLI::App& app, Options& options) {
@@ -88,11 +101,8 @@ void add_ending(CLI::App& app, Options& options) {
 /// Derives the rest of the configuration from the parsed options.
 void complete(Options& options) {
   scree::CarverConfig& carver = options.bot.carver;
-  if (options.pattern == "uniform") carver.pattern = scree::SeedPattern::uniform;
-  if (options.pattern == "clustered") carver.pattern = scree::SeedPattern::clustered;
-  if (options.pattern == "authored") carver.pattern = scree::SeedPattern::authored;
-  if (options.pattern == "both") carver.pattern.reset();
-  options.bot.paint = scree::material_named(options.paint);
+  carver.pattern = scree::kind_named<scree::SeedPattern>(options.pattern);  // none: both
+  options.bot.paint = scree::kind_named<scree::Material>(options.paint);
   carver.centre_m = {options.centre_m[0], 0.0F, options.centre_m[1]};
 }
 

@@ -1,7 +1,5 @@
 #include "client/render/gl/lighting.h"
 
-#include "shared/field/layer_depths.h"
-
 namespace scree {
 
 void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_unit) {
@@ -10,7 +8,8 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   program.set("u_fog_m", pass.lighting.fog_m);
   const MaterialHeights& layers = pass.lighting.layers;
   program.set("u_ice_above_m", layers.ice_above_m);
-  program.set("u_layers", glm::vec4(layers.soil_below_m, soil_depth_m, layers.ice_above_m, ice_depth_m));
+  program.set("u_layers", glm::vec4(layers.soil_below_m, traits_of(Material::soil).layer_depth_m,
+                                    layers.ice_above_m, traits_of(Material::ice).layer_depth_m));
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
   program.set("u_shadow_map", shadow_unit);
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(shadow_unit));

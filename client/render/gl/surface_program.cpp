@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "client/render/gl/material_source.h"
 #include "client/render/gl/shader_sources.h"
 
 namespace scree {
@@ -34,9 +35,13 @@ void SurfaceProgram::set_place(const MeshPlace& place) const {
 }
 
 std::span<const std::string_view> surface_fragment_parts() {
-  static const std::array parts{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
-                                shader_source("noise.glsl"),    shader_source("rock.glsl"),
-                                shader_source("shadow.glsl"),   shader_source("surface.frag")};
+  static const std::array parts{material_source(),
+                                shader_source("rotation.glsl"),
+                                shader_source("atmosphere.glsl"),
+                                shader_source("noise.glsl"),
+                                shader_source("rock.glsl"),
+                                shader_source("shadow.glsl"),
+                                shader_source("surface.frag")};
   return parts;
 }
 

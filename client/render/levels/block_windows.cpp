@@ -5,7 +5,6 @@
 #include <cstring>
 #include <utility>
 
-#include "shared/field/layer_depths.h"
 #include "shared/field/material.h"
 #include "shared/surface/marching_cubes.h"
 
@@ -96,12 +95,13 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   const glm::vec3 steps(vertex.position[0], vertex.position[1], vertex.position[2]);
   const glm::vec3 p = origin + steps / surface_steps_per_voxel;
-  const MaterialHeights layers = heights_of(source.kind);
+  const MaterialHeights layers = traits_of(source.kind).layers;
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
   if (!soil && height_m <= layers.ice_above_m) return 0;
   // Mostly the window shows that the ground's surface is farther above than the layer's depth.
-  const float end = p.y + (soil ? soil_depth_m : ice_depth_m) / source.voxel_size_m;
+  const float end =
+      p.y + traits_of(soil ? Material::soil : Material::ice).layer_depth_m / source.voxel_size_m;
   const VoxelCoord above{floor_to_int(p.x), std::min(floor_to_int(end) + 1, before->box.hi.y - 1),
                          floor_to_int(p.z)};
   if (before->box.holds(above) &&

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "client/render/scene/paint_number.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 #include "shared/surface/surface_nets.h"
@@ -30,14 +31,6 @@ struct BlockWindows {
 
 /// Nothing when all the bricks around are air, or all are rock.
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned);
-
-/// SurfaceVertex::paint of a painted brick; and of terrain that a cut lays bare, where that is not rock.
-inline uint8_t paint_number(std::optional<Material> paint) {
-  return paint ? static_cast<uint8_t>(1 + static_cast<int>(*paint)) : uint8_t{0};
-}
-inline uint8_t layer_number(Material layer) {
-  return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>((1 + static_cast<int>(layer)) << 2);
-}
 
 /// The paint number of a piece: its material, everywhere if the field is painted where it was cut, else only
 /// in its cuts.

@@ -19,7 +19,7 @@ struct LevelBrick {
   /// The generated field: `same` without edits; else it distinguishes fresh rock and rubble.
   enum class Before { same, mixed, air, rock } before_kind = Before::same;
   AtlasBrick before;  ///< when mixed
-  uint8_t paint = 0;  ///< as SurfaceVertex::paint; on level 0 alone
+  uint8_t paint = 0;  ///< a paint number (paint_number.h); on level 0 alone
 };
 
 /// By the samples of its own cells, not the rest of its apron.

@@ -15,6 +15,7 @@
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/gl/lighting.h"
+#include "client/render/gl/material_source.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/pieces/piece_volumes.h"
 #include "client/render/raymarch/march_targets.h"
@@ -33,11 +34,11 @@ struct Programs {
   gl::Program composite;
 };
 
-/// Links a program of shaders/ files.
+/// Links a program of shaders/ files and the table of materials.
 Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
                          std::initializer_list<std::string_view> fragment) {
   const auto sources = [](std::initializer_list<std::string_view> files) {
-    std::vector<std::string_view> texts;
+    std::vector<std::string_view> texts{material_source()};
     for (const std::string_view file : files) texts.push_back(shader_source(file));
     return texts;
   };

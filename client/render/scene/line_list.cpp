@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "client/render/scene/limits.h"
+#include "shared/base/check.h"
 
 namespace scree {
 namespace {
@@ -52,15 +53,26 @@ void LineList::shape(const Shape& shape, LineColour colour) {
     circle(centre_m, {0.0F, 1.0F, 0.0F}, shape.radius_m, colour);
     circle(centre_m, {0.0F, 0.0F, 1.0F}, shape.radius_m, colour);
   };
-  if (shape.kind == ShapeKind::box) return box(shape.a - shape.b, shape.a + shape.b, colour);
-  ball(shape.a);
-  if (shape.kind == ShapeKind::sphere || shape.a == shape.b) return;
-  ball(shape.b);
-  const glm::vec3 axis = glm::normalize(shape.b - shape.a);
-  const glm::vec3 u = across(axis) * shape.radius_m;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return ball(shape.a);
+    case ShapeKind::box:
+      return box(shape.a - shape.b, shape.a + shape.b, colour);
+    case ShapeKind::capsule:
+      ball(shape.a);
+      if (shape.a == shape.b) return;
+      ball(shape.b);
+      return tube(shape.a, shape.b, shape.radius_m, colour);
+  }
+  CHECK(is_known(shape.kind));
+}
+
+void LineList::tube(glm::vec3 from_m, glm::vec3 to_m, float radius_m, LineColour colour) {
+  const glm::vec3 axis = glm::normalize(to_m - from_m);
+  const glm::vec3 u = across(axis) * radius_m;
   const glm::vec3 v = glm::cross(axis, u);
-  for (const glm::vec3 side : {u, v, -u, -v}) line(shape.a + side, shape.b + side, colour);
-  for (const glm::vec3 end_m : {shape.a, shape.b}) circle(end_m, axis, shape.radius_m, colour);
+  for (const glm::vec3 side : {u, v, -u, -v}) line(from_m + side, to_m + side, colour);
+  for (const glm::vec3 end_m : {from_m, to_m}) circle(end_m, axis, radius_m, colour);
 }
 
 void LineList::cross(glm::vec3 place_m, float half_m, LineColour colour) {

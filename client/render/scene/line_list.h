@@ -32,6 +32,7 @@ class LineList {
            glm::vec3 move_m = glm::vec3(0.0F));
   /// About `axis` (unit).
   void circle(glm::vec3 centre_m, glm::vec3 axis, float radius_m, LineColour colour);
+  void tube(glm::vec3 from_m, glm::vec3 to_m, float radius_m, LineColour colour);
   void shape(const Shape& shape, LineColour colour);
   /// Three short lines that cross.
   void cross(glm::vec3 place_m, float half_m, LineColour colour);

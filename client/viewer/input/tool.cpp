@@ -4,32 +4,23 @@
 #include <array>
 #include <cmath>
 
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 
 namespace scree {
 namespace {
 
-constexpr std::array<std::string_view, 3> kinds{"sphere", "box", "tunnel"};
-constexpr std::array<std::string_view, 4> patterns{"uniform", "radial", "clustered", "authored"};
 constexpr float growth = 1.12F;  ///< a notch
 constexpr float speed_step_m_s = 2.0F;
 constexpr float seeds_growth = 1.5F;
 constexpr uint32_t seeds_min = 2;
 constexpr uint32_t seeds_by_volume_min = 6;
 constexpr uint32_t seeds_by_volume_max = 192;
-constexpr float tunnel_length_in_radii = 6.0F;
-
-/// Volume, in spheres of the radius.
-float spheres_of(ToolKind kind) {
-  switch (kind) {
-    case ToolKind::sphere:
-      return 1.0F;
-    case ToolKind::box:
-      return 8.0F / 4.19F;
-    case ToolKind::tunnel:
-      break;
-  }
-  return 1.0F + 0.75F * (tunnel_length_in_radii - 2.0F);
+/// The one after `one`, and the first after the last.
+template <typename T, size_t n>
+T next(const std::array<T, n>& all, T one) {
+  const auto found = std::ranges::find(all, one);
+  return found == all.end() || found + 1 == all.end() ? all.front() : *(found + 1);
 }
 
 uint32_t scaled(uint32_t seeds, float factor) {
@@ -40,14 +31,6 @@ uint32_t scaled(uint32_t seeds, float factor) {
 
 }  // namespace
 
-std::string_view name_of(ToolKind kind) {
-  return kinds.at(static_cast<size_t>(kind));
-}
-
-std::string_view name_of(SeedPattern pattern) {
-  return patterns.at(static_cast<size_t>(pattern));
-}
-
 Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
   const glm::vec3 centre_m = hit_m + direction * (tool.radius_m * carve_depth_in_radii);
   switch (tool.kind) {
@@ -56,17 +39,19 @@ Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
     case ToolKind::box:
       return box(centre_m, glm::vec3(tool.radius_m));
     case ToolKind::tunnel:
-      break;
+      // Half the longest extent, the rounded ends included, must not be over the server's limit.
+      const float length_m =
+          std::min(tunnel_length_in_radii * tool.radius_m, 2.0F * limits::edit_reach_max_m) -
+          2.0F * tool.radius_m;
+      return capsule(centre_m, centre_m + direction * length_m, tool.radius_m);
   }
-  // Half the longest extent, the rounded ends included, must not be over the server's limit.
-  const float length_m = std::min(tunnel_length_in_radii * tool.radius_m, 2.0F * limits::edit_reach_max_m) -
-                         2.0F * tool.radius_m;
-  return capsule(centre_m, centre_m + direction * length_m, tool.radius_m);
+  CHECK(is_known(tool.kind));
+  return {};
 }
 
 uint32_t seeds_of(const Tool& tool) {
   if (tool.seeds > 0) return tool.seeds;
-  const float wanted = 8.0F * tool.radius_m * tool.radius_m * spheres_of(tool.kind);
+  const float wanted = 8.0F * tool.radius_m * tool.radius_m * traits_of(tool.kind).spheres;
   return std::clamp(static_cast<uint32_t>(wanted), seeds_by_volume_min, seeds_by_volume_max);
 }
 
@@ -101,10 +86,10 @@ void change(Tool& tool, Action action) {
       tool.kind = ToolKind::tunnel;
       break;
     case Action::next_tool:
-      tool.kind = static_cast<ToolKind>((static_cast<size_t>(tool.kind) + 1) % tool_kinds.size());
+      tool.kind = next(all_kinds<ToolKind>, tool.kind);
       break;
     case Action::next_pattern:
-      tool.pattern = static_cast<SeedPattern>((static_cast<size_t>(tool.pattern) + 1) % tool_patterns.size());
+      tool.pattern = next(tool_patterns, tool.pattern);
       break;
     case Action::larger:
       grow(tool, 1.0F);

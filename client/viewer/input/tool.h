@@ -1,17 +1,37 @@
 // The tool of a strike: the shape that it carves, and the pattern of the pieces.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string_view>
 
 #include "client/viewer/input/actions.h"
 #include "proto/messages.h"
+#include "shared/base/kind_table.h"
 
 namespace scree {
 
 enum class ToolKind : uint8_t { sphere = 0, box = 1, tunnel = 2 };
+
+/// A tunnel's length, the rounded ends included.
+inline constexpr float tunnel_length_in_radii = 6.0F;
+
+struct ToolRow {
+  std::string_view name;
+  float spheres;  ///< volume, in spheres of the tool's radius
+};
+
+constexpr ToolRow row_of(ToolKind kind) {
+  switch (kind) {
+    case ToolKind::sphere:
+      return {.name = "sphere", .spheres = 1.0F};
+    case ToolKind::box:
+      return {.name = "box", .spheres = 8.0F / 4.19F};
+    case ToolKind::tunnel:
+      return {.name = "tunnel", .spheres = 1.0F + 0.75F * (tunnel_length_in_radii - 2.0F)};
+  }
+  return {};
+}
 
 struct Tool {
   ToolKind kind = ToolKind::sphere;
@@ -28,12 +48,8 @@ inline constexpr float tool_radius_min_m = 0.5F;
 inline constexpr float tool_radius_max_m = 4.0F;
 inline constexpr uint32_t tool_seeds_max = 256;
 
-inline constexpr std::array tool_kinds{ToolKind::sphere, ToolKind::box, ToolKind::tunnel};
-/// A hand authors no seeds one by one.
-inline constexpr std::array tool_patterns{SeedPattern::uniform, SeedPattern::radial, SeedPattern::clustered};
-
-std::string_view name_of(ToolKind kind);
-std::string_view name_of(SeedPattern pattern);
+/// A hand gives no points.
+inline constexpr auto tool_patterns = drawn_patterns;
 
 /// The shape of a strike along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
 /// direction; boxes stand upright.

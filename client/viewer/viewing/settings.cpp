@@ -109,7 +109,7 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("overlay_chunks", settings.overlay.chunks);
   reader.flag("overlay_pieces", settings.overlay.pieces);
   reader.flag("overlay_physics", settings.overlay.physics);
-  reader.choice("tool", settings.tool.kind, tool_kinds);
+  reader.choice("tool", settings.tool.kind, all_kinds<ToolKind>);
   reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
   reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
   reader.choice("pattern", settings.tool.pattern, tool_patterns);

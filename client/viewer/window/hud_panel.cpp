@@ -60,7 +60,7 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoi
   const MethodEntry* picked = choose_method(chosen);
   if (chosen.name == "grid") choose_grid(grid);
   ImGui::Separator();
-  choose(tool.kind, tool_kinds);
+  choose(tool.kind, all_kinds<ToolKind>);
   ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
   choose(tool.pattern, tool_patterns);

@@ -1,0 +1,14 @@
+// The table of materials (shared/field/material.h) for shaders, as text in GLSL.
+#pragma once
+
+#include <string_view>
+
+namespace scree {
+
+/// A part of every program that has bricks.glsl or rock.glsl, before them:
+/// paint_bits, paint_in_cuts   as in client/render/scene/paint_number.h
+/// material_rock, …            the material's number: 1 + its place in the table
+/// material_albedo[]           by that number − 1
+std::string_view material_source();
+
+}  // namespace scree
