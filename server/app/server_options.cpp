@@ -7,6 +7,7 @@
 #include "server/app/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
+#include "shared/base/listed.h"
 #include "shared/base/token.h"
 
 namespace scree {
