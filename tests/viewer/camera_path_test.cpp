@@ -81,7 +81,7 @@ TEST(CameraPath, what_is_wrong_is_named) {
             std::string::npos);
   const std::string still = R"({"time_s": 0, "camera": [0, 0, 0, 0, 0]})";
   EXPECT_EQ(refusal("{\"keys\": [" + still + "," + still + "]}"),
-            "key 2: its time does not come after the one before");
+            "key 2: its time does not come 0.000500 s or more after the one before (limits.path_step_min_s)");
   EXPECT_NE(refusal("{\"keys\": [" + still + R"(,{"time_s": 1e6, "camera": [0, 0, 0, 0, 0]}]})")
                 .find("path_duration_max_s"),
             std::string::npos);
@@ -89,6 +89,47 @@ TEST(CameraPath, what_is_wrong_is_named) {
   for (size_t i = 0; i < limits::path_keys_max; ++i) many += ",0";
   EXPECT_NE(refusal(many + "]}").find("path_keys_max"), std::string::npos);
   EXPECT_FALSE(CameraPath::read("/nowhere/path.json"));
+}
+
+std::string two_keys(const std::string& first_s, const std::string& second_s) {
+  return R"({"keys": [{"time_s": )" + first_s + R"(, "camera": [0, 0, 0, 0, 0]}, {"time_s": )" + second_s +
+         R"(, "camera": [9, 9, 9, 0, 0]}]})";
+}
+
+TEST(CameraPath, steps_too_short_for_a_speed_are_refused) {
+  for (const char* step_s : {"5e-324", "1e-300", "0.00049"}) {
+    const Result<CameraPath> path = CameraPath::parse(two_keys("0", step_s));
+    ASSERT_FALSE(path) << step_s;
+    EXPECT_NE(path.error().message.find("path_step_min_s"), std::string::npos) << path.error().message;
+  }
+  const Result<CameraPath> shortest = CameraPath::parse(two_keys("0", "0.0005"));
+  ASSERT_TRUE(shortest) << shortest.error().message;
+  for (const double t : {0.0, 0.0002, 0.0004, 0.0005})
+    EXPECT_TRUE(std::isfinite(shortest->at(t).eye_m.x)) << t;
+}
+
+TEST(CameraPath, times_far_from_zero_are_counted_from_the_first_key) {
+  const Result<CameraPath> path = CameraPath::parse(two_keys("1e17", "100000000000000016"));
+  ASSERT_TRUE(path) << path.error().message;
+  EXPECT_EQ(path->duration_s(), 16.0);
+  EXPECT_NEAR(path->at(8.0).eye_m.x, 4.5F, 1e-5F);
+  EXPECT_FALSE(CameraPath::parse(two_keys("-1e300", "1e300")));
+}
+
+TEST(CameraPath, deep_nesting_is_refused_whatever_it_is_made_of) {
+  constexpr size_t depth = 160000;
+  std::string lists = R"({"keys": )" + std::string(depth, '[') + std::string(depth, ']') + "}";
+  std::string objects;
+  for (size_t i = 0; i < depth; ++i) objects += R"({"keys":)";
+  for (const std::string& text : {lists, std::string(depth, '['), objects + "0" + std::string(depth, '}')}) {
+    const Result<CameraPath> path = CameraPath::parse(text);
+    ASSERT_FALSE(path);
+    EXPECT_NE(path.error().message.find("json_depth_max"), std::string::npos) << path.error().message;
+  }
+  // Brackets in a text nest nothing.
+  const std::string noted = R"({"note": "\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[", "keys": [{"time_s": 2,
+    "camera": [1, 2, 3, 0, 0]}]})";
+  EXPECT_TRUE(CameraPath::parse(noted));
 }
 
 Image uniform(int width, int height, uint8_t value) {

@@ -99,6 +99,14 @@ TEST_F(SettingsTest, text_is_understood_again) {
   EXPECT_EQ(*again, settings);
 }
 
+TEST_F(SettingsTest, deep_nesting_is_refused) {
+  constexpr size_t depth = 160000;
+  const Result<Settings> settings =
+      parse_settings(R"({"method": )" + std::string(depth, '[') + std::string(depth, ']') + "}");
+  ASSERT_FALSE(settings);
+  EXPECT_NE(settings.error().message.find("json_depth_max"), std::string::npos) << settings.error().message;
+}
+
 TEST_F(SettingsTest, flags_win) {
   Settings settings;
   settings.width = 640;

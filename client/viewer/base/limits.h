@@ -50,6 +50,13 @@ inline constexpr double settled_s = 2.0;
 /// Bytes of a path or of the settings; a larger file is refused.
 inline constexpr size_t text_file_bytes_max = size_t{1} << 20;
 
+/// Levels of lists and objects in such a file, ten times what either has; a deeper one is refused.
+inline constexpr size_t json_depth_max = 32;
+
+/// Shortest time between two key frames, seconds: half a millisecond, less than any frame takes. A shorter
+/// one is refused: speeds would have no bound.
+inline constexpr double path_step_min_s = 5e-4;
+
 /// Key frames of a path, and its seconds: an hour, 108,000 pictures. More is refused.
 inline constexpr size_t path_keys_max = 10000;
 inline constexpr double path_duration_max_s = 3600.0;

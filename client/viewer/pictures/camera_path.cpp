@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "client/viewer/base/files.h"
+#include "client/viewer/base/json_depth.h"
 #include "client/viewer/base/limits.h"
 
 namespace scree {
@@ -47,6 +48,7 @@ Result<Camera> camera_of(const std::array<float, 5>& values) {
 }
 
 Result<CameraPath> CameraPath::parse(const std::string& text) {
+  if (Result<void> shallow = check_json_depth(text); !shallow) return tl::unexpected(shallow.error());
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) return fail("it is not JSON");
   const Json keys = json.is_object() ? json.value("keys", Json()) : Json();
@@ -77,8 +79,12 @@ Result<CameraPath> CameraPath::read(const std::string& file) {
 }
 
 Result<void> CameraPath::add(double time_s, const Camera& camera) {
-  if (!keys_.empty() && !(time_s > keys_.back().time_s))
-    return fail("its time does not come after the one before");
+  // From the first key on: of large numbers of seconds, sums would be rounded.
+  if (keys_.empty()) start_s_ = time_s;
+  time_s -= start_s_;
+  if (!keys_.empty() && !(time_s - keys_.back().time_s >= limits::path_step_min_s))
+    return fail("its time does not come " + std::to_string(limits::path_step_min_s) +
+                " s or more after the one before (limits.path_step_min_s)");
   double yaw = static_cast<double>(camera.yaw);
   if (!keys_.empty()) {
     const double before = keys_.back().values[3];
@@ -100,7 +106,7 @@ CameraPath::Values CameraPath::slope_at(size_t key) const {
 }
 
 Camera CameraPath::at(double time_s) const {
-  const double time = std::clamp(time_s, 0.0, duration_s()) + keys_.front().time_s;
+  const double time = std::clamp(time_s, 0.0, duration_s());
   const auto after = std::ranges::upper_bound(keys_, time, {}, &Key::time_s);
   Values values = keys_.back().values;
   if (after != keys_.end()) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/viewer/base/files.h"
+#include "client/viewer/base/json_depth.h"
 #include "client/viewer/base/limits.h"
 
 namespace scree {
@@ -85,6 +86,7 @@ std::string settings_file() {
 }
 
 Result<Settings> parse_settings(const std::string& text) {
+  if (Result<void> shallow = check_json_depth(text); !shallow) return tl::unexpected(shallow.error());
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return fail("it is no JSON object");
   Settings settings;
