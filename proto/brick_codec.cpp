@@ -157,9 +157,12 @@ Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
   volume.mass =
       static_cast<MassUnits>(reader.varint("mass", side_max * side_max * side_max * units_per_voxel));
   volume.centre_voxels = reader.vec3("centre of mass");
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(volume.centre_voxels[axis]) > static_cast<float>(limits::voxel_coordinate_max))
-      reader.refuse("centre of mass is beyond ±2^24 voxels");
+  const auto inside = [](float centre, int32_t first, int32_t count) {
+    return centre >= static_cast<float>(first) && centre <= static_cast<float>(first + count);
+  };
+  const glm::vec3 centre = volume.centre_voxels;
+  if (!inside(centre.x, lo.x, size.x) || !inside(centre.y, lo.y, size.y) || !inside(centre.z, lo.z, size.z))
+    reader.refuse("centre of mass is outside the window");
   volume.material = reader.kind<Material>("material");
   if (reader.failed()) return tl::unexpected(reader.error());
   volume.window = Window(VoxelBox{lo, lo + size});

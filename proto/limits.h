@@ -41,6 +41,11 @@ inline constexpr size_t watched_bricks_max = 1024;
 /// Work that fits into a tick, microseconds: a tick takes a second at most.
 inline constexpr uint32_t tick_budget_max_us = 1'000'000;
 
+/// Voxels of the pieces of a world, all together: 256 MiB of codes, for a volume of air packs into a few
+/// bytes. 20,000 pieces of 4,000 voxels take a third. Above: a client gives the connection up, and a
+/// recording's keyframe is refused.
+inline constexpr size_t piece_voxels_max = size_t{1} << 28;
+
 /// Length of a refusal or a reply's reason, bytes; an encoder cuts a longer one.
 inline constexpr size_t reason_bytes_max = 1024;
 

@@ -102,7 +102,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   header.terrain.voxel_size_m = check.finite(from->voxel_size_m(), "voxel_size_m");
   if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||
       header.terrain.voxel_size_m > limits::voxel_size_max_m)
-    check.refuse("voxel_size_m is out of range");
+    check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
   header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
   header.pieces_max = from->pieces_max();
   header.merges_per_tick_max = from->merges_per_tick_max();
@@ -165,9 +165,14 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
     if (check.failed()) break;
     keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
+  size_t voxels = 0;
   for (const std::string& packed : from->pieces()) {
     if (check.failed()) break;
     keyframe.pieces.push_back(read_piece(packed, check));
+    voxels += keyframe.pieces.back().volume.window.codes.size();
+    if (voxels > limits::piece_voxels_max)
+      check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
+                   " voxels (limits.piece_voxels_max)");
   }
   keyframe.ledger = read(from->ledger());
   keyframe.field_hash = from->field_hash();

@@ -78,6 +78,9 @@ Result<void> Mirror::within_limits() const {
   if (motions_.size() > limits::mirror_pieces_max)
     return fail(std::to_string(motions_.size()) + " pieces are over this client's " +
                 std::to_string(limits::mirror_pieces_max) + " (limits.mirror_pieces_max)");
+  if (piece_voxels_ > limits::piece_voxels_max)
+    return fail("pieces of " + std::to_string(piece_voxels_) + " voxels are over the limit of " +
+                std::to_string(limits::piece_voxels_max) + " (limits.piece_voxels_max)");
   return {};
 }
 
@@ -108,7 +111,7 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
 
 Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
                                      MirrorChanges& changes) {
-  if (Result<void> valid = validate(operation, table_); !valid) return valid;
+  if (Result<void> valid = validate(operation, table_, field_.source().voxel_size_m); !valid) return valid;
   const PieceIds made = ids_made_by(operation);
   const auto taken = table_.lower_bound(made.first);
   if (taken != table_.end() && taken->first - made.first < made.count)
@@ -255,6 +258,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   for (const auto& [id, motion] : motions_) changes.pieces_removed.push_back(id);
   motions_.clear();
   table_.clear();
+  piece_voxels_ = 0;
   held_.clear();
   mismatched_.clear();
   repairs_awaited_.clear();
@@ -271,13 +275,18 @@ void Mirror::forget_chunk(ChunkCoord chunk, MirrorChanges& changes) {
 
 void Mirror::add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
                        MirrorChanges& changes) {
+  piece_voxels_ += volume->window.codes.size();
   motions_[id] = {std::move(volume), pose, pose, tick, tick};
   changes.pieces_added.push_back(id);
 }
 
 void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
   table_.erase(id);
-  if (motions_.erase(id) != 0) changes.pieces_removed.push_back(id);
+  const auto found = motions_.find(id);
+  if (found == motions_.end()) return;
+  piece_voxels_ -= found->second.volume->window.codes.size();
+  motions_.erase(found);
+  changes.pieces_removed.push_back(id);
 }
 
 Pose Mirror::pose_at(const PieceMotion& motion, double tick) const {

@@ -127,6 +127,7 @@ class Mirror {
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
+  size_t piece_voxels_ = 0;                 ///< of their volumes, together
   ChunkSet held_;
   Tick tick_;
   uint32_t ticks_per_transform_;

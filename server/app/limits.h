@@ -9,18 +9,12 @@ namespace scree::limits {
 /// Ticks that a late simulation catches up with. Above: the ticks are lost, and counted as overruns.
 inline constexpr int catch_up_ticks_max = 5;
 
-/// Ticks a second of a server's options. Above: refused.
-inline constexpr uint32_t tick_rate_max_hz = 240;
-
 /// Radius around each client's eye within which terrain is generated before anything touches it, chunks: 32 m
 /// at voxels of 0.25 m, the reach of a viewer's tools. Beyond: the first touch generates it, inside its tick.
 inline constexpr int ahead_chunks = 4;
 
 /// Chunks that a tick tests for being generated: a few microseconds.
 inline constexpr size_t ahead_looks_per_tick = 64;
-
-/// Pieces alive at once of a server's options. No machine of today keeps the tick with more. Above: refused.
-inline constexpr uint32_t pieces_max_max = 20000;
 
 /// Sessions of a server's options. Above: refused.
 inline constexpr uint32_t sessions_max_max = 4096;

@@ -71,6 +71,10 @@ Result<void> LiveServer::State::open() {
     feed = std::move(replay->feed);
     config.world = replay->world;
     config.net.replay = true;
+  } else {
+    auto live = live_feed(config.world);
+    if (!live) return tl::unexpected(live.error());
+    feed = std::move(*live);
   }
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
@@ -86,7 +90,6 @@ Result<void> LiveServer::State::open() {
     recorder = std::move(*recording);
     report.record_path = config.record_path;
   }
-  if (!feed) feed = live_feed(config.world);
   if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   return {};

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
+#include <sstream>
 
 #include "proto/messages.h"
 #include "server/app/limits.h"
+#include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
@@ -21,6 +23,14 @@ struct Raw {
   std::string token_path;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
+
+/// For the help; the world itself says no.
+template <typename T>
+std::string within(const std::string& unit, T min, T max) {
+  std::ostringstream text;
+  text << unit << ", " << min << " to " << max;
+  return text.str();
+}
 
 void add_network(CLI::App& app, Raw& raw) {
   NetConfig& net = raw.options.live.net;
@@ -43,14 +53,15 @@ void add_world(CLI::App& app, Raw& raw) {
       ->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
       ->capture_default_str();
   app.add_option("--seed", world.terrain.random_seed, "of the terrain")->capture_default_str();
-  app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres")
-      ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m))
+  app.add_option("--voxel-size", world.terrain.voxel_size_m,
+                 within("metres", limits::voxel_size_min_m, limits::voxel_size_max_m))
       ->capture_default_str();
-  app.add_option("--tick-rate", world.tick_rate_hz, "ticks a second")
-      ->check(CLI::Range(1U, limits::tick_rate_max_hz))
+  app.add_option("--tick-rate", world.tick_rate_hz,
+                 within("ticks a second", limits::tick_rate_min_hz, limits::tick_rate_max_hz))
       ->capture_default_str();
-  app.add_option("--pieces-max", world.pieces_max, "pieces alive at once; carves beyond are refused")
-      ->check(CLI::Range(1U, limits::pieces_max_max))
+  app.add_option("--pieces-max", world.pieces_max,
+                 within("pieces alive at once; carves beyond are refused", limits::pieces_max_min,
+                        limits::pieces_max_max))
       ->capture_default_str();
 }
 
@@ -117,6 +128,13 @@ void take_token(Raw& raw) {
     throw CLI::ValidationError("--admin-token", good.error().message);
 }
 
+/// A world's own limits are the only ones.
+void take_world(Raw& raw) {
+  WorldConfig& world = raw.options.live.world;
+  world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
+  if (Result<void> valid = validate(world); !valid) throw CLI::ValidationError(valid.error().message);
+}
+
 /// --sessions-max is SCREE_SESSIONS_MAX.
 void name_environment(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
@@ -147,10 +165,10 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   try {
     app.parse(argc, argv);
     take_token(raw);
+    take_world(raw);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  raw.options.live.world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
   return raw.options;
 }
 

@@ -8,14 +8,14 @@ namespace {
 
 class LiveFeed final : public TickFeed {
  public:
-  explicit LiveFeed(const WorldConfig& config) : world_(config) {}
+  explicit LiveFeed(std::unique_ptr<World> world) : world_(std::move(world)) {}
   Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) override {
-    return world_.step(commands);
+    return world_->step(commands);
   }
-  World* world() override { return &world_; }
+  World* world() override { return world_.get(); }
 
  private:
-  World world_;
+  std::unique_ptr<World> world_;
 };
 
 class RecordedFeed final : public TickFeed {
@@ -37,8 +37,10 @@ class RecordedFeed final : public TickFeed {
 
 }  // namespace
 
-std::unique_ptr<TickFeed> live_feed(const WorldConfig& config) {
-  return std::make_unique<LiveFeed>(config);
+Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config) {
+  auto world = World::create(config);
+  if (!world) return tl::unexpected(world.error());
+  return std::make_unique<LiveFeed>(std::move(*world));
 }
 
 Result<ReplayFeed> replay_feed(const ReplayOptions& options) {

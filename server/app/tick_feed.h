@@ -22,7 +22,8 @@ class TickFeed {
   virtual World* world() { return nullptr; }
 };
 
-std::unique_ptr<TickFeed> live_feed(const WorldConfig& config);
+/// Refuses a configuration that no world runs with.
+Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config);
 
 struct ReplayOptions {
   std::string path;  ///< empty: no replay

@@ -33,13 +33,14 @@ std::string difference(const TickDelta& simulated, const RecordedFrame& recorded
 Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress) {
   Stopwatch watch;
   VerifyReport report;
-  World world(recording.header().world);
+  auto world = World::create(recording.header().world);
+  if (!world) return fail(recording.path() + ": " + world.error().message);
   for (Tick tick = 1; tick <= recording.last_tick() && report.agrees(); ++tick) {
     const auto frame = recording.frame(tick);
     if (!frame) return tl::unexpected(frame.error());
     const auto commands = recording.commands(tick);
     if (!commands) return tl::unexpected(commands.error());
-    const auto delta = world.step(*commands);
+    const auto delta = (*world)->step(*commands);
     CHECK_EQ(delta->tick, tick);
     report.ticks = tick;
     report.commands += commands->size();

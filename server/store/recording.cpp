@@ -27,6 +27,7 @@ Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   out.world.merges_per_tick_max = header.merges_per_tick_max;
   if (Result<void> known = set_all(out.world.methods, header.settings); !known)
     return tl::unexpected(known.error());
+  if (Result<void> valid = validate(out.world); !valid) return tl::unexpected(valid.error());
   return out;
 }
 

@@ -179,7 +179,8 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                                  impact.point_m,
                                  state.next_piece,
                                  state.methods.cutter};
-  if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
+  if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
+    return;  // at the world's edge
   if (!quota.take(state.work, delta.work.dents_left_out)) return;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);

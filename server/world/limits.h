@@ -6,6 +6,21 @@
 
 namespace scree::limits {
 
+/// Ticks a second. Below, gravity gives a piece more speed in a tick than the ground takes: at 10 to 20 Hz
+/// pieces jump and break instead of coming to rest. Above, a tick's work does not fit into its time. Refused
+/// where a world is created.
+inline constexpr uint32_t tick_rate_min_hz = 30;
+inline constexpr uint32_t tick_rate_max_hz = 1000;
+
+/// Pieces alive at once that a world may be asked for. Above, no machine of today keeps the tick; none at all
+/// is no carve at all. Refused where a world is created.
+inline constexpr uint32_t pieces_max_min = 1;
+inline constexpr uint32_t pieces_max_max = 20000;
+
+/// Merges in one tick that a world may be asked for; 0: nothing merges. So many take 30 ms. Above: refused
+/// where a world is created.
+inline constexpr uint32_t merges_per_tick_max_max = 1000;
+
 /// Bricks that the search for islands reads in one tick: about 1 ms. Above: it continues in the next tick.
 inline constexpr size_t island_bricks_per_tick = 1024;
 

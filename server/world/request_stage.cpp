@@ -45,20 +45,36 @@ void throw_out(World::State& state, const Applied& applied, const CarveRequest& 
   spawn(state, applied, born, delta);
 }
 
+/// The refusal says what would help: fewer seeds, more room, or time, if the carve ever fits.
+Result<void> check_room(size_t alive, uint32_t seeds, uint32_t pieces_max) {
+  const size_t wanted = alive + seeds;
+  if (wanted <= pieces_max) return {};
+  const std::string limit = std::to_string(pieces_max), all = std::to_string(wanted);
+  if (seeds > pieces_max)
+    return fail("a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
+                " pieces (pieces_max): ask for " + limit + " seeds at most, or have the limit raised to " +
+                all + " (--pieces-max)");
+  const size_t left = pieces_max - std::min<size_t>(alive, pieces_max);
+  return fail(std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
+              "; this server's limit is " + limit + " (pieces_max): wait until " +
+              std::to_string(wanted - pieces_max) + " have settled, " +
+              (left > 0 ? "ask for " + std::to_string(left) + " seeds at most, " : std::string()) +
+              "or have the limit raised to " + all + " (--pieces-max)");
+}
+
 Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
   const CarveOperation operation{request.shape,        request.pattern,   request.seeds,
                                  request.random_seed,  request.impact_m,  state.next_piece,
                                  state.methods.cutter, request.authored_m};
-  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
+      !valid)
     return tl::unexpected(valid.error());
   if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||
       request.blast_speed_m_s > limits::blast_speed_max_m_s)
     return fail("the blast speed is not within 0 … " + std::to_string(limits::blast_speed_max_m_s) +
                 " m/s (limits.blast_speed_max_m_s)");
-  if (state.pieces.size() + request.seeds > state.config.pieces_max)
-    return fail(std::to_string(state.pieces.size()) + " pieces are alive and the carve may add " +
-                std::to_string(request.seeds) + "; this server's limit is " +
-                std::to_string(state.config.pieces_max) + " (pieces_max): wait until some have settled");
+  if (Result<void> room = check_room(state.pieces.size(), request.seeds, state.config.pieces_max); !room)
+    return tl::unexpected(room.error());
   Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
@@ -70,7 +86,8 @@ Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDel
 
 Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta& delta) {
   const FillOperation operation{request.shape};
-  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
+      !valid)
     return tl::unexpected(valid.error());
   Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
@@ -81,7 +98,8 @@ Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta
 
 Result<uint32_t> paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
   const PaintOperation operation{request.shape, request.material};
-  if (Result<void> valid = validate(Operation(operation), state.pieces); !valid)
+  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
+      !valid)
     return tl::unexpected(valid.error());
   state.apply_and_record(operation, delta);
   return 0U;

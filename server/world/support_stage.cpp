@@ -46,7 +46,8 @@ CarveOperation crushing(const World::State& state, const VoxelBox& voxels, int64
 }
 
 void crush(World::State& state, const CarveOperation& operation, TickDelta& delta) {
-  if (!validate(Operation(operation), state.pieces)) return;  // at the world's edge
+  if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
+    return;  // at the world's edge
   const float dx = state.config.terrain.voxel_size_m;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);

@@ -14,7 +14,7 @@ float cost_of(const Bodies& bodies) {
 
 /// Voxels of an edit's box; 0 for a shape that will be refused: its box may not fit integers.
 float voxels_of(const Shape& shape, float voxel_size_m) {
-  if (!validate(Operation(FillOperation{shape}), {})) return 0.0F;
+  if (!validate(Operation(FillOperation{shape}), {}, voxel_size_m)) return 0.0F;
   const VoxelCoord size = band_box(in_voxels(shape, voxel_size_m)).size();
   return static_cast<float>(size.x) * static_cast<float>(size.y) * static_cast<float>(size.z);
 }

@@ -72,7 +72,15 @@ void describe_physics(World::State& state, TickDelta& delta) {
 
 }  // namespace
 
-World::World(const WorldConfig& config) : state_(std::make_unique<State>(config)) {}
+Result<std::unique_ptr<World>> World::create(const WorldConfig& config) {
+  if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
+  return std::make_unique<World>(config);
+}
+
+World::World(const WorldConfig& config) {
+  CHECK(validate(config).has_value());
+  state_ = std::make_unique<State>(config);
+}
 World::~World() = default;
 
 std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) {

@@ -8,27 +8,19 @@
 #include <span>
 
 #include "server/world/command.h"
-#include "server/world/methods.h"
 #include "server/world/tick_delta.h"
-#include "shared/field/terrain.h"
+#include "server/world/world_config.h"
 
 namespace scree {
-
-struct WorldConfig {
-  TerrainSource terrain;
-  uint32_t tick_rate_hz = 60;
-  uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
-  uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
-  Methods methods;                   ///< to start with
-
-  bool operator==(const WorldConfig&) const = default;
-};
 
 /// Ten times a second at 60 Hz: enough to look at, a small part of the tick.
 inline constexpr Tick ticks_per_watch = 6;
 
 class World {
  public:
+  /// Refuses a configuration beyond its limits.
+  static Result<std::unique_ptr<World>> create(const WorldConfig& config);
+  /// Of a configuration that validate() takes: it is checked.
   explicit World(const WorldConfig& config);
   ~World();
   World(const World&) = delete;

@@ -18,6 +18,10 @@ inline constexpr float edit_reach_max_m = 8.0F;
 /// Smallest reach of an edit, metres: half a default voxel; below, nothing would change. Refused.
 inline constexpr float edit_reach_min_m = 0.125F;
 
+/// By so much a reach may miss its bounds, metres: near the world's edge the ends of a capsule are rounded to
+/// multiples of 2^-11 m.
+inline constexpr float edit_reach_rounding_m = 1.0F / 2048.0F;
+
 /// Speed that a carve gives its pieces, metres a second. A piece must not cross the narrow band in one tick.
 inline constexpr float blast_speed_max_m_s = 30.0F;
 
@@ -29,9 +33,14 @@ inline constexpr float world_half_height_m = 512.0F;
 /// Voxels along a side of an edit's window; bounds what bytes off a wire can make us allocate.
 inline constexpr int window_side_max = 128;
 
-/// Voxel sizes that a world may have, metres. Below, the largest edit would not fit window_side_max; above, a
-/// piece would be coarser than anything it lies on. Refused at start-up.
-inline constexpr float voxel_size_min_m = 0.15F;
+/// Voxels of the window around a piece that becomes terrain: their mass fits an int, and memory is bounded.
+/// The largest carve of the smallest voxels stays below, however it turned. Above: refused.
+inline constexpr size_t stamp_voxels_max = size_t{1} << 23;
+
+/// Voxel sizes that a world may have, metres. Below, a box of edit_reach_max_m could not become terrain again
+/// within stamp_voxels_max, nor, below 0.14, fit window_side_max; above, a piece would be coarser than
+/// anything it lies on. Refused where a world is created.
+inline constexpr float voxel_size_min_m = 0.16F;
 inline constexpr float voxel_size_max_m = 2.0F;
 
 /// Bytes of one message on the wire, either way. Above: the connection is refused.

@@ -89,9 +89,17 @@ glm::vec3 centre_of(const Shape& shape) {
 }
 
 float reach_of(const Shape& shape) {
-  const Bounds bounds = bounds_of(shape);
-  const glm::vec3 half = (bounds.hi - bounds.lo) * 0.5F;
-  return std::max(half.x, std::max(half.y, half.z));
+  const auto longest = [](glm::vec3 v) { return std::max(v.x, std::max(v.y, v.z)); };
+  switch (shape.kind) {
+    case ShapeKind::box:
+      return longest(shape.b) + shape.radius_m;
+    case ShapeKind::capsule:
+      return longest(glm::abs(shape.b - shape.a)) * 0.5F + shape.radius_m;
+    case ShapeKind::sphere:
+      return shape.radius_m;
+  }
+  CHECK(is_known(shape.kind));
+  return 0.0F;
 }
 
 Result<void> validate(const Shape& shape) {

@@ -59,8 +59,10 @@ float distance(const Shape& shape, glm::vec3 p);
 /// The voxels within the shape (in voxels) or less than the narrow band away from it.
 VoxelBox band_box(const Shape& shape_voxels);
 
-/// Centre of the shape's bounds, and half its longest extent; in the shape's unit.
+/// Centre of the shape's bounds; in the shape's unit.
 glm::vec3 centre_of(const Shape& shape);
+/// Half the longest extent of the shape's bounds, from its lengths alone: the place does not round it. Of a
+/// capsule, whose ends are places, it is as exact as they are.
 float reach_of(const Shape& shape);
 
 /// Refuses what no world can take: an unknown kind, numbers that are not finite, radii that are negative,

@@ -140,6 +140,24 @@ class PieceMaker {
   std::vector<uint8_t> in_whole_;  ///< for `conform`, whose parts are closed but for rounding
 };
 
+/// Faces between a voxel inside and one outside.
+size_t faces_of(const Window& volume) {
+  const VoxelCoord size = volume.box.size();
+  const auto step_y = static_cast<size_t>(size.z), step_x = step_y * static_cast<size_t>(size.y);
+  const auto differ = [&](size_t a, size_t b) {
+    return (volume.codes[a] < 0) != (volume.codes[b] < 0) ? size_t{1} : size_t{0};
+  };
+  size_t faces = 0, i = 0;
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y)
+      for (int z = 0; z < size.z; ++z, ++i) {
+        if (z > 0) faces += differ(i, i - 1);
+        if (y > 0) faces += differ(i, i - step_y);
+        if (x > 0) faces += differ(i, i - step_x);
+      }
+  return faces;
+}
+
 }  // namespace
 
 PolygonParts cut_polygons(Cutter cutter, const Window& volume, const std::vector<glm::vec3>& seeds_voxels) {
@@ -161,7 +179,8 @@ PolygonParts cut_polygons(Cutter cutter, const Window& volume, const std::vector
 
 Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const Window& after,
                const std::vector<glm::vec3>& seeds_voxels) {
-  if (cutter == Cutter::field) return cut_cells(volume, before, after, seeds_voxels);
+  if (cutter == Cutter::field || faces_of(volume) > polygon_faces_max)
+    return cut_cells(volume, before, after, seeds_voxels);
   CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
   const MassUnits total = mass_lost(before, after);

@@ -27,10 +27,10 @@ bool in_world(glm::vec3 p) {
 Result<void> validate_place(const Shape& shape) {
   if (Result<void> valid = validate(shape); !valid) return valid;
   const float reach = reach_of(shape);
-  if (reach > limits::edit_reach_max_m)
+  if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
     return fail("reach " + std::to_string(reach) + " m is over the limit of " +
                 std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
-  if (reach < limits::edit_reach_min_m)
+  if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
     return fail("reach " + std::to_string(reach) + " m is under the limit of " +
                 std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
   if (!in_world(centre_of(shape)))
@@ -227,8 +227,18 @@ Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) 
   return {};
 }
 
+/// A piece off a wire may be larger than any that a world makes.
+Result<void> validate_window(const StampOperation& op, const Volume& volume, float voxel_size_m) {
+  const size_t voxels = Window::count(stamp_box(op.method, volume, op.pose, voxel_size_m));
+  if (voxels <= limits::stamp_voxels_max) return {};
+  return fail("the stamp of piece " + std::to_string(op.piece) + " has a window of " +
+              std::to_string(voxels) + " voxels, over the limit of " +
+              std::to_string(limits::stamp_voxels_max) + " (limits.stamp_voxels_max)");
+}
+
 struct Validator {
   const PieceTable& pieces;
+  float voxel_size_m;
 
   Result<void> operator()(const CarveOperation& op) const {
     if (Result<void> valid = validate_place(op.shape); !valid) return valid;
@@ -251,7 +261,8 @@ struct Validator {
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
     if (!in_world(dequantise(op.pose).position_m))
       return fail("the stamp is outside the world (limits.world_half_width_m)");
-    return op.others.empty() ? Result<void>{} : validate_group(op, pieces);
+    if (!op.others.empty()) return validate_group(op, pieces);
+    return validate_window(op, *pieces.at(op.piece), voxel_size_m);
   }
   Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
   Result<void> operator()(const ShatterOperation& op) const {
@@ -345,8 +356,8 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
   return applied;
 }
 
-Result<void> validate(const Operation& operation, const PieceTable& pieces) {
-  return std::visit(Validator{pieces}, operation);
+Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
+  return std::visit(Validator{pieces, voxel_size_m}, operation);
 }
 
 }  // namespace scree

@@ -146,8 +146,9 @@ struct PreparedStamp;
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
               const PreparedStamp* prepared = nullptr);
 
-/// Whether `apply` can be called at all: shape valid, counts within limits, piece known. For what comes off a
-/// wire.
-Result<void> validate(const Operation& operation, const PieceTable& pieces);
+/// Whether `apply` can be called at all, in a field of such voxels: shape valid, counts within limits, pieces
+/// known, windows bounded. For what comes off a wire. The pieces' volumes must be valid themselves: made by
+/// operations, or decoded.
+Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
 }  // namespace scree

@@ -258,6 +258,16 @@ TEST_F(LiveServerTest, port_in_use_leaves_no_recording_behind) {
   EXPECT_FALSE(fs::exists(second.record_path));
 }
 
+TEST_F(LiveServerTest, a_world_beyond_its_limits_is_refused_and_leaves_no_recording) {
+  LiveConfig config;
+  config.world.terrain.voxel_size_m = 0.05F;
+  config.record_path = (folder / "none.scree").string();
+  const auto started = LiveServer::start(config);
+  ASSERT_FALSE(started.has_value());
+  EXPECT_NE(started.error().message.find("voxel_size_min_m"), std::string::npos) << started.error().message;
+  EXPECT_FALSE(fs::exists(config.record_path));
+}
+
 TEST_F(LiveServerTest, foreign_recording_is_refused_by_name) {
   config.replay.path = (folder / "letter.txt").string();
   std::ofstream(config.replay.path) << "This is a letter and not a recording of anything at all.";

@@ -53,6 +53,10 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--port", "123456"}), 2);
   EXPECT_EQ(exit_code({"--terrain", "swamp"}), 2);
   EXPECT_EQ(exit_code({"--tick-rate", "0"}), 2);
+  EXPECT_EQ(exit_code({"--tick-rate", "100000"}), 2);
+  EXPECT_EQ(exit_code({"--voxel-size", "0.05"}), 2);
+  EXPECT_EQ(exit_code({"--voxel-size", "nan"}), 2);
+  EXPECT_EQ(exit_code({"--pieces-max", "0"}), 2);
   EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
   EXPECT_EQ(exit_code({"--loop"}), 2);
   EXPECT_EQ(exit_code({"--impacts", "perhaps"}), 2);

@@ -39,7 +39,7 @@ class Follower {
     std::map<ChunkCoord, bool> changed;
     for (const Operation& operation : frame.operations) {
       ++operations;
-      ASSERT_TRUE(validate(operation, pieces).has_value());
+      ASSERT_TRUE(validate(operation, pieces, flat.voxel_size_m).has_value());
       for (const BrickCoord brick : scree::apply(operation, field, pieces).changed)
         changed[chunk_of(brick)] = true;
     }

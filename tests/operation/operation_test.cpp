@@ -57,7 +57,7 @@ TEST(operation, every_cutter_and_pattern_conserves_mass) {
       // Two inside, one a hair beside the first, one in the air.
       if (traits_of(pattern).needs_points)
         op.authored_m = {{0.3F, -0.5F, 0.1F}, {0.31F, -0.5F, 0.1F}, {0.3F, 9.0F, 0.1F}, {-0.8F, -0.9F, 0.1F}};
-      ASSERT_TRUE(validate(op, pieces).has_value());
+      ASSERT_TRUE(validate(op, pieces, dx).has_value());
       const Applied applied = apply(op, field, pieces);
       EXPECT_EQ(pieces.size(), traits_of(pattern).needs_points ? 2U : 4U);
       EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
@@ -216,7 +216,7 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinite = std::numeric_limits<float>::infinity();
   const auto refused = [&](const Operation& op, const char* word) {
-    const Result<void> result = validate(op, none);
+    const Result<void> result = validate(op, none, dx);
     ASSERT_FALSE(result.has_value()) << word;
     EXPECT_NE(result.error().message.find(word), std::string::npos) << result.error().message;
   };
@@ -265,7 +265,7 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(DiscardOperation{78}, "no piece 78");
   refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");
   const VoxelBox island{{0, 0, 0}, {8, 8, 8}};
-  EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none).has_value());
+  EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none, dx).has_value());
   refused(IslandOperation{island, {8, 0, 0}, 1}, "start is outside its box");
   refused(IslandOperation{{{0, 0, 0}, {0, 8, 8}}, {0, 0, 0}, 1}, "start is outside its box");
   refused(IslandOperation{{{0, 0, 0}, {8, 113, 8}}, {0, 0, 0}, 1}, "island_side_max_bricks");

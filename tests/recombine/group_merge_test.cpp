@@ -45,7 +45,7 @@ TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_change
       MassUnits mass = 0;
       for (const StampedPiece& one : group) mass += with.pieces.at(one.piece)->mass;
       const PreparedStamp prepared = prepare_group(with.field, with.pieces, group, mass);
-      ASSERT_TRUE(validate(prepared.operation, with.pieces).has_value());
+      ASSERT_TRUE(validate(prepared.operation, with.pieces, dx).has_value());
       const VoxelBox reads = read_box(prepared.operation, with.pieces, dx);
       const Applied a = apply(prepared.operation, with.field, with.pieces, &prepared);
       const Applied b = apply(prepared.operation, without.field, without.pieces);
@@ -72,7 +72,7 @@ TEST(group_merge, what_lies_apart_merges_as_it_would_alone) {
   StampedPiece far = together.places[1];
   far.pose.x = near.pose.x + static_cast<int32_t>(2.9F * pose_steps_per_m);
   StampOperation op = operation_of({near, far});
-  ASSERT_TRUE(validate(op, together.pieces).has_value());
+  ASSERT_TRUE(validate(op, together.pieces, dx).has_value());
   apply(op, together.field, together.pieces);
   apply(operation_of({near}), alone.field, alone.pieces);
   apply(operation_of({far}), alone.field, alone.pieces);
@@ -87,12 +87,12 @@ TEST(group_merge, what_lies_apart_merges_as_it_would_alone) {
 TEST(group_merge, groups_that_may_not_merge_together_are_refused_by_name) {
   const Heap heap;
   const auto refused = [&](const StampOperation& op, const char* why) {
-    const Result<void> valid = validate(op, heap.pieces);
+    const Result<void> valid = validate(op, heap.pieces, dx);
     ASSERT_FALSE(valid);
     EXPECT_NE(valid.error().message.find(why), std::string::npos) << valid.error().message;
   };
   const StampOperation fine = operation_of(heap.group(0, limits::stamp_group_max));
-  EXPECT_TRUE(validate(fine, heap.pieces).has_value());
+  EXPECT_TRUE(validate(fine, heap.pieces, dx).has_value());
   refused(operation_of(heap.group(0, limits::stamp_group_max + 1)), "limits.stamp_group_max");
   StampOperation op = fine;
   op.method = StampMethod::slices;

@@ -109,7 +109,7 @@ TEST(stamp_methods, the_gain_is_what_was_planned_and_never_beyond_the_budget) {
       const MassUnits budget = stamp_budget(volume->mass, dust);
       const StampPlan plan = plan_stamp(method, window, *volume, op.pose, dx, budget);
       op.shift = plan.shift;
-      ASSERT_TRUE(validate(Operation(op), pieces).has_value());
+      ASSERT_TRUE(validate(Operation(op), pieces, dx).has_value());
       const Applied applied = apply(op, field, pieces);
       EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
       EXPECT_LE(applied.terrain_gain, budget) << "piece " << id;
@@ -182,11 +182,11 @@ TEST(stamp_methods, shifts_out_of_range_and_unknown_methods_are_refused) {
   const PieceTable pieces{{1, std::make_shared<const Volume>(cube(4))}};
   for (const StampMethod method : all_methods) {
     for (const int shift : {-stamp_shift_max, stamp_shift_max})
-      EXPECT_TRUE(validate(Operation(StampOperation{1, {}, shift, method}), pieces).has_value());
+      EXPECT_TRUE(validate(Operation(StampOperation{1, {}, shift, method}), pieces, dx).has_value());
     for (const int shift : {-stamp_shift_max - 1, stamp_shift_max + 1})
-      EXPECT_FALSE(validate(Operation(StampOperation{1, {}, shift, method}), pieces).has_value());
+      EXPECT_FALSE(validate(Operation(StampOperation{1, {}, shift, method}), pieces, dx).has_value());
   }
-  EXPECT_FALSE(validate(Operation(StampOperation{1, {}, 0, static_cast<StampMethod>(3)}), pieces));
+  EXPECT_FALSE(validate(Operation(StampOperation{1, {}, 0, static_cast<StampMethod>(3)}), pieces, dx));
 }
 
 }  // namespace

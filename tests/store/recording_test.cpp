@@ -11,6 +11,7 @@
 #include "server/store/recorder.h"
 #include "server/store/recording_writer.h"
 #include "server/world/world.h"
+#include "shared/base/limits.h"
 #include "shared/base/random.h"
 
 namespace scree {
@@ -66,8 +67,8 @@ class RecordingTest : public ::testing::Test {
       commands_by_tick.push_back(std::move(commands));
     }
   }
-  void record() {
-    auto recorder = Recorder::create(path, {"test", small_world()});
+  void record(const WorldConfig& config = small_world()) {
+    auto recorder = Recorder::create(path, {"test", config});
     ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
     for (size_t i = 0; i < deltas.size(); ++i) (*recorder)->push(deltas[i], commands_by_tick[i]);
     const auto finished = (*recorder)->finish();
@@ -260,6 +261,62 @@ TEST_F(RecordingTest, newer_and_foreign_sqlite_files_are_refused) {
   foreign[68] = 0;  // PRAGMA application_id
   write_file(path, foreign);
   expect_refused("another program");
+}
+
+TEST_F(RecordingTest, a_world_beyond_its_limits_is_refused) {
+  simulate(2);
+  for (const auto& [voxel_size_m, tick_rate_hz, limit] :
+       {std::tuple(0.05F, 60U, "voxel_size_min_m"), std::tuple(0.25F, 1U, "tick_rate_min_hz")}) {
+    WorldConfig config = small_world();
+    config.terrain.voxel_size_m = voxel_size_m;
+    config.tick_rate_hz = tick_rate_hz;
+    fs::remove(path);
+    record(config);
+    expect_refused(limit);
+  }
+}
+
+/// Every checksum is right: only the stamp itself says that no window holds it.
+TEST_F(RecordingTest, a_stamp_of_a_window_beyond_all_bounds_is_refused_in_a_replay) {
+  Volume volume;
+  constexpr int side = limits::window_side_max;
+  volume.window = Window(VoxelBox{{0, 0, 0}, {side, side, side}}, code_solid);
+  volume.mass = mass_of(volume.window);
+  volume.centre_voxels = glm::vec3(0.5F * side);
+  const QuantisedPose turned = quantise({{}, {0.0F, 0.57735027F, 0.57735027F, 0.57735027F}});
+  const Tick key = limits::ticks_per_keyframe;
+  for (Tick tick = 1; tick <= key + 1; ++tick) {
+    auto delta = std::make_shared<TickDelta>();
+    delta->tick = tick;
+    if (tick == 1) delta->spawned.push_back({7, std::make_shared<const Volume>(volume)});
+    if (tick <= key) delta->pieces.push_back({7, turned});
+    if (tick > key) delta->operations.push_back({StampOperation{7, turned, 0}, {}, {}, {}});
+    deltas.push_back(std::move(delta));
+    commands_by_tick.emplace_back();
+  }
+  record();
+  auto source = ReplaySource::open(path, key);
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  ASSERT_TRUE((*source)->next().has_value()) << "the keyframe";
+  const auto stamped = (*source)->next();
+  ASSERT_FALSE(stamped.has_value());
+  EXPECT_NE(stamped.error().message.find("stamp_voxels_max"), std::string::npos) << stamped.error().message;
+}
+
+TEST_F(RecordingTest, a_piece_that_is_made_twice_is_refused_in_a_replay) {
+  simulate(10);
+  auto again = std::make_shared<TickDelta>(*deltas.back());
+  again->operations = deltas[9]->operations;
+  ++again->tick;
+  deltas.push_back(again);
+  commands_by_tick.emplace_back();
+  record();
+  auto source = ReplaySource::open(path);
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  for (int tick = 1; tick <= 10; ++tick) ASSERT_TRUE((*source)->next().has_value()) << tick;
+  const auto twice = (*source)->next();
+  ASSERT_FALSE(twice.has_value());
+  EXPECT_NE(twice.error().message.find("made a second time"), std::string::npos) << twice.error().message;
 }
 
 TEST_F(RecordingTest, recording_without_a_tick_is_refused) {

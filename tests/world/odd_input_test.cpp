@@ -171,6 +171,23 @@ TEST_F(OddInput, limit_of_pieces_reached_between_two_carves) {
   EXPECT_EQ(mass_of(delta->spawned) + delta->ledger.dust, delta->ledger.moved);
 }
 
+TEST_F(OddInput, a_carve_that_finds_no_room_is_told_what_would_help) {
+  start(flat_world(2000));
+  const auto refusal = [&](uint32_t seeds) {
+    return step({carve(sphere({40.0F, -0.5F, 0.0F}, 2.0F), seeds)})->replies[0].refusal;
+  };
+  const std::string never = refusal(limits::seeds_max);
+  EXPECT_NE(never.find("ask for 2000 seeds at most"), std::string::npos) << never;
+  EXPECT_NE(never.find("raised to 4096 (--pieces-max)"), std::string::npos) << never;
+  start(flat_world(20));
+  step({carve(sphere({0.0F, -0.5F, 0.0F}, 2.0F), 16)});
+  const std::string now = refusal(10);
+  EXPECT_NE(now.find("wait until 6 have settled, ask for 4 seeds at most"), std::string::npos) << now;
+  EXPECT_NE(now.find("raised to 26 (--pieces-max)"), std::string::npos) << now;
+  EXPECT_NE(refusal(21).find("never fits"), std::string::npos);
+  EXPECT_EQ(refusal(4), "");
+}
+
 /// A block that shatters on hard ground, again and again, in a world that has room for few of its pieces.
 TEST_F(OddInput, limit_of_pieces_reached_in_mid_fracture) {
   WorldConfig config = flat_world(7);

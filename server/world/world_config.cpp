@@ -1,0 +1,69 @@
+#include "server/world/world_config.h"
+
+#include <cstdio>
+#include <string>
+
+#include "server/world/limits.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+struct Bounded {
+  double value, min, max;
+  const char* name;
+  const char* limits;  ///< their names
+  const char* option;  ///< of the server
+};
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+/// What is not a number is not within.
+Result<void> check(const Bounded& bounded) {
+  if (bounded.value >= bounded.min && bounded.value <= bounded.max) return {};
+  return fail(std::string(bounded.name) + " is " + text_of(bounded.value) + ", not within " +
+              text_of(bounded.min) + " to " + text_of(bounded.max) + " (" + bounded.limits +
+              "): choose another (" + bounded.option + ")");
+}
+
+}  // namespace
+
+Result<void> validate(const WorldConfig& config) {
+  if (Result<void> known = validate_kind(config.terrain.kind, "kind of terrain"); !known) return known;
+  const Bounded all[] = {
+      {.value = config.terrain.voxel_size_m,
+       .min = limits::voxel_size_min_m,
+       .max = limits::voxel_size_max_m,
+       .name = "voxel_size_m",
+       .limits = "limits.voxel_size_min_m, voxel_size_max_m",
+       .option = "--voxel-size"},
+      {.value = static_cast<double>(config.tick_rate_hz),
+       .min = limits::tick_rate_min_hz,
+       .max = limits::tick_rate_max_hz,
+       .name = "tick_rate_hz",
+       .limits = "limits.tick_rate_min_hz, tick_rate_max_hz",
+       .option = "--tick-rate"},
+      {.value = static_cast<double>(config.pieces_max),
+       .min = limits::pieces_max_min,
+       .max = limits::pieces_max_max,
+       .name = "pieces_max",
+       .limits = "limits.pieces_max_min, pieces_max_max",
+       .option = "--pieces-max"},
+      {.value = static_cast<double>(config.merges_per_tick_max),
+       .min = 0.0,
+       .max = limits::merges_per_tick_max_max,
+       .name = "merges_per_tick_max",
+       .limits = "limits.merges_per_tick_max_max",
+       .option = "WorldConfig"},
+  };
+  for (const Bounded& bounded : all)
+    if (Result<void> within = check(bounded); !within) return within;
+  return {};
+}
+
+}  // namespace scree

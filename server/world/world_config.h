@@ -1,0 +1,25 @@
+// What a world is made from. May come from a command line, a file or a recording: whoever takes one in asks
+// validate().
+#pragma once
+
+#include "server/world/methods.h"
+#include "shared/base/result.h"
+#include "shared/field/terrain.h"
+
+namespace scree {
+
+struct WorldConfig {
+  TerrainSource terrain;
+  uint32_t tick_rate_hz = 60;
+  uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
+  uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
+  Methods methods;                   ///< to start with
+
+  bool operator==(const WorldConfig&) const = default;
+};
+
+/// Refuses what the simulation cannot run with; the error names the limit (server/world/limits.h and
+/// shared/base/limits.h) and the way out.
+Result<void> validate(const WorldConfig& config);
+
+}  // namespace scree
