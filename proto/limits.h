@@ -46,6 +46,11 @@ inline constexpr uint32_t tick_budget_max_us = 1'000'000;
 /// recording's keyframe is refused.
 inline constexpr size_t piece_voxels_max = size_t{1} << 28;
 
+/// Reasons for refusals that a status counts, and the length of one's name, bytes: more than twice what there
+/// are and need. Above: refused.
+inline constexpr size_t refusal_counts_max = 64;
+inline constexpr size_t refusal_name_bytes_max = 32;
+
 /// Length of a refusal or a reply's reason, bytes; an encoder cuts a longer one.
 inline constexpr size_t reason_bytes_max = 1024;
 

@@ -179,6 +179,14 @@ struct WorkStatus {
   bool operator==(const WorkStatus&) const = default;
 };
 
+/// How often a server gave one reason for refusing a request or a session.
+struct RefusalCount {
+  std::string reason;
+  uint64_t count = 0;
+
+  bool operator==(const RefusalCount&) const = default;
+};
+
 /// Once a second, for people.
 struct StatusMessage {
   Tick tick = 0;
@@ -199,6 +207,7 @@ struct StatusMessage {
   SettingValues settings;                            ///< every setting of the simulation
   std::array<float, stage_names.size()> stage_ms{};  ///< mean over the last second
   WorkStatus work;
+  std::vector<RefusalCount> refusals;  ///< since the start; reasons that were never given are left out
 };
 
 struct PlayerCursor {

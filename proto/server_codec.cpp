@@ -102,6 +102,11 @@ void write(wire::Status& to, const StatusMessage& from) {
   write(*to.mutable_settings(), from.settings);
   to.mutable_stage_ms()->Add(from.stage_ms.begin(), from.stage_ms.end());
   write(*to.mutable_work(), from.work);
+  for (const RefusalCount& refusal : from.refusals) {
+    wire::RefusalCount& added = *to.add_refusals();
+    added.set_reason(clean_text(refusal.reason, limits::refusal_name_bytes_max));
+    added.set_count(refusal.count);
+  }
 }
 
 struct Writing {
@@ -249,6 +254,13 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
     std::ranges::transform(from.stage_ms(), status.stage_ms.begin(),
                            [&](float ms) { return check.not_negative(ms, "stage_ms"); });
   status.work = read(from.work(), check);
+  if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
+    check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
+  else
+    for (const wire::RefusalCount& refusal : from.refusals())
+      status.refusals.push_back(
+          {check.text(refusal.reason(), limits::refusal_name_bytes_max, "reason of refusals"),
+           refusal.count()});
   return status;
 }
 

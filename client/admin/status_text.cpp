@@ -24,6 +24,11 @@ Json json_of(const WorkStatus& work) {
 }
 
 Json json_of(const StatusMessage& status) {
+  Json refusals = Json::object();
+  uint64_t refused = 0;
+  for (const RefusalCount& refusal : status.refusals) refused += refusal.count;
+  refusals["total"] = refused;
+  for (const RefusalCount& refusal : status.refusals) refusals[refusal.reason] = refusal.count;
   Json stages = Json::object();
   for (size_t i = 0; i < stage_names.size(); ++i) stages[stage_names[i]] = status.stage_ms[i];
   return {
@@ -38,7 +43,8 @@ Json json_of(const StatusMessage& status) {
         {"moved", status.ledger_moved}}},
       {"tick_ms", {{"median", status.tick_median_ms}, {"worst", status.tick_worst_ms}}},
       {"stage_ms", std::move(stages)},
-      {"work", json_of(status.work)}};
+      {"work", json_of(status.work)},
+      {"refusals", std::move(refusals)}};
 }
 
 std::string line(const std::string& name, const Json& value) {

@@ -55,6 +55,16 @@ Json json_of(const WorkReport& work) {
           {"islands_too_large", work.islands_too_large}};
 }
 
+/// Reasons that were never given are left out.
+Json json_of(const RefusalCounts& refusals) {
+  Json by_reason = Json::object();
+  for (size_t i = 0; i < refusal_reasons; ++i) {
+    const auto reason = static_cast<Refusal>(i);
+    if (refusals.of(reason) > 0) by_reason[std::string(name_of(reason))] = refusals.of(reason);
+  }
+  return {{"total", refusals.total()}, {"by_reason", std::move(by_reason)}};
+}
+
 Json json_of(const NetStats& net) {
   const PublisherStats& sent = net.published;
   return {{"now", net.sessions},
@@ -150,7 +160,8 @@ std::string to_json(const ServerReport& report) {
             {"piece_bytes", sent.piece_bytes},
             {"bytes_per_carve", mean(sent.carve_operation_bytes, sent.carves)},
             {"bytes_per_merge", mean(sent.stamp_operation_bytes, sent.stamps)},
-            {"sessions", json_of(report.net)}};
+            {"sessions", json_of(report.net)},
+            {"refusals", json_of(report.net.refusals)}};
   Json stages = Json::object();
   for (const auto& [name, durations] : report.stages) stages[name] = json_of(durations);
   json["stages_ms"] = stages;

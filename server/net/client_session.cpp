@@ -63,8 +63,9 @@ void ClientSession::read_failed(bool orderly, const std::string& why) {
   if (phase_ == Phase::refused) return close("refused before");
   peer_ended_ = true;
   if (orderly && reader_.buffered_bytes() != 0)
-    return refuse("the connection ended in the middle of a message, after " +
-                  std::to_string(reader_.buffered_bytes()) + " bytes of it");
+    return refuse({Refusal::message_cut_short, "the connection ended in the middle of a message, after " +
+                                                   std::to_string(reader_.buffered_bytes()) +
+                                                   " bytes of it"});
   close(orderly ? "left" : why);
 }
 
@@ -75,7 +76,7 @@ void ClientSession::read_done(size_t bytes) {
     while (phase_ == Phase::hello || phase_ == Phase::joined) {
       const auto message = reader_.next();
       if (!message) {
-        refuse(message.error().message);
+        refuse({Refusal::message_malformed, message.error().message});
         break;
       }
       if (!message->has_value() || !take_message(**message)) break;
@@ -86,28 +87,30 @@ void ClientSession::read_done(size_t bytes) {
 
 /// False when the session was ended by it.
 bool ClientSession::take_message(std::span<const uint8_t> body) {
-  const auto fail_with = [&](const std::string& reason) {
-    refuse(reason);
+  const auto fail_with = [&](const Refused& refused) {
+    refuse(refused);
     return false;
   };
   if (!messages_.take(now_s_))
-    return fail_with("more than " + std::to_string(static_cast<int>(limits::messages_per_second_max)) +
-                     " messages a second (limits.messages_per_second_max)");
+    return fail_with({Refusal::messages_per_second,
+                      "more than " + std::to_string(static_cast<int>(limits::messages_per_second_max)) +
+                          " messages a second (limits.messages_per_second_max)"});
   const auto message = decode_client(body);
-  if (!message) return fail_with(message.error().message);
+  if (!message) return fail_with({Refusal::message_malformed, message.error().message});
   const auto* hello = std::get_if<HelloMessage>(&*message);
   if (phase_ == Phase::hello) {
-    if (hello == nullptr) return fail_with("the first message must be a hello");
+    if (hello == nullptr) return fail_with({Refusal::hello_missing, "the first message must be a hello"});
     const auto welcome = host_.admit(*this, *hello);
-    if (!welcome) return fail_with(welcome.error().message);
+    if (!welcome) return fail_with(welcome.error());
     phase_ = Phase::joined;
     phase_since_s_ = now_s_;
     send(ServerMessage(*welcome));
     return true;
   }
-  if (hello != nullptr) return fail_with("a second hello: this connection has joined already");
+  if (hello != nullptr)
+    return fail_with({Refusal::hello_repeated, "a second hello: this connection has joined already"});
   const auto received = host_.receive(*this, *message);
-  if (!received) return fail_with(received.error().message);
+  if (!received) return fail_with(received.error());
   return phase_ == Phase::joined;
 }
 
@@ -123,7 +126,7 @@ void ClientSession::send(SharedBytes bytes) {
   outbox_.push_back(std::move(bytes));
   CHECK_DEBUG(backlog_adds_up());
   if (backlog_bytes_ > limits::outbox_hard_bytes) {
-    was_cut_ = true;
+    cut_for_ = Refusal::outbox_full;
     return close("read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
                  " bytes waited for it (limits.outbox_hard_bytes)");
   }
@@ -162,13 +165,13 @@ void ClientSession::write_done(size_t bytes) {
   write();
 }
 
-void ClientSession::refuse(const std::string& reason) {
+void ClientSession::refuse(const Refused& refused) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
-  send(ServerMessage(RefusalMessage{reason}));
+  send(ServerMessage(RefusalMessage{refused.message}));
   if (phase_ == Phase::closed) return;
   phase_ = Phase::refused;
   phase_since_s_ = steady_now_s();
-  host_.refused(*this, reason);
+  host_.refused(*this, refused);
 }
 
 bool ClientSession::backlog_adds_up() const {
@@ -198,10 +201,11 @@ void ClientSession::close(const std::string& reason) {
 
 void ClientSession::check_time(double now_s) {
   if (phase_ == Phase::hello && now_s - phase_since_s_ > times_.hello_s)
-    return refuse("no hello within " + std::to_string(times_.hello_s) + " s of connecting");
+    return refuse(
+        {Refusal::hello_late, "no hello within " + std::to_string(times_.hello_s) + " s of connecting"});
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");
   if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s) {
-    was_cut_ = true;
+    cut_for_ = Refusal::reading_stalled;
     close("read nothing for " + std::to_string(times_.stall_s) + " s");
   }
 }

@@ -9,6 +9,7 @@
 #include <asio/ip/tcp.hpp>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "proto/messages.h"
 #include "server/net/encode_cache.h"
 #include "server/net/rate_limit.h"
+#include "server/world/refusal.h"
 
 namespace scree {
 
@@ -26,10 +28,10 @@ class SessionHost {
  public:
   virtual ~SessionHost() = default;
   /// Handles the first message. Returns the welcome to send, or the reason of a refusal.
-  virtual Result<WelcomeMessage> admit(ClientSession& session, const HelloMessage& hello) = 0;
+  virtual tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) = 0;
   /// Handles any later message but a hello. An error is sent as a refusal, and ends the session.
-  virtual Result<void> receive(ClientSession& session, const ClientMessage& message) = 0;
-  virtual void refused(ClientSession& session, const std::string& reason) = 0;
+  virtual tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) = 0;
+  virtual void refused(ClientSession& session, const Refused& refused) = 0;
   /// The last call for this session.
   virtual void closed(ClientSession& session, const std::string& reason) = 0;
 };
@@ -51,7 +53,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void send(SharedBytes bytes);
   void send(const ServerMessage& message);
   /// Sends the reason, and closes when the client has read it or limits::linger_seconds_max are over.
-  void refuse(const std::string& reason);
+  void refuse(const Refused& refused);
   /// Closes at once.
   void close(const std::string& reason);
   /// Ends the session if the client sent no hello, or has not read, for too long. Call a few times a second.
@@ -61,8 +63,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   Phase phase() const { return phase_; }
   const std::string& peer() const { return peer_; }
   size_t backlog_bytes() const { return backlog_bytes_; }
-  /// Whether it was closed because it did not read.
-  bool was_cut() const { return was_cut_; }
+  /// Why it was closed, when it did not read.
+  std::optional<Refusal> cut_for() const { return cut_for_; }
 
  private:
   void read();
@@ -81,7 +83,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   SessionTimes times_;
   std::string peer_;
   Phase phase_ = Phase::hello;
-  bool was_cut_ = false;
+  std::optional<Refusal> cut_for_;
   double phase_since_s_;
   double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;

@@ -104,7 +104,9 @@ void NetHost::accepted(asio::ip::tcp::socket socket) {
   sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst), {}});
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (pending >= limits::pending_sessions_max)
-    session->refuse("too many connections that have not said hello (limits.pending_sessions_max); try again");
+    session->refuse(
+        {Refusal::sessions_pending,
+         "too many connections that have not said hello (limits.pending_sessions_max); try again"});
   session->start();
 }
 
@@ -130,17 +132,18 @@ uint32_t NetHost::joined_count() const {
   }));
 }
 
-Result<WelcomeMessage> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
+tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
   if (hello.protocol != protocol_version)
-    return fail("this server speaks protocol version " + std::to_string(protocol_version) +
-                ", the client version " + std::to_string(hello.protocol) +
-                ": use a client and a server of the same release");
-  if (stopping_) return fail("the server stops");
+    return refuse(Refusal::protocol_version, "this server speaks protocol version " +
+                                                 std::to_string(protocol_version) + ", the client version " +
+                                                 std::to_string(hello.protocol) +
+                                                 ": use a client and a server of the same release");
+  if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   if (joined_count() >= config_.sessions_max)
-    return fail("the server is full: " + std::to_string(config_.sessions_max) +
-                " sessions (--sessions-max); try again later");
+    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(config_.sessions_max) +
+                                             " sessions (--sessions-max); try again later");
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
-  if (!radius_m) return tl::unexpected(radius_m.error());
+  if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   publisher_.join(session.id(), hello.eye_m, *radius_m);
   sessions_.at(session.id()).name = hello.name;
   ++counts_.sessions_joined;
@@ -158,7 +161,7 @@ Result<WelcomeMessage> NetHost::admit(ClientSession& session, const HelloMessage
   return welcome;
 }
 
-Result<void> NetHost::receive(ClientSession& session, const ClientMessage& message) {
+tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
   if (const auto* carve = std::get_if<CarveMessage>(&message)) {
     request(session, command_of(session.id(), *carve));
   } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
@@ -169,7 +172,7 @@ Result<void> NetHost::receive(ClientSession& session, const ClientMessage& messa
     return administer(session, *admin);
   } else if (const auto* interest = std::get_if<InterestMessage>(&message)) {
     const auto radius_m = granted_radius(interest->eye_m, interest->interest_radius_m);
-    if (!radius_m) return tl::unexpected(radius_m.error());
+    if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
     publisher_.set_interest(session.id(), interest->eye_m, *radius_m);
   } else if (const auto* repair = std::get_if<RepairRequest>(&message)) {
     spdlog::warn("session {}: {} chunks differ at tick {}", session.id(), repair->chunks.size(),
@@ -185,33 +188,38 @@ Result<void> NetHost::receive(ClientSession& session, const ClientMessage& messa
 
 void NetHost::request(ClientSession& session, const Command& command) {
   ++counts_.requests;
-  std::string refusal;
+  const auto refused = [&](Refusal reason, const std::string& message) {
+    refuse_request(session, command.request, {reason, message});
+  };
   if (config_.replay)
-    refusal = "this server plays a recording: nothing in it can be changed";
-  else if (!sessions_.at(session.id()).requests.take(steady_now_s()))
-    refusal = "more than " + std::to_string(static_cast<int>(config_.requests_per_second)) +
-              " requests a second (limits.requests_per_second_max); ask again more slowly";
-  else if (!commands_.push(command))
-    refusal = "the server is busy: " + std::to_string(commands_.commands_max()) +
-              " commands wait already (limits.commands_waiting_max); try again";
-  if (!refusal.empty()) refuse_request(session, command.request, refusal);
+    return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
+  if (!sessions_.at(session.id()).requests.take(steady_now_s()))
+    return refused(Refusal::requests_per_second,
+                   "more than " + std::to_string(static_cast<int>(config_.requests_per_second)) +
+                       " requests a second (limits.requests_per_second_max); ask again more slowly");
+  if (!commands_.push(command))
+    refused(Refusal::commands_waiting, "the server is busy: " + std::to_string(commands_.commands_max()) +
+                                           " commands wait already (limits.commands_waiting_max); try again");
 }
 
-void NetHost::refuse_request(ClientSession& session, uint32_t request, const std::string& reason) {
+void NetHost::refuse_request(ClientSession& session, uint32_t request, const Refused& refused) {
   ++counts_.requests_refused;
-  session.send(ServerMessage(ReplyMessage{request, reason, 0}));
+  counts_.refusals.add(refused.reason);
+  session.send(ServerMessage(ReplyMessage{request, refused.message, 0}));
 }
 
 /// A wrong token ends the connection, so that each connection has one attempt.
-Result<void> NetHost::administer(ClientSession& session, const AdminMessage& message) {
+tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
   if (config_.admin_token.empty()) {
     ++counts_.requests;
     refuse_request(session, message.request,
-                   "this server was started without an admin token: nobody may change its settings "
-                   "(--admin-token-file)");
+                   {Refusal::no_admin_token,
+                    "this server was started without an admin token: nobody may change its settings "
+                    "(--admin-token-file)"});
     return {};
   }
-  if (!same_token(message.token, config_.admin_token)) return fail("the admin token is wrong");
+  if (!same_token(message.token, config_.admin_token))
+    return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
   std::string changes;
   for (const SettingValue& setting : message.settings) changes += " " + setting.name + "=" + setting.value;
   spdlog::info("session {}: {} sets{}", session.id(), session.peer(), changes);
@@ -219,16 +227,19 @@ Result<void> NetHost::administer(ClientSession& session, const AdminMessage& mes
   return {};
 }
 
-void NetHost::refused(ClientSession& session, const std::string& reason) {
+void NetHost::refused(ClientSession& session, const Refused& refused) {
   ++counts_.sessions_refused;
-  spdlog::warn("session {}: {} refused: {}", session.id(), session.peer(), reason);
+  counts_.refusals.add(refused.reason);
+  spdlog::warn("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
+               refused.message);
   publisher_.leave(session.id());
   update_stats();
 }
 
 void NetHost::closed(ClientSession& session, const std::string& reason) {
-  if (session.was_cut()) {
+  if (const std::optional<Refusal> cut_for = session.cut_for()) {
     ++counts_.sessions_cut;
+    counts_.refusals.add(*cut_for);
     spdlog::warn("session {}: {} cut off: {}", session.id(), session.peer(), reason);
   } else {
     spdlog::info("session {}: {} closed: {}", session.id(), session.peer(), reason);
@@ -241,6 +252,9 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
 void NetHost::publish(const TickDelta& delta) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), joined_count());
+  for (const Reply& reply : delta.replies)
+    if (reply.reason) counts_.refusals.add(*reply.reason);
+  publisher_.set_refusals(counts_.refusals);
   const auto backlog = [this](uint64_t id) {
     const auto entry = sessions_.find(id);
     return entry == sessions_.end() ? size_t{0} : entry->second.session->backlog_bytes();
@@ -262,7 +276,7 @@ void NetHost::shut_down() {
   acceptor_.close(ignored);
   std::vector<std::shared_ptr<ClientSession>> sessions;
   for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
-  for (const auto& session : sessions) session->refuse("the server stops");
+  for (const auto& session : sessions) session->refuse({Refusal::server_stops, "the server stops"});
   timer_.cancel();
   tick_timer();
 }

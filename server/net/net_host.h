@@ -37,17 +37,17 @@ class NetHost final : public SessionHost {
   bool is_watched() const { return watched_; }
 
  private:
-  Result<WelcomeMessage> admit(ClientSession& session, const HelloMessage& hello) override;
-  Result<void> receive(ClientSession& session, const ClientMessage& message) override;
-  void refused(ClientSession& session, const std::string& reason) override;
+  tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override;
+  tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) override;
+  void refused(ClientSession& session, const Refused& refused) override;
   void closed(ClientSession& session, const std::string& reason) override;
 
   void accept();
   void accepted(asio::ip::tcp::socket socket);
   void tick_timer();
   void request(ClientSession& session, const Command& command);
-  Result<void> administer(ClientSession& session, const AdminMessage& message);
-  void refuse_request(ClientSession& session, uint32_t request, const std::string& reason);
+  tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
+  void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   uint32_t joined_count() const;
   void update_stats();
 

@@ -41,6 +41,7 @@ struct NetStats {
   uint64_t sessions_cut = 0;      ///< cut off because they did not read
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
+  RefusalCounts refusals;         ///< of requests, by the world and the network side, and of sessions
   uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
 };
 

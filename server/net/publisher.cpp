@@ -235,6 +235,11 @@ void Publisher::send_status(Client& client) {
   status.field_hash = state_.field_hash();
   status.repairs = client.repairs;
   status.settings = state_.settings();
+  for (size_t i = 0; i < refusal_reasons; ++i) {
+    const auto reason = static_cast<Refusal>(i);
+    if (refusals_.of(reason) > 0)
+      status.refusals.push_back({std::string(name_of(reason)), refusals_.of(reason)});
+  }
   send(client, bytes_of(status));
 }
 

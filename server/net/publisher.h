@@ -58,6 +58,8 @@ class Publisher {
   /// Sends those of the request's chunks again whose hash differs from the server's at that tick.
   void repair(uint64_t session, const RepairRequest& request);
 
+  /// Sets how often the server has refused requests and sessions, for the status.
+  void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
   /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
@@ -108,6 +110,7 @@ class Publisher {
   EncodeCache cache_;
   TickClock clock_;
   PublisherStats stats_;
+  RefusalCounts refusals_;
   std::vector<Outgoing> out_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/world/limits.h"
+#include "server/world/refusal.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -16,6 +17,9 @@
 namespace scree {
 
 namespace {
+
+/// How many pieces a request made.
+using Outcome = tl::expected<uint32_t, Refused>;
 
 /// The initial state of a piece of a carve: it flies away from the mirror image of the impact behind the
 /// shape's centre, so towards the impact, more slowly with distance, and spins. Away from the impact itself,
@@ -62,19 +66,20 @@ Result<void> check_room(size_t alive, uint32_t seeds, uint32_t pieces_max) {
               "or have the limit raised to " + all + " (--pieces-max)");
 }
 
-Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
+Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
   const CarveOperation operation{request.shape,        request.pattern,   request.seeds,
                                  request.random_seed,  request.impact_m,  state.next_piece,
                                  state.methods.cutter, request.authored_m};
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
-    return tl::unexpected(valid.error());
+    return refuse(Refusal::carve_invalid, valid.error().message);
   if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||
       request.blast_speed_m_s > limits::blast_speed_max_m_s)
-    return fail("the blast speed is not within 0 … " + std::to_string(limits::blast_speed_max_m_s) +
-                " m/s (limits.blast_speed_max_m_s)");
+    return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
+                                            std::to_string(limits::blast_speed_max_m_s) +
+                                            " m/s (limits.blast_speed_max_m_s)");
   if (Result<void> room = check_room(state.pieces.size(), request.seeds, state.config.pieces_max); !room)
-    return tl::unexpected(room.error());
+    return refuse(Refusal::pieces_max, room.error().message);
   Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
@@ -84,11 +89,11 @@ Result<uint32_t> carve(World::State& state, const CarveRequest& request, TickDel
   return static_cast<uint32_t>(applied.created.size());
 }
 
-Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta& delta) {
+Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) {
   const FillOperation operation{request.shape};
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
-    return tl::unexpected(valid.error());
+    return refuse(Refusal::fill_invalid, valid.error().message);
   Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
   state.ledger.poured += applied.terrain_gain;
@@ -96,19 +101,19 @@ Result<uint32_t> fill(World::State& state, const FillRequest& request, TickDelta
   return 0U;
 }
 
-Result<uint32_t> paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
+Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
   const PaintOperation operation{request.shape, request.material};
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
-    return tl::unexpected(valid.error());
+    return refuse(Refusal::paint_invalid, valid.error().message);
   state.apply_and_record(operation, delta);
   return 0U;
 }
 
-Result<uint32_t> change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
+Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
   const Methods before = state.methods;
   if (Result<void> done = set_all(state.methods, request.settings); !done)
-    return tl::unexpected(done.error());
+    return refuse(Refusal::settings_invalid, done.error().message);
   if (state.methods != before) delta.settings = print(state.methods);
   CHECK(delta.settings.size() <= limits::settings_max);
   state.bodies.set_terrain_collider(state.methods.collider);
@@ -119,21 +124,22 @@ struct Executing {
   World::State& state;
   TickDelta& delta;
 
-  Result<uint32_t> operator()(const CarveRequest& request) const { return carve(state, request, delta); }
-  Result<uint32_t> operator()(const FillRequest& request) const { return fill(state, request, delta); }
-  Result<uint32_t> operator()(const PaintRequest& request) const { return paint(state, request, delta); }
-  Result<uint32_t> operator()(const SettingsRequest& request) const { return change(state, request, delta); }
+  Outcome operator()(const CarveRequest& request) const { return carve(state, request, delta); }
+  Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
+  Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
+  Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
 };
 
 }  // namespace
 
 void execute(World::State& state, const Command& command, TickDelta& delta) {
-  const Result<uint32_t> made = std::visit(Executing{state, delta}, command.body);
+  const Outcome made = std::visit(Executing{state, delta}, command.body);
   Reply reply{command.session, command.request, {}, 0};
   if (made) {
     reply.pieces = *made;
   } else {
     reply.refusal = made.error().message;
+    reply.reason = made.error().reason;
   }
   delta.replies.push_back(std::move(reply));
 }
@@ -147,7 +153,7 @@ void carry_out(World::State& state, std::span<const Command> commands, TickDelta
     delta.replies.push_back({command.session, command.request,
                              std::to_string(state.waiting.size()) +
                                  " requests are waiting (limits.requests_waiting_max): ask again later",
-                             0});
+                             0, Refusal::requests_waiting});
   }
   for (bool first = true; !state.waiting.empty(); first = false) {
     const float cost = cost_us(state.waiting.front(), state.config.terrain.voxel_size_m);

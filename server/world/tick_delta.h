@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "server/world/refusal.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
 #include "shared/operation/operation.h"
@@ -89,6 +90,7 @@ struct Reply {
   uint32_t request = 0;
   std::string refusal;
   uint32_t pieces = 0;
+  std::optional<Refusal> reason = std::nullopt;  ///< of the refusal
 };
 
 struct TickDelta {

@@ -227,8 +227,14 @@ TEST_F(LiveServerTest, every_bad_request_gets_an_answer_that_names_what_is_wrong
   CarveMessage crowded = carve_at(0.0F, 0.0F, 4);
   crowded.seeds = limits::seeds_max + 1;
   EXPECT_NE(answer_to(follower, crowded).find("seeds"), std::string::npos) << follower.replies.back().refusal;
-  EXPECT_EQ(answer_to(follower, carve_at(0.0F, 0.0F, 5)), "");
+  CarveMessage fast = carve_at(0.0F, 0.0F, 5);
+  fast.blast_speed_m_s = limits::blast_speed_max_m_s + 1.0F;
+  EXPECT_NE(answer_to(follower, fast).find("blast speed"), std::string::npos);
+  EXPECT_EQ(answer_to(follower, carve_at(0.0F, 0.0F, 6)), "");
   EXPECT_EQ(server->report().carves, 1U);
+  const auto refusals = nlohmann::json::parse(to_json(server->report()))["refusals"];
+  EXPECT_EQ(refusals,
+            nlohmann::json::parse(R"({"total": 5, "by_reason": {"carve_invalid": 4, "blast_speed": 1}})"));
 }
 
 TEST_F(LiveServerTest, a_radius_that_is_no_number_is_refused_and_others_notice_nothing) {
@@ -259,7 +265,6 @@ TEST_F(LiveServerTest, port_in_use_leaves_no_recording_behind) {
 }
 
 TEST_F(LiveServerTest, a_world_beyond_its_limits_is_refused_and_leaves_no_recording) {
-  LiveConfig config;
   config.world.terrain.voxel_size_m = 0.05F;
   config.record_path = (folder / "none.scree").string();
   const auto started = LiveServer::start(config);

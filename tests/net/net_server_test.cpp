@@ -1,6 +1,7 @@
 // Misbehaving clients on loopback: each is told what was wrong, and the well-behaved one beside it goes on.
 #include "server/net/net_server.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -237,6 +238,52 @@ TEST_F(NetServerTest, message_flood_is_refused) {
   for (int i = 0; i < 20000; ++i) flood.insert(flood.end(), ack.begin(), ack.end());
   client.send_bytes(flood);
   expect_refused(client, "messages a second");
+}
+
+TEST_F(NetServerTest, every_refusal_is_counted_under_its_reason_and_told_in_the_status) {
+  start([](NetConfig& config) {
+    config.sessions_max = 2;
+    config.admin_token = "a token of some length";
+    config.tick_rate_hz = 1;  // a status in every tick
+  });
+  const auto refused_after = [&](const ClientMessage& first, const std::optional<ClientMessage>& second) {
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send(first));
+    if (second) {
+      ASSERT_TRUE(client.send(*second));
+    }
+    ASSERT_TRUE(client.receive_as<RefusalMessage>().has_value());
+    ASSERT_TRUE(client.closed_within(seconds(10)));
+  };
+  refused_after(hello(77), {});
+  refused_after(CarveMessage{}, {});
+  refused_after(hello(), hello());
+  refused_after(hello(), AdminMessage{1, "another token", {}});
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  for (uint32_t i = 1; i <= 7; ++i) ASSERT_TRUE(client.send(carve(i)));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(client.receive_as<ReplyMessage>().has_value());
+  refused_after(hello(), {});  // a third session
+
+  auto delta = std::make_shared<TickDelta>(*source.step());
+  delta->replies = {{1, 1, "too fast", 0, Refusal::blast_speed}, {1, 2, "", 4, std::nullopt}};
+  server->publish(delta);
+  server->flush();
+  const NetStats stats = server->stats();
+  EXPECT_EQ(stats.refusals.of(Refusal::protocol_version), 1U);
+  EXPECT_EQ(stats.refusals.of(Refusal::hello_missing), 1U);
+  EXPECT_EQ(stats.refusals.of(Refusal::hello_repeated), 1U);
+  EXPECT_EQ(stats.refusals.of(Refusal::admin_token_wrong), 1U);
+  EXPECT_EQ(stats.refusals.of(Refusal::sessions_max), 1U);
+  EXPECT_EQ(stats.refusals.of(Refusal::commands_waiting), 3U);
+  EXPECT_EQ(stats.refusals.of(Refusal::blast_speed), 1U);
+  EXPECT_EQ(stats.refusals.total(), stats.sessions_refused + stats.requests_refused + 1);
+  const auto status = client.receive_as<StatusMessage>();
+  ASSERT_TRUE(status.has_value());
+  uint64_t told = 0;
+  for (const RefusalCount& refusal : status->refusals) told += refusal.count;
+  EXPECT_EQ(told, stats.refusals.total());
+  EXPECT_NE(std::ranges::find(status->refusals, RefusalCount{"commands_waiting", 3}), status->refusals.end());
 }
 
 TEST_F(NetServerTest, stopping_says_goodbye) {

@@ -106,6 +106,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
   status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
+  status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {
       welcome,        RefusalMessage{"protocol 9 is not 1"},

@@ -1,0 +1,75 @@
+// Why a server says no, as a fixed set of reasons to count by. Their names stand in reports, so they stay as
+// they are; the words for people are the caller's, beside the reason.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shared/base/result.h"
+
+namespace scree {
+
+enum class Refusal : uint8_t {
+  // Of a request, by the world.
+  carve_invalid,
+  fill_invalid,
+  paint_invalid,
+  settings_invalid,
+  blast_speed,
+  pieces_max,
+  requests_waiting,
+  // Of a request, by the network side.
+  replay,
+  requests_per_second,
+  commands_waiting,
+  no_admin_token,
+  // Of a session.
+  sessions_pending,
+  sessions_max,
+  protocol_version,
+  hello_missing,
+  hello_late,
+  hello_repeated,
+  message_malformed,
+  message_cut_short,
+  messages_per_second,
+  interest_invalid,
+  admin_token_wrong,
+  server_stops,
+  // Of a session, cut off for not reading.
+  outbox_full,
+  reading_stalled,
+  count_
+};
+
+inline constexpr size_t refusal_reasons = static_cast<size_t>(Refusal::count_);
+
+/// As the enumerator is written.
+std::string_view name_of(Refusal reason);
+
+/// A refusal on its way to who asked.
+struct Refused {
+  Refusal reason = Refusal::message_malformed;
+  std::string message;  ///< names the thing, the limit and the way out
+};
+
+inline tl::unexpected<Refused> refuse(Refusal reason, std::string message) {
+  return tl::unexpected<Refused>(Refused{reason, std::move(message)});
+}
+
+/// How often each reason was given.
+class RefusalCounts {
+ public:
+  void add(Refusal reason) { ++counts_[static_cast<size_t>(reason)]; }
+  uint64_t of(Refusal reason) const { return counts_[static_cast<size_t>(reason)]; }
+  uint64_t total() const;
+
+ private:
+  std::array<uint64_t, refusal_reasons> counts_{};
+};
+
+}  // namespace scree
