@@ -3,7 +3,7 @@
 # usage: compare.sh PROGRAM GOLDEN_FILE
 # A kernel that is meant to compute something else now changes its hashes. Then look at the difference, raise
 # protocol_version (old recordings and clients no longer agree), and write the new hashes with
-#   build/release/tests/determinism/gcc_O3/kernels_golden > tests/golden/kernels.txt
+#   build/release/bin/scree-kernels-golden > tests/golden/kernels.txt
 set -euo pipefail
 readonly program=$1 golden=$2
 
