@@ -1,4 +1,4 @@
-// Bounds that server and client share. Each says its unit, its reason, and what happens there.
+// Bounds that server and client share, each with its unit, its reason, and the behaviour at the bound.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ inline constexpr float blast_speed_max_m_s = 30.0F;
 inline constexpr float world_half_width_m = 4096.0F;
 inline constexpr float world_half_height_m = 512.0F;
 
-/// Voxels along a side of an edit's window; bounds what bytes off a wire can make us allocate.
+/// Voxels along a side of an edit's window; bounds the memory that bytes off a wire can make us allocate.
 inline constexpr int window_side_max = 128;
 
 /// Voxels of the window around a piece that becomes terrain: their mass fits an int, and memory is bounded.

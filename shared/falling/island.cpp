@@ -10,9 +10,8 @@ namespace scree {
 
 namespace {
 
-constexpr int band = 3;  ///< voxels that the narrow band reaches
-constexpr int margin =
-    2 * band + 2;  ///< the island's band, what lies in the band of that, and room to redistance
+constexpr int band = 3;               ///< voxels that the narrow band reaches
+constexpr int margin = 2 * band + 2;  ///< the island's band, the band around that, and room to redistance
 constexpr Code code_at_cut = -21;     ///< half a voxel deep
 constexpr Code code_beyond_cut = 21;  ///< half a voxel outside
 using Marks = std::vector<uint8_t>;   ///< of a window's voxels, in its order

@@ -12,8 +12,9 @@ VoxelBox lift_box(const VoxelBox& island);
 
 /// Takes the solid voxels (code < 0) that connect to `start` within `box` out of the window, and the mass in
 /// the voxels around that belong to them alone. The distances that these had to the island become those to
-/// what remains; everything else keeps its code. Returns the island, whose mass is exactly what the window
-/// lost; mass 0 when the start is not solid. `window` must cover lift_box(box), and `box` hold the start.
+/// the remaining solid; all other voxels keep their codes. Returns the island, whose mass is exactly that
+/// which the window lost; mass 0 when the start is not solid. `window` must cover lift_box(box), and `box`
+/// hold the start.
 Volume lift(Window& window, const VoxelBox& box, VoxelCoord start);
 
 }  // namespace scree

@@ -86,7 +86,7 @@ BrickBits IslandSearch::taken(const Site& site) const {
   return all;
 }
 
-/// A flood from each component, within the brick, of what is solid `among` these voxels.
+/// Starts a flood from each component of the brick that has solid voxels `among` these.
 void IslandSearch::add_floods(BrickCoord brick, BrickBits among) {
   const Site& here = site(brick);
   for (among = among & here.solid & ~taken(here); among.any();) {

@@ -164,7 +164,7 @@ class Search {
       neck.box.hi = {std::max(neck.box.hi.x, box.hi.x), std::max(neck.box.hi.y, box.hi.y),
                      std::max(neck.box.hi.z, box.hi.z)};
     }
-    neck.box = neck.box.grown(1);  // two layers on each side, and what slants
+    neck.box = neck.box.grown(1);  // two layers on each side, and slanting ones
     return neck;
   }
 

@@ -117,7 +117,7 @@ float arch(glm::vec3 p) {
   return std::sqrt(ring * ring + x * x) - arch_thickness_m;
 }
 
-/// Without what stands on the ground.
+/// The ground alone, without the canyon's arch.
 float ground(TerrainKind kind, glm::vec3 p, float bump) {
   switch (kind) {
     case TerrainKind::flat:

@@ -100,7 +100,7 @@ class Conforming {
                        &high = mesh_.vertices[forward ? edge.to : edge.from];
       const double d_low = forward ? d_from : d_to, d_high = forward ? d_to : d_from;
       const glm::dvec3 point = low + (high - low) * (d_low / (d_low - d_high));
-      // Where the triangle's outline enters what is below, the cap's edge begins.
+      // The cap's edge begins where the triangle's outline enters the part below the plane.
       (d_from <= 0.0 ? segment.to : segment.from) = point;
     }
     return crosses ? std::optional(segment) : std::nullopt;

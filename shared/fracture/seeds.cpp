@@ -88,7 +88,7 @@ bool all_apart(const std::vector<glm::vec3>& seeds) {
 }
 
 constexpr uint32_t seeds_per_cluster = 8;
-/// Bounds what a seed's draw costs.
+/// Bounds the cost of a seed's draw.
 constexpr size_t clusters_max = 64;
 
 std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 impact,

@@ -123,7 +123,7 @@ Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, M
   return window;
 }
 
-/// Whether a prepared stamp is what stamping now gives.
+/// Whether stamping now gives the same result as the prepared stamp.
 bool gives(const StampOperation& op, Field& field, const Volumes& volumes, const PreparedStamp& prepared) {
   MassUnits gain = 0;
   return stamped(op, field, volumes, gain).codes == prepared.after.codes && gain == prepared.gain;

@@ -53,7 +53,7 @@ void unite(size_t count, const Code* __restrict terrain, const Code* __restrict 
   }
 }
 
-/// Outside voxels next to what the piece changed that lie in a gap of less than a voxel, between rock on both
+/// Outside voxels next to changed ones that lie in a gap of less than a voxel, between rock on both
 /// sides along an axis, become rock, just inside. Width of the gap: h / (h − low) + h / (h − high) < 1, which
 /// is h² < low · high.
 SCREE_VECTOR_CLONES
@@ -143,7 +143,7 @@ void fill_pits(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* 
     const auto along_x = static_cast<int8_t>(c[i - step_x] & c[i + step_x]);
     const auto two = static_cast<int8_t>((along_x & along_y) | (along_y & along_z) | (along_x & along_z));
     const int8_t own = c[i];
-    // By signs alone, not below zero and below shallow: comparisons became branches, four times the time.
+    // Not below zero, and below `shallow`, by signs alone: comparisons became branches, four times as slow.
     const auto pit = static_cast<int8_t>(two & ~own & (own - shallow) & core[i]);
     out[i] = pit < 0 ? Code{-1} : own;
   }

@@ -122,8 +122,8 @@ Cells::Cells(const Window& window)
              words.data());
 }
 
-/// Where the voxels of one plane of x lie in the volume, but for what the plane adds: each of six numbers for
-/// all of them in turn, along y and then along z, of which each has three.
+/// The places in the volume of one plane's voxels (constant x), without the plane's own share: for each voxel
+/// three numbers by its y and three by its z. Each of the six numbers is stored for all voxels in turn.
 struct PlaneOffsets {
   size_t count;
   std::vector<float> numbers;
@@ -170,7 +170,7 @@ void sample_plane(size_t count, const float* __restrict offsets, const Cells& ce
     const float part_x = x - static_cast<float>(cell_x), part_y = y - static_cast<float>(cell_y),
                 part_z = z - static_cast<float>(cell_z);
     const int at_x = cell_x - lo_x, at_y = cell_y - lo_y, at_z = cell_z - lo_z;
-    // By signs: all of them at once.
+    // All six comparisons at once, by their signs.
     const int outside =
         (at_x | at_y | at_z | (last_x - at_x) | (last_y - at_y) | (last_z - at_z)) >> 31;  // all ones or 0
     const int index = (at_x * step_x + at_y * step_y + at_z) & ~outside;

@@ -88,7 +88,7 @@ std::vector<Island> find_specks(Field& field, std::span<const BrickCoord> bricks
     for (size_t face = 0; face < brick_faces.size(); ++face) {
       const BrickCoord beyond = brick + brick_faces[face];
       if (std::ranges::binary_search(bricks, beyond)) continue;
-      const BrickBits bared = across(~solid, face);  // what may have held to it through this face
+      const BrickBits bared = across(~solid, face);  // voxels that the brick may have held
       if (bared.any()) add_specks_of(field, beyond, bared, specks);
     }
   }

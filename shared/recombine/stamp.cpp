@@ -24,7 +24,7 @@ int dust_steps(int shift) {
 
 /// Finds the roundness whose gain is nearest to the mass, or near enough for single codes: from none on along
 /// the secant, for the gain is nearly linear in it, and by false position once it lies between two.
-/// Leaves the patch in that shape; returns what it gains there.
+/// Leaves the patch in that shape; returns the roundness and its gain.
 StampPlan search_roundness(MergePatch& patch, MassUnits mass) {
   constexpr int evaluations_max = 8;
   constexpr int first_up = 24, first_down = 8;  // most pieces are light: sampling takes their edges

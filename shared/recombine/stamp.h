@@ -2,7 +2,7 @@
 //
 // terrain := terrain ∪ volume; gaps between the two closed, interior seams filled, the neighbourhood
 // redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile too light in its
-// clefts: so the mass is met there first, by rounding edges or filling clefts, and only what that cannot hold
+// clefts: so the mass is met there first, by rounding edges or filling clefts, and only the remaining mass
 // by moving the whole surface; the last units by moving voxels by single codes, all over it. Pieces merged
 // where they were thus restore the surface that they had (bench seams; docs/architecture.md, Recombine).
 #pragma once

@@ -57,7 +57,7 @@ class Builder {
   /// False when there is but one sign.
   bool read_signs() {
     const int count = cells_.z + 1;
-    // Short rows are read with what lies before them: sign_bits wants eight codes.
+    // Short rows are read together with codes before them: sign_bits needs eight codes.
     const int early = std::max(0, 8 - count);
     bool any = false, all = true;
     for (int x = 0; x <= cells_.x; ++x)

@@ -74,7 +74,7 @@ class Builder {
     bool crossed;                ///< both signs occur
 
     uint64_t mask() const { return (uint64_t{1} << count) - 1; }
-    /// Of cells whose lowest voxels are owned.
+    /// Bits of the cells whose lowest voxels are owned.
     uint64_t owned_mask() const { return z == 0 ? mask() & ~uint64_t{1} : mask(); }
   };
 
@@ -84,7 +84,7 @@ class Builder {
     Segment segment{z, count, std::vector<uint64_t>(static_cast<size_t>((cells_.x + 1) * rows_y)), false};
     uint64_t any = 0;
     uint64_t all = ~uint64_t{0};
-    // Short rows are read with what lies before them: sign_bits wants eight codes.
+    // Short rows are read together with codes before them: sign_bits needs eight codes.
     const int early = std::max(0, 8 - (count + 1));
     uint64_t* to = segment.rows.data();
     for (int x = 0; x <= cells_.x; ++x) {
@@ -145,7 +145,7 @@ class Builder {
     }
   }
 
-  /// Of a cell that holds several, or shares a pinched face. Returns what its slot must hold.
+  /// Adds the sheets of a cell that has several, or shares a pinched face. Returns the value of its slot.
   uint32_t add_sheets(CrossedSheet sheet, uint32_t signs) {
     const CellCase& split = case_of(sheet, signs);
     CHECK_DEBUG(split.sheets > 0);
