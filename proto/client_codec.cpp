@@ -95,7 +95,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
 }
 
 PaintMessage read(const wire::Paint& from, FieldChecker& check) {
-  return {from.request(), check.shape(from.shape()), check.kind<Material>(from.material(), "material")};
+  return {{check.shape(from.shape()), check.kind<Material>(from.material(), "material")}, from.request()};
 }
 
 RepairRequest read(const wire::Repair& from, FieldChecker& check) {
@@ -143,7 +143,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kCarve:
       return checked(read(from.carve(), check));
     case wire::ClientMessage::kFill:
-      return checked(FillMessage{from.fill().request(), check.shape(from.fill().shape())});
+      return checked(FillMessage{{check.shape(from.fill().shape())}, from.fill().request()});
     case wire::ClientMessage::kPaint:
       return checked(read(from.paint(), check));
     case wire::ClientMessage::kRepair:

@@ -38,6 +38,10 @@ inline constexpr size_t watched_corners_max = 64;
 inline constexpr size_t watched_contacts_max = 4096;
 inline constexpr size_t watched_bricks_max = 1024;
 
+/// Stages of a tick in a status, and the length of a stage's name in bytes.
+inline constexpr size_t stages_max = 32;
+inline constexpr size_t stage_name_bytes_max = 32;
+
 /// Work that fits into a tick, microseconds: a tick takes a second at most.
 inline constexpr uint32_t tick_budget_max_us = 1'000'000;
 

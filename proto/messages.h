@@ -2,7 +2,6 @@
 // order in which a client applies them; proto/codec.h converts and checks every byte.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
 #include "shared/operation/operation.h"
+#include "shared/operation/request.h"
 
 namespace scree {
 
@@ -40,28 +40,15 @@ struct InterestMessage {
 /// rock then, the carve opens the surface, and the pieces are thrown out.
 inline constexpr float carve_depth_in_radii = 0.4F;
 
-struct CarveMessage {
-  uint32_t request = 0;  ///< returned in the reply
-  Shape shape;
-  SeedPattern pattern = SeedPattern::radial;
-  uint32_t seeds = 32;
-  uint32_t random_seed = 0;
-  glm::vec3 impact_m{0.0F};
-  float blast_speed_m_s = 6.0F;
-  std::vector<glm::vec3> authored_m{};  ///< as many as seeds when the pattern needs points; else none
-};
-
-struct FillMessage {
+/// A request with the client's number of it, which the reply returns. Requests to change settings need a
+/// token as well: AdminMessage.
+template <typename Request>
+struct Asked : Request {
   uint32_t request = 0;
-  Shape shape;
 };
-
-/// The bricks of the shape (shared/field/paint.h) become this material.
-struct PaintMessage {
-  uint32_t request = 0;
-  Shape shape;
-  Material material = Material::rock;
-};
+using CarveMessage = Asked<CarveRequest>;
+using FillMessage = Asked<FillRequest>;
+using PaintMessage = Asked<PaintRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairRequest {
@@ -158,9 +145,13 @@ struct ReplyMessage {
   uint32_t pieces = 0;
 };
 
-/// The stages of a tick, as a status names them.
-inline constexpr std::array<const char*, 8> stage_names{"carve", "spawn",     "bodies",  "impacts",
-                                                        "rest",  "recombine", "islands", "publish"};
+/// How long a stage of the tick took.
+struct StageTime {
+  std::string name;
+  float ms = 0.0F;
+
+  bool operator==(const StageTime&) const = default;
+};
 
 /// The work of the last second's ticks by the server's model, and the counts of work that did not fit.
 struct WorkStatus {
@@ -202,10 +193,10 @@ struct StatusMessage {
   uint64_t sent_bytes = 0;   ///< to this client since it joined
   uint64_t pieces_made = 0;  ///< since the start
   uint64_t pieces_merged = 0;
-  uint64_t field_hash = 0;                           ///< of the whole field after `tick`
-  uint32_t repairs = 0;                              ///< chunks resent to this client because a check failed
-  SettingValues settings;                            ///< every setting of the simulation
-  std::array<float, stage_names.size()> stage_ms{};  ///< mean over the last second
+  uint64_t field_hash = 0;        ///< of the whole field after `tick`
+  uint32_t repairs = 0;           ///< chunks resent to this client because a check failed
+  SettingValues settings;         ///< every setting of the simulation
+  std::vector<StageTime> stages;  ///< every one in order; mean over the last second
   WorkStatus work;
   std::vector<RefusalCount> refusals;  ///< since the start; reasons that were never given are left out
 };
@@ -248,5 +239,8 @@ struct PhysicsMessage {
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
                                    ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage>;
+
+/// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
+size_t memory_bytes(const ServerMessage& message);
 
 }  // namespace scree

@@ -1,8 +1,12 @@
 #include "proto/operation_codec.h"
 
+#include <array>
+#include <utility>
+
 #include "proto/byte_stream.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/overloaded.h"
 #include "shared/recombine/stamp.h"
 
 namespace scree {
@@ -11,17 +15,12 @@ namespace {
 
 constexpr const char* subject = "operation";
 
-enum Kind : uint8_t {
-  kind_carve = 0,
-  kind_fill = 1,
-  kind_stamp = 2,
-  kind_discard = 3,
-  kind_shatter = 4,
-  kind_island = 5,
-  kind_paint = 6
-};
+/// Of an operation's kind: its place in the variant.
 constexpr unsigned kind_bits = 3;
-constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | 7U;
+constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
+constexpr size_t kinds = std::variant_size_v<Operation>;
+constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
+static_assert(kinds <= kind_mask + 1);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
@@ -30,10 +29,6 @@ constexpr unsigned shift_bits = 14;
 constexpr uint64_t method_group = static_cast<uint64_t>(StampMethod::sphere) + 1;
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
-
-void write_head(ByteWriter& writer, Kind kind, PieceId id) {
-  writer.varint((uint64_t{id} << kind_bits) | kind);
-}
 
 void write_shape(ByteWriter& writer, const Shape& shape) {
   writer.u8(static_cast<uint8_t>(shape.kind));
@@ -57,11 +52,25 @@ uint8_t packed(SeedPattern pattern, Cutter cutter) {
   return static_cast<uint8_t>(static_cast<unsigned>(pattern) | static_cast<unsigned>(cutter) << 4U);
 }
 
+/// The id that stands in front of an operation; 0 for one that has none.
+PieceId head_id(const Operation& operation) {
+  return std::visit(Overloaded{
+                        [](const CarveOperation& op) { return op.first_piece; },
+                        [](const FillOperation&) { return PieceId{0}; },
+                        [](const StampOperation& op) { return op.piece; },
+                        [](const DiscardOperation& op) { return op.piece; },
+                        [](const ShatterOperation& op) { return op.first_piece; },
+                        [](const IslandOperation& op) { return op.piece; },
+                        [](const PaintOperation&) { return PieceId{0}; },
+                    },
+                    operation);
+}
+
+/// What follows the head.
 struct Writing {
   ByteWriter& writer;
 
   void operator()(const CarveOperation& carve) const {
-    write_head(writer, kind_carve, carve.first_piece);
     write_shape(writer, carve.shape);
     writer.u8(packed(carve.pattern, carve.cutter));
     writer.varint(carve.seeds);
@@ -69,12 +78,8 @@ struct Writing {
     writer.vec3(carve.impact_m);
     for (const glm::vec3& point_m : carve.authored_m) writer.vec3(point_m);
   }
-  void operator()(const FillOperation& fill) const {
-    write_head(writer, kind_fill, 0);
-    write_shape(writer, fill.shape);
-  }
+  void operator()(const FillOperation& fill) const { write_shape(writer, fill.shape); }
   void operator()(const StampOperation& stamp) const {
-    write_head(writer, kind_stamp, stamp.piece);
     writer.position(stamp.pose);
     writer.u32(stamp.pose.rotation);
     const uint64_t shift = fold_sign(stamp.shift);
@@ -90,9 +95,8 @@ struct Writing {
       writer.u32(other.pose.rotation);
     }
   }
-  void operator()(const DiscardOperation& discard) const { write_head(writer, kind_discard, discard.piece); }
+  void operator()(const DiscardOperation&) const {}
   void operator()(const ShatterOperation& shatter) const {
-    write_head(writer, kind_shatter, shatter.first_piece);
     writer.varint(shatter.piece);
     writer.u8(packed(shatter.pattern, shatter.cutter));
     writer.varint(shatter.seeds);
@@ -100,25 +104,16 @@ struct Writing {
     writer.vec3(shatter.impact_voxels);
   }
   void operator()(const PaintOperation& paint) const {
-    write_head(writer, kind_paint, 0);
     write_shape(writer, paint.shape);
     writer.u8(static_cast<uint8_t>(paint.material));
   }
   void operator()(const IslandOperation& island) const {
-    write_head(writer, kind_island, island.piece);
     const VoxelCoord size = island.box.size(), start = island.start - island.box.lo;
     for (const int32_t low : {island.box.lo.x, island.box.lo.y, island.box.lo.z}) writer.zigzag(low);
     for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
     for (const int32_t at : {start.x, start.y, start.z}) writer.varint(static_cast<uint64_t>(at));
   }
 };
-
-PaintOperation read_paint(ByteReader& reader) {
-  PaintOperation paint;
-  paint.shape = read_shape(reader);
-  paint.material = reader.kind<Material>("material");
-  return paint;
-}
 
 /// Reads the fields that carve and shatter share. The pattern in `out` is a valid one, even on failure.
 template <typename Breaking>
@@ -139,20 +134,22 @@ void read_seeds(ByteReader& reader, PieceId first_piece, Result<void> (*validate
   out.first_piece = first_piece;
 }
 
-CarveOperation read_carve(ByteReader& reader, PieceId id) {
-  CarveOperation carve;
+void read(ByteReader& reader, PieceId id, CarveOperation& carve) {
   carve.shape = read_shape(reader);
   read_seeds(reader, id, validate_carve_pattern, carve);
   carve.impact_m = reader.vec3("impact");
-  if (!traits_of(carve.pattern).needs_points) return carve;
+  if (!traits_of(carve.pattern).needs_points) return;
   if (carve.seeds > limits::authored_seeds_max) reader.refuse("more authored seeds than authored_seeds_max");
   for (uint32_t i = 0; i < carve.seeds && !reader.failed(); ++i)
     carve.authored_m.push_back(reader.vec3("authored seed"));
-  return carve;
 }
 
-StampOperation read_stamp(ByteReader& reader, PieceId id) {
-  StampOperation stamp;
+void read(ByteReader& reader, PieceId id, FillOperation& fill) {
+  if (id != 0) reader.refuse("a fill with a piece id");
+  fill.shape = read_shape(reader);
+}
+
+void read(ByteReader& reader, PieceId id, StampOperation& stamp) {
   stamp.piece = id;
   const auto read_pose = [&] {
     QuantisedPose pose = reader.position("position of a stamp");
@@ -168,7 +165,7 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
     reader.refuse("shift of a stamp is beyond ±" + std::to_string(stamp_shift_max));
   if (method != method_group) {
     stamp.method = static_cast<StampMethod>(method);
-    return stamp;
+    return;
   }
   const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
   if (others == 0) reader.refuse("a stamp together with none");
@@ -176,18 +173,19 @@ StampOperation read_stamp(ByteReader& reader, PieceId id) {
     const auto piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
     stamp.others.push_back({piece, read_pose()});
   }
-  return stamp;
 }
 
-ShatterOperation read_shatter(ByteReader& reader, PieceId id) {
-  ShatterOperation shatter;
+void read(ByteReader&, PieceId id, DiscardOperation& discard) {
+  discard.piece = id;
+}
+
+void read(ByteReader& reader, PieceId id, ShatterOperation& shatter) {
   shatter.piece = static_cast<PieceId>(reader.varint("id of a piece", 0xFFFFFFFFU));
   read_seeds(reader, id, validate_shatter_pattern, shatter);
   shatter.impact_voxels = reader.vec3("impact");
-  return shatter;
 }
 
-IslandOperation read_island(ByteReader& reader, PieceId id) {
+void read(ByteReader& reader, PieceId id, IslandOperation& island) {
   const auto voxels = [&](const char* what) {
     constexpr uint64_t side_max = limits::island_side_max_bricks * brick_size;
     const auto axis = [&] { return static_cast<int32_t>(reader.varint(what, side_max)); };
@@ -195,44 +193,46 @@ IslandOperation read_island(ByteReader& reader, PieceId id) {
     const int32_t y = axis();
     return VoxelCoord{x, y, axis()};
   };
-  IslandOperation island;
   island.piece = id;
   island.box.lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "place of an island");
   island.box.hi = island.box.lo + voxels("side of an island");
   island.start = island.box.lo + voxels("start of an island");
-  return island;
 }
+
+void read(ByteReader& reader, PieceId id, PaintOperation& paint) {
+  if (id != 0) reader.refuse("paint with a piece id");
+  paint.shape = read_shape(reader);
+  paint.material = reader.kind<Material>("material");
+}
+
+template <typename Kind>
+Operation read_as(ByteReader& reader, PieceId id) {
+  Kind operation;
+  read(reader, id, operation);
+  return operation;
+}
+
+using Reading = Operation (*)(ByteReader& reader, PieceId id);
+
+template <size_t... kind>
+constexpr std::array<Reading, kinds> readings_of(std::index_sequence<kind...>) {
+  return {read_as<std::variant_alternative_t<kind, Operation>>...};
+}
+constexpr std::array<Reading, kinds> readings = readings_of(std::make_index_sequence<kinds>{});
 
 Operation read_operation(ByteReader& reader) {
   const uint64_t head = reader.varint("id and kind", head_max);
-  const auto id = static_cast<PieceId>(head >> kind_bits);
-  switch (head & 7U) {
-    case kind_carve:
-      return read_carve(reader, id);
-    case kind_fill:
-      if (id != 0) reader.refuse("a fill with a piece id");
-      return FillOperation{read_shape(reader)};
-    case kind_stamp:
-      return read_stamp(reader, id);
-    case kind_discard:
-      return DiscardOperation{id};
-    case kind_shatter:
-      return read_shatter(reader, id);
-    case kind_island:
-      return read_island(reader, id);
-    case kind_paint:
-      if (id != 0) reader.refuse("paint with a piece id");
-      return read_paint(reader);
-    default:
-      reader.refuse("kind " + std::to_string(head & 7U) + " is unknown");
-      return DiscardOperation{};
-  }
+  const uint64_t kind = head & kind_mask;
+  if (kind < kinds) return readings.at(kind)(reader, static_cast<PieceId>(head >> kind_bits));
+  reader.refuse("kind " + std::to_string(kind) + " is unknown");
+  return DiscardOperation{};
 }
 
 }  // namespace
 
 void append_operation(std::vector<uint8_t>& bytes, const Operation& operation) {
   ByteWriter writer(bytes);
+  writer.varint((uint64_t{head_id(operation)} << kind_bits) | operation.index());
   std::visit(Writing{writer}, operation);
 }
 

@@ -9,6 +9,7 @@
 #include "proto/wire_values.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -64,12 +65,29 @@ PieceMessage read_piece(const std::string& bytes, FieldChecker& check) {
 
 RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
   const ClientMessage message = check.take(decode_client(as_span(bytes)));
-  if (const auto* carve = std::get_if<CarveMessage>(&message)) return {session, *carve};
-  if (const auto* fill = std::get_if<FillMessage>(&message)) return {session, *fill};
-  if (const auto* paint = std::get_if<PaintMessage>(&message)) return {session, *paint};
-  if (const auto* admin = std::get_if<AdminMessage>(&message)) return {session, *admin};
-  check.refuse("what should be a carve, a fill, paint or new settings is another message");
-  return {};
+  return std::visit(
+      Overloaded{[&]<typename Asks>(const Asked<Asks>& asked) {
+                   return RecordedCommand{session, asked.request, static_cast<const Asks&>(asked)};
+                 },
+                 [&](const AdminMessage& admin) {
+                   return RecordedCommand{session, admin.request, SettingsRequest{admin.settings}};
+                 },
+                 [&](const auto&) {
+                   check.refuse("a message that asks for nothing stands where a request should");
+                   return RecordedCommand{};
+                 }},
+      message);
+}
+
+/// As the client sent it, without the token.
+ClientMessage message_of(const RecordedCommand& command) {
+  return std::visit(Overloaded{[&]<typename Asks>(const Asks& asks) {
+                                 return ClientMessage(Asked<Asks>{asks, command.request});
+                               },
+                               [&](const SettingsRequest& settings) {
+                                 return ClientMessage(AdminMessage{command.request, {}, settings.settings});
+                               }},
+                    command.body);
 }
 
 }  // namespace
@@ -82,7 +100,6 @@ std::vector<uint8_t> encode(const RecordedHeader& header) {
   to.set_terrain_seed(header.terrain.random_seed);
   to.set_voxel_size_m(header.terrain.voxel_size_m);
   to.set_tick_rate_hz(header.tick_rate_hz);
-  to.set_pieces_max(header.pieces_max);
   to.set_merges_per_tick_max(header.merges_per_tick_max);
   write(*to.mutable_settings(), header.settings);
   return bytes_of(to);
@@ -104,7 +121,6 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
       header.terrain.voxel_size_m > limits::voxel_size_max_m)
     check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
   header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
-  header.pieces_max = from->pieces_max();
   header.merges_per_tick_max = from->merges_per_tick_max();
   header.settings = check.settings(from->settings());
   return checked(std::move(header), check);
@@ -185,9 +201,7 @@ std::vector<uint8_t> encode(std::span<const RecordedCommand> commands) {
   recorded::Commands to;
   for (const RecordedCommand& command : commands) {
     to.add_sessions(command.session);
-    const ClientMessage request =
-        std::visit([](const auto& message) { return ClientMessage(message); }, command.request);
-    to.add_requests(without_length(encode(request)));
+    to.add_requests(without_length(encode(message_of(command))));
   }
   return bytes_of(to);
 }

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "proto/messages.h"
@@ -16,14 +15,13 @@
 namespace scree {
 
 /// Version of the blobs and the tables. A reader refuses any other.
-inline constexpr uint32_t recording_format = 3;
+inline constexpr uint32_t recording_format = 4;
 
 struct RecordedHeader {
   uint32_t format = recording_format;
   std::string program;
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
-  uint32_t pieces_max = 0;
   uint32_t merges_per_tick_max = 0;
   SettingValues settings;  ///< to start with
 };
@@ -59,7 +57,8 @@ struct RecordedKeyframe {
 
 struct RecordedCommand {
   uint64_t session = 0;
-  std::variant<CarveMessage, FillMessage, PaintMessage, AdminMessage> request;
+  uint32_t request = 0;  ///< the client's number for it
+  Request body;
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

@@ -100,7 +100,11 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_field_hash(from.field_hash);
   to.set_repairs(from.repairs);
   write(*to.mutable_settings(), from.settings);
-  to.mutable_stage_ms()->Add(from.stage_ms.begin(), from.stage_ms.end());
+  for (const StageTime& stage : from.stages) {
+    wire::StageTime& one = *to.add_stages();
+    one.set_name(clean_text(stage.name, limits::stage_name_bytes_max));
+    one.set_ms(stage.ms);
+  }
   write(*to.mutable_work(), from.work);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
@@ -247,12 +251,14 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.field_hash = from.field_hash();
   status.repairs = from.repairs();
   status.settings = check.settings(from.settings());
-  if (static_cast<size_t>(from.stage_ms_size()) != status.stage_ms.size())
-    check.refuse(std::to_string(from.stage_ms_size()) + " stage_ms where there are " +
-                 std::to_string(status.stage_ms.size()) + " stages");
-  else
-    std::ranges::transform(from.stage_ms(), status.stage_ms.begin(),
-                           [&](float ms) { return check.not_negative(ms, "stage_ms"); });
+  if (static_cast<size_t>(from.stages_size()) > limits::stages_max)
+    check.refuse(std::to_string(from.stages_size()) + " stages are over the limit of " +
+                 std::to_string(limits::stages_max));
+  for (const wire::StageTime& stage : from.stages()) {
+    if (check.failed()) break;
+    status.stages.push_back({check.text(stage.name(), limits::stage_name_bytes_max, "name of a stage"),
+                             check.not_negative(stage.ms(), "ms of a stage")});
+  }
   status.work = read(from.work(), check);
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");

@@ -3,30 +3,13 @@
 #include "bench/peers/stock_fracture.h"
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
+#include "bench/support/stage_times.h"
 
 namespace scree {
 
 namespace {
 
 constexpr int ticks_between_carves = 240;
-
-struct Stage {
-  const char* name;
-  double StageTimes::*time;
-};
-
-constexpr Stage stages[] = {{"carve", &StageTimes::carve_ms},         {"spawn", &StageTimes::spawn_ms},
-                            {"bodies", &StageTimes::bodies_ms},       {"rest", &StageTimes::rest_ms},
-                            {"recombine", &StageTimes::recombine_ms}, {"publish", &StageTimes::publish_ms},
-                            {"total", &StageTimes::total_ms}};
-
-void report_stage(BenchReport& report, const std::string& when, const char* name,
-                  const std::vector<StageTimes>& times, double StageTimes::*time) {
-  std::vector<double> samples;
-  for (const StageTimes& t : times) samples.push_back(t.*time);
-  report.metric(fmt::format("{}_{}_median_ms", when, name), quantile(samples, 0.5));
-  report.metric(fmt::format("{}_{}_p99_ms", when, name), quantile(samples, 0.99));
-}
 
 /// OpenVDB's stock way with the same blows and seeds, each in 64 m of fresh terrain; median.
 double stock_median_ms(const WorldConfig& config, int rounds) {
@@ -38,9 +21,13 @@ double stock_median_ms(const WorldConfig& config, int rounds) {
     MapField field(config.terrain);
     PieceTable pieces;
     peers::StockTerrain stock(field, {{-128, -64, -128}, {128, 128, 128}});
-    const Applied applied =
-        apply(CarveOperation{blow.shape, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m, 1}, field,
-              pieces);
+    const Applied applied = apply(CarveOperation{.shape = blow.shape,
+                                                 .pattern = blow.pattern,
+                                                 .seeds = blow.seeds,
+                                                 .random_seed = blow.random_seed,
+                                                 .impact_m = blow.impact_m,
+                                                 .first_piece = 1},
+                                  field, pieces);
     std::vector<glm::vec3> seeds_m;
     for (const glm::vec3& seed : applied.seeds_voxels) seeds_m.push_back(seed * dx);
     times_ms.push_back(stock.carve(blow.shape.a, blow.shape.radius_m, seeds_m).total_ms());
@@ -65,7 +52,7 @@ BenchReport run_carve_bench(const BenchOptions& options) {
     const Command command{0, static_cast<uint32_t>(i), blow};
     const auto delta = world.step({&command, 1});
     carving.push_back(delta->times);
-    own_ms.push_back(delta->times.carve_ms + delta->times.spawn_ms);
+    own_ms.push_back(delta->times[TickStage::carve] + delta->times[TickStage::spawn]);
     pieces += delta->spawned.size();
     for (int tick = 1; tick < ticks_between_carves; ++tick) others.push_back(world.step({})->times);
     options.progress(static_cast<double>(i + 1) / carves);
@@ -73,10 +60,8 @@ BenchReport run_carve_bench(const BenchOptions& options) {
   BenchReport report;
   report.metric("carves", carves);
   report.metric("pieces_per_carve", static_cast<double>(pieces) / carves);
-  for (const Stage& stage : stages) report_stage(report, "carve_tick", stage.name, carving, stage.time);
-  for (const Stage& stage : stages)
-    if (stage.time != &StageTimes::carve_ms && stage.time != &StageTimes::spawn_ms)
-      report_stage(report, "other_tick", stage.name, others, stage.time);
+  report_stages(report, "carve_tick", carving);
+  report_stages(report, "other_tick", others);
   const double own_p99_ms = quantile(own_ms, 0.99);
   report.metric("own_work_median_ms", quantile(own_ms, 0.5));
   report.metric("own_work_p99_ms", own_p99_ms);

@@ -31,9 +31,9 @@ constexpr float fallen_voxels = 1.0F;
 constexpr size_t points_max = 64;
 
 std::string name_of(TerrainColliderKind kind) {
-  Methods methods;
-  methods.collider = kind;
-  const SettingValues values = print(methods);
+  WorldConfig config;
+  config.methods.collider = kind;
+  const SettingValues values = print(config);
   return std::ranges::find(values, "collider", &SettingValue::name)->value;
 }
 
@@ -98,7 +98,7 @@ class Scene {
       for (const SpawnedPiece& piece : last->spawned)
         surfaces_[piece.id] = surface_of(*piece.volume, world_.config().terrain.voxel_size_m);
       run_.made += last->spawned.size();
-      if (commands.empty()) run_.bodies_ms.push_back(last->times.bodies_ms);
+      if (commands.empty()) run_.bodies_ms.push_back(last->times[TickStage::bodies]);
       if (tick % look_ticks == 0) look(*last);
     }
     run_.lost = run_.made - last->pieces.size();

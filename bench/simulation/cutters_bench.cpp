@@ -105,11 +105,11 @@ Sums blow_up(const Method& method, int carves) {
     reset_heap_peak();
     const auto delta = world.step({&command, 1});
     sums.peak_bytes += static_cast<double>(heap_peak_bytes() - held);
-    sums.cut_ms.push_back(delta->times.carve_ms);
-    sums.bodies_ms.push_back(delta->times.spawn_ms);
+    sums.cut_ms.push_back(delta->times[TickStage::carve]);
+    sums.bodies_ms.push_back(delta->times[TickStage::spawn]);
     add_pieces(*delta, method, config.terrain.voxel_size_m, sums);
     for (int tick = 0; tick < ticks_after_blow; ++tick)
-      sums.after_ms.push_back(world.step({})->times.bodies_ms);
+      sums.after_ms.push_back(world.step({})->times[TickStage::bodies]);
   }
   return sums;
 }

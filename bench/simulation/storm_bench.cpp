@@ -3,6 +3,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
+#include "bench/support/stage_times.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -19,7 +20,7 @@ constexpr Tick half_merged_ticks = 240, all_merged_ticks = 720;
 /// The cost of one tick of the storm, and the number of pieces alive after it.
 struct StormTick {
   double total_ms = 0.0;
-  double bodies_ms = 0.0;
+  StageTimes times;
   size_t alive = 0;
   uint64_t state_hash = 0;
   TickWork work;
@@ -48,8 +49,8 @@ std::vector<StormTick> rage(World& world, Tick ticks_max) {
     std::vector<Command> commands;
     if (const auto blow = blows.next()) commands.push_back({0, static_cast<uint32_t>(ticks.size()), *blow});
     const auto delta = world.step(commands);
-    ticks.push_back({delta->times.total_ms, delta->times.bodies_ms, delta->pieces.size(), delta->state_hash,
-                     delta->work});
+    ticks.push_back(
+        {delta->times.total_ms(), delta->times, delta->pieces.size(), delta->state_hash, delta->work});
     if (delta->pieces.empty() && commands.empty()) break;
   }
   return ticks;
@@ -61,7 +62,8 @@ void keep_least(std::vector<StormTick>& least, const std::vector<StormTick>& aga
   for (size_t i = 0; i < least.size(); ++i) {
     CHECK(least[i].state_hash == again[i].state_hash);
     least[i].total_ms = std::min(least[i].total_ms, again[i].total_ms);
-    least[i].bodies_ms = std::min(least[i].bodies_ms, again[i].bodies_ms);
+    for (const TickStageRow& row : tick_stages)
+      least[i].times[row.stage] = std::min(least[i].times[row.stage], again[i].times[row.stage]);
   }
 }
 
@@ -71,8 +73,8 @@ std::pair<double, double> idle_us(World& world, size_t rounds) {
   World fresh(world.config());
   std::vector<double> before, after;
   for (size_t i = 0; i < rounds; ++i) {
-    before.push_back(fresh.step({})->times.total_ms * 1e3);
-    after.push_back(world.step({})->times.total_ms * 1e3);
+    before.push_back(fresh.step({})->times.total_ms() * 1e3);
+    after.push_back(world.step({})->times.total_ms() * 1e3);
   }
   return {quantile(before, 0.5), quantile(after, 0.5)};
 }
@@ -88,7 +90,7 @@ std::vector<double> total_of(const std::vector<StormTick>& ticks, size_t alive_m
 void report_work(BenchReport& report, const std::string& when, const std::vector<StormTick>& ticks) {
   double cut = 0.0, sooner = 0.0, waiting = 0.0, put_off = 0.0, left_out = 0.0;
   std::vector<double> per_estimate;
-  for (const auto& [total_ms, bodies_ms, alive, hash, work] : ticks) {
+  for (const auto& [total_ms, times, alive, hash, work] : ticks) {
     cut += work.cut_short() ? 1.0 : 0.0;
     sooner += work.merging_sooner ? 1.0 : 0.0;
     waiting = std::max(waiting, static_cast<double>(work.requests_waiting));
@@ -107,10 +109,10 @@ void report_work(BenchReport& report, const std::string& when, const std::vector
 }
 
 void report_storm(BenchReport& report, const std::string& when, const std::vector<StormTick>& ticks) {
-  std::vector<double> bodies_ms;
+  std::vector<StageTimes> times;
   size_t most = 0;
   for (const StormTick& tick : ticks) {
-    bodies_ms.push_back(tick.bodies_ms);
+    times.push_back(tick.times);
     most = std::max(most, tick.alive);
   }
   const std::vector<double> all_ms = total_of(ticks, 0), crowded_ms = total_of(ticks, alive_wanted);
@@ -121,7 +123,7 @@ void report_storm(BenchReport& report, const std::string& when, const std::vecto
   report.metric(when + "_tick_median_ms", quantile(all_ms, 0.5));
   report.metric(when + "_tick_p99_ms", p99_ms);
   report.metric(when + "_tick_worst_ms", quantile(all_ms, 1.0));
-  report.metric(when + "_bodies_p99_ms", quantile(bodies_ms, 0.99));
+  report_stages(report, when, times);
   report_work(report, when, ticks);
   report.metric(when + "_crowded_ticks", static_cast<double>(crowded_ms.size()));
   report.check(when + "_alive", !crowded_ms.empty(),

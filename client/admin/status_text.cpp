@@ -30,7 +30,7 @@ Json json_of(const StatusMessage& status) {
   refusals["total"] = refused;
   for (const RefusalCount& refusal : status.refusals) refusals[refusal.reason] = refusal.count;
   Json stages = Json::object();
-  for (size_t i = 0; i < stage_names.size(); ++i) stages[stage_names[i]] = status.stage_ms[i];
+  for (const StageTime& stage : status.stages) stages[stage.name] = stage.ms;
   return {
       {"tick", status.tick},
       {"clients", status.clients},

@@ -5,6 +5,7 @@
 
 #include "client/bot/limits.h"
 #include "client/bot/tally.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -103,11 +104,11 @@ Result<void> Bot::receive(const Received& received) {
         std::to_string(repair->chunks.size()) + " chunks");
     connection_->send(*repair);
   }
-  if (const auto* frame = std::get_if<FrameMessage>(&received.message))
-    receive_frame(*frame, received.arrived);
-  if (const auto* reply = std::get_if<ReplyMessage>(&received.message))
-    receive_reply(*reply, received.arrived);
-  if (const auto* status = std::get_if<StatusMessage>(&received.message)) receive_status(*status);
+  std::visit(Overloaded{[&](const FrameMessage& frame) { receive_frame(frame, received.arrived); },
+                        [&](const ReplyMessage& reply) { receive_reply(reply, received.arrived); },
+                        [&](const StatusMessage& status) { receive_status(status); },
+                        [](const auto&) {}},  // the mirror has applied it
+             received.message);
   return {};
 }
 
@@ -168,7 +169,7 @@ void Bot::ask(Clock::time_point now) {
     const Clock::time_point sent = Clock::now();
     requests_[carve.request] = {sent, carve.random_seed};
     unseen_[carve.random_seed] = sent;
-    if (config_.paint) connection_->send(PaintMessage{0, carve.shape, *config_.paint});
+    if (config_.paint) connection_->send(PaintMessage{{carve.shape, *config_.paint}, 0});
     connection_->send(carve);
   }
 }

@@ -27,9 +27,12 @@ Json latency(const std::vector<double>& values) {
 Json carves(const BotReport& report) {
   Json refusals = Json::object();
   for (const auto& [reason, count] : report.refusals) refusals[reason] = count;
-  return {{"asked", report.carves_asked},     {"accepted", report.carves_accepted},
-          {"refused", report.carves_refused}, {"lost", report.carves_lost},
-          {"seen", report.seen.carves},       {"refusals", std::move(refusals)}};
+  return {{"asked", report.carves_asked},
+          {"accepted", report.carves_accepted},
+          {"refused", report.carves_refused},
+          {"lost", report.carves_lost},
+          {"seen", report.seen.operations.of<CarveOperation>()},
+          {"refusals", std::move(refusals)}};
 }
 
 Json ledger(const StatusMessage& status) {
@@ -84,15 +87,15 @@ std::string to_json(const BotReport& report) {
   json["carves"] = carves(report);
   json["pieces"] = {{"made", seen.pieces_made},
                     {"merged", seen.pieces_merged},
-                    {"discarded", seen.discards},
+                    {"discarded", seen.operations.of<DiscardOperation>()},
                     {"received_whole", seen.pieces_sent},
                     {"alive", report.pieces_alive}};
   json["server_pieces"] = {
       {"made", status.pieces_made}, {"merged", status.pieces_merged}, {"alive", status.pieces}};
   json["ledger"] = ledger(status);
   json["bytes"] = bytes(report);
-  json["bytes_per_carve"] = cost(report.carve_cost);
-  json["bytes_per_merge"] = cost(report.merge_cost);
+  json["bytes_per_carve"] = cost(report.costs.of<CarveOperation>());
+  json["bytes_per_merge"] = cost(report.costs.of<StampOperation>());
   json["frames"] = seen.frames;
   json["chunks"] = {{"held", report.chunks_held},
                     {"received_whole", seen.chunks},

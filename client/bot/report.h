@@ -8,6 +8,7 @@
 
 #include "client/mirror/mirror.h"
 #include "proto/messages.h"
+#include "shared/operation/per_operation.h"
 
 namespace scree {
 
@@ -66,8 +67,7 @@ struct BotReport {
   uint64_t chunks_held = 0;
   BytesByKind bytes;
   uint64_t bytes_sent = 0;
-  OperationCost carve_cost;
-  OperationCost merge_cost;
+  PerOperation<OperationCost> costs;
   HashComparison hash;
   StatusMessage status;  ///< the last one
   std::vector<double> tick_medians_ms;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proto/operation_codec.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -24,8 +25,7 @@ void tally_operations(const FrameMessage& frame, size_t frame_bytes, BotReport& 
       static_cast<double>(frame_bytes - operations) / static_cast<double>(frame.operations.size());
   for (const Operation& operation : frame.operations) {
     const double cost = static_cast<double>(operation_bytes(operation)) + overhead;
-    if (std::holds_alternative<CarveOperation>(operation)) report.carve_cost.add(cost);
-    if (std::holds_alternative<StampOperation>(operation)) report.merge_cost.add(cost);
+    report.costs[operation].add(cost);
   }
 }
 
@@ -33,23 +33,23 @@ void tally_operations(const FrameMessage& frame, size_t frame_bytes, BotReport& 
 
 void tally(const Received& received, BotReport& report) {
   BytesByKind& bytes = report.bytes;
-  if (const auto* frame = std::get_if<FrameMessage>(&received.message)) {
-    const size_t transforms = std::min(field_bytes(frame->transforms.size()), received.bytes);
-    bytes.transforms += transforms;
-    bytes.frames += received.bytes - transforms;
-    tally_operations(*frame, received.bytes - transforms, report);
-  } else if (std::holds_alternative<ChunkMessage>(received.message)) {
-    bytes.chunks += received.bytes;
-  } else if (std::holds_alternative<PieceMessage>(received.message)) {
-    bytes.pieces += received.bytes;
-  } else {
-    bytes.other += received.bytes;
-  }
-  if (const auto* status = std::get_if<StatusMessage>(&received.message)) {
-    report.status = *status;
-    report.tick_medians_ms.push_back(status->tick_median_ms);
-    report.tick_worst_ms = std::max<double>(report.tick_worst_ms, status->tick_worst_ms);
-  }
+  std::visit(Overloaded{[&](const FrameMessage& frame) {
+                          const size_t transforms =
+                              std::min(field_bytes(frame.transforms.size()), received.bytes);
+                          bytes.transforms += transforms;
+                          bytes.frames += received.bytes - transforms;
+                          tally_operations(frame, received.bytes - transforms, report);
+                        },
+                        [&](const ChunkMessage&) { bytes.chunks += received.bytes; },
+                        [&](const PieceMessage&) { bytes.pieces += received.bytes; },
+                        [&](const StatusMessage& status) {
+                          bytes.other += received.bytes;
+                          report.status = status;
+                          report.tick_medians_ms.push_back(status.tick_median_ms);
+                          report.tick_worst_ms = std::max<double>(report.tick_worst_ms, status.tick_worst_ms);
+                        },
+                        [&](const auto&) { bytes.other += received.bytes; }},
+             received.message);
 }
 
 }  // namespace scree

@@ -23,25 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using asio::ip::tcp;
 
-/// Approximate memory of the decoded message, bytes; a few compressed bytes can hold megabytes of codes.
-size_t memory_of(const ServerMessage& message) {
-  size_t bytes = sizeof(ServerMessage);
-  if (const auto* frame = std::get_if<FrameMessage>(&message)) {
-    bytes += frame->patches.size() * sizeof(BrickPatch) + frame->operations.size() * sizeof(Operation) +
-             frame->transforms.size();
-  } else if (const auto* chunk = std::get_if<ChunkMessage>(&message)) {
-    bytes += chunk->bricks.size() * sizeof(BrickPatch);
-  } else if (const auto* piece = std::get_if<PieceMessage>(&message)) {
-    bytes += piece->volume.window.codes.size();
-  } else if (const auto* physics = std::get_if<PhysicsMessage>(&message)) {
-    bytes +=
-        physics->contacts.size() * sizeof(WatchedContact) + physics->searched.size() * sizeof(BrickCoord);
-    for (const WatchedBody& body : physics->bodies)
-      bytes += sizeof(WatchedBody) + body.hull_m.size() * sizeof(glm::vec3);
-  }
-  return bytes;
-}
-
 }  // namespace
 
 /// The network thread alone uses the members that `mutex` does not guard. Until the welcome, connect() runs
@@ -180,7 +161,7 @@ void Connection::Impl::handle(ServerMessage message, size_t bytes) {
 }
 
 void Connection::Impl::enqueue(ServerMessage message, size_t bytes) {
-  const size_t memory = memory_of(message);
+  const size_t memory = memory_bytes(message);
   {
     const std::scoped_lock lock(mutex);
     queue.push_back({{std::move(message), bytes, Clock::now()}, memory});

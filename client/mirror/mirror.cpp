@@ -7,6 +7,7 @@
 #include "client/mirror/limits.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -20,13 +21,7 @@ uint32_t fold(uint64_t hash) {
 
 MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   frames += other.frames;
-  carves += other.carves;
-  fills += other.fills;
-  stamps += other.stamps;
-  discards += other.discards;
-  shatters += other.shatters;
-  islands += other.islands;
-  paints += other.paints;
+  operations += other.operations;
   operation_bytes += other.operation_bytes;
   patched_bricks += other.patched_bricks;
   transforms += other.transforms;
@@ -48,23 +43,29 @@ Mirror::Mirror(const WelcomeMessage& welcome)
     : field_(welcome.terrain), tick_(welcome.tick), ticks_per_transform_(welcome.ticks_per_transform) {}
 
 Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
+  using Done = Result<void>;
   MirrorChanges changes;
-  Result<void> applied;
-  if (const auto* frame = std::get_if<FrameMessage>(&message)) {
-    applied = apply_frame(*frame, changes);
-  } else if (const auto* chunk = std::get_if<ChunkMessage>(&message)) {
-    applied = apply_chunk(*chunk, changes);
-  } else if (const auto* piece = std::get_if<PieceMessage>(&message)) {
-    applied = apply_piece(*piece, changes);
-  } else if (std::holds_alternative<ResetMessage>(message)) {
-    apply_reset(changes);
-  } else if (const auto* status = std::get_if<StatusMessage>(&message)) {
-    status_ = *status;
-  } else if (const auto* refusal = std::get_if<RefusalMessage>(&message)) {
-    return fail("the server refused: " + refusal->reason);
-  } else if (std::holds_alternative<WelcomeMessage>(message)) {
-    return fail("a second welcome on one connection");
-  }
+  Done applied = std::visit(
+      Overloaded{
+          [](const WelcomeMessage&) -> Done { return fail("a second welcome on one connection"); },
+          [](const RefusalMessage& refusal) -> Done { return fail("the server refused: " + refusal.reason); },
+          [&](const FrameMessage& frame) { return apply_frame(frame, changes); },
+          [&](const ChunkMessage& chunk) { return apply_chunk(chunk, changes); },
+          [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
+          [&](const ResetMessage&) -> Done {
+            apply_reset(changes);
+            return {};
+          },
+          [&](const StatusMessage& status) -> Done {
+            status_ = status;
+            return {};
+          },
+          // For the person; nothing of the world.
+          [](const ReplyMessage&) -> Done { return {}; },
+          [](const CursorsMessage&) -> Done { return {}; },
+          [](const PhysicsMessage&) -> Done { return {}; },
+      },
+      message);
   if (applied) applied = within_limits();
   if (!applied) return tl::unexpected(applied.error());
   return changes;
@@ -134,30 +135,16 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, Chun
 
 /// Fragments of a piece begin at the piece's last pose; all other pieces at the place of their cut.
 Mirror::Birthplace Mirror::birthplace_of(const Operation& operation) const {
-  const auto* shatter = std::get_if<ShatterOperation>(&operation);
-  if (shatter == nullptr) return {};
-  const PieceMotion& parent = motions_.at(shatter->piece);
+  const std::optional<PieceId> id = parent_of(operation);
+  if (!id) return {};
+  const PieceMotion& parent = motions_.at(*id);
   return {parent.to, parent.volume->centre_voxels};
 }
 
 void Mirror::count(const Operation& operation) {
   counters_.operation_bytes += operation_bytes(operation);
-  if (std::holds_alternative<CarveOperation>(operation)) {
-    ++counters_.carves;
-  } else if (std::holds_alternative<FillOperation>(operation)) {
-    ++counters_.fills;
-  } else if (std::holds_alternative<StampOperation>(operation)) {
-    ++counters_.stamps;
-    counters_.pieces_merged += pieces_merged_by(operation);
-  } else if (std::holds_alternative<ShatterOperation>(operation)) {
-    ++counters_.shatters;
-  } else if (std::holds_alternative<IslandOperation>(operation)) {
-    ++counters_.islands;
-  } else if (std::holds_alternative<PaintOperation>(operation)) {
-    ++counters_.paints;
-  } else {
-    ++counters_.discards;
-  }
+  ++counters_.operations[operation];
+  counters_.pieces_merged += pieces_merged_by(operation);
 }
 
 void Mirror::apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed,

@@ -19,6 +19,7 @@
 #include "proto/messages.h"
 #include "shared/field/field.h"
 #include "shared/operation/operation.h"
+#include "shared/operation/per_operation.h"
 
 namespace scree {
 
@@ -42,13 +43,7 @@ struct PieceMotion {
 /// Counts of applied messages and their content since the welcome.
 struct MirrorCounters {
   uint64_t frames = 0;
-  uint64_t carves = 0;  ///< operations
-  uint64_t fills = 0;
-  uint64_t stamps = 0;
-  uint64_t discards = 0;
-  uint64_t shatters = 0;
-  uint64_t islands = 0;
-  uint64_t paints = 0;
+  OperationCounts operations;
   uint64_t operation_bytes = 0;
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses

@@ -16,9 +16,6 @@ inline constexpr int ahead_chunks = 4;
 /// Chunks that a tick tests for being generated: a few microseconds.
 inline constexpr size_t ahead_looks_per_tick = 64;
 
-/// Sessions of a server's options. Above: refused.
-inline constexpr uint32_t sessions_max_max = 4096;
-
 /// Speed of a replay, times real time.
 inline constexpr double replay_speed_min = 0.01;
 inline constexpr double replay_speed_max = 100.0;

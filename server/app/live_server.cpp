@@ -63,6 +63,7 @@ struct LiveServer::State {
 };
 
 Result<void> LiveServer::State::open() {
+  config.net.service = config.world.service;  // those of a recording are not this server's
   if (!config.replay.path.empty()) {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");

@@ -38,12 +38,6 @@ void add_network(CLI::App& app, Raw& raw) {
   app.add_option("-p,--port", net.port, "TCP port; 0: one that is free")->capture_default_str();
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
       ->capture_default_str();
-  app.add_option("--sessions-max", net.sessions_max, "clients at once; more are refused")
-      ->check(CLI::Range(1U, limits::sessions_max_max))
-      ->capture_default_str();
-  app.add_option("--requests-per-second", net.requests_per_second, "carves and fills of one client")
-      ->check(CLI::Range(0.1, 1.0e6))
-      ->capture_default_str();
 }
 
 void add_world(CLI::App& app, Raw& raw) {
@@ -59,23 +53,19 @@ void add_world(CLI::App& app, Raw& raw) {
   app.add_option("--tick-rate", world.tick_rate_hz,
                  within("ticks a second", limits::tick_rate_min_hz, limits::tick_rate_max_hz))
       ->capture_default_str();
-  app.add_option("--pieces-max", world.pieces_max,
-                 within("pieces alive at once; carves beyond are refused", limits::pieces_max_min,
-                        limits::pieces_max_max))
-      ->capture_default_str();
 }
 
 /// Every row of the table of settings is an option.
 void add_settings(CLI::App& app, Raw& raw) {
-  Methods& methods = raw.options.live.world.methods;
+  WorldConfig& world = raw.options.live.world;
   for (const Setting& row : settings()) {
-    const auto take = [&methods, name = std::string(row.name)](const std::string& value) {
-      if (Result<void> done = set(methods, {name, value}); !done)
+    const auto take = [&world, name = std::string(row.name)](const std::string& value) {
+      if (Result<void> done = set(world, {name, value}); !done)
         throw CLI::ValidationError(done.error().message);
     };
     app.add_option_function<std::string>("--" + std::string(row.name), take,
-                                         std::string(row.help) + ": " + listed(row.values))
-        ->default_str(row.print(Methods{}));
+                                         std::string(row.help) + ": " + row.may_be())
+        ->default_str(row.print(WorldConfig{}));
   }
 }
 
@@ -128,7 +118,7 @@ void take_token(Raw& raw) {
     throw CLI::ValidationError("--admin-token", good.error().message);
 }
 
-/// A world's own limits are the only ones.
+/// A world's own limits are the only ones. Settings come in any order, so they are compared here, at last.
 void take_world(Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);

@@ -16,8 +16,11 @@ std::string hex(uint64_t hash) {
   return text;
 }
 
-double mean(uint64_t sum, uint64_t count) {
-  return count == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(count);
+/// Bytes of an operation of this kind, on average.
+template <typename Kind>
+double mean(const PublisherStats& sent) {
+  const uint64_t count = sent.operations.of<Kind>();
+  return count == 0 ? 0.0 : static_cast<double>(sent.operation_bytes.of<Kind>()) / static_cast<double>(count);
 }
 
 Json json_of(const Durations& durations) {
@@ -102,15 +105,9 @@ void WorkReport::add(Tick tick, const TickWork& work) {
 void ServerReport::add(const TickDelta& delta) {
   ++ticks;
   last_tick = delta.tick;
-  const uint64_t edits_before = carves + fills, merged_before = pieces_merged;
   for (const AppliedOperation& applied : delta.operations) {
-    const Operation& operation = applied.operation;
-    carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
-    fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
-    shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
-    islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
-    pieces_merged += pieces_merged_by(operation);
-    pieces_lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
+    ++operations[applied.operation];
+    pieces_merged += pieces_merged_by(applied.operation);
   }
   pieces_made += delta.spawned.size();
   pieces_alive = delta.pieces.size();
@@ -119,51 +116,41 @@ void ServerReport::add(const TickDelta& delta) {
   if (!delta.settings.empty()) settings = delta.settings;
   field_hash = delta.field_hash;
   state_hash = delta.state_hash;
-  const StageTimes& times = delta.times;
-  if (carves + fills != edits_before) {
-    stages["carve"].add(times.carve_ms);
-    stages["spawn"].add(times.spawn_ms);
+  for (const TickStageRow& row : tick_stages) {
+    const size_t stage = index_of(row.stage);
+    if (!row.only_when_acting || delta.times.acted[stage]) stages[stage].add(delta.times[row.stage]);
   }
-  if (pieces_merged != merged_before) stages["recombine"].add(times.recombine_ms);
-  stages["bodies"].add(times.bodies_ms);
-  stages["impacts"].add(times.impacts_ms);
-  stages["rest"].add(times.rest_ms);
-  stages["islands"].add(times.islands_ms);
-  stages["publish"].add(times.publish_ms);
-  stages["tick"].add(times.total_ms);
+  tick.add(delta.times.total_ms());
 }
 
 std::string to_json(const ServerReport& report) {
   const PublisherStats& sent = report.net.published;
-  Json json{{"ticks", report.ticks},
-            {"last_tick", report.last_tick},
-            {"seconds", report.seconds},
-            {"carves", report.carves},
-            {"fills", report.fills},
-            {"shatters", report.shatters},
-            {"islands", report.islands},
-            {"pieces_made", report.pieces_made},
-            {"pieces_merged", report.pieces_merged},
-            {"pieces_lost", report.pieces_lost},
-            {"pieces_alive", report.pieces_alive},
-            {"ledger", json_of(report.ledger)},
-            {"settings", json_of(report.settings)},
-            {"field_hash", hex(report.field_hash)},
-            {"state_hash", hex(report.state_hash)},
-            {"work", json_of(report.work)},
-            {"late_ticks", report.late_ticks},
-            {"overruns", report.overruns},
-            {"bytes_sent", sent.sent_bytes},
-            {"frame_bytes", sent.frame_bytes},
-            {"transform_bytes", sent.transform_bytes},
-            {"chunk_bytes", sent.chunk_bytes},
-            {"piece_bytes", sent.piece_bytes},
-            {"bytes_per_carve", mean(sent.carve_operation_bytes, sent.carves)},
-            {"bytes_per_merge", mean(sent.stamp_operation_bytes, sent.stamps)},
-            {"sessions", json_of(report.net)},
-            {"refusals", json_of(report.net.refusals)}};
+  Json json{{"ticks", report.ticks}, {"last_tick", report.last_tick}, {"seconds", report.seconds}};
+  report.operations.for_each([&](std::string_view name, uint64_t count) { json[std::string(name)] = count; });
+  json.update({{"pieces_made", report.pieces_made},
+               {"pieces_merged", report.pieces_merged},
+               {"pieces_lost", report.operations.of<DiscardOperation>()},
+               {"pieces_alive", report.pieces_alive},
+               {"ledger", json_of(report.ledger)},
+               {"settings", json_of(report.settings)},
+               {"field_hash", hex(report.field_hash)},
+               {"state_hash", hex(report.state_hash)},
+               {"work", json_of(report.work)},
+               {"late_ticks", report.late_ticks},
+               {"overruns", report.overruns},
+               {"bytes_sent", sent.sent_bytes},
+               {"frame_bytes", sent.frame_bytes},
+               {"transform_bytes", sent.transform_bytes},
+               {"chunk_bytes", sent.chunk_bytes},
+               {"piece_bytes", sent.piece_bytes},
+               {"bytes_per_carve", mean<CarveOperation>(sent)},
+               {"bytes_per_merge", mean<StampOperation>(sent)},
+               {"sessions", json_of(report.net)},
+               {"refusals", json_of(report.net.refusals)}});
   Json stages = Json::object();
-  for (const auto& [name, durations] : report.stages) stages[name] = json_of(durations);
+  for (const TickStageRow& row : tick_stages)
+    stages[std::string(row.name)] = json_of(report.stages[index_of(row.stage)]);
+  stages["tick"] = json_of(report.tick);
   json["stages_ms"] = stages;
   if (!report.record_path.empty())
     json["recording"] = {

@@ -1,7 +1,7 @@
 // The report of a server's run, for people and programs. It grows tick by tick.
 #pragma once
 
-#include <map>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -35,23 +35,19 @@ struct ServerReport {
   uint64_t ticks = 0;  ///< stepped, or played
   Tick last_tick = 0;
   double seconds = 0.0;  ///< since the start
-  uint64_t carves = 0;
-  uint64_t fills = 0;
-  uint64_t shatters = 0;  ///< pieces that broke again
-  uint64_t islands = 0;   ///< pieces of terrain that fell
+  OperationCounts operations;
   uint64_t pieces_made = 0;
   uint64_t pieces_merged = 0;
-  uint64_t pieces_lost = 0;  ///< pieces that left the world and became dust
   uint64_t pieces_alive = 0;
   Ledger ledger;
   SettingValues settings;  ///< at the end
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   WorkReport work;
-  uint64_t late_ticks = 0;  ///< ticks that began after their time
-  uint64_t overruns = 0;    ///< ticks of real time that were lost
-  std::map<std::string, Durations>
-      stages;  ///< carve, spawn, recombine: of ticks that had any; others: of all
+  uint64_t late_ticks = 0;                           ///< ticks that began after their time
+  uint64_t overruns = 0;                             ///< ticks of real time that were lost
+  std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
+  Durations tick;
   NetStats net;
   std::string record_path;
   uint64_t ticks_recorded = 0;

@@ -97,8 +97,8 @@ bool ClientSession::take_message(std::span<const uint8_t> body) {
                           " messages a second (limits.messages_per_second_max)"});
   const auto message = decode_client(body);
   if (!message) return fail_with({Refusal::message_malformed, message.error().message});
-  const auto* hello = std::get_if<HelloMessage>(&*message);
   if (phase_ == Phase::hello) {
+    const auto* hello = std::get_if<HelloMessage>(&*message);
     if (hello == nullptr) return fail_with({Refusal::hello_missing, "the first message must be a hello"});
     const auto welcome = host_.admit(*this, *hello);
     if (!welcome) return fail_with(welcome.error());
@@ -107,8 +107,6 @@ bool ClientSession::take_message(std::span<const uint8_t> body) {
     send(ServerMessage(*welcome));
     return true;
   }
-  if (hello != nullptr)
-    return fail_with({Refusal::hello_repeated, "a second hello: this connection has joined already"});
   const auto received = host_.receive(*this, *message);
   if (!received) return fail_with(received.error());
   return phase_ == Phase::joined;

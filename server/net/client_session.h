@@ -29,7 +29,7 @@ class SessionHost {
   virtual ~SessionHost() = default;
   /// Handles the first message. Returns the welcome to send, or the reason of a refusal.
   virtual tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) = 0;
-  /// Handles any later message but a hello. An error is sent as a refusal, and ends the session.
+  /// Handles any later message. An error is sent as a refusal, and ends the session.
   virtual tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) = 0;
   virtual void refused(ClientSession& session, const Refused& refused) = 0;
   /// The last call for this session.

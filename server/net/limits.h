@@ -51,12 +51,9 @@ inline constexpr double linger_seconds_max = 2.0;
 /// Connections that have not said hello yet, all together; above: refused at once.
 inline constexpr uint32_t pending_sessions_max = 64;
 
-/// Clients at once, unless configured otherwise; above: refused.
-inline constexpr uint32_t sessions_max_default = 64;
-
-/// Carves and fills of one client, per second and at once; above: each gets a reply that refuses it.
-inline constexpr double requests_per_second_max = 30.0;
-inline constexpr double requests_burst_max = 60.0;
+/// Requests that a client may make at once after a silence, in seconds of its rate
+/// (ServiceLimits::requests_per_second). Above: each gets a reply that refuses it.
+inline constexpr double requests_burst_s = 2.0;
 
 /// Messages of any kind from one client, per second and at once. No client needs as many: refused and closed.
 inline constexpr double messages_per_second_max = 500.0;

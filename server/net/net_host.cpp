@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "proto/codec.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/overloaded.h"
 #include "shared/base/token.h"
 
 namespace scree {
@@ -24,14 +26,8 @@ double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Command command_of(uint64_t session, const CarveMessage& m) {
-  return {
-      session, m.request,
-      CarveRequest{m.shape, m.pattern, m.seeds, m.random_seed, m.impact_m, m.blast_speed_m_s, m.authored_m}};
-}
-
-Command command_of(uint64_t session, const FillMessage& m) {
-  return {session, m.request, FillRequest{m.shape}};
+double burst_of(double requests_per_second) {
+  return std::max(1.0, requests_per_second * limits::requests_burst_s);
 }
 
 PublisherConfig publisher_config(const NetConfig& config) {
@@ -51,6 +47,7 @@ Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
 
 NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
     : config_(config),
+      service_(config.service),
       commands_(commands),
       acceptor_(context_),
       timer_(context_),
@@ -98,10 +95,9 @@ void NetHost::accepted(asio::ip::tcp::socket socket) {
   const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
   const auto session = std::make_shared<ClientSession>(std::move(socket), id, *this, times, steady_now_s());
   const size_t pending = sessions_.size() - joined_count();
-  const double burst = std::max(
-      1.0, config_.requests_per_second * limits::requests_burst_max / limits::requests_per_second_max);
+  const double rate = service_.requests_per_second;
   CHECK(!sessions_.contains(id));
-  sessions_.emplace(id, Entry{session, RateLimit(config_.requests_per_second, burst), {}});
+  sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate)), {}});
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (pending >= limits::pending_sessions_max)
     session->refuse(
@@ -139,9 +135,9 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
                                                  std::to_string(hello.protocol) +
                                                  ": use a client and a server of the same release");
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
-  if (joined_count() >= config_.sessions_max)
-    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(config_.sessions_max) +
-                                             " sessions (--sessions-max); try again later");
+  if (joined_count() >= service_.sessions_max)
+    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(service_.sessions_max) +
+                                             " sessions (sessions-max); try again later");
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   publisher_.join(session.id(), hello.eye_m, *radius_m);
@@ -162,27 +158,43 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
 }
 
 tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
-  if (const auto* carve = std::get_if<CarveMessage>(&message)) {
-    request(session, command_of(session.id(), *carve));
-  } else if (const auto* fill = std::get_if<FillMessage>(&message)) {
-    request(session, command_of(session.id(), *fill));
-  } else if (const auto* paint = std::get_if<PaintMessage>(&message)) {
-    request(session, {session.id(), paint->request, PaintRequest{paint->shape, paint->material}});
-  } else if (const auto* admin = std::get_if<AdminMessage>(&message)) {
-    return administer(session, *admin);
-  } else if (const auto* interest = std::get_if<InterestMessage>(&message)) {
-    const auto radius_m = granted_radius(interest->eye_m, interest->interest_radius_m);
-    if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
-    publisher_.set_interest(session.id(), interest->eye_m, *radius_m);
-  } else if (const auto* repair = std::get_if<RepairRequest>(&message)) {
-    spdlog::warn("session {}: {} chunks differ at tick {}", session.id(), repair->chunks.size(),
-                 repair->tick);
-    publisher_.repair(session.id(), *repair);
-  }
-  if (const auto* cursor = std::get_if<CursorMessage>(&message))
-    publisher_.set_cursor({session.id(), sessions_.at(session.id()).name, cursor->eye_m, cursor->aim_m});
-  if (const auto* watch = std::get_if<WatchMessage>(&message)) publisher_.watch(session.id(), watch->physics);
-  // An Ack needs no answer: on TCP the bytes that wait for a client say how far behind it is.
+  using Done = tl::expected<void, Refused>;
+  return std::visit(Overloaded{
+                        [](const HelloMessage&) -> Done {
+                          return refuse(Refusal::hello_repeated,
+                                        "a second hello: this connection has joined already");
+                        },
+                        [&](const InterestMessage& interest) { return follow(session, interest); },
+                        [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
+                          request(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
+                          return {};
+                        },
+                        [&](const RepairRequest& repair) -> Done {
+                          spdlog::warn("session {}: {} chunks differ at tick {}", session.id(),
+                                       repair.chunks.size(), repair.tick);
+                          publisher_.repair(session.id(), repair);
+                          return {};
+                        },
+                        // On TCP the bytes that wait for a client say how far behind it is.
+                        [](const AckMessage&) -> Done { return {}; },
+                        [&](const AdminMessage& admin) { return administer(session, admin); },
+                        [&](const CursorMessage& cursor) -> Done {
+                          publisher_.set_cursor(
+                              {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
+                          return {};
+                        },
+                        [&](const WatchMessage& watch) -> Done {
+                          publisher_.watch(session.id(), watch.physics);
+                          return {};
+                        },
+                    },
+                    message);
+}
+
+tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
+  const auto radius_m = granted_radius(interest.eye_m, interest.interest_radius_m);
+  if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
+  publisher_.set_interest(session.id(), interest.eye_m, *radius_m);
   return {};
 }
 
@@ -195,8 +207,8 @@ void NetHost::request(ClientSession& session, const Command& command) {
     return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
   if (!sessions_.at(session.id()).requests.take(steady_now_s()))
     return refused(Refusal::requests_per_second,
-                   "more than " + std::to_string(static_cast<int>(config_.requests_per_second)) +
-                       " requests a second (limits.requests_per_second_max); ask again more slowly");
+                   fmt::format("more than {} requests a second (requests-per-second); ask again more slowly",
+                               service_.requests_per_second));
   if (!commands_.push(command))
     refused(Refusal::commands_waiting, "the server is busy: " + std::to_string(commands_.commands_max()) +
                                            " commands wait already (limits.commands_waiting_max); try again");
@@ -249,9 +261,17 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   update_stats();
 }
 
+/// Settings hold for who is connected, too. A session that has joined stays, however few may now.
+void NetHost::grant(const ServiceLimits& service) {
+  service_ = service;
+  const double rate = service.requests_per_second;
+  for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
+}
+
 void NetHost::publish(const TickDelta& delta) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), joined_count());
+  if (delta.service && *delta.service != service_) grant(*delta.service);
   for (const Reply& reply : delta.replies)
     if (reply.reason) counts_.refusals.add(*reply.reason);
   publisher_.set_refusals(counts_.refusals);

@@ -45,9 +45,11 @@ class NetHost final : public SessionHost {
   void accept();
   void accepted(asio::ip::tcp::socket socket);
   void tick_timer();
+  tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   void request(ClientSession& session, const Command& command);
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
+  void grant(const ServiceLimits& service);
   uint32_t joined_count() const;
   void update_stats();
 
@@ -57,6 +59,7 @@ class NetHost final : public SessionHost {
     std::string name;  ///< the person's
   };
   const NetConfig config_;
+  ServiceLimits service_;  ///< as they stand
   CommandQueue& commands_;
   asio::io_context context_;
   asio::ip::tcp::acceptor acceptor_;

@@ -14,6 +14,7 @@
 #include "server/net/command_queue.h"
 #include "server/net/limits.h"
 #include "server/net/publisher.h"
+#include "server/world/service_limits.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -24,10 +25,9 @@ struct NetConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
-  uint32_t sessions_max = limits::sessions_max_default;
+  ServiceLimits service;    ///< until a tick says otherwise
   bool replay = false;      ///< a recording: carves and fills are refused
   std::string admin_token;  ///< a client with it may change settings; empty: no client may
-  double requests_per_second = limits::requests_per_second_max;
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
 };

@@ -108,13 +108,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
 
 void Publisher::count_operations(const TickDelta& delta) {
   for (const AppliedOperation& applied : delta.operations) {
-    if (std::holds_alternative<CarveOperation>(applied.operation)) {
-      ++stats_.carves;
-      stats_.carve_operation_bytes += operation_bytes(applied.operation);
-    } else if (std::holds_alternative<StampOperation>(applied.operation)) {
-      ++stats_.stamps;
-      stats_.stamp_operation_bytes += operation_bytes(applied.operation);
-    }
+    ++stats_.operations[applied.operation];
+    stats_.operation_bytes[applied.operation] += operation_bytes(applied.operation);
   }
 }
 
@@ -227,7 +222,7 @@ void Publisher::send_status(Client& client) {
   status.ledger_moved = state_.ledger().moved;
   status.tick_median_ms = clock_.median_ms();
   status.tick_worst_ms = clock_.worst_ms();
-  status.stage_ms = clock_.stages_ms();
+  status.stages = clock_.stages();
   status.work = clock_.work();
   status.sent_bytes = client.sent_bytes;
   status.pieces_made = state_.pieces_made();

@@ -18,6 +18,7 @@
 #include "server/net/client_view.h"
 #include "server/net/encode_cache.h"
 #include "server/net/tick_clock.h"
+#include "shared/operation/per_operation.h"
 
 namespace scree {
 
@@ -40,12 +41,10 @@ struct PublisherStats {
   uint64_t transform_bytes = 0;  ///< packed poses within frames
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
-  uint64_t carves = 0;  ///< operations published, and their encoded size
-  uint64_t carve_operation_bytes = 0;
-  uint64_t stamps = 0;
-  uint64_t stamp_operation_bytes = 0;
-  uint64_t repairs = 0;  ///< chunks sent again because a check failed
-  uint64_t resets = 0;   ///< clients that fell behind and were reset
+  OperationCounts operations;       ///< operations published
+  OperationCounts operation_bytes;  ///< their encoded size
+  uint64_t repairs = 0;             ///< chunks sent again because a check failed
+  uint64_t resets = 0;              ///< clients that fell behind and were reset
 };
 
 class Publisher {

@@ -25,6 +25,13 @@ class RateLimit {
     return true;
   }
 
+  /// From now on. What has been saved up stays, as far as the new burst goes.
+  void change(double per_second, double burst) {
+    per_second_ = per_second;
+    burst_ = burst;
+    tokens_ = std::min(tokens_, burst);
+  }
+
  private:
   double per_second_;
   double burst_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,27 +26,24 @@ class TickClock {
     next_ = (next_ + 1) % window_;
   }
   float median_ms() const {
-    if (times_.empty()) return 0.0F;
-    std::vector<StageTimes> sorted = times_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle, {}, &StageTimes::total_ms);
-    return static_cast<float>(middle->total_ms);
+    std::vector<double> totals = totals_ms();
+    if (totals.empty()) return 0.0F;
+    const auto middle = totals.begin() + static_cast<std::ptrdiff_t>(totals.size() / 2);
+    std::ranges::nth_element(totals, middle);
+    return static_cast<float>(*middle);
   }
   float worst_ms() const {
-    if (times_.empty()) return 0.0F;
-    return static_cast<float>(std::ranges::max_element(times_, {}, &StageTimes::total_ms)->total_ms);
+    const std::vector<double> totals = totals_ms();
+    return totals.empty() ? 0.0F : static_cast<float>(std::ranges::max(totals));
   }
-  /// Means, in the order of stage_names.
-  std::array<float, stage_names.size()> stages_ms() const {
-    constexpr std::array stages{&StageTimes::carve_ms,   &StageTimes::spawn_ms,  &StageTimes::bodies_ms,
-                                &StageTimes::impacts_ms, &StageTimes::rest_ms,   &StageTimes::recombine_ms,
-                                &StageTimes::islands_ms, &StageTimes::publish_ms};
-    static_assert(stages.size() == stage_names.size());
-    std::array<float, stages.size()> means{};
-    for (size_t i = 0; i < stages.size() && !times_.empty(); ++i) {
+  /// Means, in the order of tick_stages.
+  std::vector<StageTime> stages() const {
+    std::vector<StageTime> means;
+    for (const TickStageRow& row : tick_stages) {
       double sum = 0.0;
-      for (const StageTimes& times : times_) sum += times.*stages[i];
-      means[i] = static_cast<float>(sum / static_cast<double>(times_.size()));
+      for (const StageTimes& times : times_) sum += times[row.stage];
+      const double count = std::max<double>(1.0, static_cast<double>(times_.size()));
+      means.push_back({std::string(row.name), static_cast<float>(sum / count)});
     }
     return means;
   }
@@ -70,6 +66,12 @@ class TickClock {
   }
 
  private:
+  std::vector<double> totals_ms() const {
+    std::vector<double> totals;
+    for (const StageTimes& times : times_) totals.push_back(times.total_ms());
+    return totals;
+  }
+
   size_t window_;
   size_t next_ = 0;  ///< the oldest, once the window is full
   std::vector<StageTimes> times_;

@@ -6,15 +6,12 @@
 namespace scree {
 
 RecordedHeader to_recorded(const RecordingHeader& header) {
-  // Bound one by one, so that a setting that is new and not recorded yet does not compile.
-  const auto& [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, methods] = header.world;
   RecordedHeader out;
   out.program = header.program;
-  out.terrain = terrain;
-  out.tick_rate_hz = tick_rate_hz;
-  out.pieces_max = pieces_max;
-  out.merges_per_tick_max = merges_per_tick_max;
-  out.settings = print(methods);
+  out.terrain = header.world.terrain;
+  out.tick_rate_hz = header.world.tick_rate_hz;
+  out.merges_per_tick_max = header.world.merges_per_tick_max;
+  out.settings = print(header.world);
   return out;
 }
 
@@ -23,10 +20,8 @@ Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   out.program = header.program;
   out.world.terrain = header.terrain;
   out.world.tick_rate_hz = header.tick_rate_hz;
-  out.world.pieces_max = header.pieces_max;
   out.world.merges_per_tick_max = header.merges_per_tick_max;
-  if (Result<void> known = set_all(out.world.methods, header.settings); !known)
-    return tl::unexpected(known.error());
+  if (Result<void> known = set_all(out.world, header.settings); !known) return tl::unexpected(known.error());
   if (Result<void> valid = validate(out.world); !valid) return tl::unexpected(valid.error());
   return out;
 }
@@ -41,35 +36,13 @@ Ledger from_recorded(const RecordedLedger& ledger) {
 
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
   std::vector<RecordedCommand> out;
-  for (const Command& command : commands) {
-    if (const auto* carve = std::get_if<CarveRequest>(&command.body))
-      out.push_back({command.session, CarveMessage{command.request, carve->shape, carve->pattern,
-                                                   carve->seeds, carve->random_seed, carve->impact_m,
-                                                   carve->blast_speed_m_s, carve->authored_m}});
-    else if (const auto* fill = std::get_if<FillRequest>(&command.body))
-      out.push_back({command.session, FillMessage{command.request, fill->shape}});
-    else if (const auto* paint = std::get_if<PaintRequest>(&command.body))
-      out.push_back({command.session, PaintMessage{command.request, paint->shape, paint->material}});
-    else if (const auto* settings = std::get_if<SettingsRequest>(&command.body))
-      out.push_back({command.session, AdminMessage{command.request, {}, settings->settings}});
-  }
+  for (const auto& [session, request, body] : commands) out.push_back({session, request, body});
   return out;
 }
 
 std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
   std::vector<Command> out;
-  for (const RecordedCommand& command : commands) {
-    if (const auto* carve = std::get_if<CarveMessage>(&command.request))
-      out.push_back({command.session, carve->request,
-                     CarveRequest{carve->shape, carve->pattern, carve->seeds, carve->random_seed,
-                                  carve->impact_m, carve->blast_speed_m_s, carve->authored_m}});
-    else if (const auto* fill = std::get_if<FillMessage>(&command.request))
-      out.push_back({command.session, fill->request, FillRequest{fill->shape}});
-    else if (const auto* paint = std::get_if<PaintMessage>(&command.request))
-      out.push_back({command.session, paint->request, PaintRequest{paint->shape, paint->material}});
-    else if (const auto* admin = std::get_if<AdminMessage>(&command.request))
-      out.push_back({command.session, admin->request, SettingsRequest{admin->settings}});
-  }
+  for (const auto& [session, request, body] : commands) out.push_back({session, request, body});
   return out;
 }
 

@@ -143,10 +143,14 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
-  const Applied applied = state.apply_and_record(
-      ShatterOperation{id, SeedPattern::radial, seeds, random_seed(state, id), breakup.impact_voxels(),
-                       state.next_piece, state.methods.cutter},
-      delta);
+  const Applied applied = state.apply_and_record(ShatterOperation{.piece = id,
+                                                                  .pattern = SeedPattern::radial,
+                                                                  .seeds = seeds,
+                                                                  .random_seed = random_seed(state, id),
+                                                                  .impact_voxels = breakup.impact_voxels(),
+                                                                  .first_piece = state.next_piece,
+                                                                  .cutter = state.config.methods.cutter},
+                                                 delta);
   CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
@@ -172,13 +176,14 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return;
   if (state.pieces.size() + seeds > state.config.pieces_max) return;
   const float radius_m = dent_radius_m(volume_m3);
-  const CarveOperation operation{sphere(impact.point_m + impact.normal * (0.25F * radius_m), radius_m),
-                                 SeedPattern::uniform,
-                                 seeds,
-                                 random_seed(state, impact.id),
-                                 impact.point_m,
-                                 state.next_piece,
-                                 state.methods.cutter};
+  const CarveOperation operation{
+      .shape = sphere(impact.point_m + impact.normal * (0.25F * radius_m), radius_m),
+      .pattern = SeedPattern::uniform,
+      .seeds = seeds,
+      .random_seed = random_seed(state, impact.id),
+      .impact_m = impact.point_m,
+      .first_piece = state.next_piece,
+      .cutter = state.config.methods.cutter};
   if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
     return;  // at the world's edge
   if (!quota.take(state.work, delta.work.dents_left_out)) return;
@@ -201,13 +206,13 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
 }  // namespace
 
 void apply_impacts(World::State& state, TickDelta& delta) {
-  if (!state.methods.impacts && !state.methods.dents) return;
+  if (!state.config.methods.impacts && !state.config.methods.dents) return;
   Quota breaks{limits::breaks_per_tick_max, limits::break_cost_us};
   Quota dents{limits::dents_per_tick_max, limits::dent_cost_us};
   for (const Blow& blow : blows_of(state)) {
     const bool on_terrain = !blow.impact.other.has_value();
-    if (state.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);
-    if (state.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
+    if (state.config.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);
+    if (state.config.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
   }
 }
 

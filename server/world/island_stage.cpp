@@ -125,7 +125,7 @@ size_t IslandQueue::falling() const {
 void drop_islands(World::State& state, TickDelta& delta) {
   const std::vector<BrickCoord> changed(state.changed.begin(), state.changed.end());
   state.islands.changed(changed);
-  if (!state.methods.islands) return;
+  if (!state.config.methods.islands) return;
   take_cuts(state);
   size_t bricks = limits::island_bricks_per_tick;
   while (state.islands.search(state.field, bricks, delta.work.islands_too_large)) {

@@ -125,6 +125,14 @@ inline constexpr uint32_t merges_per_tick_min = 2;
 /// Requests that wait for a tick with room for them. Above: refused.
 inline constexpr size_t requests_waiting_max = 256;
 
+/// Clients at once that a server may be asked for.
+inline constexpr uint32_t sessions_max_max = 4096;
+
+/// Requests a second of one client that a server may be asked for: from one in ten seconds to no limit in
+/// practice.
+inline constexpr double requests_per_second_min = 0.1;
+inline constexpr double requests_per_second_max = 1.0e6;
+
 /// Pieces that freeze in one tick, about 10 us each. Above: in the next.
 inline constexpr size_t freezes_per_tick_max = 64;
 

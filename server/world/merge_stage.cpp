@@ -1,6 +1,7 @@
 #include "server/world/merge_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/world/limits.h"
 #include "shared/base/check.h"
@@ -30,15 +31,15 @@ float cost_us(Recombination recombination) {
 /// far as the tick's budget goes.
 size_t merges_max(const World::State& state) {
   const uint32_t most = state.config.merges_per_tick_max;
-  const auto room = static_cast<int>(state.work.left_us() / cost_us(state.methods.recombine));
+  const auto room = static_cast<int>(state.work.left_us() / cost_us(state.config.methods.recombine));
   const auto least = static_cast<int>(std::min(limits::merges_per_tick_min, most));
   return static_cast<size_t>(std::clamp(room, least, static_cast<int>(most)));
 }
 
 }  // namespace
 
-std::vector<PieceId> settled(World::State& state, TickDelta& delta) {
-  const bool merging = state.methods.recombine != Recombination::off;
+void settle(World::State& state, TickDelta& delta) {
+  const bool merging = state.config.methods.recombine != Recombination::off;
   if (merging && state.bodies.frozen() > 0) state.bodies.thaw_all();
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
@@ -52,11 +53,11 @@ std::vector<PieceId> settled(World::State& state, TickDelta& delta) {
                                                  delta.work.merging_sooner);
   if (!merging) {
     for (const PieceId id : ready) state.bodies.freeze(id);
-    return {};
+    return;
   }
   delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
-  state.work.spend(cost_us(state.methods.recombine) * static_cast<float>(ready.size()));
-  return ready;
+  state.work.spend(cost_us(state.config.methods.recombine) * static_cast<float>(ready.size()));
+  state.at_rest = std::move(ready);
 }
 
 namespace {
@@ -85,7 +86,7 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   const PreparedStamp prepared = group.size() > 1
                                      ? prepare_group(state.field, state.pieces, group, budget)
                                      : prepare_stamp(state.field, state.pieces, first.piece, first.pose,
-                                                     method_of(state.methods.recombine), budget);
+                                                     method_of(state.config.methods.recombine), budget);
   for (const StampedPiece& one : group) state.bodies.remove(one.piece);
   const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
   state.ledger.pieces -= mass;
@@ -94,11 +95,12 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
 
 }  // namespace
 
-void merge(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta) {
+void merge(World::State& state, TickDelta& delta) {
   std::vector<StampedPiece> places;
-  for (const PieceId id : ids) places.push_back({id, quantise(state.bodies.state(id).pose)});
+  for (const PieceId id : std::exchange(state.at_rest, {}))
+    places.push_back({id, quantise(state.bodies.state(id).pose)});
   const bool grouping =
-      state.methods.group_merges && method_of(state.methods.recombine) == StampMethod::stamp;
+      state.config.methods.group_merges && method_of(state.config.methods.recombine) == StampMethod::stamp;
   if (!grouping) {
     for (const StampedPiece& one : places) merge_group(state, {one}, delta);
     return;

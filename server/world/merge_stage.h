@@ -5,13 +5,13 @@
 
 namespace scree {
 
-/// The pieces that may merge in this tick, from the ground up. With Recombination::off, freezes them instead
-/// and returns none. Call once a tick, after the bodies' step.
-std::vector<PieceId> settled(World::State& state, TickDelta& delta);
+/// Finds the pieces that may merge in this tick (State::at_rest), from the ground up. With
+/// Recombination::off, freezes them instead and finds none. Call once a tick, after the bodies' step.
+void settle(World::State& state, TickDelta& delta);
 
-/// Merges pieces where they lie, in that order; with Methods::group_merges, the pieces of each group by
+/// Merges these pieces where they lie, in that order; with Methods::group_merges, the pieces of each group by
 /// stamp_groups() in one operation. Mass that the field cannot gain becomes dust; earlier dust is merged too,
 /// within stamp_budget().
-void merge(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta);
+void merge(World::State& state, TickDelta& delta);
 
 }  // namespace scree

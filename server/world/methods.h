@@ -1,6 +1,5 @@
-// The settings of the simulation: its choices between methods. They start as WorldConfig says and change by
-// SettingsRequests; settings.h names each member. Part of the simulation: the same commands give the same
-// hashes.
+// The simulation's choices between methods. They start as WorldConfig says and change by SettingsRequests;
+// settings.h names each member. Part of the simulation: the same commands give the same hashes.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,6 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
-#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -67,9 +66,14 @@ Result<void> check_room(size_t alive, uint32_t seeds, uint32_t pieces_max) {
 }
 
 Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
-  const CarveOperation operation{request.shape,        request.pattern,   request.seeds,
-                                 request.random_seed,  request.impact_m,  state.next_piece,
-                                 state.methods.cutter, request.authored_m};
+  const CarveOperation operation{.shape = request.shape,
+                                 .pattern = request.pattern,
+                                 .seeds = request.seeds,
+                                 .random_seed = request.random_seed,
+                                 .impact_m = request.impact_m,
+                                 .first_piece = state.next_piece,
+                                 .cutter = state.config.methods.cutter,
+                                 .authored_m = request.authored_m};
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
     return refuse(Refusal::carve_invalid, valid.error().message);
@@ -80,12 +84,9 @@ Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta
                                             " m/s (limits.blast_speed_max_m_s)");
   if (Result<void> room = check_room(state.pieces.size(), request.seeds, state.config.pieces_max); !room)
     return refuse(Refusal::pieces_max, room.error().message);
-  Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
-  delta.times.carve_ms += watch.lap_ms();
   throw_out(state, applied, request, delta);
-  delta.times.spawn_ms += watch.lap_ms();
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -94,10 +95,8 @@ Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) 
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
     return refuse(Refusal::fill_invalid, valid.error().message);
-  Stopwatch watch;
   const Applied applied = state.apply_and_record(operation, delta);
   state.ledger.poured += applied.terrain_gain;
-  delta.times.carve_ms += watch.lap_ms();
   return 0U;
 }
 
@@ -111,12 +110,12 @@ Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta
 }
 
 Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
-  const Methods before = state.methods;
-  if (Result<void> done = set_all(state.methods, request.settings); !done)
+  const WorldConfig before = state.config;
+  if (Result<void> done = set_all(state.config, request.settings); !done)
     return refuse(Refusal::settings_invalid, done.error().message);
-  if (state.methods != before) delta.settings = print(state.methods);
+  if (state.config != before) publish_settings(state, delta);
   CHECK(delta.settings.size() <= limits::settings_max);
-  state.bodies.set_terrain_collider(state.methods.collider);
+  state.bodies.set_terrain_collider(state.config.methods.collider);
   return 0U;
 }
 
@@ -132,6 +131,11 @@ struct Executing {
 
 }  // namespace
 
+void publish_settings(const World::State& state, TickDelta& delta) {
+  delta.settings = print(state.config);
+  delta.service = state.config.service;
+}
+
 void execute(World::State& state, const Command& command, TickDelta& delta) {
   const Outcome made = std::visit(Executing{state, delta}, command.body);
   Reply reply{command.session, command.request, {}, 0};
@@ -144,7 +148,7 @@ void execute(World::State& state, const Command& command, TickDelta& delta) {
   delta.replies.push_back(std::move(reply));
 }
 
-void carry_out(World::State& state, std::span<const Command> commands, TickDelta& delta) {
+void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands) {
     if (state.waiting.size() < limits::requests_waiting_max) {
       state.waiting.push_back(command);
@@ -155,6 +159,9 @@ void carry_out(World::State& state, std::span<const Command> commands, TickDelta
                                  " requests are waiting (limits.requests_waiting_max): ask again later",
                              0, Refusal::requests_waiting});
   }
+}
+
+void carry_out(World::State& state, TickDelta& delta) {
   for (bool first = true; !state.waiting.empty(); first = false) {
     const float cost = cost_us(state.waiting.front(), state.config.terrain.voxel_size_m);
     if (!first && !state.work.affords(cost)) break;

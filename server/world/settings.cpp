@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <type_traits>
 
+#include "server/world/limits.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
 
@@ -25,28 +28,49 @@ constexpr std::array<std::string_view, 3> names_of<Cutter>{"field", "slice", "co
 template <>
 constexpr std::array<std::string_view, 3> names_of<Simplifier>{"none", "hull", "merge"};
 
-template <typename Choice>
-Result<void> parse_choice(std::string_view value, Choice& to) {
-  const auto& names = names_of<Choice>;
-  const auto found = std::ranges::find(names, value);
-  if (found == names.end()) return fail("is " + listed(names));
-  to = static_cast<Choice>(found - names.begin());
-  return {};
+/// The member that a pointer names, wherever in the config its struct lies.
+template <typename Value>
+auto& member(auto& config, Value Methods::*of) {
+  return config.methods.*of;
+}
+template <typename Value>
+auto& member(auto& config, Value WorldConfig::*of) {
+  return config.*of;
+}
+template <typename Value>
+auto& member(auto& config, Value ServiceLimits::*of) {
+  return config.service.*of;
 }
 
-template <typename Choice>
-std::string print_choice(Choice value) {
-  return std::string(names_of<Choice>.at(static_cast<size_t>(value)));
+template <auto Member>
+using ValueOf = std::remove_cvref_t<decltype(member(std::declval<WorldConfig&>(), Member))>;
+
+template <auto Member>
+double get_member(const WorldConfig& config) {
+  return static_cast<double>(member(config, Member));
+}
+template <auto Member>
+void put_member(WorldConfig& config, double value) {
+  if constexpr (std::is_enum_v<ValueOf<Member>>)
+    member(config, Member) = static_cast<ValueOf<Member>>(static_cast<int>(value));
+  else
+    member(config, Member) = static_cast<ValueOf<Member>>(value);
 }
 
 /// A row of the table, for a member whose type has names_of.
 template <auto Member>
 constexpr Setting choice(std::string_view name, std::string_view help) {
-  using Choice = std::remove_cvref_t<decltype(Methods{}.*Member)>;
-  return {name, help, names_of<Choice>,
-          [](std::string_view value, Methods& to) { return parse_choice(value, to.*Member); },
-          [](const Methods& from) { return print_choice(from.*Member); }};
+  const auto& names = names_of<ValueOf<Member>>;
+  return {name, help, names, {}, names, get_member<Member>, put_member<Member>};
 }
+
+template <auto Member>
+constexpr Setting number(std::string_view name, std::string_view help, NumberBounds bounds,
+                         std::span<const std::string_view> tried = {}) {
+  return {name, help, {}, bounds, tried, get_member<Member>, put_member<Member>};
+}
+
+constexpr std::array<std::string_view, 2> few_pieces{"12", "40"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
@@ -59,54 +83,117 @@ constexpr std::array table{
                                    "whether pieces that rest together become terrain in one pass"),
     choice<&Methods::cutter>("cutter", "how what breaks is cut into pieces"),
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
+    number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; carves beyond are refused",
+                                     {limits::pieces_max_min, limits::pieces_max_max, "pieces"}, few_pieces),
+    number<&ServiceLimits::sessions_max>("sessions-max", "clients at once; more are refused",
+                                         {1, limits::sessions_max_max, "clients"}),
+    number<&ServiceLimits::requests_per_second>(
+        "requests-per-second", "carves, fills and paint of one client; more are refused",
+        {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
 };
 
-/// Each member is bound by name: a new member that is not in the table does not compile.
+/// Each member is bound by name: a new member that is not in the table does not compile. Of a WorldConfig,
+/// the terrain, the tick's length and merges_per_tick_max are fixed from the start.
 constexpr size_t members() {
+  const auto [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, methods, service] = WorldConfig{};
   const auto [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
-      Methods{};
-  return std::array{static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
-                    static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
-                    static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)}
-      .size();
+      methods;
+  const auto [sessions_max, requests_per_second] = service;
+  constexpr size_t fixed = 3;
+  const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
+                          static_cast<double>(pieces_max), static_cast<double>(merges_per_tick_max)};
+  const std::array choices{
+      static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
+      static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
+      static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
+  const std::array granted{static_cast<double>(sessions_max), requests_per_second};
+  return config.size() - fixed + choices.size() + granted.size();
 }
 static_assert(members() == table.size());
 
+std::string text_of(double number) {
+  std::array<char, 32> text{};
+  return {text.data(),
+          std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed).ptr};
+}
+
+Result<double> parse_number(std::string_view value, const NumberBounds& bounds) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool is_number = error == std::errc() && end == value.data() + value.size();
+  const bool within = number >= bounds.min && number <= bounds.max;
+  if (!is_number || !within || (bounds.whole && number != std::floor(number))) return fail("out of bounds");
+  return number;
+}
+
 }  // namespace
+
+std::string Setting::may_be() const {
+  if (choices.empty())
+    return text_of(bounds.min) + " to " + text_of(bounds.max) + " " + std::string(bounds.unit) +
+           (bounds.whole ? ", whole" : "");
+  return listed(choices);
+}
+
+Result<void> Setting::parse(std::string_view value, WorldConfig& config) const {
+  if (choices.empty()) {
+    const Result<double> number = parse_number(value, bounds);
+    if (!number) return fail("is " + may_be());
+    put(config, *number);
+    return {};
+  }
+  const auto found = std::ranges::find(choices, value);
+  if (found == choices.end()) return fail("is " + may_be());
+  put(config, static_cast<double>(found - choices.begin()));
+  return {};
+}
+
+std::string Setting::print(const WorldConfig& config) const {
+  const double value = get(config);
+  return choices.empty() ? text_of(value) : std::string(choices[static_cast<size_t>(value)]);
+}
 
 std::span<const Setting> settings() {
   return table;
 }
 
-Result<void> set(Methods& methods, const SettingValue& setting) {
+Result<void> set(WorldConfig& config, const SettingValue& setting) {
   const auto row = std::ranges::find(table, setting.name, &Setting::name);
   if (row == table.end()) {
     std::string names;
     for (const Setting& known : table) names += (names.empty() ? "" : ", ") + std::string(known.name);
     return fail("there is no setting '" + setting.name + "'; there are " + names);
   }
-  const Result<void> parsed = row->parse(setting.value, methods);
+  const Result<void> parsed = row->parse(setting.value, config);
   if (!parsed) return fail(setting.name + " " + parsed.error().message + ", not '" + setting.value + "'");
   return {};
 }
 
-Result<void> set_all(Methods& methods, const SettingValues& values) {
+Result<void> set_all(WorldConfig& config, const SettingValues& values) {
   if (values.size() > limits::settings_max)
     return fail("more than " + std::to_string(limits::settings_max) +
                 " settings at once (limits.settings_max)");
-  Methods changed = methods;
+  WorldConfig changed = config;
   for (auto value = values.begin(); value != values.end(); ++value) {
     if (std::ranges::find(values.begin(), value, value->name, &SettingValue::name) != value)
       return fail(value->name + " is set twice");
     if (Result<void> done = set(changed, *value); !done) return done;
   }
-  methods = changed;
+  if (Result<void> good = check_together(changed); !good) return good;
+  config = changed;
   return {};
 }
 
-SettingValues print(const Methods& methods) {
+Result<void> check_together(const WorldConfig& config) {
+  if (config.methods.support && !config.methods.islands)
+    return fail(
+        "support needs islands, by which what breaks off falls: set islands=true, too, or support=false");
+  return {};
+}
+
+SettingValues print(const WorldConfig& config) {
   SettingValues values;
-  for (const Setting& setting : table) values.push_back({std::string(setting.name), setting.print(methods)});
+  for (const Setting& setting : table) values.push_back({std::string(setting.name), setting.print(config)});
   return values;
 }
 

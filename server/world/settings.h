@@ -1,33 +1,57 @@
-// The table of settings: names, values and help of the members of Methods. The server's flags, its
-// configuration file, the environment, requests to change settings, recordings and reports all use it. To add
-// a setting: a member in methods.h, a row in settings.cpp, and the names of its values there. The tests of
+// The table of settings: names, values and help of the members of WorldConfig that may change while a server
+// runs. The server's flags, its configuration file, the environment, requests to change settings, recordings
+// and reports all use it. To add a setting: a member (methods.h: a choice between methods; world.h: a number
+// of the simulation; service_limits.h: a limit of clients), and a row in settings.cpp. The tests of
 // determinism take each value in turn.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "server/world/methods.h"
+#include "server/world/world_config.h"
 #include "shared/base/result.h"
 #include "shared/base/setting_value.h"
 
 namespace scree {
 
+/// Least and greatest value of a number.
+struct NumberBounds {
+  double min = 0.0;
+  double max = 0.0;
+  std::string_view unit{};
+  bool whole = true;  ///< no fractions
+};
+
+/// A choice of several values by name, or a number within bounds.
 struct Setting {
-  std::string_view name;                     ///< the flag's name without dashes; the same everywhere
-  std::string_view help;                     ///< the effect, for --help
-  std::span<const std::string_view> values;  ///< all possible values
-  Result<void> (*parse)(std::string_view value, Methods& methods);  ///< the error lists the values
-  std::string (*print)(const Methods& methods);
+  std::string_view name;                      ///< the flag's name without dashes; the same everywhere
+  std::string_view help;                      ///< the effect, for --help
+  std::span<const std::string_view> choices;  ///< all values of a choice; empty for a number
+  NumberBounds bounds;                        ///< of a number
+  /// Values that the tests of determinism try: all of a choice; of a number a few that have an effect in a
+  /// short session, none where the simulation does not read it.
+  std::span<const std::string_view> tried;
+  double (*get)(const WorldConfig& config);  ///< the number, or the index in `choices`
+  void (*put)(WorldConfig& config, double value);
+
+  /// The possible values in words: "field, mesh or rays"; "1 to 20000 pieces, whole".
+  std::string may_be() const;
+  /// Sets the value. The error lists the possible values; the config is then unchanged.
+  Result<void> parse(std::string_view value, WorldConfig& config) const;
+  std::string print(const WorldConfig& config) const;
 };
 
 std::span<const Setting> settings();
 
-/// Changes one setting; the error names it and lists its values.
-Result<void> set(Methods& methods, const SettingValue& setting);
-/// Changes all settings or none. An error: a name is unknown or comes twice, or a value is unknown.
-Result<void> set_all(Methods& methods, const SettingValues& values);
+/// Changes one setting; the error names it and lists its values. Does not compare it with the others:
+/// check_together() does.
+Result<void> set(WorldConfig& config, const SettingValue& setting);
+/// Changes all settings or none. An error: a name is unknown or comes twice, a value is unknown, or
+/// check_together() refuses.
+Result<void> set_all(WorldConfig& config, const SettingValues& values);
+/// Refuses a setting without another that it needs.
+Result<void> check_together(const WorldConfig& config);
 /// Every setting, in the table's order.
-SettingValues print(const Methods& methods);
+SettingValues print(const WorldConfig& config);
 
 }  // namespace scree

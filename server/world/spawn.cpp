@@ -10,15 +10,22 @@ namespace scree {
 
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
-  for (const PieceHull& hull :
-       make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m, state.methods.simplifier)) {
+  if (applied.created.empty()) return;
+  const TickStage outer = state.watch.switch_to(TickStage::spawn, delta.times);
+  delta.times.acted.set(index_of(TickStage::spawn));
+  for (const PieceHull& hull : make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m,
+                                          state.config.methods.simplifier)) {
     CHECK_EQ(hull.id, state.next_piece);
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;
     const MaterialRow& material = traits_of(volume->material);
     const float mass_kg = hull.size_m3 * material.density_kg_m3;
-    BodyShape shape{hull.corners_m, mass_kg, hull.inertia_m2 * mass_kg, material.friction, {}, {}};
+    BodyShape shape;
+    shape.hull_m = hull.corners_m;
+    shape.mass_kg = mass_kg;
+    shape.inertia_kg_m2 = hull.inertia_m2 * mass_kg;
+    shape.friction = material.friction;
     if (newborn.may_be_concave) {
       const float dx = state.config.terrain.voxel_size_m;
       shape.surface_m = surface_samples(*volume, dx, limits::concave_samples_max);
@@ -32,6 +39,7 @@ void spawn(World::State& state, const Applied& applied,
     delta.spawned.push_back({hull.id, volume});
     state.next_piece = hull.id + 1;
   }
+  state.watch.switch_to(outer, delta.times);
 }
 
 }  // namespace scree

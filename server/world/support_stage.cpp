@@ -41,7 +41,7 @@ CarveOperation crushing(const World::State& state, const VoxelBox& voxels, int64
   operation.random_seed = static_cast<uint32_t>(state.tick) * 0x9E3779B1U + state.next_piece;
   operation.impact_m = centre_of(operation.shape);
   operation.first_piece = state.next_piece;
-  operation.cutter = state.methods.cutter;
+  operation.cutter = state.config.methods.cutter;
   return operation;
 }
 
@@ -94,7 +94,7 @@ bool break_off(World::State& state, const Overload& overload, TickDelta& delta) 
 }  // namespace
 
 void break_overloads(World::State& state, TickDelta& delta) {
-  if (!state.methods.support || !state.methods.islands) state.strained.clear();
+  if (!state.config.methods.support || !state.config.methods.islands) state.strained.clear();
   bool whole = state.islands.idle();
   for (bool first = true; whole && !state.strained.empty(); first = false) {
     if (!first && !state.work.affords(0.0F)) break;

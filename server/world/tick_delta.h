@@ -10,6 +10,8 @@
 
 #include "proto/messages.h"
 #include "server/world/refusal.h"
+#include "server/world/service_limits.h"
+#include "server/world/stages.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
 #include "shared/operation/operation.h"
@@ -27,19 +29,6 @@ struct Ledger {
 
   MassUnits error() const { return terrain + pieces + dust - poured; }
   bool operator==(const Ledger&) const = default;
-};
-
-/// Milliseconds that each stage of the tick took. Reported only; the simulation never reads them.
-struct StageTimes {
-  double carve_ms = 0.0;      ///< carve, extract, fracture: apply() of carves and fills
-  double spawn_ms = 0.0;      ///< hulls and bodies of new pieces
-  double bodies_ms = 0.0;     ///< terrain contacts and the Bullet step
-  double impacts_ms = 0.0;    ///< breaks and dents
-  double rest_ms = 0.0;       ///< rest detection
-  double recombine_ms = 0.0;  ///< planning and applying stamps
-  double islands_ms = 0.0;    ///< search for islands, and their fall
-  double publish_ms = 0.0;    ///< hashes, copies of changed bricks, transforms
-  double total_ms = 0.0;
 };
 
 /// A tick's work by the model of server/world/work.h, and the counts of work that was put off or left out.
@@ -101,6 +90,7 @@ struct TickDelta {
   std::vector<PieceState> pieces;            ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
+  std::optional<ServiceLimits> service;  ///< those of them that are the network's; never in a recording
   Ledger ledger;
   StageTimes times;
   TickWork work;

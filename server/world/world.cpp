@@ -13,7 +13,6 @@
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
-#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -24,7 +23,10 @@ bool outside_world(glm::vec3 p) {
          std::abs(p.y) > limits::world_half_height_m;
 }
 
-void discard_lost(World::State& state, TickDelta& delta) {
+void step_bodies(World::State& state, TickDelta& delta) {
+  state.bodies.step();
+  state.work.stepped(state.bodies);
+
   for (const BodyState& body : state.bodies.states()) {
     if (!outside_world(body.pose.position_m)) continue;
     const Applied applied = state.apply_and_record(DiscardOperation{body.id}, delta);
@@ -43,6 +45,15 @@ bool is_ordered(const TickDelta& delta) {
          ascend(delta.spawned, &SpawnedPiece::id);
 }
 
+/// Enters the bodies' hulls and contacts, and the searches for islands, for display.
+void describe_physics(World::State& state, TickDelta& delta) {
+  auto physics = std::make_shared<PhysicsMessage>();
+  physics->tick = state.tick;
+  state.bodies.describe(*physics);
+  physics->searched = state.islands.waiting();
+  delta.physics = std::move(physics);
+}
+
 void publish(World::State& state, TickDelta& delta) {
   for (const BrickCoord coord : state.changed) {
     auto brick = std::make_shared<const Brick>(state.field.brick(coord));
@@ -59,15 +70,47 @@ void publish(World::State& state, TickDelta& delta) {
       state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});
   CHECK_EQ(delta.pieces.size(), state.pieces.size());
   CHECK_DEBUG(is_ordered(delta));
+  if (state.watched && state.tick % ticks_per_watch == 0) describe_physics(state, delta);
+  state.check();
 }
 
-/// Enters the bodies' hulls and contacts, and the searches for islands, for display.
-void describe_physics(World::State& state, TickDelta& delta) {
-  auto physics = std::make_shared<PhysicsMessage>();
-  physics->tick = state.tick;
-  state.bodies.describe(*physics);
-  physics->searched = state.islands.waiting();
-  delta.physics = std::move(physics);
+/// Runs a stage; null for one that only runs within others.
+using StageRun = void (*)(World::State& state, TickDelta& delta);
+
+StageRun run_of(TickStage stage) {
+  switch (stage) {
+    case TickStage::carve:
+      return carry_out;
+    case TickStage::spawn:
+      return nullptr;
+    case TickStage::bodies:
+      return step_bodies;
+    case TickStage::impacts:
+      return apply_impacts;
+    case TickStage::rest:
+      return settle;
+    case TickStage::recombine:
+      return merge;
+    case TickStage::islands:
+      return drop_islands;
+    case TickStage::support:
+      return break_overloads;
+    case TickStage::specks:
+      return sweep_specks;
+    case TickStage::publish:
+      return publish;
+  }
+  return nullptr;
+}
+
+/// Measured beside it: how long it takes, and whether it changed anything.
+void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
+  const StageRun run = run_of(stage);
+  if (run == nullptr) return;
+  const size_t before = delta.operations.size();
+  state.watch.switch_to(stage, delta.times);
+  run(state, delta);
+  if (delta.operations.size() > before) delta.times.acted.set(index_of(stage));
 }
 
 }  // namespace
@@ -86,40 +129,19 @@ World::~World() = default;
 std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) {
   State& s = *state_;
   CHECK(s.thread.is_the_same());
-  Stopwatch whole, watch;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
-  if (s.tick == 1) delta->settings = print(s.methods);
+  if (s.tick == 1) publish_settings(s, *delta);
+  s.watch.restart(TickStage::carve);
   s.work.begin(s.bodies);
-  carry_out(s, commands, *delta);
-  watch.lap_ms();
-  s.bodies.step();
-  s.work.stepped(s.bodies);
-  discard_lost(s, *delta);
-  delta->times.bodies_ms = watch.lap_ms();
-  apply_impacts(s, *delta);
-  delta->times.impacts_ms = watch.lap_ms();
-  const std::vector<PieceId> at_rest = settled(s, *delta);
-  delta->times.rest_ms = watch.lap_ms();
-  merge(s, at_rest, *delta);
-  delta->times.recombine_ms = watch.lap_ms();
-  drop_islands(s, *delta);
-  break_overloads(s, *delta);
-  sweep_specks(s, *delta);
-  delta->times.islands_ms = watch.lap_ms();
-  publish(s, *delta);
-  if (s.watched && s.tick % ticks_per_watch == 0) describe_physics(s, *delta);
-  s.check();
-  delta->times.publish_ms = watch.lap_ms();
-  delta->times.total_ms = whole.lap_ms();
+  take_in(s, commands, *delta);
+  for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
+  s.watch.switch_to(TickStage::carve, delta->times);
   return delta;
 }
 
 const WorldConfig& World::config() const {
   return state_->config;
-}
-const Methods& World::methods() const {
-  return state_->methods;
 }
 void World::watch(bool wanted) {
   state_->watched = wanted;

@@ -30,8 +30,8 @@ class World {
   /// setting stands, later ones only when one changes.
   std::shared_ptr<const TickDelta> step(std::span<const Command> commands);
 
+  /// As it stands: what settings changed is changed here.
   const WorldConfig& config() const;
-  const Methods& methods() const;
   Tick tick() const;
   /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();

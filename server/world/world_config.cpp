@@ -4,6 +4,7 @@
 #include <string>
 
 #include "server/world/limits.h"
+#include "server/world/settings.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -63,7 +64,7 @@ Result<void> validate(const WorldConfig& config) {
   };
   for (const Bounded& bounded : all)
     if (Result<void> within = check(bounded); !within) return within;
-  return {};
+  return check_together(config);
 }
 
 }  // namespace scree

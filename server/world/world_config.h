@@ -3,17 +3,20 @@
 #pragma once
 
 #include "server/world/methods.h"
+#include "server/world/service_limits.h"
 #include "shared/base/result.h"
 #include "shared/field/terrain.h"
 
 namespace scree {
 
+/// The table of settings (settings.h) names the members that may change while the world runs.
 struct WorldConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
   uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
-  Methods methods;                   ///< to start with
+  Methods methods;
+  ServiceLimits service;  ///< for the network; the simulation does not read it
 
   bool operator==(const WorldConfig&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/check.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -30,24 +31,33 @@ VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
   return box;
 }
 
-/// Whether terrain may be loose after the operation. Terrain around a fallen island was not connected to it;
-/// a stamp's redistancing lowers some codes, but opens no gap.
-bool cuts(const Operation& operation, const Applied& applied) {
-  return applied.terrain_gain < 0 && !std::holds_alternative<IslandOperation>(operation) &&
-         !std::holds_alternative<StampOperation>(operation);
+/// What may be loose after an operation: islands or specks. Terrain around a fallen island was not connected
+/// to it; a stamp's redistancing lowers some codes, but opens no gap for an island.
+enum class Loose { nothing, islands, specks };
+
+Loose left_by(const Operation& operation) {
+  return std::visit(Overloaded{
+                        [](const CarveOperation&) { return Loose::islands; },
+                        [](const FillOperation&) { return Loose::nothing; },
+                        [](const StampOperation&) { return Loose::specks; },
+                        [](const DiscardOperation&) { return Loose::nothing; },
+                        [](const ShatterOperation&) { return Loose::nothing; },
+                        [](const IslandOperation&) { return Loose::specks; },
+                        [](const PaintOperation&) { return Loose::nothing; },
+                    },
+                    operation);
 }
 
 }  // namespace
 
 World::State::State(const WorldConfig& world_config)
     : config(world_config),
-      methods(config.methods),
       field(config.terrain),
       bodies(field, bodies_config(config)),
       rest(RestConfig{}, config.tick_rate_hz),
       work(config.tick_rate_hz) {
-  Methods parsed;
-  CHECK(set_all(parsed, print(methods)) && parsed == methods);
+  WorldConfig parsed = config;
+  CHECK(set_all(parsed, print(config)) && parsed == config);
 }
 
 Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,
@@ -58,10 +68,11 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
-  if (cuts(operation, applied)) cut.insert(applied.changed.begin(), applied.changed.end());
-  if (methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
-  if (std::holds_alternative<StampOperation>(operation) || std::holds_alternative<IslandOperation>(operation))
-    unswept.insert(applied.changed.begin(), applied.changed.end());
+  const Loose loose = left_by(operation);
+  if (loose == Loose::islands && applied.terrain_gain < 0)
+    cut.insert(applied.changed.begin(), applied.changed.end());
+  if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
+  if (loose == Loose::specks) unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   for (const PieceId ended : pieces_ended_by(operation)) {

@@ -16,6 +16,7 @@
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
 #include "server/world/island_stage.h"
+#include "server/world/stages.h"
 #include "server/world/work.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
@@ -42,8 +43,7 @@ struct World::State {
   /// The sum of the pieces' masses; for CHECK_DEBUG.
   MassUnits mass_of_pieces() const;
 
-  WorldConfig config;
-  Methods methods;  ///< the current ones; config.methods: those at the start
+  WorldConfig config;  ///< with the current settings
   VdbField field;
   PieceTable pieces;
   Bodies bodies;                          ///< one for each of `pieces`
@@ -58,9 +58,11 @@ struct World::State {
   std::set<BrickCoord> unswept;   ///< changed by merges and falling islands: specks may lie there
   IslandQueue islands;
   WorkBudget work;
-  std::deque<Command> waiting;  ///< requests that wait for a tick with room for them, in order
-  bool watched = false;         ///< a client wants to see the bodies
-  ThreadCheck thread;           ///< that of step()
+  std::deque<Command> waiting;   ///< requests that wait for a tick with room for them, in order
+  std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
+  bool watched = false;          ///< a client wants to see the bodies
+  StageWatch watch;              ///< of the tick's stages
+  ThreadCheck thread;            ///< that of step()
 };
 
 }  // namespace scree

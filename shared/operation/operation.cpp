@@ -7,6 +7,7 @@
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/overloaded.h"
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/field/paint.h"
@@ -144,6 +145,12 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
   return applied;
 }
 
+Applied apply_discard(const DiscardOperation& op, PieceTable& pieces) {
+  Applied applied;
+  applied.dust = take(pieces, op.piece)->mass;
+  return applied;
+}
+
 Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
   Applied applied;
@@ -175,6 +182,18 @@ Applied apply_paint(const PaintOperation& op, Field& field) {
   Applied applied;
   applied.changed = paint(field, in_voxels(op.shape, field.source().voxel_size_m), op.material);
   return applied;
+}
+
+/// Of the stamp's pieces, all of which must be in the table.
+VoxelBox box_of(const StampOperation& op, const PieceTable& pieces, float voxel_size_m) {
+  const auto one = [&](PieceId piece, const QuantisedPose& pose) {
+    const auto found = pieces.find(piece);
+    CHECK(found != pieces.end());
+    return stamp_box(op.method, *found->second, pose, voxel_size_m);
+  };
+  VoxelBox box = one(op.piece, op.pose);
+  for (const StampedPiece& other : op.others) box = hull_of(box, one(other.piece, other.pose));
+  return box;
 }
 
 Result<void> known(PieceId id, const PieceTable& pieces) {
@@ -288,21 +307,6 @@ struct Validator {
 
 }  // namespace
 
-std::vector<PieceId> pieces_ended_by(const Operation& operation) {
-  std::vector<PieceId> ended;
-  if (const auto* stamp = std::get_if<StampOperation>(&operation)) {
-    ended.push_back(stamp->piece);
-    for (const StampedPiece& other : stamp->others) ended.push_back(other.piece);
-  }
-  if (const auto* discard = std::get_if<DiscardOperation>(&operation)) ended.push_back(discard->piece);
-  if (const auto* shatter = std::get_if<ShatterOperation>(&operation)) ended.push_back(shatter->piece);
-  return ended;
-}
-
-size_t pieces_merged_by(const Operation& operation) {
-  return std::holds_alternative<StampOperation>(operation) ? pieces_ended_by(operation).size() : 0;
-}
-
 bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
   CHECK(!group.empty());
   if (group.size() > limits::stamp_group_max) return false;
@@ -315,45 +319,32 @@ bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& p
   });
 }
 
-PieceIds ids_made_by(const Operation& operation) {
-  if (const auto* carve = std::get_if<CarveOperation>(&operation)) return {carve->first_piece, carve->seeds};
-  if (const auto* shatter = std::get_if<ShatterOperation>(&operation))
-    return {shatter->first_piece, shatter->seeds};
-  if (const auto* island = std::get_if<IslandOperation>(&operation)) return {island->piece, 1};
-  return {};
-}
-
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
-  if (const auto* op = std::get_if<CarveOperation>(&operation))
-    return band_box(in_voxels(op->shape, voxel_size_m));
-  if (const auto* op = std::get_if<FillOperation>(&operation))
-    return band_box(in_voxels(op->shape, voxel_size_m));
-  if (const auto* op = std::get_if<IslandOperation>(&operation)) return lift_box(op->box);
-  if (const auto* op = std::get_if<PaintOperation>(&operation))
-    return paint_box(in_voxels(op->shape, voxel_size_m));
-  const auto* op = std::get_if<StampOperation>(&operation);
-  if (op == nullptr) return {};
-  const auto box_of = [&](PieceId piece, const QuantisedPose& pose) {
-    const auto found = pieces.find(piece);
-    CHECK(found != pieces.end());
-    return stamp_box(op->method, *found->second, pose, voxel_size_m);
-  };
-  VoxelBox box = box_of(op->piece, op->pose);
-  for (const StampedPiece& other : op->others) box = hull_of(box, box_of(other.piece, other.pose));
-  return box;
+  const auto around = [&](const Shape& shape) { return band_box(in_voxels(shape, voxel_size_m)); };
+  return std::visit(
+      Overloaded{
+          [&](const CarveOperation& op) { return around(op.shape); },
+          [&](const FillOperation& op) { return around(op.shape); },
+          [&](const StampOperation& op) { return box_of(op, pieces, voxel_size_m); },
+          [](const DiscardOperation&) { return VoxelBox{}; },
+          [](const ShatterOperation&) { return VoxelBox{}; },
+          [](const IslandOperation& op) { return lift_box(op.box); },
+          [&](const PaintOperation& op) { return paint_box(in_voxels(op.shape, voxel_size_m)); },
+      },
+      operation);
 }
 
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {
-  if (const auto* op = std::get_if<CarveOperation>(&operation)) return apply_carve(*op, field, pieces);
-  if (const auto* op = std::get_if<FillOperation>(&operation)) return apply_fill(*op, field);
-  if (const auto* op = std::get_if<StampOperation>(&operation))
-    return apply_stamp(*op, field, pieces, prepared);
-  if (const auto* op = std::get_if<ShatterOperation>(&operation)) return apply_shatter(*op, pieces);
-  if (const auto* op = std::get_if<IslandOperation>(&operation)) return apply_island(*op, field, pieces);
-  if (const auto* op = std::get_if<PaintOperation>(&operation)) return apply_paint(*op, field);
-  Applied applied;
-  applied.dust = take(pieces, std::get<DiscardOperation>(operation).piece)->mass;
-  return applied;
+  return std::visit(Overloaded{
+                        [&](const CarveOperation& op) { return apply_carve(op, field, pieces); },
+                        [&](const FillOperation& op) { return apply_fill(op, field); },
+                        [&](const StampOperation& op) { return apply_stamp(op, field, pieces, prepared); },
+                        [&](const DiscardOperation& op) { return apply_discard(op, pieces); },
+                        [&](const ShatterOperation& op) { return apply_shatter(op, pieces); },
+                        [&](const IslandOperation& op) { return apply_island(op, field, pieces); },
+                        [&](const PaintOperation& op) { return apply_paint(op, field); },
+                    },
+                    operation);
 }
 
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {

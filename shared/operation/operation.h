@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,7 @@ namespace scree {
 
 /// Carves the shape out and breaks it along Voronoi cells into pieces first_piece, first_piece + 1, …
 struct CarveOperation {
+  static constexpr std::string_view plural = "carves";
   Shape shape;
   SeedPattern pattern = SeedPattern::uniform;
   uint32_t seeds = 1;
@@ -35,6 +37,7 @@ struct CarveOperation {
 
 /// Adds a solid shape; its mass is entered in the ledger as poured.
 struct FillOperation {
+  static constexpr std::string_view plural = "fills";
   Shape shape;
 
   bool operator==(const FillOperation&) const = default;
@@ -52,6 +55,7 @@ struct StampedPiece {
 /// the gaps closed, the mass met as a whole and the surroundings redistanced (paper, section 4.3: "groups of
 /// objects"). Others by the method `stamp` alone, at most limits::stamp_group_max pieces in all.
 struct StampOperation {
+  static constexpr std::string_view plural = "stamps";
   PieceId piece = 0;
   QuantisedPose pose;
   int32_t shift = 0;  ///< decides how the mass is met, as the method defines it
@@ -63,6 +67,7 @@ struct StampOperation {
 
 /// A piece that left the world becomes dust.
 struct DiscardOperation {
+  static constexpr std::string_view plural = "discards";
   PieceId piece = 0;
 
   bool operator==(const DiscardOperation&) const = default;
@@ -71,6 +76,7 @@ struct DiscardOperation {
 /// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
 /// impact is in the voxel frame of its volume. The pattern is one of drawn_patterns (seed_pattern.h).
 struct ShatterOperation {
+  static constexpr std::string_view plural = "shatters";
   PieceId piece = 0;
   SeedPattern pattern = SeedPattern::radial;
   uint32_t seeds = 1;
@@ -86,6 +92,7 @@ struct ShatterOperation {
 /// piece that lies where they lay, or dust when they weigh less than limits::piece_mass_min. Box and start in
 /// voxels, which are exact.
 struct IslandOperation {
+  static constexpr std::string_view plural = "islands";
   VoxelBox box;
   VoxelCoord start;
   PieceId piece = 0;
@@ -95,12 +102,15 @@ struct IslandOperation {
 
 /// The bricks of a shape (paint.h) become this material; no code changes.
 struct PaintOperation {
+  static constexpr std::string_view plural = "paints";
   Shape shape;
   Material material = Material::rock;
 
   bool operator==(const PaintOperation&) const = default;
 };
 
+/// The place in this list is an operation's number on the wire and in recordings: new ones come last. Each
+/// says by `plural` how reports call it.
 using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
                                ShatterOperation, IslandOperation, PaintOperation>;
 
@@ -120,6 +130,9 @@ struct PieceIds {
   uint32_t count = 0;
 };
 PieceIds ids_made_by(const Operation& operation);
+
+/// The piece whose place the made ones take; none: they lie where they were cut out of the terrain.
+std::optional<PieceId> parent_of(const Operation& operation);
 
 /// A piece that an operation made: its id, and its seeds, from which its cells can be computed again.
 struct CreatedPiece {

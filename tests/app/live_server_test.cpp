@@ -151,7 +151,7 @@ TEST_F(LiveServerTest, clients_that_join_late_see_little_or_reconnect_end_with_t
   const ServerReport report = server->report();
   EXPECT_EQ(report.net.published.repairs, 0U);
   EXPECT_EQ(report.net.published.resets, 0U);
-  EXPECT_EQ(report.carves, 30U);
+  EXPECT_EQ(report.operations.of<CarveOperation>(), 30U);
   EXPECT_EQ(report.ledger.error(), 0);
 }
 
@@ -231,7 +231,7 @@ TEST_F(LiveServerTest, every_bad_request_gets_an_answer_that_names_what_is_wrong
   fast.blast_speed_m_s = limits::blast_speed_max_m_s + 1.0F;
   EXPECT_NE(answer_to(follower, fast).find("blast speed"), std::string::npos);
   EXPECT_EQ(answer_to(follower, carve_at(0.0F, 0.0F, 6)), "");
-  EXPECT_EQ(server->report().carves, 1U);
+  EXPECT_EQ(server->report().operations.of<CarveOperation>(), 1U);
   const auto refusals = nlohmann::json::parse(to_json(server->report()))["refusals"];
   EXPECT_EQ(refusals,
             nlohmann::json::parse(R"({"total": 5, "by_reason": {"carve_invalid": 4, "blast_speed": 1}})"));

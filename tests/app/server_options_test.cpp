@@ -66,6 +66,23 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--config", "/no/such/file.toml"}), 2);
 }
 
+TEST(ServerOptions, settings_that_are_numbers_are_options_within_their_bounds) {
+  const auto parsed = parse({"--pieces-max", "500", "--sessions-max", "9", "--requests-per-second", "0.5"});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  const WorldConfig& world = std::get<ServerOptions>(parsed).live.world;
+  EXPECT_EQ(world.pieces_max, 500U);
+  EXPECT_EQ(world.service, (ServiceLimits{9, 0.5}));
+  for (const char* pieces : {"0", "20001", "many", "1.5"}) EXPECT_EQ(exit_code({"--pieces-max", pieces}), 2);
+  EXPECT_EQ(exit_code({"--requests-per-second", "0"}), 2);
+}
+
+TEST(ServerOptions, support_without_islands_is_a_mistake_in_either_order) {
+  EXPECT_EQ(exit_code({"--islands", "false", "--support", "true"}), 2);
+  EXPECT_EQ(exit_code({"--support", "true", "--islands", "false"}), 2);
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parse({"--support", "true"})));
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parse({"--islands", "false", "--support", "false"})));
+}
+
 TEST(ServerOptions, flag_wins_over_file_over_environment) {
   const auto path =
       std::filesystem::temp_directory_path() / ("scree_options_" + std::to_string(::getpid()) + ".toml");
@@ -81,7 +98,7 @@ TEST(ServerOptions, flag_wins_over_file_over_environment) {
   std::filesystem::remove(path);
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
-  EXPECT_EQ(live.net.sessions_max, 7U);
+  EXPECT_EQ(live.world.service.sessions_max, 7U);
   EXPECT_EQ(live.net.port, 5002);
   EXPECT_EQ(live.world.tick_rate_hz, 40U);
   EXPECT_FALSE(live.world.methods.islands);

@@ -66,29 +66,29 @@ TEST(settings, every_one_prints_what_it_was_set_to_and_says_what_it_may_be) {
     EXPECT_TRUE(names.insert(setting.name).second);
     EXPECT_LE(setting.name.size(), limits::setting_name_bytes_max);
     EXPECT_FALSE(setting.help.empty());
-    Methods methods;
-    EXPECT_TRUE(setting.parse(setting.print(Methods{}), methods));
-    EXPECT_EQ(methods, Methods{});
-    ASSERT_GE(setting.values.size(), 2U);
-    for (const std::string_view value : setting.values) {
-      Methods other;
+    WorldConfig config;
+    EXPECT_TRUE(setting.parse(setting.print(WorldConfig{}), config));
+    EXPECT_EQ(config, WorldConfig{});
+    EXPECT_NE(setting.choices.size(), 1U);
+    for (const std::string_view value : setting.tried) {
+      WorldConfig other;
       ASSERT_TRUE(setting.parse(value, other));
       EXPECT_EQ(setting.print(other), value);
     }
-    const Result<void> refused = set(methods, {std::string(setting.name), "sideways"});
+    const Result<void> refused = set(config, {std::string(setting.name), "sideways"});
     ASSERT_FALSE(refused);
     EXPECT_TRUE(holds(refused.error().message, std::string(setting.name) + " is "))
         << refused.error().message;
-    EXPECT_EQ(methods, Methods{});
+    EXPECT_EQ(config, WorldConfig{});
   }
   EXPECT_LE(settings().size(), limits::settings_max);
-  EXPECT_EQ(print(Methods{}).size(), settings().size());
+  EXPECT_EQ(print(WorldConfig{}).size(), settings().size());
 }
 
 TEST(settings, are_changed_all_or_none) {
-  Methods methods;
+  WorldConfig config;
   const auto refusal = [&](const SettingValues& values) {
-    const Result<void> done = set_all(methods, values);
+    const Result<void> done = set_all(config, values);
     return done ? "" : done.error().message;
   };
   EXPECT_TRUE(holds(refusal({{"impacts", "false"}, {"gravity", "1"}}),
@@ -96,27 +96,93 @@ TEST(settings, are_changed_all_or_none) {
   EXPECT_TRUE(holds(refusal({{"impacts", "false"}, {"dents", "no"}}), "dents is false or true, not 'no'"));
   EXPECT_TRUE(holds(refusal({{"dents", "false"}, {"dents", "true"}}), "dents is set twice"));
   EXPECT_TRUE(holds(refusal(SettingValues(limits::settings_max + 1)), "limits.settings_max"));
-  EXPECT_EQ(methods, Methods{});
+  EXPECT_EQ(config, WorldConfig{});
   EXPECT_EQ(refusal({{"dents", "false"}, {"impacts", "false"}}), "");
-  EXPECT_EQ(methods.dents, false);
-  EXPECT_EQ(methods.impacts, false);
-  EXPECT_EQ(methods.islands, true);
+  EXPECT_EQ(config.methods.dents, false);
+  EXPECT_EQ(config.methods.impacts, false);
+  EXPECT_EQ(config.methods.islands, true);
+}
+
+TEST(settings, a_number_out_of_its_bounds_is_refused_naming_them) {
+  WorldConfig config;
+  const auto refusal = [&](const char* name, const char* value) {
+    const Result<void> done = set(config, {name, value});
+    return done ? "" : done.error().message;
+  };
+  for (const char* value : {"0", "20001", "-3", "1.5", "", "12x", " 12", "nan", "inf", "1e99"}) {
+    const std::string wanted = "pieces-max is 1 to 20000 pieces, whole, not '" + std::string(value) + "'";
+    EXPECT_EQ(refusal("pieces-max", value), wanted);
+  }
+  EXPECT_TRUE(holds(refusal("requests-per-second", "0.09"), "is 0.1 to 1000000 requests a second"));
+  EXPECT_EQ(config, WorldConfig{});
+  for (const char* value : {"1", "20000"}) {
+    EXPECT_EQ(refusal("pieces-max", value), "");
+    EXPECT_EQ(std::to_string(config.pieces_max), value);
+  }
+  EXPECT_EQ(refusal("requests-per-second", "0.1"), "");
+  EXPECT_EQ(config.service.requests_per_second, 0.1);
+}
+
+TEST(settings, support_without_islands_is_refused_whichever_is_set) {
+  WorldConfig config;
+  const auto refusal = [&](const SettingValues& values) {
+    const Result<void> done = set_all(config, values);
+    return done ? "" : done.error().message;
+  };
+  EXPECT_TRUE(holds(refusal({{"support", "true"}, {"islands", "false"}}), "support needs islands"));
+  EXPECT_TRUE(holds(refusal({{"islands", "false"}, {"support", "true"}}), "support needs islands"));
+  EXPECT_EQ(config, WorldConfig{});
+  EXPECT_EQ(refusal({{"support", "true"}}), "");
+  EXPECT_TRUE(holds(refusal({{"islands", "false"}}), "support needs islands"));
+  EXPECT_TRUE(config.methods.islands);
+  EXPECT_EQ(refusal({{"islands", "false"}, {"support", "false"}}), "") << "as a whole it makes sense";
+  EXPECT_TRUE(holds(refusal({{"support", "true"}}), "support needs islands"));
+  EXPECT_EQ(refusal({{"support", "true"}, {"islands", "true"}}), "");
+}
+
+TEST(settings, a_lower_limit_of_pieces_holds_from_the_next_request_on) {
+  World world(flat_world());
+  const auto carving = [](float x_m) {
+    Command command = cut_leg(x_m);
+    std::get<CarveRequest>(command.body).shape = sphere({x_m, 0.0F, 0.0F}, 0.9F);
+    return std::vector<Command>{command};
+  };
+  EXPECT_EQ(world.step(carving(0.0F))->replies.front().refusal, "");
+  const std::vector<Command> lower{change({{"pieces-max", "5"}})};
+  EXPECT_EQ(world.step(lower)->replies.front().refusal, "");
+  EXPECT_TRUE(holds(world.step(carving(5.0F))->replies.front().refusal, "limit is 5"));
+  const std::vector<Command> higher{change({{"pieces-max", "50"}})};
+  world.step(higher);
+  EXPECT_EQ(world.step(carving(5.0F))->replies.front().refusal, "");
+}
+
+TEST(settings, what_clients_are_granted_is_published_and_changes_no_hash) {
+  World one(flat_world()), other(flat_world());
+  EXPECT_EQ(one.step({})->service, ServiceLimits{});
+  other.step({});
+  const std::vector<Command> fewer{change({{"requests-per-second", "2.5"}, {"sessions-max", "3"}})};
+  const std::vector<Command> nothing{change({})};
+  const auto changed = one.step(fewer), same = other.step(nothing);
+  EXPECT_EQ(changed->service, (ServiceLimits{3, 2.5}));
+  EXPECT_EQ(changed->settings, print(one.config()));
+  EXPECT_FALSE(same->service.has_value());
+  EXPECT_EQ(changed->state_hash, same->state_hash);
 }
 
 TEST(settings, a_world_publishes_them_at_first_and_when_they_change) {
   World world(flat_world());
-  EXPECT_EQ(world.step({})->settings, print(Methods{}));
+  EXPECT_EQ(world.step({})->settings, print(WorldConfig{}));
   EXPECT_TRUE(world.step({})->settings.empty());
   const std::vector<Command> same{change({{"dents", "true"}})};
   EXPECT_TRUE(world.step(same)->settings.empty());
   const std::vector<Command> other{change({{"dents", "false"}})};
   const auto delta = world.step(other);
-  EXPECT_EQ(delta->settings, print(world.methods()));
+  EXPECT_EQ(delta->settings, print(world.config()));
   EXPECT_EQ(delta->replies.front().refusal, "");
-  EXPECT_FALSE(world.methods().dents);
+  EXPECT_FALSE(world.config().methods.dents);
   const std::vector<Command> wrong{change({{"dents", "true"}, {"impacts", "maybe"}})};
   EXPECT_TRUE(holds(world.step(wrong)->replies.front().refusal, "impacts is false or true"));
-  EXPECT_FALSE(world.methods().dents);
+  EXPECT_FALSE(world.config().methods.dents);
 }
 
 TEST(settings, what_was_cut_off_while_islands_were_off_falls_when_they_are_switched_on) {
@@ -158,7 +224,7 @@ TEST_F(SettingsSession, a_recording_verifies_though_settings_changed_in_the_midd
   const std::map<Tick, std::vector<Command>> script{
       {2, table_on_a_leg(0.0F)},
       {4, {cut_leg(0.0F)}},
-      {60, {change({{"islands", "true"}, {"impacts", "false"}, {"collider", "mesh"}})}},
+      {60, {change({{"islands", "true"}, {"impacts", "false"}, {"collider", "mesh"}, {"pieces-max", "6"}})}},
       {90, {change({{"impacts", "no"}})}},
       {130, {change({{"impacts", "true"}, {"collider", "rays"}}), cut_leg(3.0F)}},
   };
@@ -186,10 +252,11 @@ TEST_F(SettingsSession, a_recording_verifies_though_settings_changed_in_the_midd
   ASSERT_TRUE(source) << source.error().message;
   const auto keyframe = (*source)->next();
   ASSERT_TRUE(keyframe && *keyframe);
-  Methods then = config.methods;
-  then.islands = true;
-  then.impacts = false;
-  then.collider = TerrainColliderKind::mesh;
+  WorldConfig then = config;
+  then.methods.islands = true;
+  then.methods.impacts = false;
+  then.methods.collider = TerrainColliderKind::mesh;
+  then.pieces_max = 6;
   EXPECT_EQ((*keyframe)->settings, print(then));
 }
 
@@ -233,9 +300,9 @@ class AdminSession : public SettingsSession {
 
 TEST_F(AdminSession, whoever_knows_the_token_changes_settings_and_everybody_sees_them) {
   start(good_token);
-  Methods wanted;
+  WorldConfig wanted;
   ASSERT_EQ(read_settings(target).value(), print(wanted));
-  wanted.dents = wanted.islands = false;
+  wanted.methods.dents = wanted.methods.islands = false;
   const auto changed = change_settings(target, good_token, {{"dents", "false"}, {"islands", "false"}});
   ASSERT_TRUE(changed) << changed.error().message;
   EXPECT_EQ(*changed, print(wanted));
@@ -245,6 +312,21 @@ TEST_F(AdminSession, whoever_knows_the_token_changes_settings_and_everybody_sees
   ASSERT_TRUE(server->stop());
   EXPECT_EQ(server->report().settings, print(wanted));
   EXPECT_TRUE(holds(to_json(server->report()), "\"dents\": \"false\""));
+}
+
+TEST_F(AdminSession, numbers_are_changed_like_choices_and_support_is_refused_without_islands) {
+  start(good_token);
+  WorldConfig wanted;
+  wanted.pieces_max = 300;
+  wanted.service.requests_per_second = 7.5;
+  const auto changed =
+      change_settings(target, good_token, {{"pieces-max", "300"}, {"requests-per-second", "7.5"}});
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_EQ(*changed, print(wanted));
+  EXPECT_TRUE(holds(refusal(good_token, {{"pieces-max", "0"}}), "pieces-max is 1 to 20000 pieces"));
+  EXPECT_TRUE(
+      holds(refusal(good_token, {{"support", "true"}, {"islands", "false"}}), "support needs islands"));
+  EXPECT_EQ(read_settings(target).value(), print(wanted));
 }
 
 TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
@@ -261,14 +343,14 @@ TEST_F(AdminSession, whoever_does_not_is_refused) {
   EXPECT_EQ(refusal("another-token-of-length", {{"dents", "false"}}),
             "the server refused: the admin token is wrong");
   EXPECT_EQ(refusal("", {{"dents", "false"}}), "the server refused: the admin token is wrong");
-  EXPECT_EQ(read_settings(target).value(), print(Methods{}));
+  EXPECT_EQ(read_settings(target).value(), print(WorldConfig{}));
 }
 
 TEST_F(AdminSession, a_server_without_a_token_refuses_everybody) {
   start("");
   for (const std::string& token : {good_token, std::string()})
     EXPECT_TRUE(holds(refusal(token, {{"dents", "false"}}), "started without an admin token"));
-  EXPECT_EQ(read_settings(target).value(), print(Methods{}));
+  EXPECT_EQ(read_settings(target).value(), print(WorldConfig{}));
 }
 
 }  // namespace

@@ -65,13 +65,14 @@ TEST_F(BotTest, carves_until_everything_has_settled_and_the_hashes_are_equal) {
   EXPECT_TRUE(report.settled);
   EXPECT_TRUE(report.hash.equal);
   EXPECT_GT(report.seen.pieces_made, 4U);
-  EXPECT_EQ(report.seen.pieces_merged + report.seen.discards, report.seen.pieces_made);
+  EXPECT_EQ(report.seen.pieces_merged + report.seen.operations.of<DiscardOperation>(),
+            report.seen.pieces_made);
   EXPECT_EQ(report.pieces_alive, 0U);
   EXPECT_EQ(report.seen.mismatches, 0U);
   EXPECT_EQ(report.edit_latencies_ms.size(), 4U);
   EXPECT_EQ(report.connections, 1U);
-  EXPECT_LE(report.carve_cost.bytes_worst, 200.0);
-  EXPECT_LE(report.merge_cost.bytes_worst, 32.0);
+  EXPECT_LE(report.costs.of<CarveOperation>().bytes_worst, 200.0);
+  EXPECT_LE(report.costs.of<StampOperation>().bytes_worst, 32.0);
 }
 
 TEST_F(BotTest, authored_and_clustered_seeds_leave_both_sides_the_same_terrain) {

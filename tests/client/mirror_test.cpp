@@ -73,7 +73,7 @@ TEST(Mirror, operations_give_the_same_hash_pieces_and_poses_as_on_the_server) {
   EXPECT_EQ(pair.mirror.field().hash(), pair.source.field().hash());
   EXPECT_EQ(pair.mirror.mismatches(), 0U);
   EXPECT_EQ(pair.mirror.counters().checks, 2U);
-  EXPECT_EQ(pair.mirror.counters().carves, 1U);
+  EXPECT_EQ(pair.mirror.counters().operations.of<CarveOperation>(), 1U);
   EXPECT_EQ(pair.mirror.counters().pieces_merged, 1U);
   EXPECT_FALSE(pair.mirror.take_repair_request());
   for (const ChunkCoord chunk : pair.source.field().edited_chunks())
@@ -92,7 +92,7 @@ TEST(Mirror, children_of_a_piece_that_shatters_start_where_it_was_seen) {
   ASSERT_TRUE(broken) << broken.error().message;
   EXPECT_EQ(broken->pieces_removed, std::vector<PieceId>{parent});
   EXPECT_EQ(broken->pieces_added.size(), 4U);
-  EXPECT_EQ(pair.mirror.counters().shatters, 1U);
+  EXPECT_EQ(pair.mirror.counters().operations.of<ShatterOperation>(), 1U);
   for (const auto& [id, motion] : pair.mirror.pieces()) {
     const glm::vec3 cut_m = motion.volume->centre_voxels * flat.voxel_size_m;
     EXPECT_NEAR(glm::distance(motion.to.position_m, cut_m + glm::vec3(3.0F, 7.0F, 0.0F)), 0.0F, 0.01F);

@@ -78,10 +78,8 @@ struct Played {
 };
 
 /// False when the two worlds part.
-bool play(const std::string& name, const Methods& methods, Played& played) {
-  WorldConfig config;
+bool play(const std::string& name, WorldConfig config, Played& played) {
   config.terrain = terrain;
-  config.methods = methods;
   World one(config), other(config);
   const auto commands_by_tick = script();
   for (Tick tick = 1; tick <= ticks; ++tick) {
@@ -109,7 +107,7 @@ bool play(const std::string& name, const Methods& methods, Played& played) {
 
 int run() {
   Played usual;
-  if (!play("default", Methods{}, usual)) return 1;
+  if (!play("default", WorldConfig{}, usual)) return 1;
   const Happened& h = usual.happened;
   if (h.shatters == 0 || h.dents == 0 || h.islands == 0 || h.merges == 0) {
     std::fprintf(stderr, "the session lacks shatters, dents, islands or merges\n");
@@ -117,12 +115,12 @@ int run() {
   }
   int failures = 0;
   for (const Setting& setting : settings())
-    for (const std::string_view value : setting.values) {
-      Methods methods;
-      if (!setting.parse(value, methods) || methods == Methods{}) continue;
+    for (const std::string_view value : setting.tried) {
+      WorldConfig config;
+      if (!setting.parse(value, config) || config == WorldConfig{}) continue;
       const std::string name = std::string(setting.name) + "=" + std::string(value);
       Played played;
-      if (!play(name, methods, played)) return 1;
+      if (!play(name, config, played)) return 1;
       if (played.digest != usual.digest) continue;
       std::fprintf(stderr, "%s makes no difference in this session\n", name.c_str());
       ++failures;

@@ -246,7 +246,7 @@ TEST(falling, a_client_that_applies_the_same_operations_has_the_same_field_and_p
     islands += islands_of(*delta);
   }
   EXPECT_EQ(islands, 1U);
-  EXPECT_EQ(mirror.counters().islands, 1U);
+  EXPECT_EQ(mirror.counters().operations.of<IslandOperation>(), 1U);
 }
 
 TEST(falling, a_recorded_fall_verifies) {

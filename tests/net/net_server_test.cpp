@@ -144,7 +144,7 @@ TEST_F(NetServerTest, second_hello_is_refused) {
 }
 
 TEST_F(NetServerTest, too_many_sessions_are_refused_naming_the_limit) {
-  start([](NetConfig& config) { config.sessions_max = 2; });
+  start([](NetConfig& config) { config.service.sessions_max = 2; });
   RawClient second(server->port());
   ASSERT_TRUE(second.send(hello()));
   ASSERT_TRUE(second.receive_as<WelcomeMessage>().has_value());
@@ -173,7 +173,7 @@ TEST_F(NetServerTest, bind_address_that_is_none_is_said_in_words) {
 }
 
 TEST_F(NetServerTest, requests_over_the_rate_get_a_reply_each) {
-  start([](NetConfig& config) { config.requests_per_second = 1.0; });
+  start([](NetConfig& config) { config.service.requests_per_second = 1.0; });
   RawClient client(server->port());
   ASSERT_TRUE(client.send(hello()));
   for (uint32_t i = 1; i <= 8; ++i) ASSERT_TRUE(client.send(carve(i)));
@@ -183,11 +183,39 @@ TEST_F(NetServerTest, requests_over_the_rate_get_a_reply_each) {
   expect_witness_unmoved();
 }
 
+TEST_F(NetServerTest, a_tick_that_grants_fewer_requests_holds_for_who_is_connected) {
+  start([](NetConfig& config) { config.service.requests_per_second = 1000.0; });
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  ASSERT_TRUE(client.receive_as<WelcomeMessage>().has_value());
+  TickDelta delta = *source.step();
+  delta.service = ServiceLimits{.requests_per_second = 0.25};
+  server->publish(std::make_shared<const TickDelta>(delta));
+  server->flush();
+  for (uint32_t i = 1; i <= 2; ++i) ASSERT_TRUE(client.send(carve(i)));
+  const auto reply = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(reply.has_value());
+  EXPECT_EQ(reply->request, 2U) << "one is granted at once, however few a second";
+  EXPECT_NE(reply->refusal.find("0.25 requests a second (requests-per-second)"), std::string::npos)
+      << reply->refusal;
+}
+
+TEST_F(NetServerTest, a_tick_that_grants_fewer_sessions_refuses_new_ones_and_ends_none) {
+  start();
+  TickDelta delta = *source.step();
+  delta.service = ServiceLimits{.sessions_max = 1};
+  server->publish(std::make_shared<const TickDelta>(delta));
+  server->flush();
+  RawClient second(server->port());
+  ASSERT_TRUE(second.send(hello()));
+  expect_refused(second, "1 sessions (sessions-max)");
+}
+
 TEST_F(NetServerTest, full_command_queue_is_answered_naming_the_limit) {
   start();
   RawClient client(server->port());
   ASSERT_TRUE(client.send(hello()));
-  for (uint32_t i = 1; i <= 5; ++i) ASSERT_TRUE(client.send(FillMessage{i, sphere({}, 1.0F)}));
+  for (uint32_t i = 1; i <= 5; ++i) ASSERT_TRUE(client.send(FillMessage{{sphere({}, 1.0F)}, i}));
   const auto reply = client.receive_as<ReplyMessage>();
   ASSERT_TRUE(reply.has_value());
   EXPECT_EQ(reply->request, 5U);

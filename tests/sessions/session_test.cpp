@@ -116,7 +116,8 @@ TEST_F(SessionTest, every_client_ends_with_the_servers_field) {
     replies += static_cast<uint32_t>(client->replies.size());
   }
   const ServerReport report = session.server().report();
-  EXPECT_GE(report.carves, static_cast<uint64_t>(carves)) << "a dent is a carve, too";
+  EXPECT_GE(report.operations.of<CarveOperation>(), static_cast<uint64_t>(carves))
+      << "a dent is a carve, too";
   EXPECT_GE(replies, static_cast<uint32_t>(carves) * 2 / 3) << "the others went to the one that was cut off";
   EXPECT_GT(report.pieces_made, static_cast<uint64_t>(carves));
   EXPECT_EQ(report.ledger.error(), 0);
@@ -161,17 +162,17 @@ TEST_F(SessionTest, no_chunk_was_sent_again_on_a_clean_link) {
 /// The session went every way that an edit can take to a client.
 TEST_F(SessionTest, operations_chunks_and_pieces_have_all_been_tried) {
   ASSERT_EQ(played->session->failure, "");
-  const uint64_t all = played->session->server().report().carves;
+  const uint64_t all = played->session->server().report().operations.of<CarveOperation>();
   const MirrorCounters& stays = played->stays->mirror().counters();
-  EXPECT_EQ(stays.carves, all);
+  EXPECT_EQ(stays.operations.of<CarveOperation>(), all);
   EXPECT_EQ(stays.chunks + stays.patched_bricks, 0U) << "who saw everything needs operations alone";
   for (const SessionClient* client : {played->late, played->back}) {
     EXPECT_GT(client->mirror().counters().chunks, 0U);
-    EXPECT_LT(client->mirror().counters().carves, all);
+    EXPECT_LT(client->mirror().counters().operations.of<CarveOperation>(), all);
   }
   const MirrorCounters& small = played->small->mirror().counters();
-  EXPECT_GT(small.carves, 0U);
-  EXPECT_LT(small.carves, all);
+  EXPECT_GT(small.operations.of<CarveOperation>(), 0U);
+  EXPECT_LT(small.operations.of<CarveOperation>(), all);
   EXPECT_GT(small.chunks, 0U);
   EXPECT_GT(small.dropped_chunks, 0U);
 }

@@ -134,10 +134,7 @@ TEST(Watching, to_be_watched_changes_nothing) {
   World watched(world_config);
   World unwatched(world_config);
   watched.watch(true);
-  const CarveMessage carve = blow();
-  const Command command{1, 1,
-                        CarveRequest{carve.shape, carve.pattern, carve.seeds, carve.random_seed,
-                                     carve.impact_m, carve.blast_speed_m_s}};
+  const Command command{1, 1, static_cast<const CarveRequest&>(blow())};
   bool described = false;
   for (int tick = 0; tick < 120; ++tick) {
     const auto commands = tick == 3 ? std::span(&command, 1) : std::span<const Command>();

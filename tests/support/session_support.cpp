@@ -24,8 +24,7 @@ constexpr int reply_ticks_max = 2000;
 }  // namespace
 
 CarveMessage carve_message(const CarveRequest& carve, uint32_t request) {
-  return {request,           carve.shape,    carve.pattern,        carve.seeds,
-          carve.random_seed, carve.impact_m, carve.blast_speed_m_s};
+  return {carve, request};
 }
 
 float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) {

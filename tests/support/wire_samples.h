@@ -32,14 +32,14 @@ inline CarveOperation carve_operation() {
 }
 
 inline CarveOperation authored_carve_operation() {
-  return {sphere({1.0F, 2.0F, 3.0F}, 2.0F),
-          SeedPattern::authored,
-          3,
-          7,
-          {1.0F, 4.0F, 3.0F},
-          77777,
-          Cutter::conform,
-          {{1.0F, 2.0F, 3.0F}, {-1.5F, 2.5F, 3.0F}, {0.0F, -900.0F, 4000.0F}}};
+  return {.shape = sphere({1.0F, 2.0F, 3.0F}, 2.0F),
+          .pattern = SeedPattern::authored,
+          .seeds = 3,
+          .random_seed = 7,
+          .impact_m = {1.0F, 4.0F, 3.0F},
+          .first_piece = 77777,
+          .cutter = Cutter::conform,
+          .authored_m = {{1.0F, 2.0F, 3.0F}, {-1.5F, 2.5F, 3.0F}, {0.0F, -900.0F, 4000.0F}}};
 }
 
 inline StampOperation stamp_operation() {
@@ -102,7 +102,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.ledger_dust = 1;
   status.tick_median_ms = 1.5F;
   status.tick_worst_ms = 8.25F;
-  status.stage_ms = {0.0F, 1.0F, 2.5F, 3.0F, 4.0F, 5.0F, 6.0F, 1e-3F};
+  status.stages = {{"carve", 0.0F}, {"bodies", 2.5F}, {"publish", 1e-3F}};
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
   status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
@@ -132,8 +132,8 @@ inline std::vector<ClientMessage> client_messages() {
           InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
           carve,
           authored,
-          FillMessage{6, sphere({0.0F, 1.0F, 0.0F}, 2.0F)},
-          PaintMessage{8, box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice},
+          FillMessage{{sphere({0.0F, 1.0F, 0.0F}, 2.0F)}, 6},
+          PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice}, 8},
           RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},
           AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}},

@@ -162,7 +162,7 @@ TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
     return piece;
   };
   spawn(state, cut, born, delta);
-  state.methods.dents = false;
+  state.config.methods.dents = false;
   bool broke = false;
   for (int i = 0; i < 30 && !broke; ++i) {
     state.bodies.step();

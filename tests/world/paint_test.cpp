@@ -207,7 +207,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   tick({}, {&live, &beside});
   tick({carve_at({3.0F, -0.3F, 0.0F})}, {&live, &beside});
   tick({paint_it(Material::ice, box({4.0F, 0.0F, 0.0F}, {8.0F, 3.0F, 5.0F}))}, {&live, &beside});
-  EXPECT_EQ(live.mirror->counters().paints, 1U);
+  EXPECT_EQ(live.mirror->counters().operations.of<PaintOperation>(), 1U);
   EXPECT_EQ(live.mirror->field().painted({1, -1, 0}), Material::ice);
   EXPECT_TRUE(std::ranges::find(live.changed, BrickCoord{1, -1, 0}) != live.changed.end())
       << "meshes of painted bricks must be made anew";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/viewer/base/limits.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 namespace {
@@ -121,13 +122,16 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
 }
 
 void ViewerSession::apply(const ServerMessage& message, double now_s, SessionStep& step) {
-  if (std::holds_alternative<ChunkMessage>(message)) last_chunk_s_ = now_s;
-  if (const auto* reply = std::get_if<ReplyMessage>(&message); reply != nullptr && !reply->refusal.empty()) {
-    notice_ = reply->refusal;
-    notice_until_s_ = now_s + notice_s;
-  }
-  if (const auto* cursors = std::get_if<CursorsMessage>(&message)) cursors_ = cursors->cursors;
-  if (const auto* physics = std::get_if<PhysicsMessage>(&message)) physics_ = *physics;
+  std::visit(Overloaded{[&](const ChunkMessage&) { last_chunk_s_ = now_s; },
+                        [&](const ReplyMessage& reply) {
+                          if (reply.refusal.empty()) return;
+                          notice_ = reply.refusal;
+                          notice_until_s_ = now_s + notice_s;
+                        },
+                        [&](const CursorsMessage& cursors) { cursors_ = cursors.cursors; },
+                        [&](const PhysicsMessage& physics) { physics_ = physics; },
+                        [](const auto&) {}},  // the mirror's alone
+             message);
   const Result<MirrorChanges> changes = mirror_->apply(message);
   if (!changes) {
     lose(now_s, "what the server sent cannot be applied: " + changes.error().message);

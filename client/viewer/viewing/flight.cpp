@@ -49,8 +49,12 @@ Result<bool> Flight::turn(Viewing& viewing, double now_s) {
 
 std::string Flight::times(const Viewing& viewing) const {
   const ViewerOptions& options = viewing.options;
-  return to_json({options.path_file, std::string(options.method->name),
-                  viewing.view->renderer().description(), options.width, options.height, times_});
+  return to_json({.path = options.path_file,
+                  .method = std::string(options.method->name),
+                  .driver = viewing.view->renderer().description(),
+                  .width = options.width,
+                  .height = options.height,
+                  .frames = times_});
 }
 
 }  // namespace scree

@@ -61,12 +61,12 @@ void show_graph(const char* name, const History& history, const char* unit) {
 /// A bar for each stage of the server's tick, against the tick's length.
 void show_stages(const StatusMessage& status) {
   constexpr float tick_ms = 1000.0F / 60.0F;
-  for (size_t i = 0; i < stage_names.size(); ++i) {
+  for (const StageTime& stage : status.stages) {
     char text[48];
-    std::snprintf(text, sizeof text, "%.3f ms", static_cast<double>(status.stage_ms[i]));
-    ImGui::ProgressBar(status.stage_ms[i] / tick_ms, ImVec2(240.0F, 14.0F), text);
+    std::snprintf(text, sizeof text, "%.3f ms", static_cast<double>(stage.ms));
+    ImGui::ProgressBar(stage.ms / tick_ms, ImVec2(240.0F, 14.0F), text);
     ImGui::SameLine();
-    ImGui::TextUnformatted(stage_names[i]);
+    ImGui::TextUnformatted(stage.name.c_str());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
+#include "shared/operation/per_operation.h"
 
 namespace scree {
 namespace {
@@ -46,7 +47,8 @@ void print(const Json& json, bool as_json) {
 
 /// Counts over all frames and commands of a recording.
 struct Sums {
-  uint64_t commands = 0, carves = 0, fills = 0, merges = 0, lost = 0, shatters = 0, islands = 0;
+  uint64_t commands = 0, merges = 0;
+  OperationCounts operations;
   RecordedFrame last;
 };
 
@@ -59,12 +61,8 @@ Result<Sums> sum_up(RecordingReader& recording) {
     if (!commands) return tl::unexpected(commands.error());
     sums.commands += commands->size();
     for (const Operation& operation : frame->operations) {
-      sums.carves += std::holds_alternative<CarveOperation>(operation) ? 1 : 0;
-      sums.fills += std::holds_alternative<FillOperation>(operation) ? 1 : 0;
-      sums.shatters += std::holds_alternative<ShatterOperation>(operation) ? 1 : 0;
-      sums.islands += std::holds_alternative<IslandOperation>(operation) ? 1 : 0;
+      ++sums.operations[operation];
       sums.merges += pieces_merged_by(operation);
-      sums.lost += std::holds_alternative<DiscardOperation>(operation) ? 1 : 0;
     }
     sums.last = std::move(*frame);
   }
@@ -81,31 +79,26 @@ int info(const Options& options) {
   const Tick ticks = (*recording)->last_tick();
   const Ledger ledger = from_recorded(sums->last.ledger);
   Json settings = Json::object();
-  for (const SettingValue& setting : print(world.methods)) settings[setting.name] = setting.value;
-  print({{"file", options.path},
-         {"format", recording_format},
-         {"recorded_by", header.program},
-         {"terrain", std::string(name_of(world.terrain.kind))},
-         {"seed", world.terrain.random_seed},
-         {"voxel_size_m", world.terrain.voxel_size_m},
-         {"tick_rate_hz", world.tick_rate_hz},
-         {"pieces_max", world.pieces_max},
-         {"settings", settings},
-         {"ticks", ticks},
-         {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
-         {"keyframes", (*recording)->keyframes()},
-         {"commands", sums->commands},
-         {"carves", sums->carves},
-         {"fills", sums->fills},
-         {"shatters", sums->shatters},
-         {"islands", sums->islands},
-         {"merges", sums->merges},
-         {"lost", sums->lost},
-         {"ledger_error", ledger.error()},
-         {"field_hash", hex(sums->last.field_hash)},
-         {"state_hash", hex(sums->last.state_hash)},
-         {"bytes", (*recording)->bytes()}},
-        options.json);
+  for (const SettingValue& setting : print(world)) settings[setting.name] = setting.value;
+  Json json{{"file", options.path},
+            {"format", recording_format},
+            {"recorded_by", header.program},
+            {"terrain", std::string(name_of(world.terrain.kind))},
+            {"seed", world.terrain.random_seed},
+            {"voxel_size_m", world.terrain.voxel_size_m},
+            {"tick_rate_hz", world.tick_rate_hz},
+            {"settings", settings},
+            {"ticks", ticks},
+            {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
+            {"keyframes", (*recording)->keyframes()},
+            {"commands", sums->commands}};
+  sums->operations.for_each([&](std::string_view name, uint64_t count) { json[std::string(name)] = count; });
+  json.update({{"merges", sums->merges},
+               {"ledger_error", ledger.error()},
+               {"field_hash", hex(sums->last.field_hash)},
+               {"state_hash", hex(sums->last.state_hash)},
+               {"bytes", (*recording)->bytes()}});
+  print(json, options.json);
   return 0;
 }
 

@@ -68,8 +68,8 @@ int run(const ServerOptions& options) {
   const bool reported = write_report(**server, options.report_path);
   const ServerReport report = (*server)->report();
   spdlog::info("{} ticks, {} carves, {} pieces made, {} merged, {} alive, ledger error {}", report.ticks,
-               report.carves, report.pieces_made, report.pieces_merged, report.pieces_alive,
-               report.ledger.error());
+               report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
+               report.pieces_alive, report.ledger.error());
   return stopped && reported ? 0 : failed;
 }
 

@@ -1,0 +1,72 @@
+#include "proto/messages.h"
+
+#include "shared/base/overloaded.h"
+
+namespace scree {
+
+namespace {
+
+template <typename T>
+size_t bytes_of(const std::vector<T>& list) {
+  return list.size() * sizeof(T);
+}
+
+size_t bytes_of(const SettingValues& settings) {
+  size_t bytes = 0;
+  for (const SettingValue& setting : settings)
+    bytes += sizeof(SettingValue) + setting.name.size() + setting.value.size();
+  return bytes;
+}
+
+size_t bytes_of(const std::vector<StageTime>& stages) {
+  size_t bytes = 0;
+  for (const StageTime& stage : stages) bytes += sizeof(StageTime) + stage.name.size();
+  return bytes;
+}
+
+size_t bytes_of(const std::vector<RefusalCount>& refusals) {
+  size_t bytes = 0;
+  for (const RefusalCount& refusal : refusals) bytes += sizeof(RefusalCount) + refusal.reason.size();
+  return bytes;
+}
+
+size_t bytes_of(const std::vector<PlayerCursor>& cursors) {
+  size_t bytes = 0;
+  for (const PlayerCursor& cursor : cursors) bytes += sizeof(PlayerCursor) + cursor.name.size();
+  return bytes;
+}
+
+size_t bytes_of(const std::vector<WatchedBody>& bodies) {
+  size_t bytes = 0;
+  for (const WatchedBody& body : bodies) bytes += sizeof(WatchedBody) + bytes_of(body.hull_m);
+  return bytes;
+}
+
+}  // namespace
+
+size_t memory_bytes(const ServerMessage& message) {
+  const size_t held =
+      std::visit(Overloaded{
+                     [](const WelcomeMessage&) { return size_t{0}; },
+                     [](const RefusalMessage& m) { return m.reason.size(); },
+                     [](const FrameMessage& m) {
+                       return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
+                              bytes_of(m.removed_pieces) + bytes_of(m.transforms);
+                     },
+                     [](const ChunkMessage& m) { return bytes_of(m.bricks); },
+                     [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
+                     [](const ResetMessage&) { return size_t{0}; },
+                     [](const ReplyMessage& m) { return m.refusal.size(); },
+                     [](const StatusMessage& m) {
+                       return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages);
+                     },
+                     [](const CursorsMessage& m) { return bytes_of(m.cursors); },
+                     [](const PhysicsMessage& m) {
+                       return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);
+                     },
+                 },
+                 message);
+  return sizeof(ServerMessage) + held;
+}
+
+}  // namespace scree

@@ -1,0 +1,89 @@
+// The stages of a tick, in the order in which it goes through them, and how long each took. Everything that
+// runs, times, reports or draws stages goes by this table. To add one: a member and a row here, and the
+// function that it runs in world.cpp.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <chrono>
+#include <cstdint>
+#include <numeric>
+#include <string_view>
+
+namespace scree {
+
+enum class TickStage : uint8_t {
+  carve,      ///< requests: carves, fills, paint, settings
+  spawn,      ///< hulls and bodies of new pieces, whichever stage made them
+  bodies,     ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
+  impacts,    ///< breaks and dents
+  rest,       ///< rest detection
+  recombine,  ///< planning and applying stamps
+  islands,    ///< search for what hangs loose, and its fall
+  support,    ///< search for what is too heavy for what holds it
+  specks,     ///< crumbs that merges and islands left
+  publish,    ///< hashes, copies of changed bricks, transforms
+};
+
+struct TickStageRow {
+  TickStage stage;
+  std::string_view name;
+  /// Reports judge the stage by the ticks in which it changed something, not by all: most ticks have nothing
+  /// for it to do.
+  bool only_when_acting;
+};
+
+inline constexpr std::array tick_stages{
+    TickStageRow{TickStage::carve, "carve", true},      TickStageRow{TickStage::spawn, "spawn", true},
+    TickStageRow{TickStage::bodies, "bodies", false},   TickStageRow{TickStage::impacts, "impacts", false},
+    TickStageRow{TickStage::rest, "rest", false},       TickStageRow{TickStage::recombine, "recombine", true},
+    TickStageRow{TickStage::islands, "islands", false}, TickStageRow{TickStage::support, "support", false},
+    TickStageRow{TickStage::specks, "specks", false},   TickStageRow{TickStage::publish, "publish", false}};
+
+constexpr size_t index_of(TickStage stage) {
+  return static_cast<size_t>(stage);
+}
+
+/// Every member of TickStage has its row, at its own place.
+constexpr bool rows_are_in_order() {
+  for (size_t i = 0; i < tick_stages.size(); ++i)
+    if (index_of(tick_stages[i].stage) != i) return false;
+  return tick_stages.back().stage == TickStage::publish;
+}
+static_assert(rows_are_in_order());
+
+/// Milliseconds that each stage of a tick took. Reported only; the simulation never reads them.
+struct StageTimes {
+  std::array<double, tick_stages.size()> ms{};
+  std::bitset<tick_stages.size()> acted;  ///< stages that changed something
+
+  double& operator[](TickStage stage) { return ms[index_of(stage)]; }
+  double operator[](TickStage stage) const { return ms[index_of(stage)]; }
+  double total_ms() const { return std::accumulate(ms.begin(), ms.end(), 0.0); }
+};
+
+/// Charges the time that passes to one stage after the other. A stage within a stage (spawn) takes its time
+/// out of the outer one's.
+class StageWatch {
+ public:
+  /// The time from now on is the stage's. Returns the one whose it was.
+  TickStage switch_to(TickStage stage, StageTimes& times) {
+    const auto now = std::chrono::steady_clock::now();
+    times[stage_] += std::chrono::duration<double, std::milli>(now - since_).count();
+    since_ = now;
+    const TickStage before = stage_;
+    stage_ = stage;
+    return before;
+  }
+  /// A tick begins: nothing is charged for the time since the last one.
+  void restart(TickStage stage) {
+    since_ = std::chrono::steady_clock::now();
+    stage_ = stage;
+  }
+
+ private:
+  TickStage stage_ = TickStage::carve;
+  std::chrono::steady_clock::time_point since_;
+};
+
+}  // namespace scree

@@ -1,0 +1,51 @@
+// What clients ask for: the world answers a request by operations, or by a refusal. Plain values; a request
+// is untrusted until World::step has validated it. Lengths in metres.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "shared/base/setting_value.h"
+#include "shared/field/material.h"
+#include "shared/field/shape.h"
+#include "shared/fracture/seed_pattern.h"
+
+namespace scree {
+
+struct CarveRequest {
+  Shape shape;
+  SeedPattern pattern = SeedPattern::radial;
+  uint32_t seeds = 32;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};  ///< place of the blow; pieces fly out towards it
+  float blast_speed_m_s = 6.0F;
+  std::vector<glm::vec3> authored_m{};  ///< as many as seeds when the pattern needs points; else none
+
+  bool operator==(const CarveRequest&) const = default;
+};
+
+struct FillRequest {
+  Shape shape;
+
+  bool operator==(const FillRequest&) const = default;
+};
+
+/// The bricks of the shape (shared/field/paint.h) become this material.
+struct PaintRequest {
+  Shape shape;
+  Material material = Material::rock;
+
+  bool operator==(const PaintRequest&) const = default;
+};
+
+/// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
+struct SettingsRequest {
+  SettingValues settings;
+
+  bool operator==(const SettingsRequest&) const = default;
+};
+
+using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest>;
+
+}  // namespace scree
