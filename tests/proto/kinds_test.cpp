@@ -143,7 +143,7 @@ TEST(Kinds, a_client_refuses_the_patterns_of_a_shatter_that_its_server_refuses) 
   size_t taken = 0;
   for (int number = 0; number < 16; ++number) {
     const Operation shatter(shatter_operation(static_cast<SeedPattern>(number)));
-    const Result<void> valid = validate(shatter, pieces);
+    const Result<void> valid = validate(shatter, pieces, 0.25F);
     EXPECT_EQ(refusal(shatter), valid ? "" : "operation: " + valid.error().message) << number;
     taken += valid ? 1 : 0;
   }
