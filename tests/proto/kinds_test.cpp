@@ -99,12 +99,12 @@ bool names(const std::string& refusal, const char* what) {
 TEST(Kinds, every_material_goes_through_every_codec_and_an_unknown_one_through_none) {
   const Shape place = shape_of(ShapeKind::sphere);
   for (const Material material : all_kinds<Material>) {
-    EXPECT_EQ(refusal(PaintMessage{1, place, material}), "") << name_of(material);
+    EXPECT_EQ(refusal(PaintMessage{{place, material}, 1}), "") << name_of(material);
     EXPECT_EQ(refusal(Operation(PaintOperation{place, material})), "") << name_of(material);
     EXPECT_EQ(refusal_of_brick(material), "") << name_of(material);
     EXPECT_EQ(refusal_of_volume(material), "") << name_of(material);
   }
-  EXPECT_TRUE(names(refusal(PaintMessage{1, place, unknown<Material>}), "material"));
+  EXPECT_TRUE(names(refusal(PaintMessage{{place, unknown<Material>}, 1}), "material"));
   EXPECT_TRUE(names(refusal(Operation(PaintOperation{place, unknown<Material>})), "material"));
   EXPECT_TRUE(names(refusal_of_brick(unknown<Material>), "material"));
   EXPECT_TRUE(names(refusal_of_volume(unknown<Material>), "material"));
@@ -113,16 +113,16 @@ TEST(Kinds, every_material_goes_through_every_codec_and_an_unknown_one_through_n
 TEST(Kinds, every_shape_goes_through_every_codec_and_an_unknown_one_through_none) {
   for (const ShapeKind kind : all_kinds<ShapeKind>) {
     EXPECT_EQ(refusal(carve_message(kind, SeedPattern::radial)), "") << name_of(kind);
-    EXPECT_EQ(refusal(FillMessage{1, shape_of(kind)}), "") << name_of(kind);
-    EXPECT_EQ(refusal(PaintMessage{1, shape_of(kind), Material::ice}), "") << name_of(kind);
+    EXPECT_EQ(refusal(FillMessage{{shape_of(kind)}, 1}), "") << name_of(kind);
+    EXPECT_EQ(refusal(PaintMessage{{shape_of(kind), Material::ice}, 1}), "") << name_of(kind);
     EXPECT_EQ(refusal(Operation(carve_operation(kind, SeedPattern::radial))), "") << name_of(kind);
     EXPECT_EQ(refusal(Operation(FillOperation{shape_of(kind)})), "") << name_of(kind);
     EXPECT_EQ(refusal(Operation(PaintOperation{shape_of(kind), Material::ice})), "") << name_of(kind);
   }
   constexpr auto none = unknown<ShapeKind>;
   EXPECT_TRUE(names(refusal(carve_message(none, SeedPattern::radial)), "kind of shape"));
-  EXPECT_TRUE(names(refusal(FillMessage{1, shape_of(none)}), "kind of shape"));
-  EXPECT_TRUE(names(refusal(PaintMessage{1, shape_of(none), Material::ice}), "kind of shape"));
+  EXPECT_TRUE(names(refusal(FillMessage{{shape_of(none)}, 1}), "kind of shape"));
+  EXPECT_TRUE(names(refusal(PaintMessage{{shape_of(none), Material::ice}, 1}), "kind of shape"));
   EXPECT_TRUE(names(refusal(Operation(carve_operation(none, SeedPattern::radial))), "kind of shape"));
   EXPECT_TRUE(names(refusal(Operation(FillOperation{shape_of(none)})), "kind of shape"));
   EXPECT_TRUE(names(refusal(Operation(PaintOperation{shape_of(none), Material::ice})), "kind of shape"));
