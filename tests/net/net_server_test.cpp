@@ -270,7 +270,7 @@ TEST_F(NetServerTest, message_flood_is_refused) {
 
 TEST_F(NetServerTest, every_refusal_is_counted_under_its_reason_and_told_in_the_status) {
   start([](NetConfig& config) {
-    config.sessions_max = 2;
+    config.service.sessions_max = 2;
     config.admin_token = "a token of some length";
     config.tick_rate_hz = 1;  // a status in every tick
   });
