@@ -208,6 +208,23 @@ void Bodies::set_terrain_collider(TerrainColliderKind kind) {
   }
 }
 
+std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
+  struct Collector final : btBroadphaseAabbCallback {
+    std::vector<PieceId> ids;
+    bool process(const btBroadphaseProxy* proxy) override {
+      ids.push_back(id_of(static_cast<const btCollisionObject*>(proxy->m_clientObject)));
+      return true;
+    }
+  };
+  // The tree holds the bounds from before the last step.
+  const float slack_m = limits::travel_max_voxels * state_->voxel_size_m;
+  const btVector3 slack(slack_m, slack_m, slack_m);
+  Collector collector;
+  state_->broadphase.aabbTest(to_bullet(lo_m) - slack, to_bullet(hi_m) + slack, collector);
+  std::ranges::sort(collector.ids);
+  return std::move(collector.ids);
+}
+
 std::vector<BodyState> Bodies::states() const {
   std::vector<BodyState> states;
   states.reserve(size());

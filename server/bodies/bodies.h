@@ -113,6 +113,9 @@ class Bodies {
   /// bodies wake.
   void set_terrain_collider(TerrainColliderKind kind);
 
+  /// The bodies whose bounds meet that box of the world, metres, and some that lie a little beyond; ordered
+  /// by id.
+  std::vector<PieceId> near(glm::vec3 lo_m, glm::vec3 hi_m) const;
   /// States of all bodies, ordered by id.
   std::vector<BodyState> states() const;
   /// The body must be present.

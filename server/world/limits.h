@@ -133,6 +133,18 @@ inline constexpr uint32_t sessions_max_max = 4096;
 inline constexpr double requests_per_second_min = 0.1;
 inline constexpr double requests_per_second_max = 1.0e6;
 
+/// Code at which a place is deeper than a voxel in rock.
+inline constexpr int buried_code = -42;
+
+/// Share of a piece that must be so deep for the piece to count as buried, and about how many of its voxels
+/// are looked at.
+inline constexpr float buried_share = 0.5F;
+inline constexpr int buried_samples = 64;
+
+/// Looks a second at a piece that no merge enclosed. Two looks in a row must find it buried: a piece that
+/// struck the ground hard is in it for a tick or two.
+inline constexpr uint32_t buried_looks_hz = 8;
+
 /// Pieces that freeze in one tick, about 10 us each. Above: in the next.
 inline constexpr size_t freezes_per_tick_max = 64;
 

@@ -1,20 +1,20 @@
 #include "server/world/merge_stage.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "server/world/buried_stage.h"
 #include "server/world/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/operation/prepared_stamp.h"
 #include "shared/operation/stamp_groups.h"
+#include "shared/recombine/posed_piece.h"
 
 namespace scree {
 
-namespace {
-
-/// Cost of a merge by the model, microseconds. `off` never merges.
-float cost_us(Recombination recombination) {
+float merge_cost_us(Recombination recombination) {
   switch (recombination) {
     case Recombination::slices:
       return limits::slices_cost_us;
@@ -27,11 +27,13 @@ float cost_us(Recombination recombination) {
   return limits::stamp_cost_us;
 }
 
+namespace {
+
 /// Merges in this tick: WorldConfig::merges_per_tick_max, or fewer, down to limits::merges_per_tick_min, as
 /// far as the tick's budget goes.
 size_t merges_max(const World::State& state) {
   const uint32_t most = state.config.merges_per_tick_max;
-  const auto room = static_cast<int>(state.work.left_us() / cost_us(state.config.methods.recombine));
+  const auto room = static_cast<int>(state.work.left_us() / merge_cost_us(state.config.methods.recombine));
   const auto least = static_cast<int>(std::min(limits::merges_per_tick_min, most));
   return static_cast<size_t>(std::clamp(room, least, static_cast<int>(most)));
 }
@@ -40,7 +42,6 @@ size_t merges_max(const World::State& state) {
 
 void settle(World::State& state, TickDelta& delta) {
   const bool merging = state.config.methods.recombine != Recombination::off;
-  if (merging && state.bodies.frozen() > 0) state.bodies.thaw_all();
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
     if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
@@ -56,7 +57,7 @@ void settle(World::State& state, TickDelta& delta) {
     return;
   }
   delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
-  state.work.spend(cost_us(state.config.methods.recombine) * static_cast<float>(ready.size()));
+  state.work.spend(merge_cost_us(state.config.methods.recombine) * static_cast<float>(ready.size()));
   state.at_rest = std::move(ready);
 }
 
@@ -74,6 +75,39 @@ StampMethod method_of(Recombination recombination) {
       break;
   }
   return StampMethod::stamp;
+}
+
+/// The smaller pieces that lie in a merging piece's volume, as rubble under a heavy piece does. Merged before
+/// it they become terrain with all their mass; afterwards there would be no room for it.
+std::vector<PieceId> enclosed_by(const World::State& state, PieceId id) {
+  const Volume& volume = *state.pieces.at(id);
+  const float dx = state.config.terrain.voxel_size_m;
+  const Pose pose = state.bodies.state(id).pose;
+  const glm::vec3 centre = pose.position_m / dx;
+  const glm::quat back = glm::conjugate(pose.rotation);
+  const auto inside = [&](glm::vec3 p_voxels) {
+    const glm::vec3 at = back * (p_voxels - centre) + volume.centre_voxels;
+    const VoxelCoord voxel{floor_to_int(at.x + 0.5F), floor_to_int(at.y + 0.5F), floor_to_int(at.z + 0.5F)};
+    return volume.window.box.holds(voxel) && volume.window.at(voxel.x, voxel.y, voxel.z) < 0;
+  };
+  std::vector<PieceId> found = pieces_within(state, posed_bounds(volume, quantise(pose), dx), inside);
+  std::erase_if(found, [&](PieceId other) { return state.pieces.at(other)->mass >= volume.mass; });
+  return found;
+}
+
+/// The pieces in their order, each after those that it would enclose, none twice.
+std::vector<PieceId> with_enclosed(const World::State& state, const std::vector<PieceId>& ids) {
+  std::vector<PieceId> order;
+  std::set<PieceId> known;
+  const auto add = [&](PieceId id) {
+    if (known.insert(id).second) order.push_back(id);
+  };
+  for (const PieceId id : ids) {
+    if (known.contains(id)) continue;
+    for (const PieceId inner : enclosed_by(state, id)) add(inner);
+    add(id);
+  }
+  return order;
 }
 
 /// The field gains the pieces' mass, and with it dust that earlier merges could not place.
@@ -95,9 +129,9 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
 
 }  // namespace
 
-void merge(World::State& state, TickDelta& delta) {
+void merge_pieces(World::State& state, const std::vector<PieceId>& ids, TickDelta& delta) {
   std::vector<StampedPiece> places;
-  for (const PieceId id : std::exchange(state.at_rest, {}))
+  for (const PieceId id : with_enclosed(state, ids))
     places.push_back({id, quantise(state.bodies.state(id).pose)});
   const bool grouping =
       state.config.methods.group_merges && method_of(state.config.methods.recombine) == StampMethod::stamp;
@@ -107,6 +141,10 @@ void merge(World::State& state, TickDelta& delta) {
   }
   for (const auto& group : stamp_groups(places, state.pieces, state.config.terrain.voxel_size_m))
     merge_group(state, group, delta);
+}
+
+void merge(World::State& state, TickDelta& delta) {
+  merge_pieces(state, std::exchange(state.at_rest, {}), delta);
 }
 
 }  // namespace scree

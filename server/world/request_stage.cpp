@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "server/world/buried_stage.h"
 #include "server/world/limits.h"
+#include "server/world/merge_stage.h"
 #include "server/world/refusal.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
@@ -90,14 +92,28 @@ Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta
   return static_cast<uint32_t>(applied.created.size());
 }
 
+/// Pieces that lie in a shape that is filled become terrain with it, so that they do not travel out of it.
+/// Returns their number, for the reply.
+uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& delta) {
+  const Recombination recombination = state.config.methods.recombine;
+  if (recombination == Recombination::off) return 0;
+  const Shape in_field = in_voxels(shape, state.config.terrain.voxel_size_m);
+  const std::vector<PieceId> enclosed = pieces_within(
+      state, band_box(in_field), [&](glm::vec3 p_voxels) { return distance(in_field, p_voxels) < 0.0F; });
+  state.work.spend(merge_cost_us(recombination) * static_cast<float>(enclosed.size()));
+  merge_pieces(state, enclosed, delta);
+  return static_cast<uint32_t>(enclosed.size());
+}
+
 Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) {
   const FillOperation operation{request.shape};
   if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
       !valid)
     return refuse(Refusal::fill_invalid, valid.error().message);
+  const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
   const Applied applied = state.apply_and_record(operation, delta);
   state.ledger.poured += applied.terrain_gain;
-  return 0U;
+  return enclosed;
 }
 
 Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
@@ -115,6 +131,8 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
     return refuse(Refusal::settings_invalid, done.error().message);
   if (state.config != before) publish_settings(state, delta);
   CHECK(delta.settings.size() <= limits::settings_max);
+  if (before.methods.recombine == Recombination::off && state.config.methods.recombine != Recombination::off)
+    state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
   return 0U;
 }

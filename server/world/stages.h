@@ -19,6 +19,7 @@ enum class TickStage : uint8_t {
   impacts,    ///< breaks and dents
   rest,       ///< rest detection
   recombine,  ///< planning and applying stamps
+  buried,     ///< merges of pieces that were enclosed in rock
   islands,    ///< search for what hangs loose, and its fall
   support,    ///< search for what is too heavy for what holds it
   specks,     ///< crumbs that merges and islands left
@@ -37,8 +38,9 @@ inline constexpr std::array tick_stages{
     TickStageRow{TickStage::carve, "carve", true},      TickStageRow{TickStage::spawn, "spawn", true},
     TickStageRow{TickStage::bodies, "bodies", false},   TickStageRow{TickStage::impacts, "impacts", false},
     TickStageRow{TickStage::rest, "rest", false},       TickStageRow{TickStage::recombine, "recombine", true},
-    TickStageRow{TickStage::islands, "islands", false}, TickStageRow{TickStage::support, "support", false},
-    TickStageRow{TickStage::specks, "specks", false},   TickStageRow{TickStage::publish, "publish", false}};
+    TickStageRow{TickStage::buried, "buried", true},    TickStageRow{TickStage::islands, "islands", false},
+    TickStageRow{TickStage::support, "support", false}, TickStageRow{TickStage::specks, "specks", false},
+    TickStageRow{TickStage::publish, "publish", false}};
 
 constexpr size_t index_of(TickStage stage) {
   return static_cast<size_t>(stage);

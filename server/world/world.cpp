@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/world/buried_stage.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
@@ -91,6 +92,8 @@ StageRun run_of(TickStage stage) {
       return settle;
     case TickStage::recombine:
       return merge;
+    case TickStage::buried:
+      return merge_buried;
     case TickStage::islands:
       return drop_islands;
     case TickStage::support:

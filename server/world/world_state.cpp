@@ -74,6 +74,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
   if (loose == Loose::specks) unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
+  if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   for (const PieceId ended : pieces_ended_by(operation)) {
     CHECK(!pieces.contains(ended));

@@ -56,6 +56,9 @@ struct World::State {
   std::set<BrickCoord> cut;       ///< bricks that lost rock and await a search for islands
   std::set<BrickCoord> strained;  ///< changed bricks that await a search for support
   std::set<BrickCoord> unswept;   ///< changed by merges and falling islands: specks may lie there
+  std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last
+  std::set<PieceId> buried;       ///< pieces in rock that await their merge
+  std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last
   IslandQueue islands;
   WorkBudget work;
   std::deque<Command> waiting;   ///< requests that wait for a tick with room for them, in order

@@ -1,0 +1,118 @@
+#include "server/world/buried_stage.h"
+
+#include <algorithm>
+
+#include "server/world/limits.h"
+#include "server/world/merge_stage.h"
+#include "shared/base/check.h"
+#include "shared/field/window.h"
+
+namespace scree {
+
+namespace {
+
+/// Every n-th voxel along each axis is looked at, so that about limits::buried_samples are.
+int stride_of(const Window& window) {
+  const VoxelCoord size = window.box.size();
+  int stride = 1;
+  const auto samples = [&] {
+    const auto along = [&](int n) { return (n + stride - 1) / stride; };
+    return along(size.x) * along(size.y) * along(size.z);
+  };
+  while (samples() > limits::buried_samples) ++stride;
+  return stride;
+}
+
+/// Whether at least half of the piece's solid voxels, as far as they are looked at, lie where `in_rock`
+/// holds.
+bool lies_within(const Volume& volume, const Pose& pose, float voxel_size_m, const InRock& in_rock) {
+  const VoxelBox& box = volume.window.box;
+  const int stride = stride_of(volume.window);
+  const glm::vec3 centre = pose.position_m / voxel_size_m;
+  int solid = 0, inside = 0;
+  for (int x = box.lo.x; x < box.hi.x; x += stride)
+    for (int y = box.lo.y; y < box.hi.y; y += stride)
+      for (int z = box.lo.z; z < box.hi.z; z += stride) {
+        if (volume.window.at(x, y, z) >= 0) continue;
+        ++solid;
+        const glm::vec3 offset = glm::vec3(x, y, z) - volume.centre_voxels;
+        if (in_rock(centre + pose.rotation * offset)) ++inside;
+      }
+  // A piece so thin that every look missed it is told by its centre of mass.
+  if (solid == 0) return in_rock(centre);
+  return static_cast<float>(inside) >= limits::buried_share * static_cast<float>(solid);
+}
+
+glm::vec3 position_m(VoxelCoord voxel, float voxel_size_m) {
+  return glm::vec3(voxel.x, voxel.y, voxel.z) * voxel_size_m;
+}
+
+InRock deeper_than_a_voxel(Field& field) {
+  return [&field](glm::vec3 p_voxels) {
+    const VoxelCoord voxel{floor_to_int(p_voxels.x + 0.5F), floor_to_int(p_voxels.y + 0.5F),
+                           floor_to_int(p_voxels.z + 0.5F)};
+    const VoxelCoord first = first_voxel(brick_of(voxel));
+    const int index = Brick::index(voxel.x - first.x, voxel.y - first.y, voxel.z - first.z);
+    return field.brick(brick_of(voxel)).codes[static_cast<size_t>(index)] <= limits::buried_code;
+  };
+}
+
+/// Pieces around the terrain that gained rock in this tick.
+void find_enclosed(World::State& state) {
+  if (state.gained.empty()) return;
+  const InRock in_rock = deeper_than_a_voxel(state.field);
+  for (const VoxelBox& box : state.gained)
+    for (const PieceId id : pieces_within(state, box, in_rock)) state.buried.insert(id);
+  state.gained.clear();
+}
+
+/// Pieces that got stuck otherwise. Each is looked at a few times a second; one that is buried in two looks
+/// in a row has not just struck the ground hard, so it does not come out again by itself.
+void find_stuck(World::State& state) {
+  const float dx = state.config.terrain.voxel_size_m;
+  const auto period = std::max<Tick>(1, state.config.tick_rate_hz / limits::buried_looks_hz);
+  const InRock in_rock = deeper_than_a_voxel(state.field);
+  for (const BodyState& body : state.bodies.states()) {
+    if (body.frozen || (body.id + state.tick) % period != 0) continue;
+    if (!in_rock(body.pose.position_m / dx) ||
+        !lies_within(*state.pieces.at(body.id), body.pose, dx, in_rock))
+      state.sunk.erase(body.id);
+    else if (!state.sunk.insert(body.id).second)
+      state.buried.insert(body.id);
+  }
+}
+
+}  // namespace
+
+std::vector<PieceId> pieces_within(const World::State& state, const VoxelBox& bounds, const InRock& in_rock) {
+  const float dx = state.config.terrain.voxel_size_m;
+  std::vector<PieceId> found;
+  for (const PieceId id : state.bodies.near(position_m(bounds.lo, dx), position_m(bounds.hi, dx)))
+    if (lies_within(*state.pieces.at(id), state.bodies.state(id).pose, dx, in_rock)) found.push_back(id);
+  return found;
+}
+
+void merge_buried(World::State& state, TickDelta& delta) {
+  find_enclosed(state);
+  find_stuck(state);
+  std::vector<PieceId> now;
+  const bool merging = state.config.methods.recombine != Recombination::off;
+  for (const PieceId id : state.buried) {
+    if (!state.bodies.contains(id)) continue;
+    const bool affordable = now.empty() || state.work.affords(merge_cost_us(state.config.methods.recombine));
+    if (merging && affordable) {
+      state.work.spend(merge_cost_us(state.config.methods.recombine));
+      now.push_back(id);
+    } else if (!state.bodies.state(id).frozen) {
+      state.bodies.freeze(id);
+    }
+  }
+  if (merging) {
+    for (const PieceId id : now) state.buried.erase(id);
+  }
+  std::erase_if(state.buried, [&](PieceId id) { return !state.bodies.contains(id); });
+  std::erase_if(state.sunk, [&](PieceId id) { return !state.bodies.contains(id); });
+  merge_pieces(state, now, delta);
+}
+
+}  // namespace scree
