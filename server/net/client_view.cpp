@@ -217,8 +217,11 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_po
   ChunkSet tainted = changes.orphan;
   ChunkSet changed;
   select_operations(changes, frame, tainted, changed);
-  // In a tainted chunk, some operations of this tick were sent and others not.
-  for (const ChunkCoord chunk : tainted) changed.erase(chunk);
+  // In a tainted chunk, some operations of this tick were sent and others not. Unless its bricks are patched,
+  // the client's copy is wrong until the whole chunk arrives, and the frame must not carry a check over it.
+  ChunkSet half_told;
+  for (const ChunkCoord chunk : tainted)
+    if (changed.erase(chunk) != 0) half_told.insert(chunk);
   select_patches(changes, tainted, frame, changed);
   if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
     rescan(changes, changed, frame);
@@ -226,8 +229,9 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_po
   std::ranges::sort(frame.removed);
   CHECK_DEBUG(is_sound(changed));
   CHECK_DEBUG(std::ranges::adjacent_find(frame.removed, std::ranges::greater_equal{}) == frame.removed.end());
-  frame.has_check = !changed.empty();
-  frame.check = check_of(changed, changes.state);
+  const auto told = [&](ChunkCoord chunk) { return changed.contains(chunk); };
+  frame.has_check = !changed.empty() && std::ranges::all_of(half_told, told);
+  if (frame.has_check) frame.check = check_of(changed, changes.state);
   return frame;
 }
 

@@ -172,6 +172,23 @@ TEST_F(NetServerTest, bind_address_that_is_none_is_said_in_words) {
   EXPECT_NE(listening.error().message.find("nowhere"), std::string::npos);
 }
 
+TEST_F(NetServerTest, a_client_that_moves_gets_what_is_near_it_now) {
+  start();
+  tick({source.carve({400.0F, 0.0F, 0.0F}, 1.0F, 4)});
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  ASSERT_TRUE(client.receive_as<WelcomeMessage>().has_value());
+  ASSERT_TRUE(client.send(InterestMessage{{400.0F, 2.0F, 0.0F}, 64.0F}));
+  std::optional<ChunkMessage> chunk;
+  const auto deadline = std::chrono::steady_clock::now() + seconds(10);
+  while (!chunk && std::chrono::steady_clock::now() < deadline) {
+    tick();
+    chunk = client.receive_as<ChunkMessage>(milliseconds(5));
+  }
+  ASSERT_TRUE(chunk.has_value());
+  EXPECT_NEAR(chunk->chunk.x, 50, 1);
+}
+
 TEST_F(NetServerTest, requests_over_the_rate_get_a_reply_each) {
   start([](NetConfig& config) { config.service.requests_per_second = 1.0; });
   RawClient client(server->port());
@@ -255,6 +272,39 @@ TEST_F(NetServerTest, client_that_never_reads_is_cut_off_and_no_other_notices) {
   EXPECT_EQ(server->stats().sessions_cut, 1U);
   EXPECT_EQ(server->stats().sessions, 1U);
   expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, what_waits_for_one_client_is_bounded_whatever_it_is) {
+  start([](NetConfig& config) { config.stall_seconds = 1000.0; });
+  RawClient deaf(server->port(), 4096);
+  ASSERT_TRUE(deaf.send(hello()));
+  const auto welcome = deaf.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome.has_value());
+  const auto reply_with = [&](size_t bytes) {
+    auto delta = std::make_shared<TickDelta>(*source.step());
+    const std::string refusal(limits::reason_bytes_max, 'x');
+    delta->replies.resize(bytes / refusal.size(), Reply{welcome->session, 1, refusal, 0});
+    server->publish(delta);
+    server->flush();
+  };
+  reply_with(limits::outbox_hard_bytes * 3 / 4);
+  EXPECT_EQ(server->stats().sessions_cut, 0U);
+  reply_with(limits::outbox_hard_bytes);
+  EXPECT_EQ(server->stats().sessions_cut, 1U) << "twice limits.outbox_hard_bytes wait";
+  expect_witness_unmoved();
+}
+
+TEST_F(NetServerTest, silent_connections_over_the_limit_are_refused_at_once) {
+  start([](NetConfig& config) { config.hello_seconds = 1000.0; });
+  std::vector<std::unique_ptr<RawClient>> silent;
+  for (uint32_t i = 0; i < limits::pending_sessions_max; ++i)
+    silent.push_back(std::make_unique<RawClient>(server->port()));
+  RawClient another(server->port());
+  expect_refused(another, "limits.pending_sessions_max");
+  ASSERT_TRUE(silent.front()->send(hello()));
+  EXPECT_TRUE(silent.front()->receive_as<WelcomeMessage>().has_value()) << "those within the limit may go on";
+  EXPECT_TRUE(silent.back()->send(hello()));
+  EXPECT_TRUE(silent.back()->receive_as<WelcomeMessage>().has_value());
 }
 
 TEST_F(NetServerTest, message_flood_is_refused) {

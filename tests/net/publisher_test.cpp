@@ -1,139 +1,20 @@
 // The publisher's selection, without sockets: what each client gets suffices to have the server's field.
 #include "server/net/publisher.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 
-#include "proto/codec.h"
-#include "proto/transforms.h"
 #include "server/net/limits.h"
-#include "tests/support/tick_source.h"
+#include "tests/support/publisher_fixture.h"
 
 namespace scree {
 namespace {
-
-constexpr uint64_t session = 1;
-const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
-
-/// A client that believes every message, and checks each frame's check.
-class Follower {
- public:
-  void take(const Outgoing& outgoing) {
-    const std::span<const uint8_t> bytes(*outgoing.bytes);
-    const auto message = decode_server(bytes.subspan(length_prefix_bytes));
-    ASSERT_TRUE(message.has_value()) << message.error().message;
-    std::visit([this](const auto& m) { apply(m); }, *message);
-  }
-
-  MapField field{flat};
-  PieceTable pieces;
-  std::vector<Tick> ticks;
-  size_t operations = 0, patches = 0, chunks = 0, piece_messages = 0, resets = 0, drops = 0, mismatches = 0;
-  std::map<PieceId, QuantisedPose> poses;
-  std::vector<ReplyMessage> replies;
-  std::vector<StatusMessage> statuses;
-
- private:
-  void apply(const FrameMessage& frame) {
-    ticks.push_back(frame.tick);
-    std::map<ChunkCoord, bool> changed;
-    for (const Operation& operation : frame.operations) {
-      ++operations;
-      ASSERT_TRUE(validate(operation, pieces, flat.voxel_size_m).has_value());
-      for (const BrickCoord brick : scree::apply(operation, field, pieces).changed)
-        changed[chunk_of(brick)] = true;
-    }
-    for (const BrickPatch& patch : frame.patches) {
-      ++patches;
-      field.set_brick(patch.coord, patch.brick);
-      field.paint_brick(patch.coord, patch.paint);
-      changed[chunk_of(patch.coord)] = true;
-    }
-    for (const ChunkCoord chunk : frame.dropped_chunks) {
-      ++drops;
-      field.forget_chunk(chunk);
-    }
-    for (const PieceId piece : frame.removed_pieces) EXPECT_EQ(pieces.erase(piece), 1U);
-    const auto moved = unpack_transforms(frame.transforms);
-    ASSERT_TRUE(moved.has_value());
-    for (const PieceState& piece : *moved) {
-      EXPECT_TRUE(pieces.contains(piece.id));
-      poses[piece.id] = piece.pose;
-    }
-    uint64_t sum = 0;
-    for (const auto& [chunk, yes] : changed) sum += field.chunk_hash(chunk);
-    EXPECT_EQ(frame.has_check, !changed.empty());
-    const uint32_t check = static_cast<uint32_t>(sum >> 32U) ^ static_cast<uint32_t>(sum);
-    if (frame.has_check && frame.check != check) ++mismatches;
-  }
-  void apply(const ChunkMessage& message) {
-    ++chunks;
-    field.forget_chunk(message.chunk);
-    for (const BrickPatch& patch : message.bricks) {
-      field.set_brick(patch.coord, patch.brick);
-      field.paint_brick(patch.coord, patch.paint);
-    }
-    EXPECT_EQ(field.chunk_hash(message.chunk), message.hash);
-  }
-  void apply(const PieceMessage& message) {
-    ++piece_messages;
-    EXPECT_FALSE(pieces.contains(message.id));
-    pieces[message.id] = std::make_shared<const Volume>(message.volume);
-    poses[message.id] = message.pose;
-  }
-  void apply(const ResetMessage&) {
-    ++resets;
-    for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
-    pieces.clear();
-  }
-  void apply(const ReplyMessage& message) { replies.push_back(message); }
-  void apply(const StatusMessage& message) { statuses.push_back(message); }
-  void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
-  void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
-  void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
-  void apply(const PhysicsMessage&) { ADD_FAILURE() << "what bodies do is not the publisher's"; }
-};
-
-class PublisherTest : public ::testing::Test {
- protected:
-  void tick(const std::vector<Operation>& operations = {}) { deliver(*source.step(operations)); }
-  void deliver(const TickDelta& delta) {
-    const auto backlog = [this](uint64_t id) { return id == session ? backlog_bytes : 0; };
-    for (const Outgoing& outgoing : publisher.publish(delta, backlog)) {
-      bytes[outgoing.session] += outgoing.bytes->size();
-      last[outgoing.session] = outgoing.bytes;
-      followers[outgoing.session].take(outgoing);
-    }
-  }
-  void join(uint64_t id, glm::vec3 eye_m, float radius_m) {
-    publisher.join(id, eye_m, radius_m);
-    followers.try_emplace(id);
-  }
-  /// Every chunk that the client holds reads as the server's.
-  void expect_held_equal(uint64_t id) {
-    for (const ChunkCoord chunk : publisher.view(id)->held())
-      EXPECT_EQ(followers.at(id).field.chunk_hash(chunk), source.field().chunk_hash(chunk));
-  }
-  void expect_whole_field_equal(uint64_t id) {
-    EXPECT_EQ(followers.at(id).field.hash(), source.field().hash());
-    EXPECT_EQ(followers.at(id).pieces.size(), source.pieces().size());
-    EXPECT_EQ(followers.at(id).mismatches, 0U);
-  }
-
-  TickSource source{flat};
-  Publisher publisher{PublisherConfig{}};
-  std::map<uint64_t, Follower> followers;
-  std::map<uint64_t, size_t> bytes;
-  std::map<uint64_t, SharedBytes> last;
-  size_t backlog_bytes = 0;
-};
 
 TEST_F(PublisherTest, client_from_the_start_gets_operations_and_no_bricks) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
   tick({source.carve({1.0F, 0.0F, 1.0F}, 1.5F, 4)});
   tick({source.stamp(1), source.stamp(2)});
-  const Follower& follower = followers.at(session);
+  const TrustingClient& follower = followers.at(session);
   EXPECT_EQ(follower.operations, 4U);
   EXPECT_EQ(follower.patches + follower.chunks + follower.piece_messages, 0U);
   expect_whole_field_equal(session);
@@ -143,7 +24,7 @@ TEST_F(PublisherTest, late_joiner_gets_chunks_and_pieces_and_then_follows_by_ope
   for (int i = 0; i < 6; ++i) tick({source.carve({static_cast<float>(4 * i), 0.0F, 0.0F}, 1.5F, 6)});
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   for (int i = 0; i < 60; ++i) tick();
-  Follower& follower = followers.at(session);
+  TrustingClient& follower = followers.at(session);
   EXPECT_GT(follower.chunks, 0U);
   EXPECT_GT(follower.piece_messages, 0U);
   expect_whole_field_equal(session);
@@ -173,7 +54,7 @@ TEST_F(PublisherTest, operation_whose_piece_is_unknown_arrives_as_bricks) {
   tick();  // the chunks arrive; pieces wait for the next tick with poses
   ASSERT_FALSE(publisher.view(session)->knows(1));
   tick({source.stamp(1)});
-  const Follower& follower = followers.at(session);
+  const TrustingClient& follower = followers.at(session);
   EXPECT_EQ(follower.operations, 0U);
   EXPECT_GT(follower.patches, 0U);
   for (int i = 0; i < 6; ++i) tick();
@@ -206,6 +87,22 @@ TEST_F(PublisherTest, far_edits_cost_a_client_nothing) {
   EXPECT_EQ(publisher.view(session)->held().size(), 0U);
 }
 
+TEST_F(PublisherTest, pieces_are_streamed_within_a_budget_of_bytes) {
+  tick({source.carve({0.0F, 0.0F, 0.0F}, 8.0F, 40)});
+  join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
+  const TrustingClient& follower = followers.at(session);
+  constexpr size_t largest_bytes = 8192;
+  size_t ticks = 0;
+  for (; follower.pieces.size() < source.pieces().size(); ++ticks) {
+    tick();
+    ASSERT_LT(ticks, 200U) << "the streaming stands still";
+    // They come with the poses, every few ticks, and may then spend what the ticks between had.
+    const size_t until_now = ticks + 1 + PublisherConfig{}.ticks_per_transform;
+    ASSERT_LE(follower.piece_bytes, until_now * limits::piece_bytes_per_tick + largest_bytes);
+  }
+  EXPECT_GT(follower.piece_bytes, 6 * limits::piece_bytes_per_tick) << "too few to tell";
+}
+
 TEST_F(PublisherTest, moving_away_drops_and_coming_back_restores) {
   join(session, {0.0F, 2.0F, 0.0F}, 24.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
@@ -217,6 +114,21 @@ TEST_F(PublisherTest, moving_away_drops_and_coming_back_restores) {
   publisher.set_interest(session, {0.0F, 2.0F, 0.0F}, 24.0F);
   for (int i = 0; i < 60; ++i) tick();
   expect_whole_field_equal(session);
+}
+
+TEST_F(PublisherTest, what_leaves_interest_by_a_little_is_kept) {
+  join(session, {4.0F, 2.0F, 4.0F}, 24.0F);
+  tick({source.carve({4.0F, 0.0F, 4.0F}, 2.0F, 4)});
+  for (const float x_m : {36.0F, 4.0F, 36.0F, 4.0F}) {  // 28 m from the chunk, and back
+    publisher.set_interest(session, {x_m, 2.0F, 4.0F}, 24.0F);
+    for (int i = 0; i < 12; ++i) tick();
+  }
+  const TrustingClient& follower = followers.at(session);
+  EXPECT_EQ(follower.drops + follower.chunks, 0U)
+      << "nothing is sent again and again to who walks to and fro";
+  publisher.set_interest(session, {44.0F, 2.0F, 4.0F}, 24.0F);
+  for (int i = 0; i < 12; ++i) tick();
+  EXPECT_GT(follower.drops, 0U) << "36 m is too far";
 }
 
 TEST_F(PublisherTest, small_radius_holds_exactly_what_is_near) {
@@ -243,7 +155,7 @@ TEST_F(PublisherTest, only_moved_pieces_have_transforms) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
   for (int i = 0; i < 3; ++i) tick();
-  Follower& follower = followers.at(session);
+  TrustingClient& follower = followers.at(session);
   follower.poses.clear();
   source.move(3, {0.0F, 1.0F, 0.0F});
   for (int i = 0; i < 6; ++i) tick();
@@ -254,7 +166,7 @@ TEST_F(PublisherTest, only_moved_pieces_have_transforms) {
 TEST_F(PublisherTest, repair_resends_exactly_the_chunks_that_differ) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 4)});
-  Follower& follower = followers.at(session);
+  TrustingClient& follower = followers.at(session);
   RepairRequest request;
   request.tick = source.tick();
   request.chunks = source.field().edited_chunks();
@@ -273,7 +185,7 @@ TEST_F(PublisherTest, repair_resends_exactly_the_chunks_that_differ) {
 TEST_F(PublisherTest, slow_client_gets_no_poses_then_no_frames_then_a_reset) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
-  Follower& follower = followers.at(session);
+  TrustingClient& follower = followers.at(session);
   backlog_bytes = limits::outbox_soft_bytes + 1;
   for (int i = 0; i < 6; ++i) tick();
   EXPECT_EQ(follower.ticks.back(), source.tick());
@@ -314,31 +226,9 @@ TEST_F(PublisherTest, keyframe_out_of_sequence_starts_every_client_anew) {
 TEST_F(PublisherTest, a_tick_that_changes_more_than_a_frame_may_hold_is_streamed) {
   tick({source.carve({0.0F, 0.0F, 0.0F}, 0.5F, 1)});
   join(session, {0.0F, 0.0F, 0.0F}, 200.0F);
-  TickDelta delta = publisher.state().as_delta();
-  ++delta.tick;
-  delta.spawned.clear();
-  for (int x = 0; x < 30; ++x)
-    for (int z = 0; z < 60; ++z) {
-      const BrickCoord coord{x, 0, z};
-      source.field().set_brick(coord, solid_brick());
-      delta.bricks.push_back(
-          {coord, std::make_shared<const Brick>(solid_brick()), brick_hash(coord, solid_brick())});
-    }
-  std::ranges::sort(delta.bricks, {}, &BrickState::coord);
-  const auto same = [](const BrickState& a, const BrickState& b) { return a.coord == b.coord; };
-  delta.bricks.erase(std::unique(delta.bricks.begin(), delta.bricks.end(), same), delta.bricks.end());
-  for (BrickState& brick : delta.bricks) {
-    brick.brick = std::make_shared<const Brick>(source.field().brick(brick.coord));
-    brick.hash = brick_hash(brick.coord, *brick.brick);
-  }
-  delta.field_hash = source.field().hash();
-  deliver(delta);
+  change(flood());
   EXPECT_LE(followers.at(session).patches, limits::patch_bricks_max);
-  for (int i = 0; i < 20; ++i) {
-    ++delta.tick;
-    delta.bricks.clear();
-    deliver(delta);
-  }
+  for (int i = 0; i < 20; ++i) tick();
   EXPECT_EQ(followers.at(session).field.hash(), source.field().hash());
 }
 
