@@ -6,11 +6,10 @@
 #include <spdlog/spdlog.h>
 #include <thread>
 
-#include "server/app/limits.h"
 #include "server/app/terrain_ahead.h"
+#include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
-#include "shared/base/check.h"
 
 namespace scree {
 
@@ -38,7 +37,7 @@ struct LiveServer::State {
     return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
   }
   void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out);
-  Clock::time_point pace(Clock::time_point due);
+  void count(TickSchedule::Delay delay);
   bool sleep_until(Clock::time_point when);
   void end(const std::string& error);
 
@@ -160,26 +159,19 @@ bool LiveServer::State::wait_for_clients() {
   return true;
 }
 
-/// The time at which the next tick is due. A late simulation catches up limits::catch_up_ticks_max ticks; the
-/// others are lost, and counted.
-Clock::time_point LiveServer::State::pace(Clock::time_point due) {
-  due += period;
-  const Clock::time_point now = Clock::now();
-  if (now <= due) return due;
+void LiveServer::State::count(TickSchedule::Delay delay) {
+  if (!delay.late) return;
   const std::scoped_lock lock(mutex);
   ++report.late_ticks;
-  const auto behind = static_cast<uint64_t>((now - due) / period);
-  if (behind <= limits::catch_up_ticks_max) return due;
-  CHECK(due + period * static_cast<int64_t>(behind + 1) > now);
-  report.overruns += behind;
-  spdlog::warn("tick {} came {} ticks late: they are lost", report.last_tick, behind);
-  return due + period * static_cast<int64_t>(behind);
+  if (delay.lost_ticks == 0) return;
+  report.overruns += delay.lost_ticks;
+  spdlog::warn("tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
 }
 
 void LiveServer::State::run() {
   if (!wait_for_clients()) return end("");
-  Clock::time_point due = Clock::now();
-  while (sleep_until(due) && step()) due = pace(due);
+  TickSchedule schedule(Clock::now(), period);
+  while (sleep_until(schedule.due()) && step()) count(schedule.tick_ended(Clock::now()));
   end("");
 }
 
