@@ -7,6 +7,7 @@
 
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
+#include "server/store/database.h"
 #include "server/store/limits.h"
 #include "server/store/recorder.h"
 #include "server/store/recording_writer.h"
@@ -322,6 +323,50 @@ TEST_F(RecordingTest, a_piece_that_is_made_twice_is_refused_in_a_replay) {
 TEST_F(RecordingTest, recording_without_a_tick_is_refused) {
   record();
   expect_refused("no tick");
+}
+
+TEST_F(RecordingTest, recording_with_missing_ticks_is_refused) {
+  simulate(6);
+  record();
+  const std::vector<char> good = read_file(path);
+  for (const char* missing : {"tick = 1", "tick = 4", "tick BETWEEN 2 AND 5"}) {
+    SCOPED_TRACE(missing);
+    write_file(path, good);
+    {
+      auto database = Database::open(path);
+      ASSERT_TRUE(database.has_value()) << database.error().message;
+      ASSERT_TRUE(database->execute(std::string("DELETE FROM frames WHERE ") + missing).has_value());
+    }
+    expect_refused("ticks are missing");
+  }
+}
+
+TEST_F(RecordingTest, data_that_is_not_what_its_checksum_says_is_refused) {
+  simulate(6);
+  record();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value()) << database.error().message;
+    ASSERT_TRUE(database->execute("UPDATE frames SET checksum = checksum + 1 WHERE tick = 4").has_value());
+  }
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_TRUE((*reader)->frame(3).has_value());
+  const auto frame = (*reader)->frame(4);
+  ASSERT_FALSE(frame.has_value());
+  EXPECT_NE(frame.error().message.find("tick 4 is not what was recorded"), std::string::npos)
+      << frame.error().message;
+}
+
+TEST_F(RecordingTest, keyframe_whose_hash_is_not_what_was_recorded_is_refused) {
+  simulate(limits::ticks_per_keyframe);
+  auto wrong = std::make_shared<TickDelta>(*deltas.back());
+  wrong->field_hash ^= 1U;
+  deltas.back() = wrong;
+  record();
+  const auto source = ReplaySource::open(path, limits::ticks_per_keyframe);
+  ASSERT_FALSE(source.has_value());
+  EXPECT_NE(source.error().message.find("hash"), std::string::npos) << source.error().message;
 }
 
 TEST_F(RecordingTest, file_cut_short_anywhere_is_refused) {
