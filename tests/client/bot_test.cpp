@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "client/bot/limits.h"
 #include "server/app/live_server.h"
 #include "tests/support/raw_server.h"
 
@@ -19,6 +20,7 @@ class BotTest : public ::testing::Test {
     LiveConfig config;
     config.world.terrain = {TerrainKind::flat, 1, 0.25F};
     config.pacing = Pacing::by_hand;
+    config.world.service.requests_per_second = 1000.0;  // else a bot at full speed is refused some in no time
     auto started = LiveServer::start(config);
     ASSERT_TRUE(started) << started.error().message;
     server_ = std::move(*started);
@@ -95,6 +97,17 @@ TEST_F(BotTest, no_carves_is_a_check_that_the_server_answers) {
   ASSERT_TRUE(finish(bot));
   EXPECT_EQ(bot.report().failure, "");
   EXPECT_EQ(bot.report().carves_asked, 0U);
+}
+
+TEST_F(BotTest, asks_no_more_while_many_requests_wait_for_their_replies) {
+  Bot bot(config(3 * limits::bot_requests_waiting_max));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(server_->step_once());
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (bot.report().carves_asked == 0 && std::chrono::steady_clock::now() < end) ASSERT_TRUE(bot.step(1ms));
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(bot.step(1ms));
+  EXPECT_EQ(bot.report().carves_asked, limits::bot_requests_waiting_max);
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_asked > limits::bot_requests_waiting_max; }));
 }
 
 TEST_F(BotTest, refusals_are_counted_by_reason) {

@@ -172,6 +172,31 @@ TEST(Connection, a_client_that_does_not_poll_stops_reading_and_loses_nothing) {
   sender.join();
 }
 
+TEST(Connection, a_client_that_does_not_poll_holds_no_more_than_its_limit_of_memory) {
+  RawServer server;
+  const auto connection = welcomed(server);
+  ASSERT_TRUE(connection);
+  ChunkMessage chunk;  // a few bytes on the wire, many once it is decoded
+  constexpr int bricks = chunk_bricks * chunk_bricks * chunk_bricks;
+  for (int i = 0; i < bricks; ++i) chunk.bricks.push_back({brick_in_chunk(chunk.chunk, i), air_brick()});
+  constexpr size_t memory_min = bricks * sizeof(Brick);
+  constexpr size_t count = 3 * limits::received_bytes_max / memory_min;
+  static_assert(count < limits::received_messages_max, "the bytes are to be what stops it");
+  std::thread sender([&] { server.send_until_stuck(chunk, count, 10000); });
+  const auto end = std::chrono::steady_clock::now() + deadline;
+  const auto arrived = [&] {
+    const ConnectionCounters counters = connection->counters();
+    return counters.pauses != 0 || counters.waiting_messages == count;
+  };
+  while (!arrived() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  const ConnectionCounters counters = connection->counters();
+  EXPECT_GE(counters.waiting_bytes, limits::received_bytes_max);
+  EXPECT_LE(counters.waiting_bytes, limits::received_bytes_max + 2 * memory_min);
+  EXPECT_EQ(counters.pauses, 1U);
+  EXPECT_EQ(wait_for(*connection, count).size(), count);
+  sender.join();
+}
+
 TEST(Connection, a_client_that_pauses_reading_is_stuck_until_it_goes_on) {
   RawServer server;
   const auto connection = welcomed(server);
@@ -182,6 +207,22 @@ TEST(Connection, a_client_that_pauses_reading_is_stuck_until_it_goes_on) {
   EXPECT_LT(sent, 100000U) << "the socket's buffers are all that takes bytes now";
   connection->pause_reading(false);
   EXPECT_GE(wait_for(*connection, sent).size(), sent);
+}
+
+TEST(Connection, a_server_that_does_not_read_is_given_up) {
+  RawServer server;
+  const auto connection = welcomed(server);
+  ASSERT_TRUE(connection);
+  CarveMessage carve;
+  carve.pattern = SeedPattern::authored;
+  carve.authored_m.resize(limits::authored_seeds_max);
+  carve.seeds = limits::authored_seeds_max;
+  // Many times what the sockets' buffers take.
+  const size_t bytes = encode(ClientMessage(carve)).size();
+  for (size_t sent = 0; sent < 64 * limits::unsent_bytes_max && connection->connected(); sent += bytes)
+    connection->send(carve);
+  wait_for_close(*connection);
+  EXPECT_TRUE(holds(connection->close_reason(), "limits.unsent_bytes_max")) << connection->close_reason();
 }
 
 TEST(Connection, a_cut_is_seen_at_both_ends) {

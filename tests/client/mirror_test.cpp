@@ -2,9 +2,11 @@
 // hostile server that gets an error, not a crash.
 #include "client/mirror/mirror.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "client/mirror/limits.h"
 #include "proto/transforms.h"
 #include "tests/support/tick_source.h"
 
@@ -143,6 +145,25 @@ TEST(Mirror, a_chunk_under_repair_is_not_asked_for_again_at_every_frame) {
   const auto again = pair.mirror.take_repair_request();
   for (const ChunkCoord chunk : again ? again->chunks : std::vector<ChunkCoord>{})
     EXPECT_FALSE(chunk_of(VoxelCoord{4, -2, 4}) == chunk);
+}
+
+TEST(Mirror, a_repair_that_does_not_come_is_asked_for_again_in_the_end) {
+  Pair pair;
+  FrameMessage frame = pair.frame({pair.carve()});
+  frame.check ^= 1U;
+  ASSERT_TRUE(pair.mirror.apply(frame));
+  const auto first = pair.mirror.take_repair_request();
+  ASSERT_TRUE(first);
+  for (Tick tick = 0; tick < limits::repair_patience_ticks; ++tick)
+    ASSERT_TRUE(pair.mirror.apply(pair.frame({})));
+  frame = pair.frame({pair.source.carve({1.0F, -0.5F, 1.0F}, 2.0F, 8)});  // a wider one, in the same chunks
+  frame.check ^= 1U;
+  ASSERT_TRUE(pair.mirror.apply(frame));
+  const auto again = pair.mirror.take_repair_request();
+  ASSERT_TRUE(again);
+  for (const ChunkCoord chunk : first->chunks)
+    EXPECT_TRUE(std::ranges::find(again->chunks, chunk) != again->chunks.end());
+  EXPECT_EQ(again->tick, frame.tick);
 }
 
 TEST(Mirror, patches_stand_in_for_an_operation_that_was_not_sent) {
