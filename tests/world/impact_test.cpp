@@ -214,6 +214,51 @@ TEST(impact, caps_on_generations_size_and_count_keep_the_mass) {
   EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
 }
 
+/// Takes every piece but the heaviest out of the world and throws that one at the ground anew.
+PieceId throw_heaviest(World::State& state, TickDelta& delta) {
+  const auto lighter = [](const auto& a, const auto& b) { return a.second->mass < b.second->mass; };
+  const PieceId heaviest = std::ranges::max_element(state.pieces, lighter)->first;
+  const PieceTraits traits = state.traits_of(heaviest);
+  std::vector<PieceId> all;
+  for (const auto& [id, volume] : state.pieces) all.push_back(id);
+  for (const PieceId id : all) {
+    if (state.bodies.contains(id)) state.bodies.remove(id);
+    if (id != heaviest) state.apply_and_record(DiscardOperation{id}, delta);
+  }
+  Applied again;
+  again.created = {{heaviest, {}}};
+  const auto born = [&](PieceId, const Volume&) {
+    Newborn piece;
+    piece.body.pose.position_m = {0.0F, 6.0F, 0.0F};
+    piece.body.velocity_m_s = {0.0F, -40.0F, 0.0F};
+    piece.traits = traits;
+    return piece;
+  };
+  spawn(state, again, born, delta);
+  return heaviest;
+}
+
+TEST(impact, a_piece_whose_ancestors_broke_often_enough_holds) {
+  World::State state(flat_world());
+  state.config.methods.dents = false;
+  TickDelta delta;
+  const Shape block = box({0.0F, 12.0F, 0.0F}, glm::vec3(3.0F));
+  apply(FillOperation{block}, state.field, state.pieces);
+  state.apply_and_record(
+      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(4.0F)), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+  for (int generation = 0; generation <= limits::break_generations_max; ++generation) {
+    const PieceId piece = throw_heaviest(state, delta);
+    ASSERT_GT(state.pieces.at(piece)->mass, 2 * limits::break_mass_min)
+        << "its size is not to be why it holds";
+    for (int tick = 0; tick < 60 && state.pieces.contains(piece); ++tick) {
+      state.bodies.step();
+      apply_impacts(state, delta);
+    }
+    EXPECT_EQ(state.pieces.contains(piece), generation == limits::break_generations_max)
+        << "a piece whose ancestors broke " << generation << " times";
+  }
+}
+
 TEST(impact, two_worlds_with_impacts_agree_at_every_tick) {
   World one(flat_world()), other(flat_world());
   for (int tick = 0; tick < 300; ++tick) {

@@ -8,6 +8,8 @@
 #include "bench/support/scenes.h"
 #include "server/app/server_report.h"
 #include "server/world/limits.h"
+#include "server/world/merge_stage.h"
+#include "server/world/spawn.h"
 #include "server/world/world.h"
 
 namespace scree {
@@ -53,6 +55,19 @@ TEST(work, what_will_be_refused_takes_nothing_from_the_others) {
   EXPECT_EQ(filling({0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F}, 2.0F), 0.0F);
 }
 
+TEST(work, bodies_born_in_a_tick_count_in_that_tick) {
+  World world({});
+  const std::vector<Command> commands = blows(world, 1, 64);
+  const float asked_us = cost_us(commands[0], world.config().terrain.voxel_size_m);
+  const auto delta = step(world, commands);
+  ASSERT_EQ(delta->pieces.size(), 64U);
+  const float bodies_us = 64.0F * limits::body_cost_us;
+  EXPECT_GE(static_cast<float>(delta->work.estimate_us), asked_us + bodies_us - 1.0F);
+  const auto next = step(world);
+  EXPECT_GE(static_cast<float>(next->work.estimate_us), bodies_us - 1.0F) << "and in the next one alone";
+  EXPECT_LT(next->work.estimate_us, delta->work.estimate_us);
+}
+
 TEST(work, too_many_requests_at_once_are_refused_by_name) {
   World world({});
   std::vector<Command> commands;
@@ -81,6 +96,32 @@ TEST(work, what_is_cut_is_the_same_every_time_and_reported) {
   EXPECT_EQ(report.work.budget_us, 12500U);
   EXPECT_LE(report.work.first_cut_short, report.work.last_cut_short);
   EXPECT_NE(to_json(report).find("ticks_merging_sooner"), std::string::npos);
+}
+
+TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  World::State state(config);
+  TickDelta delta;
+  const glm::vec3 centre_m(0.0F, 0.0F, 0.0F);
+  const Applied cut = state.apply_and_record(
+      CarveOperation{sphere(centre_m, 1.0F), SeedPattern::uniform, 12, 1, centre_m, 1}, delta);
+  const auto where_it_was = [](PieceId, const Volume& volume) {
+    Newborn born;
+    born.body.pose.position_m = volume.centre_voxels * 0.25F;
+    return born;
+  };
+  spawn(state, cut, where_it_was, delta);
+  for (int tick = 0; tick < 300 && state.at_rest.size() <= limits::merges_per_tick_min; ++tick) {
+    state.bodies.step();
+    settle(state, delta);
+  }
+  ASSERT_GT(state.at_rest.size(), limits::merges_per_tick_min);
+  const size_t could_merge = state.at_rest.size() + delta.work.merges_put_off;
+  state.work.spend(1e6F);
+  settle(state, delta);
+  EXPECT_EQ(state.at_rest.size(), limits::merges_per_tick_min);
+  EXPECT_EQ(delta.work.merges_put_off, could_merge - limits::merges_per_tick_min);
 }
 
 TEST(work, without_merging_what_rests_is_frozen_and_thaws_for_the_next_blow) {
