@@ -163,6 +163,17 @@ TEST(island, what_stands_on_a_post_is_ground_and_without_it_an_island) {
   }
 }
 
+TEST(island, a_search_goes_down_to_the_ground_before_it_climbs) {
+  constexpr int height = 40, changed = 4;
+  MapField field(flat);
+  for (int y = 0; y < height; ++y) field.set_brick({0, y, 0}, solid_brick());
+  IslandSearch search(field, std::vector<BrickCoord>{{0, changed, 0}});
+  size_t bricks = 1000;
+  ASSERT_TRUE(search.advance(bricks));
+  EXPECT_TRUE(search.islands().empty());
+  EXPECT_LE(1000 - bricks, changed + 2U) << "what stands above the change need not be looked at";
+}
+
 /// A bar of bricks in the air.
 std::vector<BrickCoord> bar_of(Field& field, int length) {
   std::vector<BrickCoord> bar;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <type_traits>
 
+#include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/field/mass.h"
 
@@ -90,6 +91,31 @@ TEST(field, scatter_writes_what_gather_read_and_reports_only_changes) {
   EXPECT_EQ(changed[0], brick_of(VoxelCoord{-11, -3, 5}));
   EXPECT_EQ(changed[1], brick_of(VoxelCoord{8, 16, 25}));
   EXPECT_EQ(gather(field, box).codes, window.codes);
+}
+
+TEST(field, scatter_sees_a_change_of_any_single_code_whatever_the_window_cuts_off) {
+  for (int begin = 0; begin < brick_size; ++begin)
+    for (int end = begin + 1; end <= brick_size; ++end)
+      for (int z = begin; z < end; ++z) {
+        MapField field({TerrainKind::flat, 1, 0.25F});
+        Window window = gather(field, {{2, 80, begin}, {4, 82, end}});
+        window.at(3, 81, z) = 5;
+        ASSERT_EQ(scatter(field, window).size(), 1U) << "code " << z << " of " << begin << " to " << end;
+        ASSERT_EQ(gather(field, window.box).codes, window.codes);
+      }
+}
+
+TEST(field, generated_chunks_are_kept_up_to_a_bound_and_made_anew_beyond) {
+  Random random(9);
+  MapField field({TerrainKind::canyon, 3, 0.25F});
+  const Brick generated = field.brick({2, 0, 2}), edited = random_brick(random);
+  field.set_brick({1, 0, 1}, edited);
+  for (int i = 0; i < static_cast<int>(limits::generated_chunks_max) + 10; ++i) {
+    field.brick({chunk_bricks * i, 400, 0});
+    ASSERT_LE(field.generated_chunks(), limits::generated_chunks_max);
+  }
+  EXPECT_EQ(field.brick({2, 0, 2}), generated);
+  EXPECT_EQ(field.brick({1, 0, 1}), edited);
 }
 
 TEST(field, sampling_a_plane_gives_its_distance_and_normal_across_brick_borders) {

@@ -272,6 +272,25 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(IslandOperation{{{1 << 24, 0, 0}, {(1 << 24) + 8, 8, 8}}, {1 << 24, 0, 0}, 1}, "outside the world");
 }
 
+TEST(operation, ids_of_pieces_never_wrap_around) {
+  PieceTable pieces;
+  pieces[5] = std::make_shared<const Volume>();
+  CarveOperation carve = ball(8);
+  carve.first_piece = UINT32_MAX - 8;
+  EXPECT_TRUE(validate(carve, pieces, dx).has_value());
+  ShatterOperation shatter{5, SeedPattern::radial, 8, 0, {}, UINT32_MAX - 8};
+  EXPECT_TRUE(validate(shatter, pieces, dx).has_value());
+  IslandOperation island{{{0, 0, 0}, {8, 8, 8}}, {7, 0, 0}, UINT32_MAX - 1};
+  EXPECT_TRUE(validate(island, pieces, dx).has_value());
+  carve.first_piece = shatter.first_piece = UINT32_MAX - 7;
+  island.piece = UINT32_MAX;
+  for (const Operation& operation : {Operation(carve), Operation(shatter), Operation(island)}) {
+    const Result<void> valid = validate(operation, pieces, dx);
+    ASSERT_FALSE(valid.has_value());
+    EXPECT_NE(valid.error().message.find("used up"), std::string::npos) << valid.error().message;
+  }
+}
+
 TEST(pose, quantising_keeps_position_and_rotation_within_a_step) {
   const Pose pose{{12.345F, -3.21F, 1000.5F}, glm::normalize(glm::quat(0.3F, -0.8F, 0.2F, 0.4F))};
   const Pose back = dequantise(quantise(pose));

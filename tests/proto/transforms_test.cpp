@@ -60,6 +60,16 @@ TEST(Transforms, ids_that_do_not_ascend_are_refused) {
   EXPECT_NE(got.error().message.find("ascending"), std::string::npos);
 }
 
+TEST(Transforms, more_than_a_frame_may_hold_are_refused) {
+  std::vector<PieceState> pieces(limits::entries_per_frame_max);
+  for (size_t i = 0; i < pieces.size(); ++i) pieces[i].id = static_cast<PieceId>(i);
+  EXPECT_TRUE(unpack_transforms(pack_transforms(pieces)));
+  pieces.push_back({static_cast<PieceId>(pieces.size()), {}});
+  const auto got = unpack_transforms(pack_transforms(pieces));
+  ASSERT_FALSE(got);
+  EXPECT_NE(got.error().message.find("more than 65536 pieces"), std::string::npos) << got.error().message;
+}
+
 TEST(Transforms, positions_beyond_their_range_are_refused) {
   std::vector<PieceState> pieces = {{1, {limits::pose_coordinate_max, 0, 0, 0}}};
   std::vector<uint8_t> bytes = pack_transforms(pieces);

@@ -84,6 +84,21 @@ TEST(group_merge, what_lies_apart_merges_as_it_would_alone) {
   EXPECT_EQ(sides, 0U);
 }
 
+TEST(group_merge, every_piece_of_a_group_is_there_though_their_boxes_overlap) {
+  Heap heap;
+  const std::vector<StampedPiece> group = heap.group(0, limits::stamp_group_max);
+  PieceTable pieces = heap.pieces;
+  apply(operation_of(group), heap.field, heap.pieces);
+  for (const StampedPiece& one : group) {
+    const Window& window = pieces.at(one.piece)->window;
+    const Window after = gather(heap.field, window.box);
+    for (size_t i = 0; i < window.codes.size(); ++i) {
+      if (window.codes[i] > -60) continue;  // well within the piece
+      ASSERT_LT(after.codes[i], 0) << "rock of piece " << one.piece << " is missing";
+    }
+  }
+}
+
 TEST(group_merge, groups_that_may_not_merge_together_are_refused_by_name) {
   const Heap heap;
   const auto refused = [&](const StampOperation& op, const char* why) {
