@@ -141,6 +141,22 @@ TEST(Bodies, a_speck_at_top_speed_does_not_pass_the_ground) {
   }
 }
 
+TEST(Bodies, speed_and_spin_are_cut_to_what_a_tick_can_carry) {
+  MapField field(terrain(TerrainKind::flat));
+  Bodies bodies(field, {});
+  BodyState mad = body_at(1, {0.0F, 50.0F, 0.0F}, {1000.0F, 0.0F, 0.0F});
+  mad.spin_rad_s = {0.0F, 1000.0F, 0.0F};
+  constexpr float half_m = 0.5F;
+  bodies.add(box_shape(glm::vec3(half_m)), mad);
+  for (int tick = 0; tick < 10; ++tick) {
+    const BodyState before = bodies.state(1);
+    EXPECT_LE(glm::length(before.spin_rad_s), limits::spin_max_rad_s * 1.001F);
+    const float surface_m_s = speed_of(before) + glm::length(before.spin_rad_s) * bodies.reach_m(1);
+    EXPECT_LE(surface_m_s / 60.0F, limits::travel_max_voxels * voxel_m * 1.001F);
+    bodies.step();
+  }
+}
+
 TEST(Bodies, a_spike_does_not_pass_through_a_big_face) {
   MapField field(terrain(TerrainKind::flat));
   PieceTable pieces;

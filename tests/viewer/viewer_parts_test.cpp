@@ -76,6 +76,16 @@ TEST(Playback, clock_never_runs_backwards_nor_past_the_newest_frame) {
   EXPECT_LE(playback.draw_tick(1000.0), 200.0);
 }
 
+TEST(Playback, holds_no_more_messages_back_than_its_limit) {
+  Playback playback;
+  playback.start(WelcomeMessage{});
+  playback.push(frame(60), 10.0);
+  for (size_t i = 1; i < limits::playback_messages_max; ++i) playback.push(StatusMessage{}, 10.0);
+  EXPECT_TRUE(playback.take_due(10.0).empty()) << "all wait behind the frame";
+  playback.push(StatusMessage{}, 10.0);
+  EXPECT_EQ(playback.take_due(10.0).size(), limits::playback_messages_max + 1);
+}
+
 TEST(Playback, goes_on_after_a_jump_of_the_server) {
   Playback playback;
   playback.start(WelcomeMessage{});
