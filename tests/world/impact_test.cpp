@@ -1,9 +1,11 @@
 // Impacts: what falls hard breaks where it struck and dents soft ground; mass and momentum stay.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <utility>
 
 #include "server/store/recorder.h"
 #include "server/world/impact_stage.h"
@@ -234,7 +236,9 @@ PieceId throw_heaviest(World::State& state, TickDelta& delta) {
     piece.traits = traits;
     return piece;
   };
+  const PieceId next = std::exchange(state.next_piece, heaviest);
   spawn(state, again, born, delta);
+  state.next_piece = std::max(next, heaviest + 1);
   return heaviest;
 }
 
