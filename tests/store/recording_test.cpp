@@ -359,12 +359,26 @@ TEST_F(RecordingTest, data_that_is_not_what_its_checksum_says_is_refused) {
 }
 
 TEST_F(RecordingTest, keyframe_whose_hash_is_not_what_was_recorded_is_refused) {
-  simulate(limits::ticks_per_keyframe);
-  auto wrong = std::make_shared<TickDelta>(*deltas.back());
-  wrong->field_hash ^= 1U;
-  deltas.back() = wrong;
+  constexpr Tick tick = limits::ticks_per_keyframe;
+  simulate(tick);
   record();
-  const auto source = ReplaySource::open(path, limits::ticks_per_keyframe);
+  std::vector<uint8_t> wrong;
+  {
+    auto reader = RecordingReader::open(path);
+    ASSERT_TRUE(reader.has_value()) << reader.error().message;
+    auto keyframe = (*reader)->keyframe_before(tick);
+    ASSERT_TRUE(keyframe.has_value() && keyframe->has_value());
+    (*keyframe)->field_hash ^= 1U;
+    wrong = encode(**keyframe);
+  }
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value()) << database.error().message;
+    const auto replace =
+        database->prepare("REPLACE INTO keyframes (tick, data, checksum) VALUES (?1, ?2, ?3)");
+    ASSERT_TRUE(replace.has_value() && database->put(*replace, tick, wrong).has_value());
+  }
+  const auto source = ReplaySource::open(path, tick);
   ASSERT_FALSE(source.has_value());
   EXPECT_NE(source.error().message.find("hash"), std::string::npos) << source.error().message;
 }
