@@ -97,7 +97,7 @@ void Bodies::add(const BodyShape& shape, const BodyState& state) {
   body.reach_m = radius_of(shape.hull_m);
   body.mass_kg = shape.mass_kg;
   body.inertia_kg_m2 = stable_inertia(shape.inertia_kg_m2);
-  const float spin_travel_m = 0.2F * limits::travel_max_voxels * s.voxel_size_m / s.tick_s;
+  const float spin_travel_m = 0.2F * limits::travel_max_voxels * s.voxel_size_m / s.step_s;
   body.spin_max_rad_s = std::min(limits::spin_max_rad_s, spin_travel_m / std::max(body.reach_m, 0.01F));
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(), body.inertia_kg_m2);
   info.m_startWorldTransform = to_bullet(state.pose);
@@ -144,21 +144,33 @@ size_t Bodies::size() const {
   return state_->bodies.size();
 }
 
-void Bodies::step() {
-  State& s = *state_;
-  for (auto& [id, body] : s.bodies) {
+void Bodies::State::step() {
+  for (auto& [id, body] : bodies) {
     if (body.frozen) continue;
     body.hulls->turn(from_bullet(body.rigid->getWorldTransform().getBasis()));
     if (!body.rigid->isActive()) continue;
     body.last = body.rigid->getWorldTransform();
-    s.find_ground(body);
+    find_ground(body);
   }
-  s.dynamics.stepSimulation(s.tick_s, 0);
-  for (auto& [id, body] : s.bodies)
-    if (body.rigid->isActive()) s.settle(body);
-  if (s.frozen > 0) s.thaw_struck();
-  for (auto& [id, body] : s.bodies)
-    if (body.thawed) s.wake_around_thawed(body);
+  dynamics.stepSimulation(step_s, 0);
+  for (auto& [id, body] : bodies)
+    if (body.rigid->isActive()) settle(body);
+  if (frozen > 0) thaw_struck();
+  for (auto& [id, body] : bodies)
+    if (body.thawed) wake_around_thawed(body);
+}
+
+void Bodies::step() {
+  State& s = *state_;
+  s.struck.clear();
+  for (int step = 0; step < s.steps_a_tick; ++step) {
+    if (step > 0) {
+      const std::vector<BodyImpact> blows =
+          list_impacts(s.dispatcher, s.terrain, limits::struck_speed_min_m_s);
+      s.struck.insert(s.struck.end(), blows.begin(), blows.end());
+    }
+    s.step();
+  }
   CHECK_DEBUG(
       std::ranges::all_of(s.bodies, [&](const auto& one) { return s.is_sound(one.first, one.second); }));
   CHECK_DEBUG(std::ranges::count_if(s.bodies, [](const auto& one) {
@@ -257,7 +269,17 @@ BodyContacts Bodies::contacts() const {
 }
 
 std::vector<BodyImpact> Bodies::impacts(float speed_min_m_s) const {
-  return list_impacts(state_->dispatcher, state_->terrain, speed_min_m_s);
+  std::vector<BodyImpact> all = list_impacts(state_->dispatcher, state_->terrain, speed_min_m_s);
+  for (const BodyImpact& blow : state_->struck) {
+    const auto body = state_->bodies.find(blow.id);
+    if (body == state_->bodies.end() || blow.impulse_n_s < speed_min_m_s * body->second.mass_kg) continue;
+    const auto place = std::ranges::lower_bound(all, blow.id, {}, &BodyImpact::id);
+    if (place == all.end() || place->id != blow.id)
+      all.insert(place, blow);
+    else if (place->impulse_n_s < blow.impulse_n_s)
+      *place = blow;
+  }
+  return all;
 }
 
 float Bodies::mass_kg(PieceId id) const {

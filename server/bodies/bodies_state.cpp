@@ -49,18 +49,26 @@ bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_
          is_unit(contact.normal) && std::isfinite(contact.distance_m) && !(contact.distance_m > reach_m);
 }
 
+/// 1,000 Hz has one step a tick, as has 60 Hz; 10 Hz has six.
+int steps_in(float tick_s) {
+  int steps = 1;
+  while (tick_s > limits::step_max_s * 1.001F * static_cast<float>(steps)) ++steps;
+  return steps;
+}
+
 }  // namespace
 
 Bodies::State::State(Field& field, const BodiesConfig& c)
     : config(c),
       terrain_field(field),
       voxel_size_m(field.source().voxel_size_m),
-      tick_s(1.0F / static_cast<float>(c.tick_rate_hz)),
+      steps_a_tick(steps_in(1.0F / static_cast<float>(c.tick_rate_hz))),
+      step_s(1.0F / static_cast<float>(c.tick_rate_hz * static_cast<uint32_t>(steps_a_tick))),
       collision_configuration(sizes()),
       dispatcher(&collision_configuration),
       dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
       terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
-  CHECK(std::isfinite(tick_s) && std::isfinite(c.gravity_m_s2));
+  CHECK(std::isfinite(step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.restitution >= 0.0F && c.restitution <= 1.0F);
   terrain.setCollisionShape(&terrain_shape);
   // Asleep, so that the island manager does not wake sleeping bodies that touch it.
@@ -83,13 +91,13 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
 void Bodies::State::find_ground(Body& body) {
   const btRigidBody& rigid = *body.rigid;
   const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
-  const float reach_m = limits::contact_slack_m + speed * tick_s;
+  const float reach_m = limits::contact_slack_m + speed * step_s;
   found.clear();
   body.probe->find(from_bullet(rigid.getWorldTransform()), reach_m, found);
   CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
     return is_sound_contact(contact, body.points_m.size(), reach_m);
   }));
-  refill(*body.ground, rigid, found, {terrain_field, config.restitution, tick_s});
+  refill(*body.ground, rigid, found, {terrain_field, config.restitution, step_s});
 }
 
 bool Bodies::State::is_sound(PieceId id, const Body& body) const {
@@ -101,14 +109,14 @@ bool Bodies::State::is_sound(PieceId id, const Body& body) const {
            pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
   constexpr float rounding = 1.001F;
   const float travel_m =
-      (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * tick_s;
+      (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * step_s;
   return body.ground != nullptr && !rigid.isStaticObject() &&
          travel_m <= rounding * limits::travel_max_voxels * voxel_size_m;
 }
 
 void Bodies::State::limit_speeds(Body& body) const {
   btRigidBody& rigid = *body.rigid;
-  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / tick_s;
+  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / step_s;
   const float speed = rigid.getLinearVelocity().length();
   if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
   const float turning = rigid.getAngularVelocity().length();
@@ -126,8 +134,8 @@ void Bodies::State::settle(Body& body) const {
     velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
   }
   const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
-  velocity *= 1.0F - tick_s * (creeping ? limits::ground_damping : limits::air_damping);
-  spin *= 1.0F - tick_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
+  velocity *= 1.0F - step_s * (creeping ? limits::ground_damping : limits::air_damping);
+  spin *= 1.0F - step_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
   rigid.setLinearVelocity(velocity);
   rigid.setAngularVelocity(spin);
   limit_speeds(body);

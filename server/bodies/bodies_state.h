@@ -58,6 +58,8 @@ struct Bodies::State {
   void find_ground(Body& body);
   /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a tick.
   void limit_speeds(Body& body) const;
+  /// Advances by step_s.
+  void step();
   /// Applies damping and the speed limits after the step.
   void settle(Body& body) const;
   /// Wakes the body; thaws it if it is frozen.
@@ -78,7 +80,9 @@ struct Bodies::State {
   BodiesConfig config;
   Field& terrain_field;
   float voxel_size_m;
-  float tick_s;
+  int steps_a_tick;  ///< a tick longer than limits::step_max_s takes several
+  float step_s;
+  std::vector<BodyImpact> struck;  ///< in the last tick's steps but its last, by id, one a body and step
   HullAlgorithmCreator hull_algorithm;
   btDefaultCollisionConfiguration collision_configuration;
   btCollisionDispatcher dispatcher;

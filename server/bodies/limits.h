@@ -65,6 +65,14 @@ inline constexpr float ground_damping = 1.5F;
 inline constexpr float ground_spin_damping = 3.0F;
 inline constexpr float creep_m_s = 1.0F;
 
+/// Longest step of the simulation of bodies, seconds: in a longer one gravity gives a piece more speed than
+/// contacts take, so that pieces jump instead of coming to rest. A longer tick takes several steps.
+inline constexpr float step_max_s = 1.0F / 60.0F;
+
+/// Change of a body's speed in one contact from which on a blow in an early step of a tick is kept for the
+/// tick's end, m/s. The world asks for harder ones only.
+inline constexpr float struck_speed_min_m_s = 1.0F;
+
 /// Iterations of the contact solver. Heaps of rubble need no exact stacking; each costs a tenth of a step.
 inline constexpr int solver_iterations = 8;
 

@@ -15,9 +15,9 @@ namespace scree {
 namespace {
 
 /// Distance to the ground at the tick's end if nothing stopped the body.
-float expected_distance_m(const TerrainContact& contact, glm::vec3 velocity, glm::vec3 spin, float tick_s) {
+float expected_distance_m(const TerrainContact& contact, glm::vec3 velocity, glm::vec3 spin, float step_s) {
   const glm::vec3 moving = velocity + glm::cross(spin, contact.offset_m);
-  return contact.distance_m + glm::dot(moving, contact.normal) * tick_s;
+  return contact.distance_m + glm::dot(moving, contact.normal) * step_s;
 }
 
 /// Moves the wanted contacts to the front and returns their number: first the deepest, then again and again
@@ -83,7 +83,7 @@ void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector
   const glm::vec3 velocity = from_bullet(body.getLinearVelocity());
   const glm::vec3 spin = from_bullet(body.getAngularVelocity());
   std::erase_if(found, [&](const TerrainContact& contact) {
-    return expected_distance_m(contact, velocity, spin, surface.tick_s) > limits::contact_slack_m;
+    return expected_distance_m(contact, velocity, spin, surface.step_s) > limits::contact_slack_m;
   });
   if (found.empty()) return;
   const size_t wanted = choose(found);

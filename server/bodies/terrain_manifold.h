@@ -14,7 +14,7 @@ namespace scree {
 struct TerrainSurface {
   const Field& field;
   float restitution = 0.0F;
-  float tick_s = 0.0F;
+  float step_s = 0.0F;
 };
 
 /// Refills `manifold`, whose body 0 is `body`, with those of `found` that may touch within the tick: at most

@@ -62,10 +62,19 @@ void stack(std::vector<Resting>& resting, std::span<const RestSupport> supports)
   }
 }
 
+/// To the nearest tick, and one at least.
+uint32_t ticks_of(float seconds, uint32_t tick_rate_hz) {
+  return std::max(1U, static_cast<uint32_t>(seconds * static_cast<float>(tick_rate_hz) + 0.5F));
+}
+
 }  // namespace
 
 RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
-    : config_(config), leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {
+    : config_(config),
+      rest_ticks_(ticks_of(config.rest_s, tick_rate_hz)),
+      patience_ticks_(ticks_of(config.patience_s, tick_rate_hz)),
+      contact_ticks_(ticks_of(config.contact_s, tick_rate_hz)),
+      leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {
   CHECK(tick_rate_hz > 0);
   CHECK(config.leash_m > 0.0F && config.leash_m <= config.leash_max_m && config.leash_growth_m_s >= 0.0F);
 }
@@ -77,9 +86,9 @@ bool RestDetector::watch(const RestPiece& piece, bool on_terrain, uint32_t rest_
   ++watch.still_ticks;
   if (on_terrain)
     watch.terrain_ticks = 1;
-  else if (watch.terrain_ticks > 0 && watch.terrain_ticks <= config_.contact_ticks)
+  else if (watch.terrain_ticks > 0 && watch.terrain_ticks <= contact_ticks_)
     ++watch.terrain_ticks;
-  const uint32_t impatient = watch.age_ticks - std::min(watch.age_ticks, config_.patience_ticks);
+  const uint32_t impatient = watch.age_ticks - std::min(watch.age_ticks, patience_ticks_);
   const float leash_m =
       std::min(config_.leash_m + leash_growth_m_tick_ * static_cast<float>(impatient), config_.leash_max_m);
   if (is_new || !(strayed_m(watch.anchor, piece.pose, piece.reach_m) <= leash_m)) {
@@ -96,7 +105,7 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   CHECK_DEBUG(std::ranges::adjacent_find(pieces, std::ranges::greater_equal{}, &RestPiece::id) ==
               pieces.end());
   CHECK_DEBUG(std::ranges::is_sorted(on_terrain));
-  const uint32_t rest_ticks = hurried ? (config_.rest_ticks + 1) / 2 : config_.rest_ticks;
+  const uint32_t rest_ticks = hurried ? (rest_ticks_ + 1) / 2 : rest_ticks_;
   std::vector<Resting> resting;
   auto known = watches_.begin();
   for (const RestPiece& piece : pieces) {
@@ -105,7 +114,7 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
     const bool touching = std::ranges::binary_search(on_terrain, piece.id);
     if (!watch(piece, touching, rest_ticks)) continue;
     const uint32_t touched = watches_.find(piece.id)->second.terrain_ticks;
-    const bool grounded = touched > 0 && touched <= config_.contact_ticks;
+    const bool grounded = touched > 0 && touched <= contact_ticks_;
     resting.push_back({piece.id, piece.pose.position_m.y, grounded ? 1U : 0U});
   }
   watches_.erase(known, watches_.end());

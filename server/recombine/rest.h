@@ -19,12 +19,12 @@
 namespace scree {
 
 struct RestConfig {
-  uint32_t rest_ticks = 20;        ///< ⅓ s at 60 Hz: a piece at the apex of a toss falls 0.14 m beside it
+  float rest_s = 1.0F / 3.0F;      ///< a piece at the apex of a toss falls 0.14 m beside it in that time
   float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
-  uint32_t patience_ticks = 120;   ///< age at which the leash begins to grow
+  float patience_s = 2.0F;         ///< age at which the leash begins to grow
   float leash_growth_m_s = 0.05F;  ///< growth of the leash from that age on
   float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving
-  uint32_t contact_ticks = 12;     ///< a contact still counts so long after its last tick: contacts flicker
+  float contact_s = 0.2F;          ///< a contact still counts so long after its last tick: contacts flicker
 };
 
 /// A piece after the bodies' step. `reach_m`: radius about its centre of mass.
@@ -70,6 +70,7 @@ class RestDetector {
   bool watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks);
 
   RestConfig config_;
+  uint32_t rest_ticks_, patience_ticks_, contact_ticks_;
   float leash_growth_m_tick_;
   std::map<PieceId, Watch> watches_;
   size_t at_rest_ = 0;

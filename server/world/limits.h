@@ -6,10 +6,9 @@
 
 namespace scree::limits {
 
-/// Ticks a second. Below, gravity gives a piece more speed in a tick than the ground takes: at 10 to 20 Hz
-/// pieces jump and break instead of coming to rest. Above, a tick's work does not fit into its time. Refused
-/// where a world is created.
-inline constexpr uint32_t tick_rate_min_hz = 30;
+/// Ticks a second. Below, a click is answered so late that it seems lost; above, a tick's work does not fit
+/// into its time. Refused where a world is created.
+inline constexpr uint32_t tick_rate_min_hz = 10;
 inline constexpr uint32_t tick_rate_max_hz = 1000;
 
 /// Pieces alive at once that a world may be asked for. Above, no machine of today keeps the tick; none at all

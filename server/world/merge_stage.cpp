@@ -11,6 +11,7 @@
 #include "shared/operation/prepared_stamp.h"
 #include "shared/operation/stamp_groups.h"
 #include "shared/recombine/posed_piece.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
@@ -110,6 +111,14 @@ std::vector<PieceId> with_enclosed(const World::State& state, const std::vector<
   return order;
 }
 
+/// The settings' method, or the stamp where that method's window would be too large: the ball of a box.
+StampMethod method_for(const World::State& state, const StampedPiece& piece) {
+  const StampMethod wanted = method_of(state.config.methods.recombine);
+  const VoxelBox box =
+      stamp_box(wanted, *state.pieces.at(piece.piece), piece.pose, state.config.terrain.voxel_size_m);
+  return Window::count(box) <= limits::stamp_voxels_max ? wanted : StampMethod::stamp;
+}
+
 /// The field gains the pieces' mass, and with it dust that earlier merges could not place.
 void merge_group(World::State& state, const std::vector<StampedPiece>& group, TickDelta& delta) {
   CHECK(!group.empty() && group.size() <= limits::stamp_group_max);
@@ -120,7 +129,7 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   const PreparedStamp prepared = group.size() > 1
                                      ? prepare_group(state.field, state.pieces, group, budget)
                                      : prepare_stamp(state.field, state.pieces, first.piece, first.pose,
-                                                     method_of(state.config.methods.recombine), budget);
+                                                     method_for(state, first), budget);
   for (const StampedPiece& one : group) state.bodies.remove(one.piece);
   const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
   state.ledger.pieces -= mass;

@@ -15,11 +15,14 @@ RestPiece piece(PieceId id, glm::vec3 position_m) {
 
 using Ids = std::vector<PieceId>;
 
+constexpr uint32_t rest_ticks = 20;  // a third of a second
+constexpr int patience_ticks = 120;  // two seconds
+
 TEST(Rest, a_still_piece_on_terrain_merges_after_the_rest_time) {
   RestDetector rest({}, rate_hz);
   const std::vector<RestPiece> pieces = {piece(3, {0.0F, 1.0F, 0.0F})};
   const Ids ground = {3};
-  for (uint32_t tick = 0; tick < RestConfig{}.rest_ticks; ++tick)
+  for (uint32_t tick = 0; tick < rest_ticks; ++tick)
     EXPECT_TRUE(rest.update(pieces, ground, {}, 8).empty()) << "tick " << tick;
   EXPECT_EQ(rest.update(pieces, ground, {}, 8), ground);
 }
@@ -97,7 +100,17 @@ TEST(Rest, a_creeping_piece_merges_in_the_end) {
     const std::vector<RestPiece> pieces = {piece(1, {0.005F * static_cast<float>(tick), 1.0F, 0.0F})};
     if (!rest.update(pieces, ground, {}, 8).empty()) merged_at = tick;  // 0.3 m/s
   }
-  EXPECT_GT(merged_at, static_cast<int>(RestConfig{}.patience_ticks));
+  EXPECT_GT(merged_at, patience_ticks);
+}
+
+TEST(Rest, takes_as_long_at_every_tick_rate) {
+  for (const uint32_t hz : {10U, 30U, 120U, 240U}) {
+    RestDetector rest({}, hz);
+    const std::vector<RestPiece> pieces = {piece(1, {0.0F, 1.0F, 0.0F})};
+    uint32_t tick = 0;
+    while (rest.update(pieces, Ids{1}, {}, 8).empty()) ++tick;
+    EXPECT_NEAR(static_cast<double>(tick) / hz, 1.0 / 3.0, 1.0 / hz) << hz << " Hz";
+  }
 }
 
 TEST(Rest, an_id_that_vanishes_is_forgotten) {
@@ -113,7 +126,7 @@ TEST(Rest, in_a_hurry_half_of_it_will_do_and_what_waits_is_counted) {
   RestDetector rest({}, rate_hz);
   const std::vector<RestPiece> pieces = {piece(1, {0.0F, 1.0F, 0.0F}), piece(2, {5.0F, 1.0F, 0.0F})};
   const Ids ground = {1, 2};
-  for (uint32_t tick = 0; tick < RestConfig{}.rest_ticks / 2; ++tick)
+  for (uint32_t tick = 0; tick < rest_ticks / 2; ++tick)
     EXPECT_TRUE(rest.update(pieces, ground, {}, 1, true).empty()) << "tick " << tick;
   EXPECT_EQ(rest.update(pieces, ground, {}, 1, true).size(), 1U);
   EXPECT_EQ(rest.put_off(), 1U);

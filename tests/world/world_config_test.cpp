@@ -33,7 +33,7 @@ TEST(WorldConfig, voxels_beyond_the_limits_are_refused) {
   for (const float size_m : {0.05F, 0.0F, -0.25F, nan, infinite, 5.0F, limits::voxel_size_min_m * 0.999F,
                              limits::voxel_size_max_m * 1.001F})
     expect_refused(flat_world(size_m, 60), "limits.voxel_size_min_m, voxel_size_max_m");
-  EXPECT_NE(refusal(flat_world(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.16 to 2 "),
+  EXPECT_NE(refusal(flat_world(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.15 to 2 "),
             std::string::npos);
 }
 

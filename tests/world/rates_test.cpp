@@ -1,0 +1,49 @@
+// A world goes the same way at every tick rate: constants are in seconds, and no step of the bodies is too
+// long.
+#include <gtest/gtest.h>
+
+#include "bench/support/scenes.h"
+#include "server/world/world.h"
+
+namespace scree {
+namespace {
+
+struct Outcome {
+  double settled_s = 0.0;  ///< until every piece was terrain again
+  float highest_m = 0.0F;  ///< of any piece, above the ground
+};
+
+Outcome outcome_at(uint32_t rate_hz) {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  config.tick_rate_hz = rate_hz;
+  World world(config);
+  const std::vector<Command> carve{{1, 1, blow_at(config.terrain, 0.0F, 0.0F, 2.0F, 48, 5)}};
+  auto delta = world.step(carve);
+  Outcome outcome;
+  const uint32_t ticks_max = 60 * rate_hz;
+  while (!delta->pieces.empty() && delta->tick < ticks_max) {
+    for (const PieceState& piece : delta->pieces)
+      outcome.highest_m = std::max(outcome.highest_m, dequantise(piece.pose).position_m.y);
+    delta = world.step({});
+  }
+  outcome.settled_s = static_cast<double>(delta->tick) / rate_hz;
+  return outcome;
+}
+
+class Rates : public ::testing::TestWithParam<uint32_t> {};
+
+TEST_P(Rates, pieces_settle_as_soon_and_rise_no_higher_than_at_60_hz) {
+  const Outcome usual = outcome_at(60), here = outcome_at(GetParam());
+  std::printf("%u Hz: settled after %.2f s (60 Hz: %.2f), highest %.2f m (%.2f)\n", GetParam(),
+              here.settled_s, usual.settled_s, static_cast<double>(here.highest_m),
+              static_cast<double>(usual.highest_m));
+  EXPECT_LT(here.settled_s, 1.6 * usual.settled_s);
+  EXPECT_GT(here.settled_s, 0.6 * usual.settled_s);
+  EXPECT_LT(here.highest_m, usual.highest_m + 0.5F);
+}
+
+INSTANTIATE_TEST_SUITE_P(hz, Rates, ::testing::Values(10U, 20U, 30U, 120U, 240U));
+
+}  // namespace
+}  // namespace scree
