@@ -74,7 +74,7 @@ TEST(Rest, what_touched_the_ground_long_ago_lies_on_nothing) {
   RestDetector rest({}, rate_hz);
   const std::vector<RestPiece> pieces = {piece(1, {0.0F, 1.0F, 0.0F})};
   const Ids ground = {1};
-  static_assert(RestConfig{}.rest_ticks > RestConfig{}.contact_ticks);
+  static_assert(RestConfig{}.rest_s > RestConfig{}.contact_s);
   rest.update(pieces, ground, {}, 8);
   for (int tick = 0; tick < 100; ++tick)
     EXPECT_TRUE(rest.update(pieces, {}, {}, 8).empty()) << tick << " ticks after it touched the ground";
