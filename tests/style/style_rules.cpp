@@ -19,6 +19,7 @@ struct Layer {
 /// Rooms come before the folder that they lie in: the first match is a file's layer.
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = {
+      {"cmake/", {}},  // precompiled headers of libraries
       {"shared/base/", {}},
       {"shared/field/", {"shared/base/"}},
       {"shared/surface/", {"shared/field/"}},
@@ -62,7 +63,7 @@ const std::vector<Layer>& layers() {
       {"bench/drawing/", {"bench/support/", "bench/peers/"}},
       {"bench/wire/", {"bench/support/"}},
       {"bench/programs/", {"bench/support/"}},
-      {"tests/", {"bench/"}},
+      {"tests/", {"bench/", "cmake/"}},
   };
   return table;
 }
