@@ -111,10 +111,10 @@ TEST_F(RecordingTest, verify_names_the_first_tick_that_differs) {
 
 TEST_F(RecordingTest, replay_names_a_tick_whose_hash_is_not_what_was_recorded) {
   simulate(20);
-  auto wrong = std::make_shared<TickDelta>(*deltas[14]);
-  wrong->field_hash ^= 1U;
-  deltas[14] = wrong;
   record();
+  auto frame = recorded_frame(15);
+  frame.field_hash ^= 1U;
+  put_recorded("frames", 15, encode(frame));
   auto source = ReplaySource::open(path);
   ASSERT_TRUE(source.has_value());
   for (int i = 0; i < 14; ++i) ASSERT_TRUE((*source)->next().has_value());

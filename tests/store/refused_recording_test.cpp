@@ -150,13 +150,7 @@ TEST_F(RecordingTest, keyframe_whose_hash_is_not_what_was_recorded_is_refused) {
     (*keyframe)->field_hash ^= 1U;
     wrong = encode(**keyframe);
   }
-  {
-    auto database = Database::open(path);
-    ASSERT_TRUE(database.has_value()) << database.error().message;
-    const auto replace =
-        database->prepare("REPLACE INTO keyframes (tick, data, checksum) VALUES (?1, ?2, ?3)");
-    ASSERT_TRUE(replace.has_value() && database->put(*replace, tick, wrong).has_value());
-  }
+  put_recorded("keyframes", tick, wrong);
   const auto source = ReplaySource::open(path, tick);
   ASSERT_FALSE(source.has_value());
   EXPECT_NE(source.error().message.find("hash"), std::string::npos) << source.error().message;

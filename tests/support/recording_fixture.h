@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "server/store/database.h"
 #include "server/store/recorder.h"
 #include "server/store/recording_reader.h"
 #include "server/world/world.h"
@@ -78,6 +79,21 @@ class RecordingTest : public ::testing::Test {
     const std::string reason = refusal();
     EXPECT_NE(reason.find(because), std::string::npos) << reason;
     EXPECT_NE(reason.find(path), std::string::npos) << reason;
+  }
+
+  RecordedFrame recorded_frame(Tick tick) const {
+    auto reader = RecordingReader::open(path);
+    const auto frame = reader ? (*reader)->frame(tick) : tl::unexpected(reader.error());
+    EXPECT_TRUE(frame.has_value()) << frame.error().message;
+    return frame ? *frame : RecordedFrame{};
+  }
+  /// Replaces a row of the recording, with the right checksum.
+  void put_recorded(const std::string& table, Tick tick, const std::vector<uint8_t>& data) const {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value()) << database.error().message;
+    const auto replace =
+        database->prepare("REPLACE INTO " + table + " (tick, data, checksum) VALUES (?1, ?2, ?3)");
+    ASSERT_TRUE(replace.has_value() && database->put(*replace, tick, data).has_value());
   }
 
   std::filesystem::path folder;
