@@ -70,7 +70,7 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
   return {name, help, {}, bounds, tried, get_member<Member>, put_member<Member>};
 }
 
-constexpr std::array<std::string_view, 2> few_pieces{"12", "40"};
+constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
