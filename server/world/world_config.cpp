@@ -18,7 +18,8 @@ struct Bounded {
   const char* option;  ///< of the server
 };
 
-std::string text_of(double number) {
+/// Six digits: bounds are doubles of floats.
+std::string rounded_text(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", number);
   return text;
@@ -27,8 +28,8 @@ std::string text_of(double number) {
 /// What is not a number is not within.
 Result<void> check(const Bounded& bounded) {
   if (bounded.value >= bounded.min && bounded.value <= bounded.max) return {};
-  return fail(std::string(bounded.name) + " is " + text_of(bounded.value) + ", not within " +
-              text_of(bounded.min) + " to " + text_of(bounded.max) + " (" + bounded.limits +
+  return fail(std::string(bounded.name) + " is " + rounded_text(bounded.value) + ", not within " +
+              rounded_text(bounded.min) + " to " + rounded_text(bounded.max) + " (" + bounded.limits +
               "): choose another (" + bounded.option + ")");
 }
 
