@@ -39,7 +39,6 @@ Result<void> RecordingWriter::State::prepare(const RecordingHeader& header) {
   auto insert_header = database.prepare(schema::insert_into("header"));
   if (!insert_header) return tl::unexpected(insert_header.error());
   const std::vector<uint8_t> bytes = encode(to_recorded(header));
-  CHECK_DEBUG(decode_recorded_header(bytes).has_value());
   if (auto done = database.put(*insert_header, 0, bytes); !done) return done;
   if (auto done = database.execute("COMMIT"); !done) return done;
   const auto take = [this](Statement& statement, const char* table) -> Result<void> {
