@@ -9,35 +9,42 @@ function(scree_precompiled NAME HEADER)
 endfunction()
 
 # One static library per folder, from every .cpp in it.
-# Usage: scree_library(NAME [PRECOMPILED other precompiled headers than most have] [libraries to link …])
+# Usage: scree_library(NAME [libraries to link …])
 function(scree_library NAME)
-  cmake_parse_arguments(PARSE_ARGV 1 WITH "" PRECOMPILED "")
-  if(NOT WITH_PRECOMPILED)
-    set(WITH_PRECOMPILED scree_precompiled)
-  endif()
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(${NAME} STATIC ${SOURCES})
-  target_link_libraries(${NAME} PUBLIC ${WITH_UNPARSED_ARGUMENTS})
-  target_precompile_headers(${NAME} REUSE_FROM ${WITH_PRECOMPILED})
+  target_link_libraries(${NAME} PUBLIC ${ARGN})
+  target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
 endfunction()
 
 # Options and reports: nobody waits for them to run, but for CLI11 and nlohmann's JSON to compile, which are headers
-# only. Usage: scree_optimise_little(SOURCES …)
+# only. (Precompiled they are slower: every source then compiles CLI11's global objects once more.)
+# Usage: scree_optimise_little(SOURCES …)
 function(scree_optimise_little)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# False alarms of g++ 12 where strings are put together from literals (its bugs 105329 and 105651).
+function(scree_silence_false_alarms)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    foreach(NAME IN LISTS ARGN)
+      target_compile_options(${NAME} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+    endforeach()
+  endif()
 endfunction()
 
 # A program that reads options.
 function(scree_program NAME MAIN)
   add_executable(${NAME} ${MAIN})
   target_link_libraries(${NAME} PRIVATE ${ARGN} CLI11::CLI11 nlohmann_json::nlohmann_json)
-  target_precompile_headers(${NAME} REUSE_FROM scree_precompiled_options)
+  target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
   scree_optimise_little(${MAIN})
 endfunction()
 
-# Asio is headers only, and what they define depends on these: every target in one program must say the same.
-# Without the last it would go by what happens to be included before: memory from malloc, given to delete.
-function(scree_uses_asio NAME)
-  target_compile_definitions(${NAME} PRIVATE ASIO_STANDALONE ASIO_NO_DEPRECATED ASIO_DISABLE_STD_ALIGNED_ALLOC)
-  target_link_libraries(${NAME} PRIVATE Threads::Threads)
-endfunction()
+# Asio, compiled once. What its headers define depends on these: every target in one program must say the same.
+# Without ASIO_DISABLE_STD_ALIGNED_ALLOC it would go by what happens to be included before: memory from malloc, given
+# to delete.
+add_library(scree_asio STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/asio.cpp)
+target_compile_definitions(scree_asio PUBLIC ASIO_STANDALONE ASIO_NO_DEPRECATED ASIO_DISABLE_STD_ALIGNED_ALLOC
+                                             ASIO_SEPARATE_COMPILATION)
+target_link_libraries(scree_asio PUBLIC scree_usage Threads::Threads)

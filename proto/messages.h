@@ -117,8 +117,9 @@ struct FrameMessage {
   std::vector<PieceId> removed_pieces;     ///< gone or out of interest, not named by an operation
   std::vector<uint8_t> transforms;         ///< packed poses (proto/transforms.h); empty: none in this frame
   bool has_check = false;
-  uint32_t check =
-      0;  ///< fold of Σ chunk hash over the chunks that operations and patches of this frame changed
+  /// Of the sum of the hashes of all chunks that operations and patches of this frame changed: the high half
+  /// xor the low half.
+  uint32_t check = 0;
 };
 
 /// All edited bricks of a chunk: they replace the client's edits there; from now on the client follows it.

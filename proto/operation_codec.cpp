@@ -26,7 +26,7 @@ static_assert(kinds <= kind_mask + 1);
 /// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
 /// In place of the method: a stamp of several pieces by the method `stamp`.
-constexpr uint64_t method_group = static_cast<uint64_t>(StampMethod::sphere) + 1;
+constexpr uint64_t method_group = kind_count<StampMethod>;
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
 
@@ -47,7 +47,7 @@ Shape read_shape(ByteReader& reader) {
 }
 
 /// The pattern in the low half of a byte, the cutter in the high half.
-static_assert(kind_count<SeedPattern> <= 16);
+static_assert(kind_count<SeedPattern> <= 16 && kind_count<Cutter> <= 16);
 uint8_t packed(SeedPattern pattern, Cutter cutter) {
   return static_cast<uint8_t>(static_cast<unsigned>(pattern) | static_cast<unsigned>(cutter) << 4U);
 }
@@ -126,7 +126,8 @@ void read_seeds(ByteReader& reader, PieceId first_piece, Result<void> (*validate
   else
     reader.refuse(valid.error().message);
   out.cutter = static_cast<Cutter>(byte >> 4U);
-  if (out.cutter > Cutter::conform) reader.refuse("a cutter that is none");
+  if (const Result<void> valid = validate_kind(out.cutter, "cutter"); !valid)
+    reader.refuse(valid.error().message);
   out.seeds = static_cast<uint32_t>(reader.varint("number of seeds", limits::seeds_max));
   if (out.seeds == 0) reader.refuse("a break without seeds");
   if (first_piece > 0xFFFFFFFFU - out.seeds) reader.refuse("piece ids run over 2^32");

@@ -16,7 +16,6 @@ namespace scree {
 namespace {
 
 constexpr size_t program_bytes_max = 128;
-constexpr uint32_t tick_rate_max_hz = 1000;
 
 std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message) {
   std::vector<uint8_t> bytes(message.ByteSizeLong());
@@ -120,7 +119,8 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||
       header.terrain.voxel_size_m > limits::voxel_size_max_m)
     check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
-  header.tick_rate_hz = check.within(from->tick_rate_hz(), 1, tick_rate_max_hz, "tick_rate_hz");
+  header.tick_rate_hz =
+      check.within(from->tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
   header.merges_per_tick_max = from->merges_per_tick_max();
   header.settings = check.settings(from->settings());
   return checked(std::move(header), check);

@@ -13,7 +13,6 @@ namespace scree {
 
 namespace {
 
-constexpr uint32_t rate_max = 1000;
 constexpr size_t bricks_per_chunk = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
 
 std::string pack_ids(const std::vector<PieceId>& ids) {
@@ -166,8 +165,10 @@ WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
   welcome.protocol = from.protocol();
   welcome.session = from.session();
   welcome.tick = from.tick();
-  welcome.tick_rate_hz = check.within(from.tick_rate_hz(), 1, rate_max, "tick_rate_hz");
-  welcome.ticks_per_transform = check.within(from.ticks_per_transform(), 1, rate_max, "ticks_per_transform");
+  welcome.tick_rate_hz =
+      check.within(from.tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
+  welcome.ticks_per_transform =
+      check.within(from.ticks_per_transform(), 1, limits::tick_rate_max_hz, "ticks_per_transform");
   welcome.terrain.kind = check.kind<TerrainKind>(from.terrain().kind(), "kind of terrain");
   welcome.terrain.random_seed = from.terrain().random_seed();
   const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
@@ -225,8 +226,9 @@ WorkStatus read(const wire::Work& from, FieldChecker& check) {
   work.merges_put_off = from.merges_put_off();
   work.breaks_left_out = from.breaks_left_out();
   work.dents_left_out = from.dents_left_out();
-  work.ticks_cut_short = check.within(from.ticks_cut_short(), 0, rate_max, "ticks_cut_short");
-  work.ticks_merging_sooner = check.within(from.ticks_merging_sooner(), 0, rate_max, "ticks_merging_sooner");
+  work.ticks_cut_short = check.within(from.ticks_cut_short(), 0, limits::tick_rate_max_hz, "ticks_cut_short");
+  work.ticks_merging_sooner =
+      check.within(from.ticks_merging_sooner(), 0, limits::tick_rate_max_hz, "ticks_merging_sooner");
   work.supports_put_off = from.supports_put_off();
   work.islands_put_off = from.islands_put_off();
   work.islands_too_large = from.islands_too_large();

@@ -18,8 +18,6 @@ namespace scree {
 
 namespace {
 
-constexpr std::array kinds{TerrainColliderKind::field, TerrainColliderKind::mesh, TerrainColliderKind::rays};
-
 constexpr uint32_t blows_a_side = 3;
 constexpr uint32_t seeds_per_blow = 40;
 constexpr float blast_speed_m_s = 15.0F;
@@ -29,13 +27,6 @@ constexpr Tick look_ticks = 5;
 constexpr float fallen_voxels = 1.0F;
 /// Points of a piece's surface that stand for it, at most.
 constexpr size_t points_max = 64;
-
-std::string name_of(TerrainColliderKind kind) {
-  WorldConfig config;
-  config.methods.collider = kind;
-  const SettingValues values = print(config);
-  return std::ranges::find(values, "collider", &SettingValue::name)->value;
-}
 
 /// Pieces stay pieces: nothing merges, breaks or dents, so that each collider has the same ones.
 WorldConfig scene(TerrainColliderKind kind) {
@@ -150,7 +141,7 @@ Run play_scene(TerrainColliderKind kind, Tick ticks, int rounds) {
 }
 
 void report_run(BenchReport& report, TerrainColliderKind kind, const Run& run) {
-  const std::string name = name_of(kind);
+  const std::string name(name_of(kind));
   report.metric(name + "_pieces", static_cast<double>(run.made));
   report.metric(name + "_depth_mean_voxels", run.depth_sum / static_cast<double>(run.depths));
   report.metric(name + "_depth_worst_voxels", run.deepest_voxels);
@@ -248,14 +239,14 @@ BenchReport run_colliders_bench(const BenchOptions& options) {
   const int rounds = options.quick ? 1 : 3;
   BenchReport report;
   double done = 0.0;
-  for (const TerrainColliderKind kind : kinds) {
+  for (const TerrainColliderKind kind : all_kinds<TerrainColliderKind>) {
     report_run(report, kind, play_scene(kind, ticks, rounds));
     options.progress(0.3 * ++done);
   }
   Scene lived(TerrainColliderKind::field);
   lived.play(ticks);
-  for (const TerrainColliderKind kind : kinds) {
-    const std::string name = name_of(kind);
+  for (const TerrainColliderKind kind : all_kinds<TerrainColliderKind>) {
+    const std::string name(name_of(kind));
     Contacts least = time_contacts(kind, lived);
     for (int round = 1; round < rounds; ++round)
       least.us_per_piece = std::min(least.us_per_piece, time_contacts(kind, lived).us_per_piece);

@@ -27,13 +27,9 @@ struct Method {
 
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
-  for (const auto& [cutter_name, cutter] :
-       {std::pair("field", Cutter::field), std::pair("slice", Cutter::slice),
-        std::pair("conform", Cutter::conform)})
-    for (const auto& [simplifier_name, simplifier] :
-         {std::pair("none", Simplifier::none), std::pair("hull", Simplifier::hull),
-          std::pair("merge", Simplifier::merge)})
-      methods.push_back({fmt::format("{}_{}", cutter_name, simplifier_name), cutter, simplifier});
+  for (const Cutter cutter : all_kinds<Cutter>)
+    for (const Simplifier simplifier : all_kinds<Simplifier>)
+      methods.push_back({fmt::format("{}_{}", name_of(cutter), name_of(simplifier)), cutter, simplifier});
   return methods;
 }
 
@@ -191,8 +187,8 @@ BenchReport run_cutters_bench(const BenchOptions& options) {
     report_method(report, methods[i], sums, carves);
     options.progress(static_cast<double>(i + 1) / static_cast<double>(methods.size() + 1));
   }
-  for (const auto& [name, cutter] :
-       {std::pair("slice", Cutter::slice), std::pair("conform", Cutter::conform)}) {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
+    const std::string_view name = name_of(cutter);
     const Conservation conservation = conservation_of(cutter, carves);
     report.metric(fmt::format("{}_polygons_median_ms", name), conservation.median_ms);
     report.metric(fmt::format("{}_polygon_vertices_per_part", name), conservation.vertices);

@@ -212,8 +212,7 @@ void report_figures(BenchReport& report, const std::string& name, const MethodFi
 }  // namespace
 
 BenchReport run_recombine_bench(const BenchOptions& options) {
-  constexpr std::array<std::pair<StampMethod, const char*>, 3> methods = {
-      {{StampMethod::stamp, "stamp"}, {StampMethod::slices, "slices"}, {StampMethod::sphere, "sphere"}}};
+  constexpr auto methods = all_kinds<StampMethod>;
   const int rounds = options.quick ? 2 : 10;
   constexpr std::array<const char*, 2> heap_names = {"heap_one_by_one", "heap_grouped"};
   std::array<MethodFigures, methods.size()> figures;
@@ -227,7 +226,7 @@ BenchReport run_recombine_bench(const BenchOptions& options) {
       PieceTable pieces;
       const auto field = carved_field(random_seed, pieces, carved);
       poses = resting_places(*field, pieces, random_seed);
-      merge_all(methods[i].first, *field, pieces, poses, figures[i]);
+      merge_all(methods[i], *field, pieces, poses, figures[i]);
     }
     for (size_t i = 0; i < heap_names.size(); ++i) {
       PieceTable pieces;
@@ -240,7 +239,8 @@ BenchReport run_recombine_bench(const BenchOptions& options) {
   BenchReport report;
   const double stock = quantile(stock_us, 0.5);
   report.metric("openvdb_us_a_piece", stock);
-  for (size_t i = 0; i < methods.size(); ++i) report_figures(report, methods[i].second, figures[i], stock);
+  for (size_t i = 0; i < methods.size(); ++i)
+    report_figures(report, std::string(name_of(methods[i])), figures[i], stock);
   for (size_t i = 0; i < heap_names.size(); ++i) {
     report_figures(report, heap_names[i], heaps[i], stock);
     report.metric(std::string(heap_names[i]) + "_operations",

@@ -1,18 +1,19 @@
 #include "bench/support/bench.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/support/benches.h"
-#include "shared/base/check.h"
 
 namespace scree {
 
 const std::vector<Bench>& all_benches() {
   static const std::vector<Bench> benches = {
+      {"buried", "scenes that enclose pieces in rock: none may travel through it, or be left",
+       run_buried_bench},
+      {"capacity", "bots that carve once a second: how many until carves are refused or ticks late",
+       run_capacity_bench},
       {"carve", "a 2 m carve into 64 pieces: each stage of the server's tick", run_carve_bench},
       {"colliders", "terrain colliders field, mesh and rays: depth, falls, time of a tick and of a carve",
        run_colliders_bench},
+      {"crowd", "a bot that carves twice a second beside bots that ask for all they can", run_crowd_bench},
       {"cutters", "a 2 m carve into 64 pieces by every cutter, with bodies by every simplifier",
        run_cutters_bench},
       {"draw", "every way to draw at every resolution: a frame, an edit until it is shown, memory",
@@ -23,6 +24,7 @@ const std::vector<Bench>& all_benches() {
        run_ledger_bench},
       {"mesh", "surface nets of a changed block, beside OpenVDB's volumeToMesh; from a change to its picture",
        run_mesh_bench},
+      {"rates", "a blow at 10 to 240 ticks a second: time to rest, height, speed", run_rates_bench},
       {"raymarch", "a frame after 0 to 10,000 carves: the atlas of bricks, the paper's list of carves",
        run_raymarch_bench},
       {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",
@@ -31,15 +33,9 @@ const std::vector<Bench>& all_benches() {
       {"storm", "1,000 pieces alive at once, and one blast of 64, with recombination and without",
        run_storm_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
+      {"worst", "the dearest ticks there are: model against clock", run_worst_bench},
   };
   return benches;
-}
-
-double quantile(std::vector<double> samples, double share) {
-  CHECK(!samples.empty());
-  std::ranges::sort(samples);
-  const double rank = std::ceil(share * static_cast<double>(samples.size()));
-  return samples[static_cast<size_t>(std::max(rank, 1.0)) - 1];
 }
 
 }  // namespace scree

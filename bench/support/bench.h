@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "shared/base/quantile.h"
+
 namespace scree {
 
 struct Metric {
@@ -43,8 +45,5 @@ struct Bench {
 
 /// Every benchmark there is, in alphabetical order.
 const std::vector<Bench>& all_benches();
-
-/// Value below which the given share of the samples lies (nearest rank). Samples must not be empty.
-double quantile(std::vector<double> samples, double share);
 
 }  // namespace scree

@@ -5,17 +5,22 @@
 
 namespace scree {
 
+BenchReport run_buried_bench(const BenchOptions& options);
+BenchReport run_capacity_bench(const BenchOptions& options);
 BenchReport run_carve_bench(const BenchOptions& options);
 BenchReport run_colliders_bench(const BenchOptions& options);
+BenchReport run_crowd_bench(const BenchOptions& options);
 BenchReport run_cutters_bench(const BenchOptions& options);
 BenchReport run_draw_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);
+BenchReport run_rates_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
 BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
+BenchReport run_worst_bench(const BenchOptions& options);
 
 }  // namespace scree

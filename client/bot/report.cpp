@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "shared/base/quantile.h"
+
 namespace scree {
 
 namespace {
@@ -60,14 +62,6 @@ Json cost(const OperationCost& cost) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const double last = static_cast<double>(values.size() - 1);
-  const auto at = static_cast<size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-  return values[at];
-}
 
 std::string to_json(const BotReport& report) {
   const MirrorCounters& seen = report.seen;

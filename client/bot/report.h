@@ -77,9 +77,6 @@ struct BotReport {
   std::vector<double> reply_latencies_ms;  ///< request sent to reply received
 };
 
-/// The value below which `share` (0 … 1) of the values lie; 0 when there are none.
-double quantile(std::vector<double> values, double share);
-
 std::string to_json(const BotReport& report);
 
 }  // namespace scree

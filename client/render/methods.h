@@ -1,4 +1,5 @@
-// The table of all drawing methods: a new method is a row here, and nothing else in the viewer.
+// All drawing methods, by name. A new one is a row of the table in methods.cpp, and nothing else in the
+// viewer.
 #pragma once
 
 #include <optional>

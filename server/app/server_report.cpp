@@ -49,6 +49,7 @@ Json json_of(const WorkReport& work) {
           {"last_cut_short", work.last_cut_short},
           {"ticks_merging_sooner", work.ticks_merging_sooner},
           {"requests_waiting_most", work.requests_waiting_most},
+          {"cuts_put_off_most", work.cuts_put_off_most},
           {"merges_put_off_most", work.merges_put_off_most},
           {"breaks_left_out", work.breaks_left_out},
           {"dents_left_out", work.dents_left_out},
@@ -93,6 +94,7 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   }
   ticks_merging_sooner += work.merging_sooner ? 1 : 0;
   requests_waiting_most = std::max(requests_waiting_most, work.requests_waiting);
+  cuts_put_off_most = std::max(cuts_put_off_most, work.cuts_put_off);
   merges_put_off_most = std::max(merges_put_off_most, work.merges_put_off);
   breaks_left_out += work.breaks_left_out;
   dents_left_out += work.dents_left_out;

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// The ticks' work by the model (server/world/work.h), and the counts of work that did not fit.
+/// The ticks' work by the model (server/work/work.h), and the counts of work that did not fit.
 struct WorkReport {
   uint32_t budget_us = 0;
   uint32_t worst_us = 0;
@@ -20,6 +20,7 @@ struct WorkReport {
   Tick last_cut_short = 0;
   uint64_t ticks_merging_sooner = 0;
   uint32_t requests_waiting_most = 0;
+  uint32_t cuts_put_off_most = 0;
   uint32_t merges_put_off_most = 0;
   uint64_t breaks_left_out = 0;
   uint64_t dents_left_out = 0;

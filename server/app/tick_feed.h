@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "server/world/command.h"
+#include "server/work/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"

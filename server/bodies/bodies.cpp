@@ -294,6 +294,10 @@ float Bodies::reach_m(PieceId id) const {
   return found->second.reach_m;
 }
 
+int Bodies::steps_a_tick() const {
+  return state_->steps_a_tick;
+}
+
 size_t Bodies::awake() const {
   return static_cast<size_t>(std::ranges::count_if(
       state_->bodies, [](const auto& entry) { return entry.second.rigid->isActive(); }));

@@ -1,7 +1,7 @@
 // Pieces of terrain as rigid bodies, simulated by Bullet.
 //
 // Deterministic: the same calls in the same order give the same bits, on any build. Bullet's own snapshots do
-// not restore that (docs/architecture.md, Bodies), so a Bodies is never copied. Not thread-safe. Metres,
+// not restore that, so a Bodies is never copied. Not thread-safe. Metres,
 // seconds, kilograms; a body's position is its centre of mass.
 #pragma once
 
@@ -85,7 +85,7 @@ class Bodies {
   Bodies& operator=(const Bodies&) = delete;
 
   /// `state.id` must be new, the position finite, the rotation a unit quaternion. Speeds beyond
-  /// limits::travel_max_voxels a tick are reduced to it; a body whose speed is not finite is stopped by the
+  /// limits::travel_max_voxels a step are reduced to it; a body whose speed is not finite is stopped by the
   /// next step.
   void add(const BodyShape& shape, const BodyState& state);
   /// Removes a body, which must be present, and wakes the bodies that touch its bounds.
@@ -129,6 +129,8 @@ class Bodies {
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be
   /// present.
   float reach_m(PieceId id) const;
+  /// Steps of the simulation in one tick: one up to limits::step_max_s, more in longer ticks.
+  int steps_a_tick() const;
   /// Number of bodies that are awake.
   size_t awake() const;
   /// Number of points at which bodies touched terrain or each other in the last step.

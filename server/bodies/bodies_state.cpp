@@ -84,6 +84,7 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
   dynamics.getDispatchInfo().m_deterministicOverlappingPairs = true;
   btContactSolverInfo& info = dynamics.getSolverInfo();
   info.m_numIterations = limits::solver_iterations;
+  info.m_erp2 = limits::undone_a_step;
   info.m_linearSlop = limits::penetration_slop_m;
   info.m_splitImpulsePenetrationThreshold = 0.0F;
 }
@@ -124,6 +125,19 @@ void Bodies::State::limit_speeds(Body& body) const {
     rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
 }
 
+// The solver moves bodies out of overlaps besides their velocity. A body that overlaps on several sides it
+// may move to and fro by far more than any one of them asks for.
+void Bodies::State::limit_undoing(Body& body) const {
+  btRigidBody& rigid = *body.rigid;
+  btTransform now = rigid.getWorldTransform();
+  const btVector3 expected = body.last.getOrigin() + rigid.getLinearVelocity() * step_s;
+  const btVector3 undone = now.getOrigin() - expected;
+  const float most_m = limits::undo_buried_m_s * step_s;
+  if (!(undone.length2() > most_m * most_m)) return;
+  now.setOrigin(expected + undone * (most_m / undone.length()));
+  rigid.setWorldTransform(now);
+}
+
 // Bullet's own damping would call the math library.
 void Bodies::State::settle(Body& body) const {
   btRigidBody& rigid = *body.rigid;
@@ -133,6 +147,7 @@ void Bodies::State::settle(Body& body) const {
     rigid.setWorldTransform(body.last);
     velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
   }
+  limit_undoing(body);
   const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
   velocity *= 1.0F - step_s * (creeping ? limits::ground_damping : limits::air_damping);
   spin *= 1.0F - step_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);

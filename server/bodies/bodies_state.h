@@ -56,8 +56,10 @@ struct Bodies::State {
 
   /// Refills the body's terrain manifold for the step.
   void find_ground(Body& body);
-  /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a tick.
+  /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a step.
   void limit_speeds(Body& body) const;
+  /// Cuts how far the last step moved the body out of overlaps to limits::undo_buried_m_s.
+  void limit_undoing(Body& body) const;
   /// Advances by step_s.
   void step();
   /// Applies damping and the speed limits after the step.

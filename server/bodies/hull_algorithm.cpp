@@ -15,6 +15,7 @@
 #include "server/bodies/limits.h"
 #include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
+#include "server/bodies/told_overlap.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -26,8 +27,21 @@ const CollisionHulls& hulls_of(const btCollisionObjectWrapper* body) {
   return *static_cast<const CollisionHulls*>(body->getCollisionObject()->getUserPointer());
 }
 
+/// Hands contacts on, none deeper than `told_m`.
+struct ShallowerResult final : btDiscreteCollisionDetectorInterface::Result {
+  ShallowerResult(btManifoldResult& to, float told) : result(to), told_m(told) {}
+  void setShapeIdentifiersA(int part, int index) override { result.setShapeIdentifiersA(part, index); }
+  void setShapeIdentifiersB(int part, int index) override { result.setShapeIdentifiersB(part, index); }
+  void addContactPoint(const btVector3& normal_on_b, const btVector3& on_b, btScalar distance) override {
+    result.addContactPoint(normal_on_b, on_b, std::max(distance, -told_m));
+  }
+
+  btManifoldResult& result;
+  float told_m;
+};
+
 void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
-                const btTransform& at_b, btManifoldResult& result) {
+                const btTransform& at_b, ShallowerResult& result) {
   btVoronoiSimplexSolver simplex;
   btGjkEpaPenetrationDepthSolver depth;
   btGjkPairDetector detector(&a, &b, &simplex, &depth);
@@ -76,7 +90,7 @@ HullAlgorithm::~HullAlgorithm() {
 }
 
 void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                                     const btDispatcherInfo& /*info*/, btManifoldResult* result) {
+                                     const btDispatcherInfo& info, btManifoldResult* result) {
   const glm::vec3 a_from_b =
       from_bullet(a->getWorldTransform().getOrigin() - b->getWorldTransform().getOrigin());
   const auto &parts_a = hulls_of(a).parts(), &parts_b = hulls_of(b).parts();
@@ -94,7 +108,7 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
       if (meeting.is_far())
         nearest.count = 0;
       else
-        meet(meeting, nearest, *result);
+        meet(meeting, nearest, info.m_timeStep, *result);
     }
   if (manifold_ == nullptr) return;
   result->refreshContactPoints();
@@ -103,7 +117,8 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
   manifold_ = nullptr;
 }
 
-void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, btManifoldResult& result) {
+void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, float step_s,
+                         btManifoldResult& result) {
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;
@@ -114,14 +129,15 @@ void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, btMani
     manifold_ = m_dispatcher->getNewManifold(meeting.object_a->getCollisionObject(),
                                              meeting.object_b->getCollisionObject());
   result.setPersistentManifold(manifold_);
+  ShallowerResult told(result, told_overlap_m(limits::undo_pieces_m_s, step_s));
   const btTransform& at_b = meeting.object_b->getWorldTransform();
   if (found.kind == HullDistance::Kind::overlapping) {
-    find_depth(*a.shape, meeting.object_a->getWorldTransform(), *b.shape, at_b, result);
+    find_depth(*a.shape, meeting.object_a->getWorldTransform(), *b.shape, at_b, told);
     return;
   }
   CHECK_DEBUG(is_unit(found.normal) && is_sound(found.on_b));
   const btVector3 normal = to_bullet(found.normal), on_b = to_bullet(found.on_b);
-  result.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
+  told.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
 }
 
 /// Never earlier than the tick's end: speeds are limited, so that continuous collision is not needed.

@@ -49,7 +49,7 @@ class HullAlgorithm final : public btCollisionAlgorithm {
 
  private:
   struct Meeting;
-  void meet(const Meeting& meeting, NearestCorners& nearest, btManifoldResult& result);
+  void meet(const Meeting& meeting, NearestCorners& nearest, float step_s, btManifoldResult& result);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
   NearestCorners nearest_;                    ///< of the first pair of parts

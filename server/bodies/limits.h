@@ -4,10 +4,7 @@
 
 namespace scree::limits {
 
-/// Rock's density, kg/m³: a full voxel's mass. Only ratios of masses matter to the solver.
-inline constexpr float rock_density_kg_m3 = 2000.0F;
-
-/// Farthest that any point of a piece may travel in one tick, voxels. The narrow band is 3 voxels wide, so a
+/// Farthest that any point of a piece may travel in one step, voxels. The narrow band is 3 voxels wide, so a
 /// piece cannot cross it without a contact. Above: linear speed is cut to ⅘ of it, spin to the other ⅕.
 inline constexpr float travel_max_voxels = 2.5F;
 
@@ -18,13 +15,19 @@ inline constexpr float spin_max_rad_s = 20.0F;
 /// the contacts of a resting piece last from tick to tick.
 inline constexpr float contact_slack_m = 0.02F;
 
-/// Depth of penetration that the solver gets at most, metres; it undoes a fifth of it in each tick. Overlaps
-/// below `overlap_shallow_m` come from neighbours that merged: undone slowly (0.2 m/s) they do not disturb
-/// pieces at rest; undone at once, a heap took twice as long to merge. A deeper point is buried, and is
-/// pushed out at 2.4 m/s.
+/// A point of a piece that overlaps the terrain by less is shallow, metres: such overlaps come from
+/// neighbours that merged. A deeper point is buried.
 inline constexpr float overlap_shallow_m = 0.125F;
-inline constexpr float overlap_told_m = 0.02F;
-inline constexpr float overlap_told_buried_m = 0.2F;
+
+/// Speeds at which overlaps are undone at most, metres a second, whatever the length of a step: of a shallow
+/// point with terrain, so slowly that it does not disturb pieces at rest (undone at once, a heap took twice
+/// as long to merge); of a buried point; and of two pieces.
+inline constexpr float undo_shallow_m_s = 0.24F;
+inline constexpr float undo_buried_m_s = 2.4F;
+inline constexpr float undo_pieces_m_s = 1.0F;
+
+/// Share of the overlap that the solver is told of which it undoes in a step.
+inline constexpr float undone_a_step = 0.2F;
 
 /// Largest distance between neighbouring surface points that are tested against the terrain, voxels. Terrain
 /// spikes thinner than this may enter a face of the piece.

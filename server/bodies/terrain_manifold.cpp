@@ -7,6 +7,7 @@
 
 #include "server/bodies/limits.h"
 #include "server/bodies/to_bullet.h"
+#include "server/bodies/told_overlap.h"
 #include "shared/base/check.h"
 #include "shared/field/paint.h"
 
@@ -53,11 +54,11 @@ float friction_between(const btRigidBody& body, const TerrainContact& deepest, c
 }
 
 btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& body, float friction,
-                              float restitution) {
+                              const TerrainSurface& surface) {
   const btTransform& at = body.getWorldTransform();
   const bool buried = contact.distance_m < -limits::overlap_shallow_m;
-  const float told = buried ? limits::overlap_told_buried_m : limits::overlap_told_m;
-  const float distance = std::max(contact.distance_m, -told);
+  const float undo_m_s = buried ? limits::undo_buried_m_s : limits::undo_shallow_m_s;
+  const float distance = std::max(contact.distance_m, -told_overlap_m(undo_m_s, surface.step_s));
   const btVector3 on_body = at.getOrigin() + to_bullet(contact.offset_m);
   const btVector3 normal = to_bullet(contact.normal);
   const btVector3 on_ground = on_body - normal * distance;
@@ -65,7 +66,7 @@ btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& 
   point.m_positionWorldOnA = on_body;
   point.m_positionWorldOnB = on_ground;
   point.m_combinedFriction = friction;
-  point.m_combinedRestitution = restitution;
+  point.m_combinedRestitution = surface.restitution;
   point.m_index0 = contact.point;
   return point;
 }
@@ -89,7 +90,7 @@ void refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector
   const size_t wanted = choose(found);
   const float friction = friction_between(body, found.front(), surface.field);
   for (size_t i = 0; i < wanted; ++i) {
-    btManifoldPoint point = contact_point(found[i], body, friction, surface.restitution);
+    btManifoldPoint point = contact_point(found[i], body, friction, surface);
     for (int j = 0; j < old_count; ++j) {
       const btManifoldPoint& before = old[static_cast<size_t>(j)];
       if (before.m_index0 != point.m_index0) continue;

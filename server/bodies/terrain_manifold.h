@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// Parameters that all terrain contacts of a tick share. Friction comes from the field's material.
+/// Parameters that all terrain contacts of a step share. Friction comes from the field's material.
 struct TerrainSurface {
   const Field& field;
   float restitution = 0.0F;

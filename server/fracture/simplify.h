@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string_view>
 #include <vector>
 
 namespace scree {
@@ -12,6 +13,22 @@ namespace scree {
 /// none: all points, up to a limit. hull: a few points whose convex hull is nearly that of all (hull.h).
 /// merge: points nearer than a tolerance become one. The body is convex in each case.
 enum class Simplifier : uint8_t { none = 0, hull = 1, merge = 2 };
+
+struct SimplifierRow {
+  std::string_view name;
+};
+
+constexpr SimplifierRow row_of(Simplifier simplifier) {
+  switch (simplifier) {
+    case Simplifier::none:
+      return {.name = "none"};
+    case Simplifier::hull:
+      return {.name = "hull"};
+    case Simplifier::merge:
+      return {.name = "merge"};
+  }
+  return {};
+}
 
 /// Most points that `none` and `merge` keep: the cost of a contact grows with them. Above: `none` keeps one
 /// point of each cube of a grid, `merge` has a larger tolerance.

@@ -17,7 +17,7 @@
 #include "proto/messages.h"
 #include "server/net/encode_cache.h"
 #include "server/net/rate_limit.h"
-#include "server/world/refusal.h"
+#include "server/work/refusal.h"
 
 namespace scree {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "server/net/limits.h"
-#include "server/world/command.h"
+#include "server/work/command.h"
 
 namespace scree {
 

@@ -26,7 +26,7 @@ struct NetConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
   ServiceLimits service;    ///< until a tick says otherwise
-  bool replay = false;      ///< a recording: carves and fills are refused
+  bool replay = false;      ///< a recording: requests are refused
   std::string admin_token;  ///< a client with it may change settings; empty: no client may
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;

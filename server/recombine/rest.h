@@ -19,7 +19,8 @@
 namespace scree {
 
 struct RestConfig {
-  float rest_s = 1.0F / 3.0F;      ///< a piece at the apex of a toss falls 0.14 m beside it in that time
+  float rest_s =
+      1.0F / 3.0F;  ///< at the top of its flight a piece falls 0.14 m in half of it, and leaves the leash
   float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
   float patience_s = 2.0F;         ///< age at which the leash begins to grow
   float leash_growth_m_s = 0.05F;  ///< growth of the leash from that age on

@@ -92,10 +92,6 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
                                                   std::set<BrickCoord>& changed) {
   if (const auto valid = validate(operation, pieces, field->source().voxel_size_m); !valid)
     return damaged(valid.error().message);
-  const PieceIds made = ids_made_by(operation);
-  const auto taken = pieces.lower_bound(made.first);
-  if (taken != pieces.end() && taken->first - made.first < made.count)
-    return damaged("piece " + std::to_string(taken->first) + " is made a second time");
   const VoxelBox reads = read_box(operation, pieces, field->source().voxel_size_m);
   const Applied applied = apply(operation, *field, pieces);
   delta.operations.push_back(describe(operation, reads, applied));

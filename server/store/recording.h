@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "proto/recording_codec.h"
-#include "server/world/command.h"
+#include "server/work/command.h"
 #include "server/world/published_state.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"

@@ -4,14 +4,13 @@
 
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
-#include "shared/base/check.h"
 #include "shared/field/window.h"
 
 namespace scree {
 
 namespace {
 
-/// Every n-th voxel along each axis is looked at, so that about limits::buried_samples are.
+/// Step along each axis with which at most limits::buried_samples voxels of the window are tested.
 int stride_of(const Window& window) {
   const VoxelCoord size = window.box.size();
   int stride = 1;
@@ -23,8 +22,7 @@ int stride_of(const Window& window) {
   return stride;
 }
 
-/// Whether at least half of the piece's solid voxels, as far as they are looked at, lie where `in_rock`
-/// holds.
+/// Whether at least limits::buried_share of the tested solid voxels lie where `in_rock` holds.
 bool lies_within(const Volume& volume, const Pose& pose, float voxel_size_m, const InRock& in_rock) {
   const VoxelBox& box = volume.window.box;
   const int stride = stride_of(volume.window);
@@ -38,7 +36,7 @@ bool lies_within(const Volume& volume, const Pose& pose, float voxel_size_m, con
         const glm::vec3 offset = glm::vec3(x, y, z) - volume.centre_voxels;
         if (in_rock(centre + pose.rotation * offset)) ++inside;
       }
-  // A piece so thin that every look missed it is told by its centre of mass.
+  // No tested voxel of a very thin piece may be solid: its centre of mass decides.
   if (solid == 0) return in_rock(centre);
   return static_cast<float>(inside) >= limits::buried_share * static_cast<float>(solid);
 }
@@ -47,38 +45,42 @@ glm::vec3 position_m(VoxelCoord voxel, float voxel_size_m) {
   return glm::vec3(voxel.x, voxel.y, voxel.z) * voxel_size_m;
 }
 
-InRock deeper_than_a_voxel(Field& field) {
-  return [&field](glm::vec3 p_voxels) {
+/// Places whose voxel has at most that code.
+InRock codes_up_to(int code_max, Field& field) {
+  return [&field, code_max](glm::vec3 p_voxels) {
     const VoxelCoord voxel{floor_to_int(p_voxels.x + 0.5F), floor_to_int(p_voxels.y + 0.5F),
                            floor_to_int(p_voxels.z + 0.5F)};
     const VoxelCoord first = first_voxel(brick_of(voxel));
     const int index = Brick::index(voxel.x - first.x, voxel.y - first.y, voxel.z - first.z);
-    return field.brick(brick_of(voxel)).codes[static_cast<size_t>(index)] <= limits::buried_code;
+    return field.brick(brick_of(voxel)).codes[static_cast<size_t>(index)] <= code_max;
   };
 }
 
-/// Pieces around the terrain that gained rock in this tick.
+/// Adds pieces near terrain that gained rock since the last call.
 void find_enclosed(World::State& state) {
   if (state.gained.empty()) return;
-  const InRock in_rock = deeper_than_a_voxel(state.field);
+  const InRock in_rock = codes_up_to(limits::buried_code, state.field);
   for (const VoxelBox& box : state.gained)
     for (const PieceId id : pieces_within(state, box, in_rock)) state.buried.insert(id);
   state.gained.clear();
 }
 
-/// Pieces that got stuck otherwise. Each is looked at a few times a second; one that is buried in two looks
-/// in a row has not just struck the ground hard, so it does not come out again by itself.
+/// Adds pieces that got stuck in another way. Each piece is tested limits::buried_looks_hz times a second.
+/// One test is not enough: a piece that strikes the ground hard is in it for a tick or two. A centre of mass
+/// in the air tells nearly every piece that is not buried at the cost of one voxel.
 void find_stuck(World::State& state) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto period = std::max<Tick>(1, state.config.tick_rate_hz / limits::buried_looks_hz);
-  const InRock in_rock = deeper_than_a_voxel(state.field);
-  for (const BodyState& body : state.bodies.states()) {
-    if (body.frozen || (body.id + state.tick) % period != 0) continue;
-    if (!in_rock(body.pose.position_m / dx) ||
-        !lies_within(*state.pieces.at(body.id), body.pose, dx, in_rock))
-      state.sunk.erase(body.id);
-    else if (!state.sunk.insert(body.id).second)
-      state.buried.insert(body.id);
+  const InRock in_rock = codes_up_to(limits::buried_code, state.field);
+  const InRock in_solid = codes_up_to(-1, state.field);
+  for (const auto& [id, volume] : state.pieces) {
+    if ((id + state.tick) % period != 0) continue;
+    const BodyState body = state.bodies.state(id);
+    if (body.frozen) continue;
+    if (!in_solid(body.pose.position_m / dx) || !lies_within(*volume, body.pose, dx, in_rock))
+      state.sunk.erase(id);
+    else if (!state.sunk.insert(id).second)
+      state.buried.insert(id);
   }
 }
 
@@ -107,12 +109,12 @@ void merge_buried(World::State& state, TickDelta& delta) {
       state.bodies.freeze(id);
     }
   }
-  if (merging) {
-    for (const PieceId id : now) state.buried.erase(id);
-  }
-  std::erase_if(state.buried, [&](PieceId id) { return !state.bodies.contains(id); });
-  std::erase_if(state.sunk, [&](PieceId id) { return !state.bodies.contains(id); });
   merge_pieces(state, now, delta);
+  // Frozen for good or not, a piece that thaws is tested anew.
+  if (!merging) state.buried.clear();
+  const auto is_gone = [&](PieceId id) { return !state.bodies.contains(id); };
+  std::erase_if(state.buried, is_gone);
+  std::erase_if(state.sunk, is_gone);
 }
 
 }  // namespace scree

@@ -14,16 +14,17 @@
 
 namespace scree {
 
-/// A place in the world, in voxels.
+/// Tells whether a place in the world, in voxels, lies in rock.
 using InRock = std::function<bool(glm::vec3 p_voxels)>;
 
-/// The pieces alive, in order of id, at least half of whose volume lies where `in_rock` holds. Only pieces
-/// whose bounding sphere meets `bounds` (voxels) are looked at.
+/// The living pieces of which at least half lies where `in_rock` holds, in order of id. Only pieces near
+/// `bounds` (voxels) are tested, so `in_rock` must not hold outside of it.
 std::vector<PieceId> pieces_within(const World::State& state, const VoxelBox& bounds, const InRock& in_rock);
 
-/// Pieces around terrain that gained rock in this tick, and pieces that stayed buried between two looks,
-/// become terrain by the method that the settings name, as many as the tick's budget allows and one at least;
-/// the others stand still until their turn comes. With recombination off all of them stand still.
+/// Merges buried pieces by the method in the settings: pieces near terrain that gained rock in this tick, and
+/// pieces that two tests in a row found buried. At least one, and more as far as the tick's budget goes; the
+/// others freeze until their turn. With Recombination::off all of them freeze; they thaw as all frozen pieces
+/// do.
 void merge_buried(World::State& state, TickDelta& delta);
 
 }  // namespace scree

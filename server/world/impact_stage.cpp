@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "server/work/limits.h"
+#include "server/work/price.h"
+#include "server/work/work.h"
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
-#include "server/world/work.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
@@ -85,9 +87,8 @@ class Breakup {
   }
 
   BodyState child(const Volume& volume) const {
-    BodyState state = parent_;
-    state.pose.position_m += offset_m(volume);
-    state.velocity_m_s += relative_velocity(volume) - surplus_;
+    BodyState state = part_of(parent_, (volume.centre_voxels - centre_voxels_) * dx_);
+    state.velocity_m_s += push(volume) - surplus_;
     return state;
   }
 
@@ -103,11 +104,14 @@ class Breakup {
     return parent_.pose.rotation * ((volume.centre_voxels - centre_voxels_) * dx_);
   }
   glm::vec3 relative_velocity(const Volume& volume) const {
-    const glm::vec3 off_m = offset_m(volume);
-    const glm::vec3 away = parent_.pose.position_m + off_m - blow_.impact.point_m;
+    return glm::cross(parent_.spin_rad_s, offset_m(volume)) + push(volume);
+  }
+
+  /// Away from the blow.
+  glm::vec3 push(const Volume& volume) const {
+    const glm::vec3 away = parent_.pose.position_m + offset_m(volume) - blow_.impact.point_m;
     const float distance = std::sqrt(glm::dot(away, away));
-    return glm::cross(parent_.spin_rad_s, off_m) +
-           away * (limits::break_push * blow_.speed_m_s / std::max(distance, 0.01F));
+    return away * (limits::break_push * blow_.speed_m_s / std::max(distance, 0.01F));
   }
 
   BodyState parent_;
@@ -120,11 +124,10 @@ class Breakup {
 /// Breaks or dents in one tick: up to a limit, and as far as the tick's budget goes.
 struct Quota {
   uint32_t max = 0;
-  float cost_us = 0.0F;
   uint32_t done = 0;
 
   /// Whether there is room for one more; else counts it as left out.
-  bool take(WorkBudget& work, uint32_t& left_out) {
+  bool take(float cost_us, WorkBudget& work, uint32_t& left_out) {
     if (done >= max || !work.affords(cost_us)) {
       ++left_out;
       return false;
@@ -139,7 +142,10 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const PieceId id = blow.impact.id;
   CHECK(blow.excess > 1.0F);
   const uint32_t seeds = seeds_for(state, blow);
-  if (seeds < 2 || !quota.take(state.work, delta.work.breaks_left_out)) return;
+  if (seeds < 2) return;
+  const auto voxels = static_cast<float>(state.pieces.at(id)->window.codes.size());
+  const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
+  if (!quota.take(cut_price_us(cutter, voxels, seeds), state.work, delta.work.breaks_left_out)) return;
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
@@ -149,13 +155,14 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                                                                   .random_seed = random_seed(state, id),
                                                                   .impact_voxels = breakup.impact_voxels(),
                                                                   .first_piece = state.next_piece,
-                                                                  .cutter = state.config.methods.cutter},
+                                                                  .cutter = cutter},
                                                  delta);
   CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   breakup.balance(applied, state.pieces);
-  const PieceTraits traits{static_cast<uint8_t>(parent.generation + 1)};
+  PieceTraits traits = parent;
+  ++traits.generation;
   const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
   spawn(state, applied, born, delta);
 }
@@ -183,10 +190,12 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
       .random_seed = random_seed(state, impact.id),
       .impact_m = impact.point_m,
       .first_piece = state.next_piece,
-      .cutter = state.config.methods.cutter};
+      .cutter = cutter_for(state.config.methods.cutter,
+                           voxels_of(band_box(in_voxels(sphere(impact.point_m, radius_m), dx))))};
   if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
     return;  // at the world's edge
-  if (!quota.take(state.work, delta.work.dents_left_out)) return;
+  if (!quota.take(limits::dent_cost_us, state.work, delta.work.dents_left_out)) return;
+  const uint64_t owner = state.traits_of(impact.id).owner;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
@@ -197,7 +206,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
     const float distance = std::max(std::sqrt(glm::dot(sideways, sideways)), 0.01F);
     const float speed = limits::dent_throw * blow.speed_m_s;
     piece.body.velocity_m_s = (sideways / distance + impact.normal) * speed;
-    piece.traits = {limits::break_generations_max};
+    piece.traits = {.generation = limits::break_generations_max, .owner = owner};
     return piece;
   };
   spawn(state, applied, thrown, delta);
@@ -207,8 +216,8 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
 
 void apply_impacts(World::State& state, TickDelta& delta) {
   if (!state.config.methods.impacts && !state.config.methods.dents) return;
-  Quota breaks{limits::breaks_per_tick_max, limits::break_cost_us};
-  Quota dents{limits::dents_per_tick_max, limits::dent_cost_us};
+  Quota breaks{limits::breaks_per_tick_max};
+  Quota dents{limits::dents_per_tick_max};
   for (const Blow& blow : blows_of(state)) {
     const bool on_terrain = !blow.impact.other.has_value();
     if (state.config.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/work/limits.h"
+#include "server/work/price.h"
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -30,16 +32,10 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
     Newborn born;
     born.body.pose.position_m = volume.centre_voxels * dx;
     born.may_be_concave = true;
+    born.traits.fell = true;
     return born;
   };
   spawn(state, applied, at_rest, delta);
-}
-
-/// Estimated cost of lifting the island out of its surroundings.
-float cost_us(const Island& island) {
-  const VoxelCoord size = lift_box(island.box).size();
-  return limits::lift_voxel_cost_us * static_cast<float>(size.x) * static_cast<float>(size.y) *
-         static_cast<float>(size.z);
 }
 
 bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
@@ -92,8 +88,10 @@ void IslandQueue::changed(std::span<const BrickCoord> bricks) {
 bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
   if (waiting_.empty() || bricks == 0) return false;
   Waiting& first = waiting_.front();
-  if (first.search == nullptr)
+  if (first.search == nullptr) {
     first.search = std::make_unique<IslandSearch>(field, first.cut, limits::island_parts_max);
+    bricks -= std::min(bricks, first.cut.size());  // it has read these
+  }
   const unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
   size_t own = bricks << doublings;
   const bool finished = first.search->advance(own);
@@ -130,10 +128,12 @@ void drop_islands(World::State& state, TickDelta& delta) {
   size_t bricks = limits::island_bricks_per_tick;
   while (state.islands.search(state.field, bricks, delta.work.islands_too_large)) {
   }
+  state.work.spend(limits::island_brick_cost_us *
+                   static_cast<float>(limits::island_bricks_per_tick - bricks));
   bool first = true;
   while (const Island* next = state.islands.next()) {
     const Island island = *next;
-    const float cost = cost_us(island);
+    const float cost = lift_price_us(island.box);
     if (state.pieces.size() >= state.config.pieces_max || (!first && !state.work.affords(cost))) break;
     first = false;
     state.islands.pop();

@@ -6,26 +6,21 @@
 
 namespace scree::limits {
 
-/// Ticks a second. Below, a click is answered so late that it seems lost; above, a tick's work does not fit
-/// into its time. Refused where a world is created.
-inline constexpr uint32_t tick_rate_min_hz = 10;
-inline constexpr uint32_t tick_rate_max_hz = 1000;
-
 /// Pieces alive at once that a world may be asked for. Above, no machine of today keeps the tick; none at all
 /// is no carve at all. Refused where a world is created.
 inline constexpr uint32_t pieces_max_min = 1;
 inline constexpr uint32_t pieces_max_max = 20000;
 
-/// Merges in one tick that a world may be asked for; 0: nothing merges. So many take 30 ms. Above: refused
-/// where a world is created.
+/// Merges in one tick that a world may be asked for; 0: nothing merges. So many take two ticks of 60 Hz.
+/// Above: refused where a world is created.
 inline constexpr uint32_t merges_per_tick_max_max = 1000;
 
 /// Bricks that the search for islands reads in one tick: about 1 ms. Above: it continues in the next tick.
 inline constexpr size_t island_bricks_per_tick = 1024;
 
-/// Bricks that lost rock in one search for islands: more than one blow changes. Above: several searches. That
-/// happens when many cuts waited while islands were switched off.
-inline constexpr size_t island_cut_bricks_max = 4096;
+/// Bricks around which one search for islands looks: a blow of ordinary size changes fewer. Above: several
+/// searches.
+inline constexpr size_t island_cut_bricks_max = 512;
 
 /// Distance around a change within which the search for support looks, bricks: 14 m at 0.25 m. Terrain that
 /// reaches farther counts as held.
@@ -53,10 +48,10 @@ inline constexpr size_t compound_parts_max = 64;
 /// larger component counts as ground, and is counted.
 inline constexpr size_t island_parts_max = 65536;
 
-/// Times that a search's budget doubles, once for each restart: the largest island is then searched in one
-/// tick, so that no change can interrupt the search.
-inline constexpr unsigned island_doublings_max = 6;
-static_assert(island_bricks_per_tick << island_doublings_max >= island_parts_max);
+/// Times that a search's budget doubles, once for each restart: an island of so many bricks is then searched
+/// in one tick, about 4 ms, so that no change can interrupt the search. A larger one falls when changes near
+/// it pause.
+inline constexpr unsigned island_doublings_max = 2;
 
 /// Change of a piece's speed in one contact below which it is no impact, m/s: a piece at rest on the ground
 /// bears 0.16, one that drops by its own height 3.
@@ -92,37 +87,9 @@ inline constexpr float dent_radius_max_m = 1.5F;
 inline constexpr uint32_t dent_seeds = 4;
 inline constexpr float dent_throw = 0.3F;
 
-/// Share of a tick's length that its work may take by the model; the rest is for work outside the model, and
-/// for other threads. Above: requests wait, pieces merge sooner, fewer break.
-inline constexpr float work_share = 0.75F;
-
-/// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.
-inline constexpr float crowded_share = 0.5F;
-
-/// The model, microseconds as measured on one core of a 2023 server (bench storm): a body that is awake, a
-/// point of contact, a voxel of an edit's box, a seed's piece with its hull and body, a break, a dent, a
-/// merge by each method.
-inline constexpr float body_cost_us = 4.2F;
-inline constexpr float contact_cost_us = 1.2F;
-inline constexpr float edit_voxel_cost_us = 0.06F;
-inline constexpr float seed_cost_us = 22.0F;
-inline constexpr float break_cost_us = 500.0F;
-inline constexpr float dent_cost_us = 500.0F;
-inline constexpr float stamp_cost_us = 30.0F;
-inline constexpr float slices_cost_us = 60.0F;
-inline constexpr float sphere_cost_us = 170.0F;
-
-/// A part of the terrain in a search for support (shared/falling/support_search.h).
-inline constexpr float support_part_cost_us = 0.7F;
-
-/// A voxel of the box around an island that is lifted.
-inline constexpr float lift_voxel_cost_us = 0.05F;
-
-/// Merges in a tick whose budget is used up: without any, the number of bodies would never fall.
-inline constexpr uint32_t merges_per_tick_min = 2;
-
-/// Requests that wait for a tick with room for them. Above: refused.
-inline constexpr size_t requests_waiting_max = 256;
+/// Merges in a tick whose budget is used up: half a millisecond, which so many fewer bodies save in a few
+/// ticks.
+inline constexpr uint32_t merges_per_tick_min = 16;
 
 /// Clients at once that a server may be asked for.
 inline constexpr uint32_t sessions_max_max = 4096;
@@ -131,6 +98,10 @@ inline constexpr uint32_t sessions_max_max = 4096;
 /// practice.
 inline constexpr double requests_per_second_min = 0.1;
 inline constexpr double requests_per_second_max = 1.0e6;
+
+/// Least reach of a request's shape, voxels: between the centres of voxels a smaller one would change
+/// nothing. Refused.
+inline constexpr float request_reach_min_voxels = 0.75F;
 
 /// Code at which a place is deeper than a voxel in rock.
 inline constexpr int buried_code = -42;
@@ -142,7 +113,7 @@ inline constexpr int buried_samples = 64;
 
 /// Looks a second at a piece that no merge enclosed. Two looks in a row must find it buried: a piece that
 /// struck the ground hard is in it for a tick or two.
-inline constexpr uint32_t buried_looks_hz = 8;
+inline constexpr uint32_t buried_looks_hz = 20;
 
 /// Pieces that freeze in one tick, about 10 us each. Above: in the next.
 inline constexpr size_t freezes_per_tick_max = 64;

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "server/work/limits.h"
 #include "server/world/buried_stage.h"
 #include "server/world/limits.h"
 #include "shared/base/check.h"
@@ -119,6 +120,15 @@ StampMethod method_for(const World::State& state, const StampedPiece& piece) {
   return Window::count(box) <= limits::stamp_voxels_max ? wanted : StampMethod::stamp;
 }
 
+/// The plan for one piece. Where redistancing would close gaps between earlier merges that hold more mass
+/// than the piece and all dust have, the piece merges as slices, which never gain too much.
+PreparedStamp prepare_one(World::State& state, const StampedPiece& piece, MassUnits mass, MassUnits budget) {
+  PreparedStamp prepared =
+      prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, method_for(state, piece), budget);
+  if (prepared.gain <= mass + state.ledger.dust) return prepared;
+  return prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, StampMethod::slices, budget);
+}
+
 /// The field gains the pieces' mass, and with it dust that earlier merges could not place.
 void merge_group(World::State& state, const std::vector<StampedPiece>& group, TickDelta& delta) {
   CHECK(!group.empty() && group.size() <= limits::stamp_group_max);
@@ -126,12 +136,20 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   for (const StampedPiece& one : group) mass += state.pieces.at(one.piece)->mass;
   const MassUnits budget = stamp_budget(mass, state.ledger.dust);
   const StampedPiece& first = group.front();
-  const PreparedStamp prepared = group.size() > 1
-                                     ? prepare_group(state.field, state.pieces, group, budget)
-                                     : prepare_stamp(state.field, state.pieces, first.piece, first.pose,
-                                                     method_for(state, first), budget);
+  const PreparedStamp prepared = group.size() > 1 ? prepare_group(state.field, state.pieces, group, budget)
+                                                  : prepare_one(state, first, mass, budget);
+  if (prepared.gain > mass + state.ledger.dust) {
+    CHECK(group.size() > 1);
+    for (const StampedPiece& one : group) merge_group(state, {one}, delta);
+    return;
+  }
+  const bool all_fell =
+      std::ranges::all_of(group, [&](const StampedPiece& one) { return state.traits_of(one.piece).fell; });
   for (const StampedPiece& one : group) state.bodies.remove(one.piece);
   const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
+  // Flakes that hang loose now fall; but a flake that merges as it lay would fall again, and so for ever.
+  if (!all_fell) state.cut.insert(applied.changed.begin(), applied.changed.end());
+  CHECK_EQ(applied.terrain_gain, prepared.gain);
   state.ledger.pieces -= mass;
   state.ledger.dust += mass - applied.terrain_gain;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "server/bodies/terrain_collider_kind.h"
 #include "server/fracture/simplify.h"
@@ -13,6 +14,24 @@ namespace scree {
 /// How pieces at rest become terrain again: by a method of shared/recombine/stamp_method.h; `off`: they stay
 /// bodies.
 enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3 };
+
+struct RecombinationRow {
+  std::string_view name;
+};
+
+constexpr RecombinationRow row_of(Recombination recombination) {
+  switch (recombination) {
+    case Recombination::stamp:
+      return {.name = "stamp"};
+    case Recombination::slices:
+      return {.name = "slices"};
+    case Recombination::sphere:
+      return {.name = "sphere"};
+    case Recombination::off:
+      return {.name = "off"};
+  }
+  return {};
+}
 
 struct Methods {
   TerrainColliderKind collider = TerrainColliderKind::field;  ///< how bodies find the terrain

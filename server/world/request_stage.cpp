@@ -5,10 +5,12 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "server/work/limits.h"
+#include "server/work/price.h"
 #include "server/world/buried_stage.h"
+#include "server/world/cut_stage.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
-#include "server/world/refusal.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -42,41 +44,78 @@ BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
   return state;
 }
 
-void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, TickDelta& delta) {
+void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t session,
+               TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto born = [&](PieceId id, const Volume& volume) {
-    return Newborn{blast(id, volume.centre_voxels * dx, request), {}};
+    return Newborn{blast(id, volume.centre_voxels * dx, request), {.owner = session}};
   };
   spawn(state, applied, born, delta);
 }
 
-/// The refusal says what would help: fewer seeds, more room, or time, if the carve ever fits.
-Result<void> check_room(size_t alive, uint32_t seeds, uint32_t pieces_max) {
-  const size_t wanted = alive + seeds;
-  if (wanted <= pieces_max) return {};
+/// The refusal of a carve without room, which says what would help: fewer seeds, more room, or time, if the
+/// carve ever fits.
+Refused no_room(const World::State& state, uint32_t seeds, uint64_t session, const PieceGrant& grant) {
+  const uint32_t pieces_max = state.config.pieces_max;
+  const size_t alive = state.pieces.size(), wanted = alive + seeds;
   const std::string limit = std::to_string(pieces_max), all = std::to_string(wanted);
+  const std::string most = std::to_string(grant.pieces_most);
   if (seeds > pieces_max)
-    return fail("a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
+    return {Refusal::pieces_max,
+            "a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
                 " pieces (pieces_max): ask for " + limit + " seeds at most, or have the limit raised to " +
-                all + " (--pieces-max)");
-  const size_t left = pieces_max - std::min<size_t>(alive, pieces_max);
-  return fail(std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
+                all + " (--pieces-max)"};
+  if (grant.contested)
+    return {
+        Refusal::pieces_share,
+        "other clients share this server's room for pieces (pieces_max): of " + std::to_string(alive) +
+            " alive " + std::to_string(state.shares.of(session)) + " are this client's: " +
+            (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
+  return {Refusal::pieces_max,
+          std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
               "; this server's limit is " + limit + " (pieces_max): wait until " +
               std::to_string(wanted - pieces_max) + " have settled, " +
-              (left > 0 ? "ask for " + std::to_string(left) + " seeds at most, " : std::string()) +
-              "or have the limit raised to " + all + " (--pieces-max)");
+              (grant.pieces_most > 0 ? "ask for " + most + " seeds at most, " : std::string()) +
+              "or have the limit raised to " + all + " (--pieces-max)"};
 }
 
-Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta) {
-  const CarveOperation operation{.shape = request.shape,
-                                 .pattern = request.pattern,
-                                 .seeds = request.seeds,
-                                 .random_seed = request.random_seed,
-                                 .impact_m = request.impact_m,
-                                 .first_piece = state.next_piece,
-                                 .cutter = state.config.methods.cutter,
-                                 .authored_m = request.authored_m};
-  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
+/// Refuses an operation that is invalid, and a shape that is too small for the world's voxels.
+Result<void> check_request(const World::State& state, const Operation& operation, const Shape& shape) {
+  const float dx = state.config.terrain.voxel_size_m;
+  if (Result<void> valid = validate(operation, state.pieces, dx); !valid) return valid;
+  const float least_m = limits::request_reach_min_voxels * dx;
+  if (reach_of(shape) >= least_m - limits::edit_reach_rounding_m) return {};
+  return fail("reach " + std::to_string(reach_of(shape)) + " m may change nothing in voxels of " +
+              std::to_string(dx) + " m: ask for " + std::to_string(least_m) +
+              " m at least (limits.request_reach_min_voxels)");
+}
+
+/// The operation of a request; its seeds may be fewer than asked for.
+CarveOperation operation_of(const World::State& state, const CarveRequest& request, uint32_t seeds,
+                            Cutter cutter) {
+  CarveOperation operation{.shape = request.shape,
+                           .pattern = request.pattern,
+                           .seeds = seeds,
+                           .random_seed = request.random_seed,
+                           .impact_m = request.impact_m,
+                           .first_piece = state.next_piece,
+                           .cutter = cutter,
+                           .authored_m = request.authored_m};
+  if (operation.authored_m.size() > seeds) operation.authored_m.resize(seeds);
+  return operation;
+}
+
+/// Seeds of the first cut; the pieces that authored seeds make are those that somebody drew.
+uint32_t seeds_at_once(const CarveRequest& request, const PieceGrant& grant, Cutter cutter) {
+  if (traits_of(request.pattern).needs_points) return grant.pieces;
+  return pieces_at_once(cutter, grant.pieces);
+}
+
+Outcome carve(World::State& state, const CarveRequest& request, uint64_t session, const PieceGrant& grant,
+              TickDelta& delta) {
+  const float dx = state.config.terrain.voxel_size_m;
+  if (Result<void> valid =
+          check_request(state, operation_of(state, request, request.seeds, Cutter::field), request.shape);
       !valid)
     return refuse(Refusal::carve_invalid, valid.error().message);
   if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||
@@ -84,11 +123,15 @@ Outcome carve(World::State& state, const CarveRequest& request, TickDelta& delta
     return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
                                             std::to_string(limits::blast_speed_max_m_s) +
                                             " m/s (limits.blast_speed_max_m_s)");
-  if (Result<void> room = check_room(state.pieces.size(), request.seeds, state.config.pieces_max); !room)
-    return refuse(Refusal::pieces_max, room.error().message);
-  const Applied applied = state.apply_and_record(operation, delta);
+  if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, session, grant));
+  CHECK(grant.pieces <= request.seeds);
+  const Cutter cutter =
+      cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
+  const uint32_t at_once = seeds_at_once(request, grant, cutter);
+  const Applied applied = state.apply_and_record(operation_of(state, request, at_once, cutter), delta);
   state.enter_taken(applied);
-  throw_out(state, applied, request, delta);
+  throw_out(state, applied, request, session, delta);
+  if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces);
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -107,8 +150,7 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) {
   const FillOperation operation{request.shape};
-  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
-      !valid)
+  if (Result<void> valid = check_request(state, operation, request.shape); !valid)
     return refuse(Refusal::fill_invalid, valid.error().message);
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
   const Applied applied = state.apply_and_record(operation, delta);
@@ -118,8 +160,7 @@ Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) 
 
 Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
   const PaintOperation operation{request.shape, request.material};
-  if (Result<void> valid = validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m);
-      !valid)
+  if (Result<void> valid = check_request(state, operation, request.shape); !valid)
     return refuse(Refusal::paint_invalid, valid.error().message);
   state.apply_and_record(operation, delta);
   return 0U;
@@ -139,23 +180,64 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
 
 struct Executing {
   World::State& state;
+  uint64_t session;
+  const PieceGrant& grant;
   TickDelta& delta;
 
-  Outcome operator()(const CarveRequest& request) const { return carve(state, request, delta); }
+  Outcome operator()(const CarveRequest& request) const {
+    return carve(state, request, session, grant, delta);
+  }
   Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
 };
 
-}  // namespace
-
-void publish_settings(const World::State& state, TickDelta& delta) {
-  delta.settings = print(state.config);
-  delta.service = state.config.service;
+/// The pieces that a request may make, if it is a carve.
+PieceGrant grant_for(const World::State& state, const Command& command) {
+  const CarveRequest* const carve = std::get_if<CarveRequest>(&command.body);
+  if (carve == nullptr || carve->seeds == 0) return {};
+  const PieceRoom room{.alive = state.pieces.size(),
+                       .pieces_max = state.config.pieces_max,
+                       .bodies_load = state.work.bodies_load(),
+                       .others_wait = state.requests.others_wait(command.session)};
+  return state.shares.grant(command.session, carve->seeds, room);
 }
 
-void execute(World::State& state, const Command& command, TickDelta& delta) {
-  const Outcome made = std::visit(Executing{state, delta}, command.body);
+/// Price of the request with the pieces that it was granted. Pieces that are cut later are in it, so that
+/// their client pays for them, too.
+float cost_with(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
+  const CarveRequest* const carve = std::get_if<CarveRequest>(&request.command.body);
+  if (carve == nullptr || grant.pieces == carve->seeds) return request.cost_us;
+  if (grant.pieces == 0) return limits::refusal_cost_us;
+  CarveRequest fewer = *carve;
+  fewer.seeds = grant.pieces;
+  return price_us(Request(fewer), state.field, state.config.methods.cutter);
+}
+
+/// Time in the tick that is kept for pieces at rest that could not merge in the last one.
+float relief_us(const World::State& state) {
+  const float wanted =
+      merge_cost_us(state.config.methods.recombine) * static_cast<float>(state.rest.put_off());
+  return std::min(wanted, limits::relief_share * state.work.budget_us());
+}
+
+/// Whether a request that costs time may be carried out in this tick, though it may not fit: with few bodies
+/// at any time, with many now and then.
+bool may_begin(const World::State& state) {
+  if (state.work.in_debt()) return false;
+  const auto rest = static_cast<Tick>(limits::request_rest_s * static_cast<float>(state.config.tick_rate_hz));
+  return state.work.bodies_load() < limits::load_max || state.tick - state.requested >= rest;
+}
+
+bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
+  const auto ticks =
+      static_cast<Tick>(limits::room_wait_max_s * static_cast<float>(state.config.tick_rate_hz));
+  return grant.may_wait && state.tick - request.since < ticks;
+}
+
+/// Carries out one request, or refuses it with a reason; the delta gets the reply.
+void execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
+  const Outcome made = std::visit(Executing{state, command.session, grant, delta}, command.body);
   Reply reply{command.session, command.request, {}, 0};
   if (made) {
     reply.pieces = *made;
@@ -166,29 +248,46 @@ void execute(World::State& state, const Command& command, TickDelta& delta) {
   delta.replies.push_back(std::move(reply));
 }
 
+}  // namespace
+
+void publish_settings(const World::State& state, TickDelta& delta) {
+  delta.settings = print(state.config);
+  delta.service = state.config.service;
+}
+
 void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands) {
-    if (state.waiting.size() < limits::requests_waiting_max) {
-      state.waiting.push_back(command);
-      continue;
-    }
-    delta.replies.push_back({command.session, command.request,
-                             std::to_string(state.waiting.size()) +
-                                 " requests are waiting (limits.requests_waiting_max): ask again later",
-                             0, Refusal::requests_waiting});
+    WaitingRequest request{command, price_us(command.body, state.field, state.config.methods.cutter),
+                           state.tick};
+    if (Result<void> taken = state.requests.push(std::move(request)); !taken)
+      delta.replies.push_back(
+          {command.session, command.request, taken.error().message, 0, Refusal::requests_waiting});
   }
 }
 
 void carry_out(World::State& state, TickDelta& delta) {
-  for (bool first = true; !state.waiting.empty(); first = false) {
-    const float cost = cost_us(state.waiting.front(), state.config.terrain.voxel_size_m);
-    if (!first && !state.work.affords(cost)) break;
-    execute(state, state.waiting.front(), delta);
-    state.work.spend(cost);
-    state.waiting.pop_front();
+  state.requests.begin_tick();
+  const float relief = relief_us(state);
+  bool first = true;
+  while (const WaitingRequest* const next = state.requests.next()) {
+    const PieceGrant grant = grant_for(state, next->command);
+    if (may_wait(state, *next, grant)) {
+      state.requests.pass_over();
+      continue;
+    }
+    const float cost = cost_with(state, *next, grant);
+    const bool costs_nothing = cost <= limits::refusal_cost_us;
+    if (!costs_nothing) {
+      if (first ? !may_begin(state) : !state.work.affords(cost + relief)) break;
+      first = false;
+      state.requested = state.tick;
+    }
+    const Command command = next->command;
+    state.requests.pop(cost);
+    execute(state, command, grant, delta);
+    state.work.spend_on_request(cost);
   }
-  CHECK(state.waiting.size() <= limits::requests_waiting_max);
-  delta.work.requests_waiting = static_cast<uint32_t>(state.waiting.size());
+  delta.work.requests_waiting = static_cast<uint32_t>(state.requests.size());
 }
 
 }  // namespace scree

@@ -7,17 +7,16 @@
 
 namespace scree {
 
-/// The commands wait behind those that wait already; beyond limits::requests_waiting_max they are refused.
+/// The commands wait behind those of the same client; what RequestQueue::push() refuses gets its reply at
+/// once.
 void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta);
 
-/// Carries out the waiting commands in order: at least one, and more as far as the tick's budget goes. Each
-/// gets one reply.
+/// Carries out waiting commands by the clients' turns: at least one unless earlier ones are still to be paid
+/// back, and more as far as the tick's budget goes. A carve whose client has to share the room for pieces
+/// gets fewer pieces than it asked for, waits a little, or is refused. Each command gets one reply.
 void carry_out(World::State& state, TickDelta& delta);
 
 /// Enters the values of all settings in the delta.
 void publish_settings(const World::State& state, TickDelta& delta);
-
-/// Carries out one request, or refuses it with a reason; the delta gets the reply.
-void execute(World::State& state, const Command& command, TickDelta& delta);
 
 }  // namespace scree

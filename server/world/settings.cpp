@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "server/world/limits.h"
+#include "shared/base/kind_table.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
 
@@ -14,19 +15,16 @@ namespace scree {
 
 namespace {
 
+constexpr std::array<std::string_view, 2> bool_names{"false", "true"};
+
 /// The names of a choice's values, in their order.
 template <typename Choice>
-constexpr std::array<std::string_view, 0> names_of{};
-template <>
-constexpr std::array<std::string_view, 2> names_of<bool>{"false", "true"};
-template <>
-constexpr std::array<std::string_view, 3> names_of<TerrainColliderKind>{"field", "mesh", "rays"};
-template <>
-constexpr std::array<std::string_view, 4> names_of<Recombination>{"stamp", "slices", "sphere", "off"};
-template <>
-constexpr std::array<std::string_view, 3> names_of<Cutter>{"field", "slice", "conform"};
-template <>
-constexpr std::array<std::string_view, 3> names_of<Simplifier>{"none", "hull", "merge"};
+constexpr std::span<const std::string_view> names_of() {
+  if constexpr (std::is_same_v<Choice, bool>)
+    return bool_names;
+  else
+    return kind_names<Choice>;
+}
 
 /// The member that a pointer names, wherever in the config its struct lies.
 template <typename Value>
@@ -60,7 +58,7 @@ void put_member(WorldConfig& config, double value) {
 /// A row of the table, for a member whose type has names_of.
 template <auto Member>
 constexpr Setting choice(std::string_view name, std::string_view help) {
-  const auto& names = names_of<ValueOf<Member>>;
+  const std::span<const std::string_view> names = names_of<ValueOf<Member>>();
   return {name, help, names, {}, names, get_member<Member>, put_member<Member>};
 }
 

@@ -1,7 +1,8 @@
 // The table of settings: names, values and help of the members of WorldConfig that may change while a server
 // runs. The server's flags, its configuration file, the environment, requests to change settings, recordings
-// and reports all use it. To add a setting: a member (methods.h: a choice between methods; world.h: a number
-// of the simulation; service_limits.h: a limit of clients), and a row in settings.cpp. The tests of
+// and reports all use it. To add a setting: a member (methods.h: a choice between methods; world_config.h: a
+// number of the simulation, with its bounds in limits.h; service_limits.h: a limit of clients), and a row in
+// settings.cpp; where something else keeps the value, change() in request_stage.cpp hands it on. The tests of
 // determinism take each value in turn.
 #pragma once
 

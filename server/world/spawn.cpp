@@ -1,12 +1,21 @@
 #include "server/world/spawn.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "server/fracture/hull.h"
 #include "server/world/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {
+
+BodyState part_of(const BodyState& body, glm::vec3 offset_m) {
+  BodyState part = body;
+  const glm::vec3 turned_m = body.pose.rotation * offset_m;
+  part.pose.position_m += turned_m;
+  part.velocity_m_s += glm::cross(body.spin_rad_s, turned_m);
+  return part;
+}
 
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
@@ -36,6 +45,7 @@ void spawn(World::State& state, const Applied& applied,
     }
     state.bodies.add(shape, newborn.body);
     state.traits[hull.id] = newborn.traits;
+    state.shares.add(newborn.traits.owner);
     delta.spawned.push_back({hull.id, volume});
     state.next_piece = hull.id + 1;
   }

@@ -14,6 +14,9 @@ struct Newborn {
   bool may_be_concave = false;  ///< collides with the ground by its own surface instead of its hull's
 };
 
+/// The motion of a part of a body whose centre of mass is `offset_m` (in the volume's axes) from the body's.
+BodyState part_of(const BodyState& body, glm::vec3 offset_m);
+
 /// Gives each piece that the operation made a hull, a body and its traits, enters it in the delta, and
 /// advances State::next_piece past its id. Call right after apply_and_record().
 void spawn(World::State& state, const Applied& applied,

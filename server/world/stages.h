@@ -10,10 +10,13 @@
 #include <numeric>
 #include <string_view>
 
+#include "shared/base/kind_table.h"
+
 namespace scree {
 
 enum class TickStage : uint8_t {
   carve,      ///< requests: carves, fills, paint, settings
+  cut,        ///< pieces of large carves that are cut into smaller ones
   spawn,      ///< hulls and bodies of new pieces, whichever stage made them
   bodies,     ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
   impacts,    ///< breaks and dents
@@ -27,32 +30,48 @@ enum class TickStage : uint8_t {
 };
 
 struct TickStageRow {
-  TickStage stage;
+  TickStage stage{};
   std::string_view name;
   /// Reports judge the stage by the ticks in which it changed something, not by all: most ticks have nothing
   /// for it to do.
-  bool only_when_acting;
+  bool only_when_acting = false;
 };
 
-inline constexpr std::array tick_stages{
-    TickStageRow{TickStage::carve, "carve", true},      TickStageRow{TickStage::spawn, "spawn", true},
-    TickStageRow{TickStage::bodies, "bodies", false},   TickStageRow{TickStage::impacts, "impacts", false},
-    TickStageRow{TickStage::rest, "rest", false},       TickStageRow{TickStage::recombine, "recombine", true},
-    TickStageRow{TickStage::buried, "buried", true},    TickStageRow{TickStage::islands, "islands", false},
-    TickStageRow{TickStage::support, "support", false}, TickStageRow{TickStage::specks, "specks", false},
-    TickStageRow{TickStage::publish, "publish", false}};
+constexpr TickStageRow row_of(TickStage stage) {
+  switch (stage) {
+    case TickStage::carve:
+      return {stage, "carve", true};
+    case TickStage::cut:
+      return {stage, "cut", true};
+    case TickStage::spawn:
+      return {stage, "spawn", true};
+    case TickStage::bodies:
+      return {stage, "bodies", false};
+    case TickStage::impacts:
+      return {stage, "impacts", false};
+    case TickStage::rest:
+      return {stage, "rest", false};
+    case TickStage::recombine:
+      return {stage, "recombine", true};
+    case TickStage::buried:
+      return {stage, "buried", true};
+    case TickStage::islands:
+      return {stage, "islands", false};
+    case TickStage::support:
+      return {stage, "support", false};
+    case TickStage::specks:
+      return {stage, "specks", false};
+    case TickStage::publish:
+      return {stage, "publish", false};
+  }
+  return {};
+}
+
+inline constexpr auto tick_stages = kind_rows<TickStage>;
 
 constexpr size_t index_of(TickStage stage) {
   return static_cast<size_t>(stage);
 }
-
-/// Every member of TickStage has its row, at its own place.
-constexpr bool rows_are_in_order() {
-  for (size_t i = 0; i < tick_stages.size(); ++i)
-    if (index_of(tick_stages[i].stage) != i) return false;
-  return tick_stages.back().stage == TickStage::publish;
-}
-static_assert(rows_are_in_order());
 
 /// Milliseconds that each stage of a tick took. Reported only; the simulation never reads them.
 struct StageTimes {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "server/work/limits.h"
+#include "server/work/price.h"
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -41,7 +43,7 @@ CarveOperation crushing(const World::State& state, const VoxelBox& voxels, int64
   operation.random_seed = static_cast<uint32_t>(state.tick) * 0x9E3779B1U + state.next_piece;
   operation.impact_m = centre_of(operation.shape);
   operation.first_piece = state.next_piece;
-  operation.cutter = state.config.methods.cutter;
+  operation.cutter = cutter_for(state.config.methods.cutter, voxels_of(voxels));
   return operation;
 }
 
@@ -57,7 +59,7 @@ void crush(World::State& state, const CarveOperation& operation, TickDelta& delt
     const glm::vec3 away = piece.body.pose.position_m - operation.impact_m;
     const float distance = std::max(std::sqrt(glm::dot(away, away)), dx);
     piece.body.velocity_m_s = away / distance * limits::neck_throw_m_s;
-    piece.traits = {limits::break_generations_max};
+    piece.traits.generation = limits::break_generations_max;
     return piece;
   };
   spawn(state, applied, thrown, delta);

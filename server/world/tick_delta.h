@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "server/world/refusal.h"
+#include "server/work/command.h"
+#include "server/work/tick_work.h"
 #include "server/world/service_limits.h"
 #include "server/world/stages.h"
 #include "shared/base/ids.h"
@@ -23,33 +24,12 @@ namespace scree {
 struct Ledger {
   MassUnits terrain = 0;  ///< gain of the terrain since the start (negative: loss)
   MassUnits pieces = 0;   ///< in pieces alive; not negative
-  MassUnits dust = 0;     ///< merges take it up again
+  MassUnits dust = 0;     ///< merges take it up again; not negative
   MassUnits poured = 0;   ///< added by fills
   MassUnits moved = 0;    ///< taken out of the terrain since the start, in all; for scale
 
   MassUnits error() const { return terrain + pieces + dust - poured; }
   bool operator==(const Ledger&) const = default;
-};
-
-/// A tick's work by the model of server/world/work.h, and the counts of work that was put off or left out.
-struct TickWork {
-  uint32_t budget_us = 0;
-  uint32_t estimate_us = 0;        ///< at the tick's end; over the budget when the minimum of work was more
-  uint32_t requests_waiting = 0;   ///< put off to a later tick
-  uint32_t merges_put_off = 0;     ///< pieces that are at rest and wait their turn
-  uint32_t breaks_left_out = 0;    ///< blows that would have broken a piece
-  uint32_t dents_left_out = 0;     ///< blows that would have dented the ground
-  bool merging_sooner = false;     ///< a crowd: half of the rest time is enough
-  uint32_t supports_put_off = 0;   ///< changed bricks that await a search for support
-  uint32_t supports_given_up = 0;  ///< searches for support that ended without a result
-  uint32_t islands_put_off = 0;    ///< islands, or blocks of islands, that wait to fall
-  uint32_t islands_too_large = 0;  ///< components so large that they were taken for ground
-
-  bool cut_short() const {
-    return requests_waiting + merges_put_off + breaks_left_out + dents_left_out + supports_put_off +
-               supports_given_up + islands_put_off + islands_too_large >
-           0;
-  }
 };
 
 /// An applied operation, with the facts by which a publisher selects it.
@@ -71,15 +51,6 @@ struct BrickState {
 struct SpawnedPiece {
   PieceId id = 0;
   std::shared_ptr<const Volume> volume;
-};
-
-/// The answer to a request; `refusal` is empty when it was carried out.
-struct Reply {
-  uint64_t session = 0;
-  uint32_t request = 0;
-  std::string refusal;
-  uint32_t pieces = 0;
-  std::optional<Refusal> reason = std::nullopt;  ///< of the refusal
 };
 
 struct TickDelta {

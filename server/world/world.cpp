@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/world/buried_stage.h"
+#include "server/world/cut_stage.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
@@ -82,6 +83,8 @@ StageRun run_of(TickStage stage) {
   switch (stage) {
     case TickStage::carve:
       return carry_out;
+    case TickStage::cut:
+      return cut_pieces;
     case TickStage::spawn:
       return nullptr;
     case TickStage::bodies:
@@ -106,7 +109,7 @@ StageRun run_of(TickStage stage) {
   return nullptr;
 }
 
-/// Measured beside it: how long it takes, and whether it changed anything.
+/// Runs a stage and records its time, and whether it applied an operation.
 void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
   const StageRun run = run_of(stage);
   if (run == nullptr) return;

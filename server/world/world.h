@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "server/world/command.h"
+#include "server/work/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world_config.h"
 

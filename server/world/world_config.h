@@ -13,8 +13,9 @@ namespace scree {
 struct WorldConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
-  uint32_t pieces_max = 2000;        ///< alive at once; carves beyond are refused
-  uint32_t merges_per_tick_max = 8;  ///< spreads a mass settling over several ticks
+  uint32_t pieces_max = 2000;  ///< alive at once; carves beyond are refused
+  /// At once; the tick's budget allows fewer. 0: nothing merges, and nothing freezes either.
+  uint32_t merges_per_tick_max = 1000;
   Methods methods;
   ServiceLimits service;  ///< for the network; the simulation does not read it
 

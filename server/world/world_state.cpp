@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/work/limits.h"
 #include "server/world/applied_operation.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
@@ -31,14 +32,14 @@ VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
   return box;
 }
 
-/// What may be loose after an operation: islands or specks. Terrain around a fallen island was not connected
-/// to it; a stamp's redistancing lowers some codes, but opens no gap for an island.
+/// What may hang loose after an operation: islands or specks. Terrain around a fallen island was not
+/// connected to it; a stamp may leave flakes, for which the merge looks itself (merge_stage.cpp).
 enum class Loose { nothing, islands, specks };
 
 Loose left_by(const Operation& operation) {
   return std::visit(Overloaded{
                         [](const CarveOperation&) { return Loose::islands; },
-                        [](const FillOperation&) { return Loose::nothing; },
+                        [](const FillOperation&) { return Loose::islands; },
                         [](const StampOperation&) { return Loose::specks; },
                         [](const DiscardOperation&) { return Loose::nothing; },
                         [](const ShatterOperation&) { return Loose::nothing; },
@@ -55,7 +56,8 @@ World::State::State(const WorldConfig& world_config)
       field(config.terrain),
       bodies(field, bodies_config(config)),
       rest(RestConfig{}, config.tick_rate_hz),
-      work(config.tick_rate_hz) {
+      work(config.tick_rate_hz),
+      requests(limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz)) {
   WorldConfig parsed = config;
   CHECK(set_all(parsed, print(config)) && parsed == config);
 }
@@ -69,8 +71,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   const Loose loose = left_by(operation);
-  if (loose == Loose::islands && applied.terrain_gain < 0)
-    cut.insert(applied.changed.begin(), applied.changed.end());
+  if (loose == Loose::islands) cut.insert(applied.changed.begin(), applied.changed.end());
   if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
   if (loose == Loose::specks) unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
@@ -78,6 +79,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   ledger.terrain += applied.terrain_gain;
   for (const PieceId ended : pieces_ended_by(operation)) {
     CHECK(!pieces.contains(ended));
+    shares.remove(traits.at(ended).owner);
     traits.erase(ended);
   }
   return applied;
@@ -103,11 +105,11 @@ MassUnits World::State::mass_of_pieces() const {
 
 void World::State::check() const {
   CHECK(ledger.error() == 0);
-  CHECK(ledger.pieces >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
+  CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
   CHECK_EQ(bodies.size(), pieces.size());
   CHECK_EQ(traits.size(), pieces.size());
   CHECK(pieces.empty() || pieces.rbegin()->first < next_piece);
-  CHECK(waiting.size() <= limits::requests_waiting_max);
+  CHECK(requests.size() <= limits::requests_waiting_max);
   CHECK_DEBUG(ledger.pieces == mass_of_pieces());
   CHECK_DEBUG(std::ranges::all_of(pieces, [this](const auto& piece) {
     return bodies.contains(piece.first) && traits.contains(piece.first);

@@ -15,9 +15,11 @@
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
+#include "server/work/piece_shares.h"
+#include "server/work/request_queue.h"
+#include "server/work/work.h"
 #include "server/world/island_stage.h"
 #include "server/world/stages.h"
-#include "server/world/work.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
 #include "shared/field/material.h"
@@ -27,6 +29,17 @@ namespace scree {
 /// Properties that a piece keeps for life.
 struct PieceTraits {
   uint8_t generation = 0;  ///< number of breaks among its ancestors
+  bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
+  uint64_t owner = 0;      ///< session of the client whose carve it comes from; 0: of none
+};
+
+/// A piece that is still to be cut into so many (cut_stage.h).
+struct PendingCut {
+  PieceId piece = 0;
+  uint32_t pieces = 0;
+  SeedPattern pattern = SeedPattern::uniform;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};
 };
 
 struct World::State {
@@ -53,15 +66,18 @@ struct World::State {
   Tick tick = 0;
   PieceId next_piece = 1;
   std::set<BrickCoord> changed;   ///< in this tick
-  std::set<BrickCoord> cut;       ///< bricks that lost rock and await a search for islands
+  std::set<BrickCoord> cut;       ///< changed bricks that await a search for islands
   std::set<BrickCoord> strained;  ///< changed bricks that await a search for support
   std::set<BrickCoord> unswept;   ///< changed by merges and falling islands: specks may lie there
   std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last
   std::set<PieceId> buried;       ///< pieces in rock that await their merge
   std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last
   IslandQueue islands;
+  std::deque<PendingCut> cuts;  ///< in order
   WorkBudget work;
-  std::deque<Command> waiting;   ///< requests that wait for a tick with room for them, in order
+  RequestQueue requests;         ///< that wait for a tick with room for them
+  Tick requested = 0;            ///< tick in which a request that costs time was carried out last
+  PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   bool watched = false;          ///< a client wants to see the bodies
   StageWatch watch;              ///< of the tick's stages

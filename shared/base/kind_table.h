@@ -1,4 +1,4 @@
-// Tables of kinds: materials, shapes, seed patterns, kinds of terrain.
+// Tables of kinds: materials, shapes, seed patterns, kinds of terrain, and the methods to choose between.
 //
 // A kind is an enum whose numbers, 0, 1, 2 …, are those on the wire and in recordings. Its table is a
 // function `constexpr Row row_of(Kind)` beside the enum: a switch with a row for each kind, so that a kind
@@ -7,7 +7,8 @@
 // last kind.
 //
 // To add a kind: an enumerator, its row, its place in the functions that switch over the kind (the compiler
-// names them), and its value in proto/scree.proto (proto/wire_values.cpp compares the numbers).
+// names them), and its value in proto/scree.proto, if it has one there (proto/wire_values.cpp
+// compares how many there are, a test the names).
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,13 @@
 
 namespace scree::limits {
 
-/// Seeds in one carve. 4,096 is the most that the issue of one request may cost a tick; above: refused.
+/// Ticks a second. Below, a click is answered so late that it seems lost; above, a tick's work does not fit
+/// into its time. Refused where a world is created, and in a server's welcome.
+inline constexpr uint32_t tick_rate_min_hz = 10;
+inline constexpr uint32_t tick_rate_max_hz = 1000;
+
+/// Seeds in one carve: a request makes at most 4,096 pieces, of which each costs the tick its hull and body.
+/// Above: refused.
 inline constexpr uint32_t seeds_max = 4096;
 
 /// Authored seeds in one carve: 12 bytes each on the wire, to every client near. Above: refused.

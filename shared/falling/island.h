@@ -10,11 +10,11 @@ namespace scree {
 /// The voxels that lifting an island with that box may read; those that it may change lie inside.
 VoxelBox lift_box(const VoxelBox& island);
 
-/// Takes the solid voxels (code < 0) that connect to `start` within `box` out of the window, and the mass in
-/// the voxels around that belong to them alone. The distances that these had to the island become those to
-/// the remaining solid; all other voxels keep their codes. Returns the island, whose mass is exactly that
-/// which the window lost; mass 0 when the start is not solid. `window` must cover lift_box(box), and `box`
-/// hold the start.
+/// Takes the solid voxels (code < 0) that connect to `start` within `box` out of the window, and the partial
+/// mass of voxels around them that no other rock touches. The distances that these had to the island become
+/// those to the remaining solid; all other voxels keep their codes. Returns the island, whose mass is exactly
+/// that which the window lost; mass 0 when the start is not solid. `window` must cover lift_box(box), and
+/// `box` hold the start.
 Volume lift(Window& window, const VoxelBox& box, VoxelCoord start);
 
 }  // namespace scree

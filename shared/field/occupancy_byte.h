@@ -8,8 +8,8 @@
 
 namespace scree {
 
-/// occupancy() in bytes. The ends of the ramp are added as 0 or 1: comparisons that chose a value became
-/// branches.
+/// occupancy() in bytes. The ends of the ramp are added as 0 or 1, because a conditional expression compiles
+/// to branches here, which stop vectorisation.
 inline uint8_t occupancy_byte(Code code) {
   constexpr Code ramp_end = 21;
   const Code on_ramp = std::clamp<Code>(code, -ramp_end, ramp_end);

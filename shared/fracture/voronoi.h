@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string_view>
 #include <vector>
 
+#include "shared/base/kind_table.h"
 #include "shared/field/piece.h"
 #include "shared/fracture/seed_pattern.h"
 
@@ -15,6 +17,22 @@ namespace scree {
 /// paper's; the surface as polygons is cut by each cell's planes and capped (slice_cutter.h). conform: cells
 /// bounded by the shape itself (conform_cutter.h).
 enum class Cutter : uint8_t { field = 0, slice = 1, conform = 2 };
+
+struct CutterRow {
+  std::string_view name;
+};
+
+constexpr CutterRow row_of(Cutter cutter) {
+  switch (cutter) {
+    case Cutter::field:
+      return {.name = "field"};
+    case Cutter::slice:
+      return {.name = "slice"};
+    case Cutter::conform:
+      return {.name = "conform"};
+  }
+  return {};
+}
 
 /// Up to `count` seeds (voxels) inside the volume, no two nearer than a voxel; fewer where there is no room,
 /// none where the volume has no solid voxel. The pattern is one of drawn_patterns.

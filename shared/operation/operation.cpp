@@ -201,8 +201,15 @@ Result<void> known(PieceId id, const PieceTable& pieces) {
   return fail("there is no piece " + std::to_string(id));
 }
 
+/// New ids must be free: an operation off a wire could otherwise replace living pieces.
+Result<void> validate_new_ids(PieceIds made, const PieceTable& pieces) {
+  const auto taken = pieces.lower_bound(made.first);
+  if (made.count == 0 || taken == pieces.end() || taken->first - made.first >= made.count) return {};
+  return fail("piece " + std::to_string(taken->first) + " is alive already");
+}
+
 Result<void> validate_seeds(Cutter cutter, uint32_t seeds, PieceId first_piece) {
-  if (cutter > Cutter::conform) return fail("the cutter is none that is known (field, slice, conform)");
+  if (Result<void> valid = validate_kind(cutter, "cutter"); !valid) return valid;
   if (seeds == 0) return fail("a carve needs at least one seed");
   if (seeds > limits::seeds_max)
     return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
@@ -274,8 +281,7 @@ struct Validator {
   }
   Result<void> operator()(const StampOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
-    if (op.method > StampMethod::sphere)
-      return fail("the stamp's method is none that is known (stamp, slices, sphere)");
+    if (Result<void> valid = validate_kind(op.method, "stamp's method"); !valid) return valid;
     if (std::abs(op.shift) > stamp_shift_max)
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
     if (!in_world(dequantise(op.pose).position_m))
@@ -348,7 +354,8 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
 }
 
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
-  return std::visit(Validator{pieces, voxel_size_m}, operation);
+  if (Result<void> valid = std::visit(Validator{pieces, voxel_size_m}, operation); !valid) return valid;
+  return validate_new_ids(ids_made_by(operation), pieces);
 }
 
 }  // namespace scree

@@ -7,6 +7,10 @@
 // where they were thus restore the surface that they had (bench seams; docs/architecture.md, Recombine).
 #pragma once
 
+#include <cstdint>
+#include <string_view>
+
+#include "shared/base/kind_table.h"
 #include "shared/field/piece.h"
 
 namespace scree {
@@ -15,12 +19,28 @@ namespace scree {
 /// of the paper's program (stamp_slices.h, stamp_sphere.h). It decides bits, so it crosses the wire.
 enum class StampMethod : uint8_t { stamp = 0, slices = 1, sphere = 2 };
 
+struct StampMethodRow {
+  std::string_view name;
+};
+
+constexpr StampMethodRow row_of(StampMethod method) {
+  switch (method) {
+    case StampMethod::stamp:
+      return {.name = "stamp"};
+    case StampMethod::slices:
+      return {.name = "slices"};
+    case StampMethod::sphere:
+      return {.name = "sphere"};
+  }
+  return {};
+}
+
 /// Bounds of a shift, whose meaning is the method's: 14 bits on the wire.
 inline constexpr int stamp_shift_max = 8191;
 
-/// The method stamp's shift holds two numbers, roundness · 2^7 + dust. The roundness says how far to round
-/// edges (negative) or to fill clefts (positive): completely at ± half of the maximum; beyond, the whole
-/// surface moves, by up to half a voxel at the maximum.
+/// The method stamp's shift holds two numbers, roundness · 2^7 + dust. A negative roundness
+/// rounds edges, a positive one fills clefts. Up to half of the maximum the effect grows until it is
+/// complete; beyond, the whole surface moves as well, by up to half a voxel at the maximum.
 inline constexpr int stamp_roundness_max = 63;
 /// The dust that the piece takes along, in steps of stamp_dust_step units.
 inline constexpr int stamp_dust_bits = 7;
@@ -62,7 +82,7 @@ inline MassUnits stamp_budget(MassUnits piece_mass, MassUnits dust) {
 
 /// Finds the shift whose gain comes nearest the budget (the piece's mass and dust), within a few units where
 /// the piece can hold that much; and the exact gain of stamp() with this shift. The gain exceeds the budget
-/// only where closing old seams in the window gains more than the budget.
+/// only where gaps between earlier merges, which redistancing closes, alone gain more than the budget.
 StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
                      float voxel_size_m, MassUnits budget);
 

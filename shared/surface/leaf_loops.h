@@ -49,7 +49,7 @@ std::vector<std::vector<LeafEdge>> cycles_of(const LeafGrid& grid, const Leaf& l
 /// Whether no smaller leaf touches this one, not even by a corner.
 bool is_undivided(const LeafGrid& grid, const Leaf& leaf);
 
-/// The first face across which two links join the same sheet; -1 if there is none.
+/// The first face on which both links belong to one sheet (CellCase::pinched_face); -1 if there is none.
 int pinched_face(const LeafGrid& grid, const Leaf& leaf, const LeafLoops& loops);
 
 /// The links across the undivided face 2·axis + side.

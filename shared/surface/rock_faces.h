@@ -64,8 +64,9 @@ std::optional<glm::vec3> meeting_point(std::span<const RockFace* const> faces, g
 
 /// Faces with rock between them are convex, with air concave.
 enum class Corner { convex, concave };
-/// The share of points that the faces, at least one, explain, of those where the faces' distances are exact:
-/// in rock (the largest distance) at a convex corner, in air (the smallest) at a concave one.
+/// Some points have codes that the distances to the faces give exactly: points in rock at a convex corner (by
+/// the largest distance), points in air at a concave one (by the smallest). Returns the share of them whose
+/// code fits. `faces` is not empty.
 float explained_share(const PointBlock& block, std::span<const RockFace* const> faces, Corner corner);
 
 }  // namespace scree

@@ -26,7 +26,8 @@ struct CellCase {
   std::array<uint8_t, cell_edges> sheet_of_edge{};  ///< no_sheet where the edge is not crossed
   std::array<uint16_t, 4> edges_of_sheet{};         ///< bit e: the sheet crosses edge e
   /// The face of which both halves belong to one sheet, if any. If the neighbour across has the same, the two
-  /// cells would share an edge of four triangles: both must then use the split case.
+  /// cells would share an edge of four triangles: both must then take the split case instead of the joined
+  /// one.
   uint8_t pinched_face = no_face;
 };
 

@@ -25,9 +25,8 @@ struct PlacedVertex {
   glm::vec3 fraction{0.0F};            ///< from the cell's lowest voxel, 0..1
 };
 
-/// Places a vertex at the mean of the crossings of the sheet's edges (Gibson 1998), strictly inside the cell.
-/// Appends one
-/// vertex each. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
+/// Appends one vertex for each sheet, at the mean of the crossings of its edges (Gibson 1998), strictly
+/// inside the cell. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
 void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
                         std::vector<SurfaceVertex>& vertices);
 /// Appends a vertex at each place, under the same conditions.

@@ -26,7 +26,7 @@ BodyShape box_shape(glm::vec3 half_m) {
   for (int i = 0; i < 8; ++i)
     shape.hull_m.emplace_back((i & 4) != 0 ? half_m.x : -half_m.x, (i & 2) != 0 ? half_m.y : -half_m.y,
                               (i & 1) != 0 ? half_m.z : -half_m.z);
-  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * limits::rock_density_kg_m3;
+  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * traits_of(Material::rock).density_kg_m3;
   const glm::vec3 squares = half_m * half_m;
   shape.inertia_kg_m2 =
       glm::vec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (shape.mass_kg / 3.0F);

@@ -7,6 +7,7 @@
 
 #include "client/bot/limits.h"
 #include "server/app/live_server.h"
+#include "shared/base/quantile.h"
 #include "tests/support/raw_server.h"
 
 namespace scree {

@@ -134,7 +134,7 @@ class Hostility {
         return IslandOperation{{lo, lo + size}, lo + VoxelCoord{size.x / 2, size.y / 2, size.z / 2}, next};
       }
       case 4:
-        return PaintOperation{shape(), static_cast<Material>(random_.below(3))};
+        return PaintOperation{shape(), static_cast<Material>(random_.below(kind_count<Material>))};
       default:
         return CarveOperation{shape(),        static_cast<SeedPattern>(random_.below(3)),
                               seeds % 64 + 1, random_.next(),

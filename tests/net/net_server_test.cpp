@@ -322,7 +322,7 @@ TEST_F(NetServerTest, every_refusal_is_counted_under_its_reason_and_told_in_the_
   start([](NetConfig& config) {
     config.service.sessions_max = 2;
     config.admin_token = "a token of some length";
-    config.tick_rate_hz = 1;  // a status in every tick
+    config.tick_rate_hz = limits::tick_rate_min_hz;  // a status after ten ticks
   });
   const auto refused_after = [&](const ClientMessage& first, const std::optional<ClientMessage>& second) {
     RawClient client(server->port());
@@ -346,6 +346,7 @@ TEST_F(NetServerTest, every_refusal_is_counted_under_its_reason_and_told_in_the_
   auto delta = std::make_shared<TickDelta>(*source.step());
   delta->replies = {{1, 1, "too fast", 0, Refusal::blast_speed}, {1, 2, "", 4, std::nullopt}};
   server->publish(delta);
+  for (uint32_t tick = 1; tick < limits::tick_rate_min_hz; ++tick) server->publish(source.step());
   server->flush();
   const NetStats stats = server->stats();
   EXPECT_EQ(stats.refusals.of(Refusal::protocol_version), 1U);

@@ -236,7 +236,7 @@ TEST_F(PublisherTest, replies_go_to_who_asked_and_status_comes_once_a_second) {
   join(1, {0.0F, 2.0F, 0.0F}, 64.0F);
   join(2, {0.0F, 2.0F, 0.0F}, 64.0F);
   TickDelta delta = *source.step();
-  delta.work = {12500, 13000, 2, 0, 0, 0, false};
+  delta.work = {.budget_us = 12500, .estimate_us = 13000, .requests_waiting = 2};
   delta.replies.push_back({2, 77, "too large", 0});
   delta.replies.push_back({9, 1, "", 0});  // left meanwhile
   deliver(delta);
@@ -272,9 +272,30 @@ TEST(TickClock, stages_are_means_over_the_last_second_in_the_order_of_the_table)
 TEST(TickClock, work_is_the_last_seconds) {
   TickClock clock(2);
   EXPECT_EQ(clock.work(), WorkStatus{});
-  clock.add({}, {12500, 90000, 9, 9, 9, 9, true});
-  clock.add({}, {12500, 14000, 3, 7, 2, 0, true, 8, 0, 1, 2});
-  clock.add({}, {12500, 9000, 4, 0, 5, 1, false, 6, 0, 3, 1});
+  clock.add({}, {.budget_us = 12500,
+                 .estimate_us = 90000,
+                 .requests_waiting = 9,
+                 .merges_put_off = 9,
+                 .breaks_left_out = 9,
+                 .dents_left_out = 9,
+                 .merging_sooner = true});
+  clock.add({}, {.budget_us = 12500,
+                 .estimate_us = 14000,
+                 .requests_waiting = 3,
+                 .merges_put_off = 7,
+                 .breaks_left_out = 2,
+                 .merging_sooner = true,
+                 .supports_put_off = 8,
+                 .islands_put_off = 1,
+                 .islands_too_large = 2});
+  clock.add({}, {.budget_us = 12500,
+                 .estimate_us = 9000,
+                 .requests_waiting = 4,
+                 .breaks_left_out = 5,
+                 .dents_left_out = 1,
+                 .supports_put_off = 6,
+                 .islands_put_off = 3,
+                 .islands_too_large = 1});
   EXPECT_EQ(clock.work(), (WorkStatus{12500, 14000, 4, 7, 7, 1, 2, 1, 8, 3, 3}))
       << "the first tick left the window";
 }

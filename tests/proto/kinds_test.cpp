@@ -38,7 +38,7 @@ CarveOperation carve_operation(ShapeKind shape, SeedPattern pattern) {
 }
 
 ShatterOperation shatter_operation(SeedPattern pattern) {
-  return {1, pattern, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 0};
+  return {1, pattern, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 2};
 }
 
 /// Empty when the message is decoded, to the same.

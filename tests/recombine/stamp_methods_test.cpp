@@ -14,7 +14,7 @@ namespace {
 
 constexpr float dx = 0.25F;
 const TerrainSource flat{TerrainKind::flat, 1, dx};
-constexpr StampMethod all_methods[] = {StampMethod::stamp, StampMethod::slices, StampMethod::sphere};
+constexpr auto all_methods = all_kinds<StampMethod>;
 constexpr StampMethod other_methods[] = {StampMethod::slices, StampMethod::sphere};
 
 QuantisedPose some_pose(glm::vec3 position_m, Random& random) {

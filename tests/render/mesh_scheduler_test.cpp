@@ -133,7 +133,7 @@ TEST_F(Watched, a_merge_and_the_pieces_vanishing_appear_together) {
   finish();
   ASSERT_FALSE(pieces_.empty());
   const PieceId id = pieces_.begin()->first;
-  const Pose pose{ground + glm::vec3(1.8F, 0.4F, 0.0F), {}};
+  const Pose pose{ground + glm::vec3(1.8F, 0.4F, 0.0F), {1.0F, 0.0F, 0.0F, 0.0F}};
   const MirrorChanges merged = apply_now(StampOperation{id, quantise(pose), 0});
   ASSERT_FALSE(merged.bricks.empty());
   scheduler_.changed(merged);

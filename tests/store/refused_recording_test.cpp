@@ -46,7 +46,8 @@ TEST_F(RecordingTest, newer_and_foreign_sqlite_files_are_refused) {
 TEST_F(RecordingTest, a_world_beyond_its_limits_is_refused) {
   simulate(2);
   for (const auto& [voxel_size_m, tick_rate_hz, limit] :
-       {std::tuple(0.05F, 60U, "voxel_size_min_m"), std::tuple(0.25F, 1U, "tick_rate_min_hz")}) {
+       {std::tuple(0.05F, 60U, "voxel_size_min_m"),
+        std::tuple(0.25F, 1U, "tick_rate_hz is 1, not within 10 to 1000")}) {
     WorldConfig config = small_world();
     config.terrain.voxel_size_m = voxel_size_m;
     config.tick_rate_hz = tick_rate_hz;
@@ -96,7 +97,7 @@ TEST_F(RecordingTest, a_piece_that_is_made_twice_is_refused_in_a_replay) {
   for (int tick = 1; tick <= 10; ++tick) ASSERT_TRUE((*source)->next().has_value()) << tick;
   const auto twice = (*source)->next();
   ASSERT_FALSE(twice.has_value());
-  EXPECT_NE(twice.error().message.find("made a second time"), std::string::npos) << twice.error().message;
+  EXPECT_NE(twice.error().message.find("is alive already"), std::string::npos) << twice.error().message;
 }
 
 TEST_F(RecordingTest, recording_without_a_tick_is_refused) {

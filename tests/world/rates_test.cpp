@@ -1,6 +1,9 @@
 // A world goes the same way at every tick rate: constants are in seconds, and no step of the bodies is too
 // long.
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <map>
 
 #include "bench/support/scenes.h"
 #include "server/world/world.h"
@@ -43,7 +46,38 @@ TEST_P(Rates, pieces_settle_as_soon_and_rise_no_higher_than_at_60_hz) {
   EXPECT_LT(here.highest_m, usual.highest_m + 0.5F);
 }
 
-INSTANTIATE_TEST_SUITE_P(hz, Rates, ::testing::Values(10U, 20U, 30U, 120U, 240U));
+/// Two tunnels that cross within rock, cut without a blast: the second's pieces lie in and over the first's,
+/// and only gravity and the overlaps move them.
+TEST_P(Rates, nothing_moves_faster_in_crossing_tunnels_than_it_could_fall) {
+  WorldConfig config;
+  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  config.tick_rate_hz = GetParam();
+  World world(config);
+  CarveRequest request;
+  request.seeds = 64;
+  request.blast_speed_m_s = 0.0F;
+  request.shape = capsule({-5.0F, -6.0F, 0.0F}, {5.0F, -6.0F, 0.0F}, 1.5F);
+  request.impact_m = {0.0F, -6.0F, 0.0F};
+  world.step(std::vector<Command>{{1, 1, request}});
+  request.shape = capsule({0.0F, -5.5F, -5.0F}, {0.0F, -5.5F, 5.0F}, 1.5F);
+  auto delta = world.step(std::vector<Command>{{1, 2, request}});
+  std::map<PieceId, glm::vec3> last_m;
+  float fastest_m_s = 0.0F;
+  for (uint32_t tick = 0; tick < 8 * GetParam() && !delta->pieces.empty(); ++tick) {
+    for (const PieceState& piece : delta->pieces) {
+      const glm::vec3 at_m = dequantise(piece.pose).position_m;
+      const auto [found, is_new] = last_m.try_emplace(piece.id, at_m);
+      const glm::vec3 way_m = at_m - found->second;
+      found->second = at_m;
+      fastest_m_s = std::max(fastest_m_s, std::sqrt(glm::dot(way_m, way_m)) * static_cast<float>(GetParam()));
+    }
+    delta = world.step({});
+  }
+  EXPECT_GT(fastest_m_s, 1.0F);
+  EXPECT_LT(fastest_m_s, std::sqrt(2.0F * 9.81F * 3.5F)) << "the tunnels are 3.5 m high together";
+}
+
+INSTANTIATE_TEST_SUITE_P(hz, Rates, ::testing::Values(10U, 20U, 30U, 60U, 120U, 240U));
 
 }  // namespace
 }  // namespace scree

@@ -142,12 +142,33 @@ TEST(world, carves_beyond_the_most_pieces_are_refused_until_some_have_settled) {
 }
 
 TEST(world, a_fill_is_entered_as_poured) {
-  World world({});
+  WorldConfig config;
+  config.methods.islands = false;  // it hangs in the air
+  World world(config);
   const auto delta = step(world, {{1, 1, FillRequest{box({30.0F, 25.0F, 0.0F}, {1.0F, 1.0F, 1.0F})}}});
   EXPECT_TRUE(delta->replies[0].refusal.empty()) << delta->replies[0].refusal;
   EXPECT_NEAR(static_cast<double>(delta->ledger.poured) / units_per_voxel, 512.0, 30.0);
   EXPECT_EQ(delta->ledger.terrain, delta->ledger.poured);
   EXPECT_EQ(delta->ledger.error(), 0);
+}
+
+TEST(world, poured_rock_that_rests_on_nothing_falls_and_becomes_ground) {
+  World world({});
+  auto delta = step(world, {{1, 1, FillRequest{box({30.0F, 25.0F, 0.0F}, {1.0F, 1.0F, 1.0F})}}});
+  ASSERT_EQ(delta->pieces.size(), 1U);
+  EXPECT_EQ(delta->ledger.terrain, 0);
+  EXPECT_EQ(delta->ledger.pieces, delta->ledger.poured);
+  for (int tick = 0; tick < 1200 && !delta->pieces.empty(); ++tick) delta = step(world);
+  EXPECT_TRUE(delta->pieces.empty());
+  EXPECT_EQ(delta->ledger.terrain + delta->ledger.dust, delta->ledger.poured);
+}
+
+TEST(world, poured_rock_that_is_held_stays) {
+  World world({});
+  const float ground_m = ground_height_m(world.config().terrain, 30.0F, 0.0F);
+  const auto delta = step(world, {{1, 1, FillRequest{box({30.0F, ground_m, 0.0F}, {1.0F, 4.0F, 1.0F})}}});
+  EXPECT_TRUE(delta->pieces.empty());
+  EXPECT_EQ(delta->ledger.terrain, delta->ledger.poured);
 }
 
 }  // namespace

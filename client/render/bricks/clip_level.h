@@ -17,7 +17,8 @@
 
 namespace scree {
 
-/// An entry's word for the field as generated. A brick of it goes into the atlas, if there is room.
+/// The value of ClipEntry::before: the brick as generated. A mixed brick goes into the atlas, if there is
+/// room.
 uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas);
 
 class ClipLevel {

@@ -21,7 +21,7 @@ class PieceVolumes {
 
   PieceVolumes();
 
-  /// Shows exactly these pieces, where they are now. New ones are uploaded, whose number costs.
+  /// Shows exactly these pieces, where they are now. New ones are uploaded: the cost grows with their number.
   void update(Field& field, const ScenePieces& pieces, BrickAtlas& atlas);
   /// Draws the boxes' far sides with the program that is in use. Binds a vertex array of its own.
   void draw() const;

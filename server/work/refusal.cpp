@@ -1,4 +1,4 @@
-#include "server/world/refusal.h"
+#include "server/work/refusal.h"
 
 #include <numeric>
 
@@ -21,6 +21,7 @@ constexpr Row rows[] = {
     {Refusal::settings_invalid, "settings_invalid"},
     {Refusal::blast_speed, "blast_speed"},
     {Refusal::pieces_max, "pieces_max"},
+    {Refusal::pieces_share, "pieces_share"},
     {Refusal::requests_waiting, "requests_waiting"},
     {Refusal::replay, "replay"},
     {Refusal::requests_per_second, "requests_per_second"},

@@ -21,6 +21,7 @@ enum class Refusal : uint8_t {
   settings_invalid,
   blast_speed,
   pieces_max,
+  pieces_share,
   requests_waiting,
   // Of a request, by the network side.
   replay,

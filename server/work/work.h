@@ -3,13 +3,13 @@
 //
 // When a tick's work nears its budget, requests wait, pieces merge sooner and fewer break. The simulation's
 // state alone decides this, never a clock: the same commands must give the same hashes on every machine. The
-// figures are those of an ordinary machine (server/world/limits.h); the bench storm compares them with the
+// figures are those of an ordinary machine (server/work/limits.h); the bench storm compares them with the
 // clock. TickDelta::work counts all work that was put off or left out.
 #pragma once
 
 #include "server/bodies/bodies.h"
-#include "server/world/command.h"
-#include "server/world/tick_delta.h"
+#include "server/work/command.h"
+#include "server/work/tick_work.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -19,7 +19,7 @@ class WorkBudget {
   /// The tick rate must be positive.
   explicit WorkBudget(uint32_t tick_rate_hz);
 
-  /// Starts a tick with the estimated cost of the bodies' step.
+  /// Starts a tick with the estimated cost of the bodies' step, and pays back debt by the rest of the budget.
   void begin(const Bodies& bodies);
   /// Corrects that estimate after the step, in which the bodies made in this tick took part, too.
   void stepped(const Bodies& bodies);
@@ -30,7 +30,14 @@ class WorkBudget {
     CHECK(cost_us >= 0.0F);
     spent_us_ += cost_us;
   }
+  /// Spends a request's cost. The part beyond the budget becomes debt, up to limits::debt_budgets_max.
+  void spend_on_request(float cost_us);
+  /// Whether earlier requests cost more than their ticks had: until that is paid back, requests wait.
+  bool in_debt() const { return debt_us_ > 0.0F; }
   float left_us() const { return budget_us_ - spent_us_; }
+  float budget_us() const { return budget_us_; }
+  /// Estimated cost of the bodies' step as a share of the budget.
+  float bodies_load() const { return bodies_us_ / budget_us_; }
   /// Whether the bodies alone take more than limits::crowded_share of the budget.
   bool crowded() const;
 
@@ -41,9 +48,7 @@ class WorkBudget {
   float budget_us_;
   float spent_us_ = 0.0F;
   float bodies_us_ = 0.0F;
+  float debt_us_ = 0.0F;
 };
-
-/// Estimated cost of carrying out the command; 0 for a shape that will be refused.
-float cost_us(const Command& command, float voxel_size_m);
 
 }  // namespace scree

@@ -1,0 +1,27 @@
+// A server in real time and bots on loopback, all in this process: what the bots see, and how the ticks hold.
+#pragma once
+
+#include <vector>
+
+#include "client/bot/bot.h"
+#include "server/app/live_server.h"
+
+namespace scree {
+
+struct CrowdOutcome {
+  std::vector<BotReport> bots;  ///< in their configurations' order
+  ServerReport server;          ///< at the end
+  double ticks_per_s = 0.0;     ///< while all bots played
+};
+
+/// Lets each bot play on a thread of its own for that many seconds. Port and time-outs are filled in. A
+/// server that does not start is an error.
+Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots, double seconds);
+
+/// Bots on a square grid about the origin, `spacing_m` apart; each carves within 8 m of its place.
+std::vector<BotConfig> bots_on_a_grid(size_t count, float spacing_m, const BotConfig& like);
+
+/// Share of the carves that were asked for, and answered, which were accepted.
+double accepted_share(const BotReport& report);
+
+}  // namespace scree

@@ -1,0 +1,100 @@
+// Bounds and constants of the tick's budget and of clients' shares. Each says its unit and its reason.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Share of a tick's length that its work may take by the model; the rest is for work outside the model, and
+/// for other threads. Above: requests wait, pieces merge sooner, fewer break.
+inline constexpr float work_share = 0.75F;
+
+/// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.
+inline constexpr float crowded_share = 0.5F;
+
+/// The model, microseconds as measured on one core of a 2023 server (benches storm and worst): a body that is
+/// awake, and a point of contact, in a step.
+inline constexpr float body_cost_us = 4.2F;
+inline constexpr float contact_cost_us = 1.2F;
+
+/// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
+inline constexpr float edit_cost_us = 400.0F;
+inline constexpr float edit_voxel_cost_us = 0.025F;
+inline constexpr float chunk_cost_us = 300.0F;
+
+/// A volume that is cut into pieces by the cutter `field`, a voxel of its window, and a piece with its hull
+/// and body.
+inline constexpr float cut_cost_us = 100.0F;
+inline constexpr float cut_voxel_cost_us = 0.03F;
+inline constexpr float piece_cost_us = 30.0F;
+
+/// The same for the cutters of polygons.
+inline constexpr float polygons_cost_us = 6000.0F;
+inline constexpr float polygons_voxel_cost_us = 0.9F;
+inline constexpr float polygons_piece_cost_us = 350.0F;
+
+/// A merge, by method; a dent, and the crushing of a neck, whose sizes vary little.
+inline constexpr float stamp_cost_us = 30.0F;
+inline constexpr float slices_cost_us = 60.0F;
+inline constexpr float sphere_cost_us = 170.0F;
+inline constexpr float dent_cost_us = 700.0F;
+
+/// A brick of a search for islands; a part of the terrain in a search for support
+/// (shared/falling/support_search.h).
+inline constexpr float island_brick_cost_us = 1.0F;
+inline constexpr float support_part_cost_us = 0.7F;
+
+/// An island that is lifted, and a voxel of its box, both with hull, surface points and convex parts.
+inline constexpr float lift_cost_us = 400.0F;
+inline constexpr float lift_voxel_cost_us = 0.09F;
+
+/// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
+/// in later ticks.
+inline constexpr float cut_at_once_us = 5000.0F;
+
+/// Price of a volume, cut by a cutter of polygons into two, above which `field` makes the first cut.
+inline constexpr float polygons_at_once_us = 20000.0F;
+
+/// Load by bodies, as a share of the budget, above which requests wait; one every `request_rest_s` does not.
+inline constexpr float load_max = 0.8F;
+inline constexpr float request_rest_s = 0.5F;
+
+/// Share of the budget that merges of pieces at rest may keep from requests: they take load away for good.
+inline constexpr float relief_share = 0.5F;
+
+/// Share of the budget up to which clients may fill it with bodies when there are several of them.
+inline constexpr float bodies_share = 0.6F;
+
+/// Share of the budget that clients' requests are promised: the rest is for bodies and merges.
+inline constexpr float requests_share = 0.5F;
+
+/// A request that is refused costs so much, microseconds.
+inline constexpr float refusal_cost_us = 10.0F;
+
+/// Debt of a request that cost more than its tick had left, in budgets of a tick. Above: forgiven.
+inline constexpr float debt_budgets_max = 16.0F;
+
+/// Share of a tick's budget that pays back debt at least, however many bodies there are.
+inline constexpr float payback_share = 0.1F;
+
+/// Requests of all clients that wait for a tick with room for them. A client may have as many waiting as
+/// there are places left, so that one more client always finds one. Above: refused.
+inline constexpr size_t requests_waiting_max = 1024;
+
+/// Estimated work of one client that may wait, as seconds of its share of the server; one request may always
+/// wait. Above: refused.
+inline constexpr float waiting_work_max_s = 1.0F;
+
+/// How long a carve waits for room for its pieces when other clients hold more than their share, seconds.
+/// Above: refused.
+inline constexpr float room_wait_max_s = 0.75F;
+
+/// When several clients have pieces: a carve gets at most one of so many pieces that its client may still
+/// make, so that there is something left for its next carves.
+inline constexpr uint32_t room_parts = 4;
+
+/// Such a carve gets fewer pieces than it asked for, down to one of so many. Below: it waits or is refused.
+inline constexpr uint32_t seeds_cut_max = 32;
+
+}  // namespace scree::limits

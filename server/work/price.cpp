@@ -1,0 +1,97 @@
+#include "server/work/price.h"
+
+#include <algorithm>
+
+#include "server/work/limits.h"
+#include "shared/base/limits.h"
+#include "shared/falling/island.h"
+#include "shared/field/edit.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+namespace {
+
+/// Whether parts of the volume are computed as polygons.
+bool cuts_polygons(Cutter cutter) {
+  switch (cutter) {
+    case Cutter::field:
+      return false;
+    case Cutter::slice:
+    case Cutter::conform:
+      break;
+  }
+  return true;
+}
+
+/// Chunks of the box that no edit has touched: their terrain may have to be generated. Whether it has been is
+/// not part of the simulation's state.
+size_t untouched_chunks(const VoxelBox& box, const Field& field) {
+  const ChunkCoord lo = chunk_of(brick_of(box.lo)), hi = chunk_of(brick_of(box.hi));
+  size_t count = 0;
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z) count += field.has_edits({x, y, z}) ? 0 : 1;
+  return count;
+}
+
+struct Pricing {
+  const Field& field;
+  Cutter cutter;
+
+  /// Of reading and changing the shape's box; 0 for a shape that will be refused: its box may not fit
+  /// integers.
+  float edit(const Shape& shape) const {
+    const float dx = field.source().voxel_size_m;
+    if (!validate(Operation(FillOperation{shape}), {}, dx)) return 0.0F;
+    const VoxelBox box = band_box(in_voxels(shape, dx));
+    return limits::edit_cost_us + limits::edit_voxel_cost_us * voxels_of(box) +
+           limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
+  }
+
+  float operator()(const CarveRequest& request) const {
+    if (request.seeds > limits::seeds_max) return 0.0F;  // will be refused
+    const float own = edit(request.shape);
+    if (own == 0.0F) return 0.0F;
+    const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
+    return own + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
+  }
+  float operator()(const FillRequest& request) const { return edit(request.shape); }
+  float operator()(const PaintRequest& request) const { return edit(request.shape); }
+  float operator()(const SettingsRequest&) const { return 0.0F; }
+};
+
+}  // namespace
+
+float voxels_of(const VoxelBox& box) {
+  const VoxelCoord size = box.size();
+  return static_cast<float>(size.x) * static_cast<float>(size.y) * static_cast<float>(size.z);
+}
+
+float cut_price_us(Cutter cutter, float voxels, uint32_t pieces) {
+  const auto count = static_cast<float>(pieces);
+  if (cuts_polygons(cutter))
+    return limits::polygons_cost_us + limits::polygons_voxel_cost_us * voxels +
+           limits::polygons_piece_cost_us * count;
+  return limits::cut_cost_us + limits::cut_voxel_cost_us * voxels + limits::piece_cost_us * count;
+}
+
+uint32_t pieces_at_once(Cutter cutter, uint32_t wanted) {
+  const float each = cuts_polygons(cutter) ? limits::polygons_piece_cost_us : limits::piece_cost_us;
+  const auto paid = std::max(2U, static_cast<uint32_t>(limits::cut_at_once_us / each));
+  return wanted <= paid + paid / 2 ? wanted : paid;
+}
+
+Cutter cutter_for(Cutter wanted, float voxels) {
+  return cut_price_us(wanted, voxels, 2) > limits::polygons_at_once_us ? Cutter::field : wanted;
+}
+
+float lift_price_us(const VoxelBox& box) {
+  return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels_of(lift_box(box));
+}
+
+float price_us(const Request& request, const Field& field, Cutter cutter) {
+  return std::visit(Pricing{field, cutter}, request);
+}
+
+}  // namespace scree

@@ -1,0 +1,33 @@
+// What work costs by the model: microseconds on one core of the machine that server/work/limits.h names.
+// Prices are functions of the request and of the simulation's state alone. The bench worst compares them with
+// the clock.
+#pragma once
+
+#include <cstdint>
+
+#include "shared/field/field.h"
+#include "shared/field/window.h"
+#include "shared/fracture/voronoi.h"
+#include "shared/operation/request.h"
+
+namespace scree {
+
+/// Voxels of a box.
+float voxels_of(const VoxelBox& box);
+
+/// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.
+float cut_price_us(Cutter cutter, float voxels, uint32_t pieces);
+/// How many of the wanted pieces a volume is cut into at once: all of them, or as many as
+/// limits::cut_at_once_us pays, if that is much less.
+uint32_t pieces_at_once(Cutter cutter, uint32_t wanted);
+/// The cutter for a volume of so many voxels: the one that is wanted, or `field` where that one takes too
+/// long at once (limits::polygons_at_once_us).
+Cutter cutter_for(Cutter wanted, float voxels);
+/// Lifting an island of that box, with its hulls and body.
+float lift_price_us(const VoxelBox& box);
+
+/// Carrying out a request in this field; 0 for a shape that will be refused. A carve's price is that of all
+/// its pieces.
+float price_us(const Request& request, const Field& field, Cutter cutter);
+
+}  // namespace scree

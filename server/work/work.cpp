@@ -1,0 +1,54 @@
+#include "server/work/work.h"
+
+#include <algorithm>
+
+#include "server/work/limits.h"
+
+namespace scree {
+
+namespace {
+
+float cost_of(const Bodies& bodies) {
+  const float a_step = limits::body_cost_us * static_cast<float>(bodies.awake()) +
+                       limits::contact_cost_us * static_cast<float>(bodies.contact_points());
+  return a_step * static_cast<float>(bodies.steps_a_tick());
+}
+
+}  // namespace
+
+WorkBudget::WorkBudget(uint32_t tick_rate_hz)
+    : budget_us_(limits::work_share * 1e6F / static_cast<float>(tick_rate_hz)) {
+  CHECK(tick_rate_hz > 0);
+}
+
+void WorkBudget::begin(const Bodies& bodies) {
+  bodies_us_ = cost_of(bodies);
+  spent_us_ = bodies_us_;
+  const float payback_us = std::max(left_us(), limits::payback_share * budget_us_);
+  debt_us_ = std::max(debt_us_ - payback_us, 0.0F);
+}
+
+void WorkBudget::spend_on_request(float cost_us) {
+  const float beyond_us = cost_us - std::max(left_us(), 0.0F);
+  spend(cost_us);
+  debt_us_ =
+      std::clamp(debt_us_ + beyond_us, debt_us_, std::max(debt_us_, limits::debt_budgets_max * budget_us_));
+}
+
+void WorkBudget::stepped(const Bodies& bodies) {
+  const float before_us = bodies_us_;
+  bodies_us_ = cost_of(bodies);
+  spent_us_ += bodies_us_ - before_us;
+  CHECK(spent_us_ >= 0.0F);
+}
+
+bool WorkBudget::crowded() const {
+  return bodies_us_ > limits::crowded_share * budget_us_;
+}
+
+void WorkBudget::report(TickWork& work) const {
+  work.budget_us = static_cast<uint32_t>(budget_us_);
+  work.estimate_us = static_cast<uint32_t>(spent_us_);
+}
+
+}  // namespace scree

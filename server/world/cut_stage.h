@@ -1,0 +1,17 @@
+// Pieces that are still to be cut: a carve into more pieces than are made at once (pieces_at_once) makes
+// fewer, larger ones, which are cut on in the next ticks, as far as their budgets go, by shatters where they
+// are then.
+#pragma once
+
+#include "server/world/world_state.h"
+
+namespace scree {
+
+/// Enters the pieces of a carve that asked for `wanted` pieces: each is to be cut into its share, by mass.
+void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted);
+
+/// Cuts waiting pieces, in order: as many as the tick's budget allows, and one at least. Pieces that are gone
+/// need no cut any more; where there is no room for more pieces (WorldConfig::pieces_max) they stay whole.
+void cut_pieces(World::State& state, TickDelta& delta);
+
+}  // namespace scree

@@ -1,0 +1,112 @@
+#include "server/work/request_queue.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "server/work/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr float us_per_s = 1.0e6F;
+
+WaitingRequest from(uint64_t session, uint32_t number, float cost_us) {
+  return {.command = {session, number, PaintRequest{}}, .cost_us = cost_us};
+}
+
+/// Serves everything; the sessions in the order of their turns.
+std::vector<uint64_t> serve_all(RequestQueue& queue) {
+  std::vector<uint64_t> order;
+  while (const WaitingRequest* next = queue.next()) {
+    order.push_back(next->command.session);
+    queue.pop(next->cost_us);
+  }
+  return order;
+}
+
+TEST(request_queue, requests_of_one_client_keep_their_order) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 10; ++number) ASSERT_TRUE(queue.push(from(7, number, 100.0F)));
+  for (uint32_t number = 0; number < 10; ++number) {
+    EXPECT_EQ(queue.next()->command.request, number);
+    queue.pop(100.0F);
+  }
+  EXPECT_EQ(queue.next(), nullptr);
+}
+
+TEST(request_queue, clients_take_turns_whoever_asked_first) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 3; ++number) ASSERT_TRUE(queue.push(from(1, number, 100.0F)));
+  for (uint32_t number = 0; number < 3; ++number) ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
+  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{1, 2, 1, 2, 1, 2}));
+}
+
+TEST(request_queue, a_dear_request_is_weighed_against_many_cheap_ones) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 2; ++number) ASSERT_TRUE(queue.push(from(1, number, 300.0F)));
+  for (uint32_t number = 0; number < 6; ++number) ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
+  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{1, 2, 2, 2, 1, 2, 2, 2}));
+}
+
+TEST(request_queue, who_comes_back_after_a_pause_has_saved_nothing) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from(1, 0, 100.0F)));
+  for (uint32_t number = 0; number < 100; ++number) {
+    ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
+    queue.pop(100.0F);
+    queue.begin_tick();
+  }
+  for (uint32_t number = 0; number < 40; ++number) ASSERT_TRUE(queue.push(from(1, number, 100.0F)));
+  for (uint32_t number = 0; number < 40; ++number) ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
+  const std::vector<uint64_t> order = serve_all(queue);
+  EXPECT_NEAR(static_cast<double>(std::count(order.begin(), order.begin() + 40, 1U)), 20.0, 1.0);
+}
+
+TEST(request_queue, a_client_that_is_passed_over_holds_nobody_up) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from(1, 0, 100.0F)));
+  ASSERT_TRUE(queue.push(from(2, 0, 100.0F)));
+  queue.pass_over();
+  EXPECT_EQ(serve_all(queue), std::vector<uint64_t>{2});
+  EXPECT_EQ(queue.size(), 1U);
+  queue.begin_tick();
+  EXPECT_EQ(serve_all(queue), std::vector<uint64_t>{1});
+}
+
+TEST(request_queue, a_client_may_have_a_second_of_its_share_waiting_and_always_one_request) {
+  RequestQueue queue(us_per_s);
+  EXPECT_TRUE(queue.push(from(1, 0, 5.0F * us_per_s))) << "one, whatever it costs";
+  EXPECT_FALSE(queue.push(from(1, 1, 1.0F)));
+  EXPECT_TRUE(queue.push(from(2, 0, 0.3F * us_per_s)));
+  const Result<void> more = queue.push(from(2, 1, 0.3F * us_per_s));
+  ASSERT_FALSE(more) << "half a second is the share of one of two";
+  EXPECT_NE(more.error().message.find("each of 2 busy clients gets about 500 ms a second"), std::string::npos)
+      << more.error().message;
+  EXPECT_TRUE(queue.push(from(2, 2, 0.1F * us_per_s)));
+}
+
+TEST(request_queue, no_client_takes_all_places) {
+  RequestQueue queue(us_per_s);
+  uint32_t taken = 0;
+  while (queue.push(from(1, taken, 0.0F))) ++taken;
+  EXPECT_EQ(taken, limits::requests_waiting_max / 2);
+  for (uint64_t session = 2; session < 10; ++session)
+    while (queue.push(from(session, ++taken, 0.0F))) {
+    }
+  EXPECT_LE(queue.size(), limits::requests_waiting_max);
+  EXPECT_TRUE(queue.push(from(99, 1, 0.0F))) << "one more client finds a place";
+}
+
+TEST(request_queue, others_wait_counts_others_alone) {
+  RequestQueue queue(us_per_s);
+  EXPECT_FALSE(queue.others_wait(1));
+  ASSERT_TRUE(queue.push(from(1, 0, 1.0F)));
+  EXPECT_FALSE(queue.others_wait(1));
+  EXPECT_TRUE(queue.others_wait(2));
+  queue.pass_over();
+  EXPECT_TRUE(queue.others_wait(2)) << "one that was passed over waits as well";
+}
+
+}  // namespace
+}  // namespace scree
