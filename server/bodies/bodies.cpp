@@ -11,6 +11,7 @@
 #include "server/bodies/contact_list.h"
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
+#include "server/bodies/principal_axes.h"
 #include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
 #include "shared/base/check.h"
@@ -19,9 +20,25 @@ namespace scree {
 
 namespace {
 
-btVector3 stable_inertia(glm::vec3 inertia) {
-  const float least = std::max({inertia.x, inertia.y, inertia.z}) * limits::inertia_ratio_min;
-  return to_bullet(glm::max(inertia, glm::vec3(least)));
+btVector3 stable_inertia(glm::vec3 moments) {
+  const float least = std::max({moments.x, moments.y, moments.z}) * limits::inertia_ratio_min;
+  return to_bullet(glm::max(moments, glm::vec3(least)));
+}
+
+std::vector<glm::vec3> turned(std::vector<glm::vec3> points, glm::quat rotation) {
+  const glm::mat3 matrix = glm::mat3_cast(rotation);
+  for (glm::vec3& p : points) p = matrix * p;
+  return points;
+}
+
+/// The shape in axes that `axes` turns into its own.
+BodyShape in_axes(const BodyShape& shape, glm::quat axes) {
+  const glm::quat back = glm::conjugate(axes);
+  BodyShape result = shape;
+  result.hull_m = turned(shape.hull_m, back);
+  result.surface_m = turned(shape.surface_m, back);
+  for (std::vector<glm::vec3>& part : result.parts_m) part = turned(std::move(part), back);
+  return result;
 }
 
 glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
@@ -64,15 +81,17 @@ void note_carried(const btCollisionObject& upper, const btCollisionObject& lower
 BodyState state_of(PieceId id, const Body& body) {
   if (body.frozen) return *body.frozen;
   const btRigidBody& rigid = *body.rigid;
-  return {id, from_bullet(rigid.getWorldTransform()), from_bullet(rigid.getLinearVelocity()),
-          from_bullet(rigid.getAngularVelocity()), false};
+  return {id, pose_of(body), from_bullet(rigid.getLinearVelocity()), from_bullet(rigid.getAngularVelocity()),
+          false};
 }
 
 void check_sound(const BodyShape& shape, const BodyState& state) {
-  const glm::vec3 inertia = shape.inertia_kg_m2;
+  const glm::mat3& inertia = shape.inertia_kg_m2;
   CHECK(shape.hull_m.size() >= 4);
   CHECK(std::isfinite(shape.mass_kg) && shape.mass_kg > 0.0F);
-  CHECK(is_sound(inertia) && inertia.x > 0.0F && inertia.y > 0.0F && inertia.z > 0.0F);
+  CHECK(is_sound(inertia[0]) && is_sound(inertia[1]) && is_sound(inertia[2]));
+  CHECK(inertia[0][0] > 0.0F && inertia[1][1] > 0.0F && inertia[2][2] > 0.0F);
+  CHECK(inertia == glm::transpose(inertia));
   CHECK(shape.friction >= 0.0F);
   CHECK(is_sound(state.pose));
   CHECK(!state.frozen);
@@ -88,19 +107,23 @@ Bodies::~Bodies() {
   CHECK_EQ(state_->dispatcher.getNumManifolds(), 0);
 }
 
-void Bodies::add(const BodyShape& shape, const BodyState& state) {
+void Bodies::add(const BodyShape& given, const BodyState& state) {
   State& s = *state_;
   CHECK(!contains(state.id));
-  check_sound(shape, state);
+  check_sound(given, state);
+  const PrincipalAxes principal = principal_axes(given.inertia_kg_m2);
+  const BodyShape shape = in_axes(given, principal.rotation);
   Body& body = s.bodies[state.id];
+  body.axes = principal.rotation;
   body.shape = make_convex_shape(shape.hull_m);
   body.reach_m = radius_of(shape.hull_m);
   body.mass_kg = shape.mass_kg;
-  body.inertia_kg_m2 = stable_inertia(shape.inertia_kg_m2);
+  body.inertia_kg_m2 = stable_inertia(principal.moments);
   const float spin_travel_m = 0.2F * limits::travel_max_voxels * s.voxel_size_m / s.step_s;
   body.spin_max_rad_s = std::min(limits::spin_max_rad_s, spin_travel_m / std::max(body.reach_m, 0.01F));
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(), body.inertia_kg_m2);
-  info.m_startWorldTransform = to_bullet(state.pose);
+  info.m_startWorldTransform =
+      to_bullet(Pose{state.pose.position_m, state.pose.rotation * principal.rotation});
   info.m_friction = std::sqrt(shape.friction);  // Bullet multiplies those of both bodies
   info.m_restitution = std::sqrt(s.config.restitution);
   info.m_linearSleepingThreshold = limits::sleep_speed_m_s;
@@ -320,6 +343,7 @@ void Bodies::describe(PhysicsMessage& to) const {
       const std::vector<glm::vec3> corners = corners_of(*part);
       watched.hull_m.insert(watched.hull_m.end(), corners.begin(), corners.end());
     }
+    watched.hull_m = turned(std::move(watched.hull_m), body.axes);
     to.bodies.push_back(std::move(watched));
   }
   list_contacts(state_->dispatcher, to.contacts);

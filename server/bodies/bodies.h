@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -26,7 +27,7 @@ namespace scree {
 struct BodyShape {
   std::vector<glm::vec3> hull_m;
   float mass_kg = 0.0F;
-  glm::vec3 inertia_kg_m2{0.0F};  ///< diagonal, about the volume's axes; positive
+  glm::mat3 inertia_kg_m2{0.0F};  ///< tensor in the volume's axes; symmetric, positive definite
   /// Coefficient of friction. A contact has the geometric mean of both sides; the terrain has that of its
   /// material.
   float friction = 0.7F;
@@ -87,7 +88,7 @@ class Bodies {
   /// `state.id` must be new, the position finite, the rotation a unit quaternion. Speeds beyond
   /// limits::travel_max_voxels a step are reduced to it; a body whose speed is not finite is stopped by the
   /// next step.
-  void add(const BodyShape& shape, const BodyState& state);
+  void add(const BodyShape& given, const BodyState& state);
   /// Removes a body, which must be present, and wakes the bodies that touch its bounds.
   void remove(PieceId id);
   bool contains(PieceId id) const;

@@ -103,7 +103,7 @@ void Bodies::State::find_ground(Body& body) {
 
 bool Bodies::State::is_sound(PieceId id, const Body& body) const {
   const btRigidBody& rigid = *body.rigid;
-  const Pose pose = from_bullet(rigid.getWorldTransform());
+  const Pose pose = pose_of(body);
   if (id_of(&rigid) != id || !scree::is_sound(pose)) return false;
   if (body.frozen)  // it is not integrated
     return body.ground == nullptr && rigid.isStaticObject() &&
@@ -182,7 +182,7 @@ void Bodies::State::freeze(PieceId id, Body& body) {
   rigid.setAngularVelocity(btVector3(0.0F, 0.0F, 0.0F));
   rigid.setMassProps(0.0F, btVector3(0.0F, 0.0F, 0.0F));
   body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
-  body.frozen = BodyState{id, from_bullet(rigid.getWorldTransform()), glm::vec3(0.0F), glm::vec3(0.0F), true};
+  body.frozen = BodyState{id, pose_of(body), glm::vec3(0.0F), glm::vec3(0.0F), true};
   body.thawed.reset();
   ++frozen;
   enter(body);

@@ -10,6 +10,7 @@
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "server/bodies/bodies.h"
 #include "server/bodies/hull_algorithm.h"
 #include "server/bodies/terrain_collider.h"
+#include "server/bodies/to_bullet.h"
 
 namespace scree {
 
@@ -26,8 +28,10 @@ struct Bounds {
   btVector3 hi;
 };
 
-/// A piece as a rigid body of Bullet.
+/// A piece as a rigid body of Bullet, in its principal axes: Bullet's tensors are diagonal. Hulls and points
+/// are turned into these axes; poses that come and go are in the volume's.
 struct Body {
+  glm::quat axes{1.0F, 0.0F, 0.0F, 0.0F};                 ///< from the principal axes to the volume's
   std::unique_ptr<btConvexHullShape> shape;               ///< the hull of the whole piece
   std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< colliding parts; empty: `shape` collides
   std::unique_ptr<CollisionHulls> hulls;                  ///< of the colliding shapes; `rigid`'s user pointer
@@ -38,13 +42,20 @@ struct Body {
   /// Contacts with the terrain; owned by the dispatcher; body 0 is `rigid`. Null while frozen.
   btPersistentManifold* ground = nullptr;
   float mass_kg = 0.0F;
-  btVector3 inertia_kg_m2;
+  btVector3 inertia_kg_m2;  ///< principal moments
   float reach_m = 0.0F;
   float spin_max_rad_s = 0.0F;
   btTransform last;                 ///< transform before the step: restored when the step's is not finite
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
 };
+
+/// The piece's pose.
+inline Pose pose_of(const Body& body) {
+  Pose pose = from_bullet(body.rigid->getWorldTransform());
+  pose.rotation = pose.rotation * glm::conjugate(body.axes);
+  return pose;
+}
 
 /// The piece of a Bullet object: its user index holds the id, bit for bit.
 inline PieceId id_of(const btCollisionObject* object) {

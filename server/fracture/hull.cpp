@@ -259,13 +259,13 @@ RowSums sums_of_row(const Code* codes, int count) {
   return sums;
 }
 
-/// Inertia of 1 kg about the centre of mass, in voxels²; every voxel counts as a small cube.
-glm::vec3 inertia_of(const Volume& volume) {
+/// Inertia tensor of 1 kg about the centre of mass, in voxels²; every voxel counts as a small cube.
+glm::mat3 inertia_of(const Volume& volume) {
   const VoxelBox& b = volume.window.box;
   const glm::dvec3 centre(volume.centre_voxels);
   const int count = b.size().z;
   const double low_z = b.lo.z - centre.z;
-  glm::dvec3 squares(0.0);
+  glm::dvec3 squares(0.0), products(0.0);  // of x, y, z; of yz, xz, xy
   double mass = 0.0;
   const Code* codes = volume.window.codes.data();
   for (int x = b.lo.x; x < b.hi.x; ++x)
@@ -273,15 +273,23 @@ glm::vec3 inertia_of(const Volume& volume) {
       const RowSums sums = sums_of_row(codes, count);
       const auto units = static_cast<double>(sums.units);
       const double off_x = x - centre.x, off_y = y - centre.y;
+      const double first_z = static_cast<double>(sums.z) + low_z * units;
+      products += glm::dvec3(off_y * first_z, off_x * first_z, off_x * off_y * units);
       squares.x += off_x * off_x * units;
       squares.y += off_y * off_y * units;
       squares.z += static_cast<double>(sums.zz) + low_z * (2.0 * static_cast<double>(sums.z) + low_z * units);
       mass += units;
     }
   CHECK_DEBUG(codes == volume.window.codes.data() + volume.window.codes.size());
-  if (mass > 0.0) squares /= mass;
+  if (mass > 0.0) {
+    squares /= mass;
+    products /= mass;
+  }
   squares += glm::dvec3(1.0 / 12.0);
-  return {squares.y + squares.z, squares.x + squares.z, squares.x + squares.y};
+  const glm::dvec3 moments(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y);
+  return glm::mat3(glm::dmat3(moments.x, -products.z, -products.y,  //
+                              -products.z, moments.y, -products.x,  //
+                              -products.y, -products.x, moments.z));
 }
 
 /// Whether corners, relative to the centre of mass, lie between the window's outermost voxels.
@@ -356,7 +364,7 @@ PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simpli
   hull.size_m3 =
       static_cast<float>(volume.mass) / units_per_voxel * voxel_size_m * voxel_size_m * voxel_size_m;
   CHECK(hull.corners_m.size() >= 4 && hull.size_m3 > 0.0F);
-  CHECK(hull.inertia_m2.x > 0.0F && hull.inertia_m2.y > 0.0F && hull.inertia_m2.z > 0.0F);
+  CHECK(hull.inertia_m2[0][0] > 0.0F && hull.inertia_m2[1][1] > 0.0F && hull.inertia_m2[2][2] > 0.0F);
   return hull;
 }
 

@@ -5,6 +5,7 @@
 // Deterministic; metres, kilograms.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace scree {
 struct PieceHull {
   PieceId id = 0;
   std::vector<glm::vec3> corners_m;  ///< relative to the centre of mass, in the volume's axes; at least 4
-  glm::vec3 inertia_m2{0.0F};        ///< diagonal, about the volume's axes, of a mass of 1 kg; positive
+  glm::mat3 inertia_m2{0.0F};        ///< tensor in the volume's axes, of a mass of 1 kg; positive definite
   float size_m3 = 0.0F;  ///< mass / density: Volume::mass in cubic metres of full voxels; positive
 };
 

@@ -56,7 +56,7 @@ PieceGrant PieceShares::grant(uint64_t session, uint32_t wanted, const PieceRoom
     return grant;
   }
   const size_t clients = pieces_.size() + (own == 0 ? 1 : 0);
-  grant.may_wait = own * clients <= room.alive;
+  grant.may_wait = wanted <= room.pieces_max && own * clients <= room.alive;
   return grant;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/work/limits.h"
+#include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
@@ -39,20 +40,18 @@ struct Pricing {
   const Field& field;
   Cutter cutter;
 
-  /// Of reading and changing the shape's box; 0 for a shape that will be refused: its box may not fit
-  /// integers.
+  /// Of reading and changing the shape's box.
   float edit(const Shape& shape) const {
     const float dx = field.source().voxel_size_m;
-    if (!validate(Operation(FillOperation{shape}), {}, dx)) return 0.0F;
+    CHECK(validate(Operation(FillOperation{shape}), {}, dx));
     const VoxelBox box = band_box(in_voxels(shape, dx));
     return limits::edit_cost_us + limits::edit_voxel_cost_us * voxels_of(box) +
            limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
   }
 
   float operator()(const CarveRequest& request) const {
-    if (request.seeds > limits::seeds_max) return 0.0F;  // will be refused
+    CHECK(request.seeds <= limits::seeds_max);
     const float own = edit(request.shape);
-    if (own == 0.0F) return 0.0F;
     const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
     return own + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
   }

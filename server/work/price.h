@@ -26,8 +26,7 @@ Cutter cutter_for(Cutter wanted, float voxels);
 /// Lifting an island of that box, with its hulls and body.
 float lift_price_us(const VoxelBox& box);
 
-/// Carrying out a request in this field; 0 for a shape that will be refused. A carve's price is that of all
-/// its pieces.
+/// Carrying out a valid request in this field. A carve's price is that of all its pieces.
 float price_us(const Request& request, const Field& field, Cutter cutter);
 
 }  // namespace scree

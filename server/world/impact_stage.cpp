@@ -173,6 +173,56 @@ float dent_radius_m(float volume_m3) {
   return std::min(cube_root(volume_m3 / 1.325F), limits::dent_radius_max_m);
 }
 
+float mass_kg(const World::State& state, const Volume& volume) {
+  const float dx = state.config.terrain.voxel_size_m;
+  return static_cast<float>(volume.mass) / units_per_voxel * dx * dx * dx *
+         traits_of(volume.material).density_kg_m3;
+}
+
+/// The speeds of a dent's pieces: up and sideways, away from the blow. Their energy and their momentum come
+/// out of the blow's: of its energy at most limits::dent_energy_share, of its momentum, which is along the
+/// normal, at most all; sideways the momenta cancel out.
+class Ejecta {
+ public:
+  Ejecta(const World::State& state, const Blow& blow, const Applied& applied) : state_(state), blow_(blow) {
+    glm::vec3 sum(0.0F);
+    float mass = 0.0F;
+    for (const CreatedPiece& piece : applied.created) {
+      const Volume& volume = *state.pieces.at(piece.id);
+      sum += sideways(volume) * mass_kg(state, volume);
+      mass += mass_kg(state, volume);
+    }
+    if (mass == 0.0F) return;
+    mean_sideways_ = sum / mass;
+    float squares = 0.0F;
+    for (const CreatedPiece& piece : applied.created) {
+      const Volume& volume = *state.pieces.at(piece.id);
+      squares += mass_kg(state, volume) * glm::dot(direction(volume), direction(volume));
+    }
+    const float impulse = blow.impact.impulse_n_s;
+    const float by_energy = std::sqrt(limits::dent_energy_share * impulse * blow.speed_m_s / squares);
+    speed_m_s_ = std::min({limits::dent_throw * blow.speed_m_s, by_energy, impulse / mass});
+  }
+
+  glm::vec3 velocity_m_s(const Volume& volume) const { return direction(volume) * speed_m_s_; }
+
+ private:
+  /// Unit, or shorter above the blow.
+  glm::vec3 sideways(const Volume& volume) const {
+    const glm::vec3 away = volume.centre_voxels * state_.config.terrain.voxel_size_m - blow_.impact.point_m;
+    const glm::vec3 part = away - blow_.impact.normal * glm::dot(away, blow_.impact.normal);
+    return part / std::max(std::sqrt(glm::dot(part, part)), 0.01F);
+  }
+  glm::vec3 direction(const Volume& volume) const {
+    return sideways(volume) - mean_sideways_ + blow_.impact.normal;
+  }
+
+  const World::State& state_;
+  const Blow& blow_;
+  glm::vec3 mean_sideways_{0.0F};
+  float speed_m_s_ = 0.0F;
+};
+
 void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const BodyImpact& impact = blow.impact;
   const float dx = state.config.terrain.voxel_size_m;
@@ -198,14 +248,11 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const uint64_t owner = state.traits_of(impact.id).owner;
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
+  const Ejecta ejecta(state, blow, applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
     Newborn piece;
     piece.body.pose.position_m = volume.centre_voxels * dx;
-    const glm::vec3 away = piece.body.pose.position_m - impact.point_m;
-    const glm::vec3 sideways = away - impact.normal * glm::dot(away, impact.normal);
-    const float distance = std::max(std::sqrt(glm::dot(sideways, sideways)), 0.01F);
-    const float speed = limits::dent_throw * blow.speed_m_s;
-    piece.body.velocity_m_s = (sideways / distance + impact.normal) * speed;
+    piece.body.velocity_m_s = ejecta.velocity_m_s(volume);
     piece.traits = {.generation = limits::break_generations_max, .owner = owner};
     return piece;
   };

@@ -83,9 +83,11 @@ inline constexpr float dent_voxels_min = 12.0F;
 /// Largest dent's radius, metres. Above: this.
 inline constexpr float dent_radius_max_m = 1.5F;
 
-/// Seeds of a dent, and the speed of its pieces as a share of the impact's speed.
+/// Seeds of a dent; the speed of its pieces at most, as a share of the impact's speed; and their energy at
+/// most, as a share of the impact's: nearly all of it crushes the ground.
 inline constexpr uint32_t dent_seeds = 4;
 inline constexpr float dent_throw = 0.3F;
+inline constexpr float dent_energy_share = 0.1F;
 
 /// Merges in a tick whose budget is used up: half a millisecond, which so many fewer bodies save in a few
 /// ticks.

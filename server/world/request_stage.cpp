@@ -23,6 +23,7 @@ namespace {
 
 /// How many pieces a request made.
 using Outcome = tl::expected<uint32_t, Refused>;
+using Checked = tl::expected<void, Refused>;
 
 /// The initial state of a piece of a carve: it flies away from the mirror image of the impact behind the
 /// shape's centre, so towards the impact, more slowly with distance, and spins. Away from the impact itself,
@@ -80,14 +81,16 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t session, con
 }
 
 /// Refuses an operation that is invalid, and a shape that is too small for the world's voxels.
-Result<void> check_request(const World::State& state, const Operation& operation, const Shape& shape) {
+Checked check_edit(const World::State& state, const Operation& operation, const Shape& shape,
+                   Refusal reason) {
   const float dx = state.config.terrain.voxel_size_m;
-  if (Result<void> valid = validate(operation, state.pieces, dx); !valid) return valid;
+  if (Result<void> valid = validate(operation, state.pieces, dx); !valid)
+    return refuse(reason, valid.error().message);
   const float least_m = limits::request_reach_min_voxels * dx;
   if (reach_of(shape) >= least_m - limits::edit_reach_rounding_m) return {};
-  return fail("reach " + std::to_string(reach_of(shape)) + " m may change nothing in voxels of " +
-              std::to_string(dx) + " m: ask for " + std::to_string(least_m) +
-              " m at least (limits.request_reach_min_voxels)");
+  return refuse(reason, "reach " + std::to_string(reach_of(shape)) + " m may change nothing in voxels of " +
+                            std::to_string(dx) + " m: ask for " + std::to_string(least_m) +
+                            " m at least (limits.request_reach_min_voxels)");
 }
 
 /// The operation of a request; its seeds may be fewer than asked for.
@@ -111,18 +114,37 @@ uint32_t seeds_at_once(const CarveRequest& request, const PieceGrant& grant, Cut
   return pieces_at_once(cutter, grant.pieces);
 }
 
-Outcome carve(World::State& state, const CarveRequest& request, uint64_t session, const PieceGrant& grant,
-              TickDelta& delta) {
-  const float dx = state.config.terrain.voxel_size_m;
-  if (Result<void> valid =
-          check_request(state, operation_of(state, request, request.seeds, Cutter::field), request.shape);
-      !valid)
-    return refuse(Refusal::carve_invalid, valid.error().message);
-  if (!std::isfinite(request.blast_speed_m_s) || request.blast_speed_m_s < 0.0F ||
-      request.blast_speed_m_s > limits::blast_speed_max_m_s)
+/// Refuses what no wait could make valid.
+struct Checking {
+  const World::State& state;
+
+  Checked operator()(const CarveRequest& request) const {
+    const Operation operation = operation_of(state, request, request.seeds, Cutter::field);
+    if (Checked valid = check_edit(state, operation, request.shape, Refusal::carve_invalid); !valid)
+      return valid;
+    if (request.blast_speed_m_s >= 0.0F && request.blast_speed_m_s <= limits::blast_speed_max_m_s) return {};
     return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
                                             std::to_string(limits::blast_speed_max_m_s) +
                                             " m/s (limits.blast_speed_max_m_s)");
+  }
+  Checked operator()(const FillRequest& request) const {
+    return check_edit(state, FillOperation{request.shape}, request.shape, Refusal::fill_invalid);
+  }
+  Checked operator()(const PaintRequest& request) const {
+    return check_edit(state, PaintOperation{request.shape, request.material}, request.shape,
+                      Refusal::paint_invalid);
+  }
+  Checked operator()(const SettingsRequest& request) const {
+    WorldConfig changed = state.config;
+    if (Result<void> done = set_all(changed, request.settings); !done)
+      return refuse(Refusal::settings_invalid, done.error().message);
+    return {};
+  }
+};
+
+Outcome carve(World::State& state, const CarveRequest& request, uint64_t session, const PieceGrant& grant,
+              TickDelta& delta) {
+  const float dx = state.config.terrain.voxel_size_m;
   if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, session, grant));
   CHECK(grant.pieces <= request.seeds);
   const Cutter cutter =
@@ -149,27 +171,21 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 }
 
 Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) {
-  const FillOperation operation{request.shape};
-  if (Result<void> valid = check_request(state, operation, request.shape); !valid)
-    return refuse(Refusal::fill_invalid, valid.error().message);
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied = state.apply_and_record(operation, delta);
+  const Applied applied = state.apply_and_record(FillOperation{request.shape}, delta);
   state.ledger.poured += applied.terrain_gain;
   return enclosed;
 }
 
 Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
-  const PaintOperation operation{request.shape, request.material};
-  if (Result<void> valid = check_request(state, operation, request.shape); !valid)
-    return refuse(Refusal::paint_invalid, valid.error().message);
-  state.apply_and_record(operation, delta);
+  state.apply_and_record(PaintOperation{request.shape, request.material}, delta);
   return 0U;
 }
 
 Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
   const WorldConfig before = state.config;
-  if (Result<void> done = set_all(state.config, request.settings); !done)
-    return refuse(Refusal::settings_invalid, done.error().message);
+  const Result<void> done = set_all(state.config, request.settings);
+  CHECK(done);
   if (state.config != before) publish_settings(state, delta);
   CHECK(delta.settings.size() <= limits::settings_max);
   if (before.methods.recombine == Recombination::off && state.config.methods.recombine != Recombination::off)
@@ -235,17 +251,33 @@ bool may_wait(const World::State& state, const WaitingRequest& request, const Pi
   return grant.may_wait && state.tick - request.since < ticks;
 }
 
-/// Carries out one request, or refuses it with a reason; the delta gets the reply.
-void execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
-  const Outcome made = std::visit(Executing{state, command.session, grant, delta}, command.body);
+void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
-  if (made) {
-    reply.pieces = *made;
+  if (outcome) {
+    reply.pieces = *outcome;
   } else {
-    reply.refusal = made.error().message;
-    reply.reason = made.error().reason;
+    reply.refusal = outcome.error().message;
+    reply.reason = outcome.error().reason;
   }
   delta.replies.push_back(std::move(reply));
+}
+
+Checked check(const World::State& state, const Command& command) {
+  return std::visit(Checking{state}, command.body);
+}
+
+/// Carries out one request, or refuses it: what was valid when it came may not be any more.
+Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
+  if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
+  return std::visit(Executing{state, command.session, grant, delta}, command.body);
+}
+
+Checked enqueue(World::State& state, const Command& command) {
+  if (Checked valid = check(state, command); !valid) return valid;
+  const float cost_us = price_us(command.body, state.field, state.config.methods.cutter);
+  if (Result<void> taken = state.requests.push({command, cost_us, state.tick}); !taken)
+    return refuse(Refusal::requests_waiting, taken.error().message);
+  return {};
 }
 
 }  // namespace
@@ -256,13 +288,9 @@ void publish_settings(const World::State& state, TickDelta& delta) {
 }
 
 void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta) {
-  for (const Command& command : commands) {
-    WaitingRequest request{command, price_us(command.body, state.field, state.config.methods.cutter),
-                           state.tick};
-    if (Result<void> taken = state.requests.push(std::move(request)); !taken)
-      delta.replies.push_back(
-          {command.session, command.request, taken.error().message, 0, Refusal::requests_waiting});
-  }
+  for (const Command& command : commands)
+    if (const Checked taken = enqueue(state, command); !taken)
+      answer(command, tl::unexpected(taken.error()), delta);
 }
 
 void carry_out(World::State& state, TickDelta& delta) {
@@ -284,7 +312,7 @@ void carry_out(World::State& state, TickDelta& delta) {
     }
     const Command command = next->command;
     state.requests.pop(cost);
-    execute(state, command, grant, delta);
+    answer(command, execute(state, command, grant, delta), delta);
     state.work.spend_on_request(cost);
   }
   delta.work.requests_waiting = static_cast<uint32_t>(state.requests.size());

@@ -7,8 +7,8 @@
 
 namespace scree {
 
-/// The commands wait behind those of the same client; what RequestQueue::push() refuses gets its reply at
-/// once.
+/// The commands wait behind those of the same client; what is invalid, and what RequestQueue::push() refuses,
+/// gets its reply at once.
 void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta);
 
 /// Carries out waiting commands by the clients' turns: at least one unless earlier ones are still to be paid

@@ -28,8 +28,17 @@ BodyShape box_shape(glm::vec3 half_m) {
                               (i & 1) != 0 ? half_m.z : -half_m.z);
   shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * traits_of(Material::rock).density_kg_m3;
   const glm::vec3 squares = half_m * half_m;
-  shape.inertia_kg_m2 =
-      glm::vec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (shape.mass_kg / 3.0F);
+  const glm::vec3 sums(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y);
+  for (int axis = 0; axis < 3; ++axis) shape.inertia_kg_m2[axis][axis] = sums[axis] * shape.mass_kg / 3.0F;
+  return shape;
+}
+
+/// The same body in a volume's axes that `turn` turns into the given shape's.
+BodyShape turned(BodyShape shape, glm::quat turn) {
+  const glm::mat3 matrix = glm::mat3_cast(turn);
+  for (glm::vec3& corner : shape.hull_m) corner = matrix * corner;
+  const glm::mat3 tensor = matrix * shape.inertia_kg_m2 * glm::transpose(matrix);
+  shape.inertia_kg_m2 = 0.5F * (tensor + glm::transpose(tensor));
   return shape;
 }
 
@@ -80,6 +89,28 @@ TEST(Bodies, falls_and_rests_on_flat_ground) {
   EXPECT_NEAR(rest.pose.position_m.y, 0.5F, 0.02F);
   EXPECT_LT(speed_of(rest), 0.02F);
   EXPECT_EQ(bodies.contacts().on_terrain, std::vector<PieceId>{1});
+}
+
+TEST(Bodies, the_axes_in_which_a_body_is_described_make_no_difference) {
+  MapField field(terrain(TerrainKind::flat));
+  const glm::quat lean = glm::angleAxis(0.5F, glm::normalize(glm::vec3(0.2F, 0.1F, 1.0F)));
+  const glm::quat turn = glm::angleAxis(0.8F, glm::normalize(glm::vec3(1.0F, 2.0F, 3.0F)));
+  const BodyShape rod = box_shape({1.0F, 0.15F, 0.25F});
+  BodyState state = body_at(1, {0.0F, 2.0F, 0.0F});
+  state.pose.rotation = lean;
+  state.spin_rad_s = {1.0F, 0.5F, 0.0F};
+  Bodies along(field, {}), across(field, {});
+  along.add(rod, state);
+  state.pose.rotation = lean * glm::conjugate(turn);
+  across.add(turned(rod, turn), state);
+  EXPECT_NEAR(std::abs(glm::dot(across.state(1).pose.rotation, state.pose.rotation)), 1.0F, 1e-6F);
+  step(along, 50);
+  step(across, 50);
+  ASSERT_FALSE(along.contacts().on_terrain.empty()) << "its end has struck the ground";
+  const BodyState a = along.state(1), b = across.state(1);
+  EXPECT_LT(glm::distance(a.pose.position_m, b.pose.position_m), 0.05F);
+  EXPECT_GT(std::abs(glm::dot(a.pose.rotation, b.pose.rotation * turn)), 0.999F);
+  EXPECT_LT(glm::distance(a.spin_rad_s, b.spin_rad_s), 0.6F);
 }
 
 TEST(Bodies, a_stack_says_who_carries_whom) {

@@ -29,7 +29,7 @@ BodyShape cube(float half_m) {
     shape.hull_m.emplace_back((i & 4) != 0 ? half_m : -half_m, (i & 2) != 0 ? half_m : -half_m,
                               (i & 1) != 0 ? half_m : -half_m);
   shape.mass_kg = 8.0F * half_m * half_m * half_m * traits_of(Material::rock).density_kg_m3;
-  shape.inertia_kg_m2 = glm::vec3(shape.mass_kg * half_m * half_m * 2.0F / 3.0F);
+  shape.inertia_kg_m2 = glm::mat3(shape.mass_kg * half_m * half_m * 2.0F / 3.0F);
   return shape;
 }
 

@@ -84,10 +84,12 @@ TEST(Hull, masses_and_inertias_are_sane) {
     const glm::vec3 extent = extent_of(hull.corners_m) + voxel_m;
     const float most = glm::dot(extent, extent) / 4.0F;
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_GT(hull.inertia_m2[axis], 0.0F);
-      EXPECT_LT(hull.inertia_m2[axis], most);
+      EXPECT_GT(hull.inertia_m2[axis][axis], 0.0F);
+      EXPECT_LT(hull.inertia_m2[axis][axis], most);
     }
-    EXPECT_LE(hull.inertia_m2.x, hull.inertia_m2.y + hull.inertia_m2.z);
+    EXPECT_LE(hull.inertia_m2[0][0], hull.inertia_m2[1][1] + hull.inertia_m2[2][2]);
+    EXPECT_EQ(hull.inertia_m2, glm::transpose(hull.inertia_m2));
+    EXPECT_GT(glm::determinant(hull.inertia_m2), 0.0F);
   }
   EXPECT_NEAR(size_m3, static_cast<float>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m, 0.01F);
 }

@@ -148,11 +148,9 @@ glm::dvec3 momentum(const World::State& state, const PieceTable& pieces) {
   return sum;
 }
 
-TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
-  World::State state(flat_world());
-  // A fast, spinning block just above the ground, so that its next step is an impact.
+/// A fast, spinning block of rock just above the ground, so that its next step is an impact.
+void throw_block(World::State& state, TickDelta& delta) {
   apply(FillOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(0.75F))}, state.field, state.pieces);
-  TickDelta delta;
   const Applied cut = state.apply_and_record(
       CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(1.5F)), SeedPattern::uniform, 1, 1, {}, 1}, delta);
   ASSERT_EQ(cut.created.size(), 1U);
@@ -164,6 +162,12 @@ TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
     return piece;
   };
   spawn(state, cut, born, delta);
+}
+
+TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
+  World::State state(flat_world());
+  TickDelta delta;
+  throw_block(state, delta);
   state.config.methods.dents = false;
   bool broke = false;
   for (int i = 0; i < 30 && !broke; ++i) {
@@ -178,6 +182,37 @@ TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
     for (const BodyState& child : state.bodies.states()) EXPECT_EQ(child.spin_rad_s, spin);
   }
   EXPECT_TRUE(broke);
+}
+
+TEST(impact, pieces_of_a_dent_take_their_momentum_and_energy_from_the_blow) {
+  World::State state(flat_world());
+  state.config.methods.impacts = false;
+  TickDelta delta;
+  throw_block(state, delta);
+  const PieceId block = state.pieces.begin()->first;
+  for (int i = 0; i < 30 && state.pieces.size() == 1; ++i) {
+    state.bodies.step();
+    const std::vector<BodyImpact> blows = state.bodies.impacts(limits::impact_speed_min_m_s);
+    apply_impacts(state, delta);
+    if (state.pieces.size() == 1) continue;
+    ASSERT_EQ(blows.size(), 1U);
+    const BodyImpact& blow = blows.front();
+    glm::vec3 momentum(0.0F);
+    float energy_j = 0.0F;
+    for (const BodyState& body : state.bodies.states()) {
+      if (body.id == block) continue;
+      const float mass_kg = state.bodies.mass_kg(body.id);
+      momentum += body.velocity_m_s * mass_kg;
+      energy_j += 0.5F * mass_kg * glm::dot(body.velocity_m_s, body.velocity_m_s);
+    }
+    const float along = glm::dot(momentum, blow.normal);
+    EXPECT_GT(along, 0.0F);
+    EXPECT_LE(along, 1.001F * blow.impulse_n_s);
+    EXPECT_LT(glm::length(momentum - along * blow.normal), 1e-4F * blow.impulse_n_s);
+    const float blow_j = 0.5F * blow.impulse_n_s * blow.impulse_n_s / state.bodies.mass_kg(block);
+    EXPECT_LE(energy_j, 1.001F * limits::dent_energy_share * blow_j);
+  }
+  EXPECT_GT(state.pieces.size(), 1U) << "there was a dent";
 }
 
 TEST(impact, soft_ground_dents_and_rock_does_not) {

@@ -48,15 +48,23 @@ TEST(work, requests_over_the_budget_wait_and_are_carried_out_in_order) {
   EXPECT_EQ(delta->work.requests_waiting, 0U);
 }
 
-TEST(work, what_will_be_refused_takes_nothing_from_the_others) {
-  const auto filling = [](glm::vec3 at_m, float radius_m) {
-    return price_us(FillRequest{sphere(at_m, radius_m)}, MapField({TerrainKind::flat, 1, 0.25F}),
-                    Cutter::field);
-  };
-  EXPECT_GT(filling({0.0F, 5.0F, 0.0F}, 2.0F), 0.0F);
-  EXPECT_EQ(filling({1e30F, 5.0F, 0.0F}, 2.0F), 0.0F);
-  EXPECT_EQ(filling({0.0F, 5.0F, 0.0F}, 1e30F), 0.0F);
-  EXPECT_EQ(filling({0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F}, 2.0F), 0.0F);
+TEST(work, what_will_be_refused_does_not_wait_for_room) {
+  World world({});
+  step(world, {{1, 1, blows(world, 1, 64)[0].body}});
+  CarveRequest many = blow_at(world.config().terrain, 8.0F, 0.0F, 2.0F, 4, 2);
+  many.seeds = limits::seeds_max + 1;
+  CarveRequest never = many;
+  never.seeds = world.config().pieces_max + 1;
+  CarveRequest fast = many;
+  fast.seeds = 4;
+  fast.blast_speed_m_s = 2.0F * limits::blast_speed_max_m_s;
+  const auto delta = step(world, {{2, 1, many}, {2, 2, never}, {2, 3, fast}});
+  ASSERT_EQ(delta->replies.size(), 3U) << "client 1 has pieces, so room is shared";
+  for (const Reply& reply : delta->replies)
+    EXPECT_EQ(reply.reason, reply.request == 2   ? Refusal::pieces_max
+                            : reply.request == 3 ? Refusal::blast_speed
+                                                 : Refusal::carve_invalid)
+        << reply.refusal;
 }
 
 TEST(work, bodies_born_in_a_tick_count_in_that_tick) {
