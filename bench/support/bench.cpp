@@ -32,6 +32,8 @@ const std::vector<Bench>& all_benches() {
       {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},
       {"storm", "1,000 pieces alive at once, and one blast of 64, with recombination and without",
        run_storm_bench},
+      {"support", "beams of three heights and materials against the formula, and the search's time",
+       run_support_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
       {"worst", "the dearest ticks there are: model against clock", run_worst_bench},
   };

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "shared/base/check.h"
+#include "shared/field/mass.h"
 #include "shared/field/paint.h"
 
 namespace scree {
@@ -82,9 +83,11 @@ void measure(SupportPart& part) {
   for (size_t axis = 0; axis < 3; ++axis) {
     auto& sections = part.sections[axis];
     sections.fill(brick_size * brick_size);
+    part.layers[axis].fill(brick_size * brick_size);
     part.middle[axis] = brick_size / 2 - 1;
     if (part.voxels == all) continue;
-    part.middle[axis] = middle_of(layer_counts(part.bits, static_cast<int>(axis)), part.voxels);
+    part.layers[axis] = layer_counts(part.bits, static_cast<int>(axis));
+    part.middle[axis] = middle_of(part.layers[axis], part.voxels);
     const auto pairs = layer_counts(followed(part.bits, static_cast<int>(axis)), static_cast<int>(axis));
     std::copy_n(pairs.begin(), sections.size(), sections.begin());
   }
@@ -146,7 +149,7 @@ uint32_t& SupportParts::first_of_brick(BrickCoord brick) {
                  static_cast<size_t>(at.z)];
 }
 
-void SupportParts::add(BrickCoord brick, const BrickBits& bits, uint32_t& first) {
+void SupportParts::add(BrickCoord brick, const BrickBits& bits, float fill, uint32_t& first) {
   if (parts_.size() == parts_max_) {
     overflow_ = true;
     return;
@@ -154,6 +157,7 @@ void SupportParts::add(BrickCoord brick, const BrickBits& bits, uint32_t& first)
   SupportPart part;
   part.brick = brick;
   part.bits = bits;
+  part.fill = fill;
   part.next = first;
   measure(part);
   part.material = material_at(field_, middle_m(part, field_.source().voxel_size_m));
@@ -175,10 +179,15 @@ uint32_t SupportParts::load(BrickCoord brick) {
   uint32_t& first = first_of_brick(brick);
   if (first != unread) return first;
   first = SupportPart::none;
-  const BrickBits solid = solid_bits(field_.brick(brick));
+  const Brick& codes = field_.brick(brick);
+  const BrickBits solid = solid_bits(codes);
+  if (!solid.any()) return first;
+  const bool whole = solid == ~BrickBits{};
+  const float fill =
+      static_cast<float>(brick_mass(codes)) / static_cast<float>(units_per_voxel * solid.count());
   for (BrickBits left = solid; left.any();) {
-    const BrickBits bits = solid == ~BrickBits{} ? solid : flooded(first_of(left), solid);
-    add(brick, bits, first);
+    const BrickBits bits = whole ? solid : flooded(first_of(left), solid);
+    add(brick, bits, fill, first);
     left = left & ~bits;
   }
   return first;
@@ -232,24 +241,34 @@ SupportLink SupportParts::link_of(uint32_t lower, uint32_t upper, int axis) cons
   return link;
 }
 
-VoxelBox SupportParts::section_box(const SupportLink& link, int at) const {
+SectionVoxels SupportParts::section_voxels(const SupportLink& link, int at) const {
+  CHECK_DEBUG(at > -brick_size && at < brick_size);
   const SupportPart& lower = parts_[link.lower];
   const SupportPart& upper = parts_[link.upper];
-  const SupportPart& part = at < 0 ? lower : upper;
-  const int k = at < 0 ? brick_size - 1 + at : at == 0 ? 0 : at - 1;
-  BrickBits bits = layer(at == 0 ? across(lower.bits, 2 * static_cast<size_t>(link.axis)) & upper.bits
-                                 : followed(part.bits, link.axis),
-                         link.axis, k);
-  const VoxelCoord origin = first_voxel(part.brick);
-  VoxelBox box = bounds_of(bits);
-  box = {box.lo + origin, box.hi + origin};
-  // At the face the layer is the upper brick's first: the section lies below it, elsewhere above.
   if (at == 0) {
-    (link.axis == 0 ? box.lo.x : link.axis == 1 ? box.lo.y : box.lo.z) -= 1;
-  } else {
-    (link.axis == 0 ? box.hi.x : link.axis == 1 ? box.hi.y : box.hi.z) += 1;
+    // Found in the upper brick's first layer, one beyond.
+    const BrickBits both = across(lower.bits, 2 * static_cast<size_t>(link.axis)) & upper.bits;
+    VoxelCoord origin = first_voxel(upper.brick);
+    (link.axis == 0 ? origin.x : link.axis == 1 ? origin.y : origin.z) -= 1;
+    return {origin, both};
   }
-  return box;
+  const SupportPart& part = at < 0 ? lower : upper;
+  const int k = at < 0 ? brick_size - 1 + at : at - 1;
+  return {first_voxel(part.brick), layer(followed(part.bits, link.axis), link.axis, k)};
+}
+
+VoxelBox SupportParts::section_box(std::span<const SupportLink> links, int at) const {
+  VoxelBox all{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+  for (const SupportLink& link : links) {
+    const SectionVoxels voxels = section_voxels(link, at);
+    if (!voxels.bits.any()) continue;
+    const VoxelBox box = bounds_of(voxels.bits);
+    all = hull_of(all, {box.lo + voxels.origin, box.hi + voxels.origin});
+  }
+  CHECK(!links.empty() && !all.empty());
+  const int axis = links.front().axis;
+  (axis == 0 ? all.hi.x : axis == 1 ? all.hi.y : all.hi.z) += 1;
+  return all;
 }
 
 }  // namespace scree

@@ -20,8 +20,10 @@ struct SupportPart {
   BrickBits bits;
   /// Voxels that touch their next neighbours, between layers k and k + 1 along each axis.
   std::array<std::array<uint8_t, brick_size - 1>, 3> sections{};
+  std::array<std::array<uint8_t, brick_size>, 3> layers{};  ///< voxels in each layer along each axis
   std::array<int, 3> middle{};  ///< layer along each axis up to which half of the voxels lie
   int voxels = 0;
+  float fill = 1.0F;  ///< volume of its voxels by the codes, surface voxels included, over their number
   Material material = Material::rock;
   bool held = false;     ///< touches ground, or continues outside the surroundings
   uint32_t next = none;  ///< next part of the same brick
@@ -34,6 +36,11 @@ struct SupportLink {
   int axis = 0;
   int at = 0;       ///< place of the thinnest section: layers beyond the face, negative in the lower brick
   int section = 0;  ///< voxels
+};
+
+struct SectionVoxels {
+  VoxelCoord origin;
+  BrickBits bits;  ///< relative to the origin
 };
 
 class SupportParts {
@@ -52,8 +59,11 @@ class SupportParts {
   /// First and last place of a section between the middles of the two parts.
   int first_place(const SupportLink& link) const;
   int last_place(const SupportLink& link) const;
-  /// Voxels on both sides of that section, in the field's coordinates.
-  VoxelBox section_box(const SupportLink& link, int at) const;
+  /// The voxels of a section on its lower side, each with a next neighbour on the upper side.
+  SectionVoxels section_voxels(const SupportLink& link, int at) const;
+  /// Smallest box of the voxels on both sides of the links' sections there, in the field's coordinates.
+  /// At least one of them has voxels there.
+  VoxelBox section_box(std::span<const SupportLink> links, int at) const;
 
  private:
   bool inside(BrickCoord brick) const;
@@ -61,7 +71,7 @@ class SupportParts {
   /// Index of the brick's first part; the first call finds its parts.
   uint32_t load(BrickCoord brick);
   bool is_held(const SupportPart& part) const;
-  void add(BrickCoord brick, const BrickBits& bits, uint32_t& first);
+  void add(BrickCoord brick, const BrickBits& bits, float fill, uint32_t& first);
   void connect(uint32_t part, size_t face);
   SupportLink link_of(uint32_t lower, uint32_t upper, int axis) const;
 

@@ -8,6 +8,7 @@
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/falling/leverage.h"
 #include "shared/falling/load_flow.h"
 #include "shared/falling/support_parts.h"
 
@@ -19,8 +20,6 @@ namespace {
 constexpr int neck_side_bricks = 4;
 /// Steps of the flow for each part.
 constexpr size_t steps_per_part = 400;
-
-constexpr float standard_gravity = 9.80665F;
 
 /// Each number in grams, so that they add up exactly.
 struct Strength {
@@ -44,7 +43,9 @@ Strength strength_of(Material material, float voxel_size_m) {
 class Search {
  public:
   Search(Field& field, std::span<const BrickCoord> changed, int reach_bricks)
-      : parts_(field, changed, reach_bricks, support_parts_max), changed_(changed.begin(), changed.end()) {
+      : field_(field),
+        parts_(field, changed, reach_bricks, support_parts_max),
+        changed_(changed.begin(), changed.end()) {
     for (const Material material : all_kinds<Material>)
       strengths_[static_cast<size_t>(material)] = strength_of(material, field.source().voxel_size_m);
   }
@@ -58,6 +59,7 @@ class Search {
     for (auto& [mass, overload] : gather())
       if (overload.voxels >= overload_voxels_min && !overload.necks.empty())
         found.overloads.push_back(std::move(overload));
+    if (found.overloads.empty()) found.overloads = find_levers(parts_, field_, changed_);
     return found;
   }
 
@@ -155,19 +157,12 @@ class Search {
       place = at;
     }
     CHECK(neck.section_voxels > 0);
-    neck.box = {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-    for (const SupportLink& link : links) {
-      if (parts_.section(link, place) == 0) continue;
-      const VoxelBox box = parts_.section_box(link, place);
-      neck.box.lo = {std::min(neck.box.lo.x, box.lo.x), std::min(neck.box.lo.y, box.lo.y),
-                     std::min(neck.box.lo.z, box.lo.z)};
-      neck.box.hi = {std::max(neck.box.hi.x, box.hi.x), std::max(neck.box.hi.y, box.hi.y),
-                     std::max(neck.box.hi.z, box.hi.z)};
-    }
+    neck.box = parts_.section_box(links, place);
     neck.box = neck.box.grown(1);  // two layers on each side, and slanting ones
     return neck;
   }
 
+  Field& field_;
   SupportParts parts_;
   std::set<BrickCoord> changed_;
   std::array<Strength, kind_count<Material>> strengths_;  ///< by material

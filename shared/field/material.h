@@ -18,11 +18,13 @@ namespace scree {
 
 enum class Material : uint8_t { rock = 0, soil = 1, ice = 2 };
 
-/// Pressure that a section of terrain carries, Pa, by how the load lies on it.
+/// Pressure that a section of terrain carries, Pa, by how the load lies on it; and the tension at the edge of
+/// a section, from the load's leverage, at which it breaks.
 struct Bearing {
   float pressed_pa;
   float hanging_pa;
   float sideways_pa;
+  float bending_pa;
 };
 
 struct MaterialRow {
@@ -43,7 +45,8 @@ struct MaterialRow {
 };
 
 /// Bearing: a column of so many metres of rock weighs 25,500 Pa a metre on its foot. Rock carries 200 m of
-/// itself pressed, 50 m hanging and 25 m sideways, soil a tenth of that, ice in between.
+/// itself pressed, 50 m hanging and 25 m sideways, soil a tenth of that, ice in between. A beam of rock that
+/// is 4 m high breaks under its own weight at 12 m, by leverage (shared/falling/leverage.h).
 constexpr MaterialRow row_of(Material material) {
   switch (material) {
     case Material::rock:
@@ -53,7 +56,10 @@ constexpr MaterialRow row_of(Material material) {
               .strength_m_s = 10.0F,
               .seed_density = 1.0F,
               .dent_resistance_j_m3 = 5.0e7F,
-              .bearing = {.pressed_pa = 5.1e6F, .hanging_pa = 1.27e6F, .sideways_pa = 6.4e5F},
+              .bearing = {.pressed_pa = 5.1e6F,
+                          .hanging_pa = 1.27e6F,
+                          .sideways_pa = 6.4e5F,
+                          .bending_pa = 2.75e6F},
               .layer_depth_m = 0.0F,
               .albedo = {0.33F, 0.31F, 0.30F}};
     case Material::soil:
@@ -63,7 +69,10 @@ constexpr MaterialRow row_of(Material material) {
               .strength_m_s = 7.0F,
               .seed_density = 1.5F,
               .dent_resistance_j_m3 = 2.5e5F,
-              .bearing = {.pressed_pa = 4.0e5F, .hanging_pa = 1.0e5F, .sideways_pa = 5.0e4F},
+              .bearing = {.pressed_pa = 4.0e5F,
+                          .hanging_pa = 1.0e5F,
+                          .sideways_pa = 5.0e4F,
+                          .bending_pa = 1.0e5F},
               .layer_depth_m = 1.0F,
               .albedo = {0.20F, 0.12F, 0.06F}};
     case Material::ice:
@@ -73,7 +82,10 @@ constexpr MaterialRow row_of(Material material) {
               .strength_m_s = 6.0F,
               .seed_density = 1.25F,
               .dent_resistance_j_m3 = 5.0e6F,
-              .bearing = {.pressed_pa = 1.35e6F, .hanging_pa = 3.4e5F, .sideways_pa = 1.7e5F},
+              .bearing = {.pressed_pa = 1.35e6F,
+                          .hanging_pa = 3.4e5F,
+                          .sideways_pa = 1.7e5F,
+                          .bending_pa = 7.3e5F},
               .layer_depth_m = 1.5F,
               .albedo = {0.62F, 0.76F, 0.86F}};
   }

@@ -1,0 +1,25 @@
+// Finds the plane sections of terrain that break by leverage: the weight beyond a section, times its
+// distance, bends it. A section is the set of links (support_parts.h) that cross one plane between bricks and
+// alone hold what lies beyond; its exact place is the worst within those bricks.
+//
+// The tension at the section's edge is that of a beam in pure bending (Navier): for one of rectangular
+// section under its own weight 3 ρ g L² / h, with the length L and the height h. Sections across, which carry
+// a mass that stands or hangs off its middle, bear its weight besides. Left out: torsion, and masses held at
+// several places, which are no levers. Lengths in voxels.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "shared/falling/overload.h"
+#include "shared/falling/support_parts.h"
+#include "shared/field/field.h"
+
+namespace scree {
+
+/// Masses that break off by leverage: the worst section of each, the worst first, none inside another. Only
+/// those with a changed brick among them or at their section. `field` is that of the parts.
+std::vector<Overload> find_levers(const SupportParts& parts, Field& field,
+                                  const std::set<BrickCoord>& changed);
+
+}  // namespace scree
