@@ -139,7 +139,7 @@ void read(ByteReader& reader, PieceId id, CarveOperation& carve) {
   carve.shape = read_shape(reader);
   read_seeds(reader, id, validate_carve_pattern, carve);
   carve.impact_m = reader.vec3("impact");
-  if (!traits_of(carve.pattern).needs_points) return;
+  if (is_drawn(carve.pattern)) return;
   if (carve.seeds > limits::authored_seeds_max) reader.refuse("more authored seeds than authored_seeds_max");
   for (uint32_t i = 0; i < carve.seeds && !reader.failed(); ++i)
     carve.authored_m.push_back(reader.vec3("authored seed"));

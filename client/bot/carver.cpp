@@ -61,7 +61,7 @@ CarveMessage Carver::next(Field& field, uint32_t request) {
   const SeedPattern in_turn = request % 2 == 0 ? SeedPattern::uniform : SeedPattern::radial;
   carve.pattern = config_.pattern.value_or(in_turn);
   carve.seeds = config_.seeds;
-  if (traits_of(carve.pattern).needs_points) {
+  if (is_given(carve.pattern)) {
     carve.authored_m =
         masonry(carve.shape.a, config_.radius_m, std::min(config_.seeds, limits::authored_seeds_max));
     carve.seeds = static_cast<uint32_t>(carve.authored_m.size());

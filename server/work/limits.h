@@ -29,6 +29,10 @@ inline constexpr float cut_cost_us = 100.0F;
 inline constexpr float cut_voxel_cost_us = 0.03F;
 inline constexpr float piece_cost_us = 30.0F;
 
+/// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
+inline constexpr float relax_cost_us = 2200.0F;
+inline constexpr float relax_seed_cost_us = 70.0F;
+
 /// The same for the cutters of polygons.
 inline constexpr float polygons_cost_us = 6000.0F;
 inline constexpr float polygons_voxel_cost_us = 0.9F;

@@ -49,11 +49,16 @@ struct Pricing {
            limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
   }
 
+  static float seeds_price_us(const CarveRequest& request) {
+    if (!is_relaxed(request.pattern)) return 0.0F;
+    return std::max(limits::relax_cost_us, limits::relax_seed_cost_us * static_cast<float>(request.seeds));
+  }
+
   float operator()(const CarveRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     const float own = edit(request.shape);
     const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
-    return own + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
+    return own + seeds_price_us(request) + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
   }
   float operator()(const FillRequest& request) const { return edit(request.shape); }
   float operator()(const PaintRequest& request) const { return edit(request.shape); }

@@ -60,7 +60,7 @@ void cut_piece(World::State& state, const PendingCut& cut, ShatterOperation oper
 void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted) {
   share_out(state, applied,
             {.pieces = wanted,
-             .pattern = traits_of(request.pattern).needs_points ? SeedPattern::uniform : request.pattern,
+             .pattern = is_drawn(request.pattern) ? request.pattern : SeedPattern::uniform,
              .random_seed = request.random_seed,
              .impact_m = request.impact_m});
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "server/fracture/even_seeds.h"
 #include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/world/buried_stage.h"
@@ -108,9 +109,21 @@ CarveOperation operation_of(const World::State& state, const CarveRequest& reque
   return operation;
 }
 
-/// Seeds of the first cut; the pieces that authored seeds make are those that somebody drew.
+/// Gives the operation of a relaxed pattern its points: as many as find room in what it cuts, and one in any
+/// case.
+void relax_seeds(World::State& state, CarveOperation& operation) {
+  const float dx = state.config.terrain.voxel_size_m;
+  operation.authored_m.clear();
+  for (const glm::vec3& seed :
+       even_seeds(carved_volume(state.field, operation.shape), operation.seeds, operation.random_seed))
+    operation.authored_m.push_back(seed * dx);
+  if (operation.authored_m.empty()) operation.authored_m.push_back(centre_of(operation.shape));
+  operation.seeds = static_cast<uint32_t>(operation.authored_m.size());
+}
+
+/// Seeds of the first cut; the pieces that chosen points make are made at once.
 uint32_t seeds_at_once(const CarveRequest& request, const PieceGrant& grant, Cutter cutter) {
-  if (traits_of(request.pattern).needs_points) return grant.pieces;
+  if (!is_drawn(request.pattern)) return grant.pieces;
   return pieces_at_once(cutter, grant.pieces);
 }
 
@@ -119,7 +132,13 @@ struct Checking {
   const World::State& state;
 
   Checked operator()(const CarveRequest& request) const {
-    const Operation operation = operation_of(state, request, request.seeds, Cutter::field);
+    if (is_relaxed(request.pattern) && !request.authored_m.empty())
+      return refuse(Refusal::carve_invalid,
+                    "the pattern " + std::string(name_of(request.pattern)) + " takes no points");
+    CarveOperation operation = operation_of(state, request, request.seeds, Cutter::field);
+    if (is_relaxed(request.pattern))
+      operation.authored_m.assign(std::min(request.seeds, limits::authored_seeds_max + 1),
+                                  centre_of(request.shape));
     if (Checked valid = check_edit(state, operation, request.shape, Refusal::carve_invalid); !valid)
       return valid;
     if (request.blast_speed_m_s >= 0.0F && request.blast_speed_m_s <= limits::blast_speed_max_m_s) return {};
@@ -150,7 +169,9 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t session
   const Cutter cutter =
       cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
   const uint32_t at_once = seeds_at_once(request, grant, cutter);
-  const Applied applied = state.apply_and_record(operation_of(state, request, at_once, cutter), delta);
+  CarveOperation operation = operation_of(state, request, at_once, cutter);
+  if (is_relaxed(request.pattern)) relax_seeds(state, operation);
+  const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
   throw_out(state, applied, request, session, delta);
   if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "shared/base/check.h"
+#include "shared/falling/section.h"
 #include "shared/field/mass.h"
 #include "shared/field/material.h"
 
@@ -75,53 +76,6 @@ Lump lump_of(const SupportPart& part, double voxel_m3, bool changed) {
   lump.bounds = {first, first + VoxelCoord{brick_size, brick_size, brick_size}};
   return lump;
 }
-
-/// Area of a section and its moments about its centroid, in voxels; coordinates are those of plane_axes.
-class Section {
- public:
-  void add(glm::dvec2 at, double area) { cells_.push_back({at, area}); }
-  void finish() {
-    for (const Cell& cell : cells_) {
-      area_ += cell.area;
-      centroid_ += cell.at * cell.area;
-    }
-    if (area_ > 0.0) centroid_ /= area_;
-    for (const Cell& cell : cells_) {
-      const glm::dvec2 r = cell.at - centroid_;
-      uu_ += cell.area * (r.x * r.x + 1.0 / 12.0);
-      uv_ += cell.area * r.x * r.y;
-      vv_ += cell.area * (r.y * r.y + 1.0 / 12.0);
-    }
-  }
-
-  double area() const { return area_; }
-  glm::dvec2 centroid() const { return centroid_; }
-
-  /// Greatest tension at the edge under a moment of unit weight at that offset, along either sense.
-  double tension(glm::dvec2 offset) const {
-    const double determinant = uu_ * vv_ - uv_ * uv_;
-    CHECK(determinant > 0.0);
-    const glm::dvec2 slope((offset.x * vv_ - offset.y * uv_) / determinant,
-                           (-offset.x * uv_ + offset.y * uu_) / determinant);
-    double most = 0.0;
-    for (const Cell& cell : cells_) {
-      const glm::dvec2 r = cell.at - centroid_;
-      // A cell that is full reaches half a voxel beyond its middle; one that is half full ends there.
-      const double edge = (cell.area - 0.5) * (std::abs(slope.x) + std::abs(slope.y));
-      most = std::max(most, slope.x * r.x + slope.y * r.y + edge);
-    }
-    return most;
-  }
-
- private:
-  struct Cell {
-    glm::dvec2 at;
-    double area;
-  };
-  std::vector<Cell> cells_;
-  double area_ = 0.0, uu_ = 0.0, uv_ = 0.0, vv_ = 0.0;
-  glm::dvec2 centroid_{0.0};
-};
 
 struct Candidate {
   double excess = 0.0;  ///< tension over what the section bears

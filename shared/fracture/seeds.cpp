@@ -103,7 +103,8 @@ std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 
         places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
       break;
     case SeedPattern::uniform:
-    case SeedPattern::authored:  // never drawn (scatter_seeds)
+    case SeedPattern::authored:  // these two are never drawn (scatter_seeds)
+    case SeedPattern::even:
       break;
   }
   return places;

@@ -58,7 +58,7 @@ MassUnits mass_created(const Applied& applied, const PieceTable& pieces) {
 }
 
 std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
-  if (!traits_of(op.pattern).needs_points)
+  if (is_drawn(op.pattern))
     return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
   std::vector<glm::vec3> points;
   for (const glm::vec3& point_m : op.authored_m) points.push_back(point_m / voxel_size_m);
@@ -223,13 +223,14 @@ bool is_finite(glm::vec3 v) {
 }
 
 Result<void> validate_authored(const CarveOperation& op) {
-  const size_t wanted = traits_of(op.pattern).needs_points ? op.seeds : 0;
+  const size_t wanted = is_drawn(op.pattern) ? 0 : op.seeds;
+  if (wanted > limits::authored_seeds_max)
+    return fail(std::to_string(wanted) + " " + std::string(name_of(op.pattern)) +
+                " seeds are over the limit of " + std::to_string(limits::authored_seeds_max) +
+                " (limits.authored_seeds_max)");
   if (op.authored_m.size() != wanted)
     return fail(std::to_string(op.authored_m.size()) + " authored seeds for a carve of " +
                 std::to_string(wanted) + " (a pattern that needs points has as many as seeds, others none)");
-  if (wanted > limits::authored_seeds_max)
-    return fail(std::to_string(wanted) + " authored seeds are over the limit of " +
-                std::to_string(limits::authored_seeds_max) + " (limits.authored_seeds_max)");
   for (const glm::vec3& point_m : op.authored_m) {
     if (!is_finite(point_m)) return fail("an authored seed's position is not a finite number");
     if (!in_world(point_m)) return fail("an authored seed is outside the world (limits.world_half_width_m)");
@@ -356,6 +357,12 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
   if (Result<void> valid = std::visit(Validator{pieces, voxel_size_m}, operation); !valid) return valid;
   return validate_new_ids(ids_made_by(operation), pieces);
+}
+
+Window carved_volume(Field& field, const Shape& shape) {
+  const Shape in_field = in_voxels(shape, field.source().voxel_size_m);
+  const Window before = gather(field, band_box(in_field));
+  return extract(before, codes_of(in_field, before.box));
 }
 
 }  // namespace scree

@@ -164,4 +164,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
 /// operations, or decoded.
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
+/// The volume that a carve of that shape would cut into pieces.
+Window carved_volume(Field& field, const Shape& shape);
+
 }  // namespace scree

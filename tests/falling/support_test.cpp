@@ -1,7 +1,6 @@
-// Terrain too heavy for its neck: the flow of loads against all cuts, sections against counting, and whole
-// worlds in which tables and overhangs fall, or stand.
+// Terrain too heavy for its neck: sections against counting, and whole worlds in which tables and overhangs
+// fall, or stand.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,7 +10,6 @@
 #include "server/world/limits.h"
 #include "server/world/world.h"
 #include "shared/base/random.h"
-#include "shared/falling/load_flow.h"
 #include "shared/falling/support_search.h"
 #include "shared/field/edit.h"
 #include "tests/support/verify_recording.h"
@@ -20,78 +18,6 @@ namespace scree {
 namespace {
 
 constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
-
-struct Network {
-  struct Link {
-    uint32_t a, b;
-    int64_t forth, back;
-  };
-  std::vector<int64_t> loads;
-  std::vector<Link> links;
-  uint32_t grounded = 0;  ///< bits
-
-  explicit Network(uint64_t random_seed) {
-    Random random(random_seed);
-    const auto below = [&](uint32_t n) {
-      return static_cast<uint32_t>(random.unit() * static_cast<float>(n));
-    };
-    const uint32_t nodes = 2 + below(8);
-    for (uint32_t i = 0; i < nodes; ++i) loads.push_back(below(20));
-    grounded = 1U << below(nodes);
-    for (uint32_t i = 0; i < 2 * nodes; ++i) {
-      const uint32_t a = below(nodes), b = below(nodes);
-      if (a != b) links.push_back({a, b, below(30), below(30)});
-    }
-  }
-
-  static bool holds(uint32_t set, uint32_t node) { return (set >> node & 1U) != 0; }
-  /// Load of a set of nodes over what the links out of it carry. Link by link and in two branches: g++ 12
-  /// miscompiles `a ? forth : back` here at -O1 with -fsanitize=thread.
-  int64_t excess(uint32_t set) const {
-    int64_t sum = 0;
-    for (uint32_t i = 0; i < loads.size(); ++i)
-      if (holds(set, i)) sum += loads[i];
-    for (const Link& link : links) {
-      if (holds(set, link.a) && !holds(set, link.b)) sum -= link.forth;
-      if (holds(set, link.b) && !holds(set, link.a)) sum -= link.back;
-    }
-    return sum;
-  }
-  int64_t most_excess() const {
-    int64_t most = 0;
-    for (uint32_t set = 0; set < 1U << loads.size(); ++set)
-      if ((set & grounded) == 0) most = std::max(most, excess(set));
-    return most;
-  }
-};
-
-TEST(support, the_flow_of_loads_finds_the_most_overloaded_of_all_sets) {
-  int overloaded = 0;
-  for (uint64_t random_seed = 0; random_seed < 500; ++random_seed) {
-    const Network network(random_seed);
-    LoadFlow flow;
-    for (const int64_t load : network.loads) flow.add_node(load);
-    for (uint32_t i = 0; i < network.loads.size(); ++i)
-      if ((network.grounded >> i & 1U) != 0) flow.ground(i);
-    for (const auto& link : network.links) flow.link(link.a, link.b, link.forth, link.back);
-    ASSERT_TRUE(flow.run(1'000'000)) << random_seed;
-    uint32_t set = 0;
-    for (uint32_t i = 0; i < network.loads.size(); ++i) set |= flow.overloaded(i) ? 1U << i : 0U;
-    ASSERT_EQ(set & network.grounded, 0U) << random_seed;
-    ASSERT_EQ(network.excess(set), network.most_excess()) << random_seed;
-    overloaded += network.most_excess() > 0 ? 1 : 0;
-  }
-  EXPECT_GT(overloaded, 50);
-  EXPECT_LT(overloaded, 450);
-}
-
-TEST(support, a_flow_without_steps_knows_nothing) {
-  LoadFlow flow;
-  const uint32_t top = flow.add_node(5), foot = flow.add_node(0);
-  flow.link(top, foot, 10, 10);
-  flow.ground(foot);
-  EXPECT_FALSE(flow.run(0));
-}
 
 void add(Field& field, const VoxelBox& voxels) {
   for_each_brick(voxels, [&](BrickCoord coord) {
@@ -221,42 +147,6 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
   EXPECT_TRUE(holds(2, 13));
   EXPECT_FALSE(holds(0, 8));
   EXPECT_TRUE(holds(0, 14));
-}
-
-/// Whether a beam of so many metres that sticks out of a wall breaks; its width is 2 m.
-bool beam_breaks(Material material, float height_m, float length_m) {
-  MapField field(flat);
-  PieceTable none;
-  for (const Shape& shape :
-       {box({-3.0F, 5.0F, 0.1F}, {2.9F, 8.0F, 6.0F}),
-        box({-0.1F + 0.5F * length_m - 0.5F, 7.3F, 0.1F}, {0.5F * length_m + 0.5F, 0.5F * height_m, 1.0F})})
-    apply(FillOperation{shape}, field, none);
-  for (float x = -6.0F; x < 20.0F; x += 5.0F)  // whole bricks
-    apply(PaintOperation{box({x, 6.0F, 0.0F}, glm::vec3(8.0F)), material}, field, none);
-  const SupportFound found = find_overloads(field, std::vector<BrickCoord>{{0, 3, 0}, {-1, 3, 0}}, 9);
-  EXPECT_FALSE(found.given_up);
-  if (found.overloads.empty()) return false;
-  EXPECT_EQ(found.overloads.size(), 1U);
-  const VoxelBox& neck = found.overloads[0].necks.at(0).box;
-  EXPECT_LE(std::abs(neck.lo.x + neck.hi.x), 8) << "it breaks at its root";
-  return true;
-}
-
-TEST(support, a_beam_breaks_at_a_length_that_grows_with_the_root_of_its_height) {
-  for (const Material material : all_kinds<Material>)
-    for (const float height_m : {1.5F, 2.5F, 4.0F}) {
-      const MaterialRow& row = traits_of(material);
-      const float expected_m =
-          std::sqrt(row.bearing.bending_pa * height_m / (3.0F * row.density_kg_m3 * 9.80665F));
-      float holds_m = 0.5F * expected_m, breaks_m = 1.3F * expected_m;
-      ASSERT_FALSE(beam_breaks(material, height_m, holds_m)) << row.name << " " << height_m;
-      ASSERT_TRUE(beam_breaks(material, height_m, breaks_m)) << row.name << " " << height_m;
-      for (int i = 0; i < 8; ++i) {
-        const float between_m = 0.5F * (holds_m + breaks_m);
-        (beam_breaks(material, height_m, between_m) ? breaks_m : holds_m) = between_m;
-      }
-      EXPECT_NEAR(breaks_m, expected_m, 0.1F * expected_m) << row.name << " " << height_m;
-    }
 }
 
 std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {

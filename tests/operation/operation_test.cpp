@@ -55,11 +55,11 @@ TEST(operation, every_cutter_and_pattern_conserves_mass) {
       CarveOperation op = ball(4, pattern);
       op.cutter = cutter;
       // Two inside, one a hair beside the first, one in the air.
-      if (traits_of(pattern).needs_points)
+      if (!is_drawn(pattern))
         op.authored_m = {{0.3F, -0.5F, 0.1F}, {0.31F, -0.5F, 0.1F}, {0.3F, 9.0F, 0.1F}, {-0.8F, -0.9F, 0.1F}};
       ASSERT_TRUE(validate(op, pieces, dx).has_value());
       const Applied applied = apply(op, field, pieces);
-      EXPECT_EQ(pieces.size(), traits_of(pattern).needs_points ? 2U : 4U);
+      EXPECT_EQ(pieces.size(), is_drawn(pattern) ? 4U : 2U);
       EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
       const MassUnits before = mass_of(pieces);
       const PieceId first = pieces.begin()->first;

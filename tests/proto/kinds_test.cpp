@@ -27,13 +27,13 @@ CarveMessage carve_message(ShapeKind shape, SeedPattern pattern) {
   carve.shape = shape_of(shape);
   carve.pattern = pattern;
   carve.seeds = 2;
-  if (row_of(pattern).needs_points) carve.authored_m.assign(2, glm::vec3(1.0F));
+  if (is_given(pattern)) carve.authored_m.assign(2, glm::vec3(1.0F));
   return carve;
 }
 
 CarveOperation carve_operation(ShapeKind shape, SeedPattern pattern) {
   CarveOperation carve{shape_of(shape), pattern, 2, 7, {1.0F, 4.0F, 3.0F}, 0};
-  if (row_of(pattern).needs_points) carve.authored_m.assign(2, glm::vec3(1.0F));
+  if (!is_drawn(pattern)) carve.authored_m.assign(2, glm::vec3(1.0F));
   return carve;
 }
 

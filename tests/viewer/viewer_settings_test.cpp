@@ -163,13 +163,13 @@ TEST(Tool, patterns_and_tools_go_round_and_none_is_offered_that_needs_points) {
   std::set<SeedPattern> patterns;
   for (size_t i = 0; i < 2 * kind_count<SeedPattern>; ++i) {
     change(tool, Action::next_pattern);
-    EXPECT_FALSE(traits_of(tool.pattern).needs_points) << name_of(tool.pattern);
+    EXPECT_TRUE(asks_no_points(tool.pattern)) << name_of(tool.pattern);
     patterns.insert(tool.pattern);
   }
   EXPECT_EQ(patterns.size(), static_cast<size_t>(std::ranges::count_if(all_kinds<SeedPattern>, is_drawn)));
   tool.pattern = SeedPattern::authored;
   change(tool, Action::next_pattern);
-  EXPECT_FALSE(traits_of(tool.pattern).needs_points);
+  EXPECT_TRUE(asks_no_points(tool.pattern));
   std::set<ToolKind> tools;
   for (size_t i = 0; i < kind_count<ToolKind>; ++i) {
     change(tool, Action::next_tool);

@@ -49,7 +49,7 @@ inline constexpr float tool_radius_max_m = 4.0F;
 inline constexpr uint32_t tool_seeds_max = 256;
 
 /// A hand gives no points.
-inline constexpr auto tool_patterns = drawn_patterns;
+inline constexpr auto tool_patterns = pointless_patterns;
 
 /// The shape of a strike along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
 /// direction; boxes stand upright.
