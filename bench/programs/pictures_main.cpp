@@ -153,6 +153,22 @@ void draw_tower(Film& film) {
   film.shoot("tower_after", camera);
 }
 
+/// Two walls, broken into as many pieces: uniform on the left, even on the right.
+void draw_patterns(Film& film) {
+  const float x = 9.0F, middle_z = -24.0F;
+  const float up_m = std::max(ground_m(x, middle_z - 3.0F), ground_m(x, middle_z + 3.0F)) + 2.0F;
+  for (const auto& [pattern, z] :
+       {std::pair(SeedPattern::uniform, middle_z + 3.0F), std::pair(SeedPattern::even, middle_z - 3.0F)}) {
+    const Shape wall = box({x, up_m, z}, {0.6F, 2.0F, 2.5F});
+    film.ask(FillRequest{wall});
+    CarveRequest carve = blow(box({x, up_m, z}, {0.8F, 2.2F, 2.7F}), {x + 4.0F, up_m, z}, 40, 3.0F);
+    carve.pattern = pattern;
+    film.ask(carve);
+  }
+  film.run(12);
+  film.shoot("patterns", look({x + 7.0F, up_m + 0.8F, middle_z}, {x, up_m - 0.1F, middle_z}));
+}
+
 /// The arch, cut at both feet, falls as one.
 void draw_arch(Film& film) {
   const Camera camera = look({31.0F, 6.0F, 9.0F}, {15.0F, 3.8F, 0.0F});
@@ -189,8 +205,9 @@ struct Scenario {
   void (*draw)(Film&);
 };
 
-constexpr std::array scenarios{Scenario{"blast", draw_blast}, Scenario{"tower", draw_tower},
-                               Scenario{"arch", draw_arch}, Scenario{"methods", draw_methods}};
+constexpr std::array scenarios{Scenario{"blast", draw_blast}, Scenario{"patterns", draw_patterns},
+                               Scenario{"tower", draw_tower}, Scenario{"arch", draw_arch},
+                               Scenario{"methods", draw_methods}};
 
 }  // namespace
 }  // namespace scree
@@ -201,7 +218,7 @@ int main(int argc, char** argv) {
   CLI::App app("Draws the pictures of Scree's documentation.", "scree-pictures");
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "where the PNGs go");
-  app.add_option("--only", only, "one of blast, tower, arch, methods");
+  app.add_option("--only", only, "one of blast, patterns, tower, arch, methods");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(folder);
   const Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
