@@ -22,6 +22,7 @@ const std::vector<Bench>& all_benches() {
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
        run_ledger_bench},
+      {"memory", "edits all over 4 km under a limit of memory", run_memory_bench},
       {"mesh", "surface nets of a changed block, beside OpenVDB's volumeToMesh; from a change to its picture",
        run_mesh_bench},
       {"rates", "a blow at 10 to 240 ticks a second: time to rest, height, speed", run_rates_bench},

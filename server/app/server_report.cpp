@@ -56,7 +56,8 @@ Json json_of(const WorkReport& work) {
           {"supports_put_off_most", work.supports_put_off_most},
           {"supports_given_up", work.supports_given_up},
           {"islands_put_off_most", work.islands_put_off_most},
-          {"islands_too_large", work.islands_too_large}};
+          {"islands_too_large", work.islands_too_large},
+          {"memory_mb", work.memory_mb}};
 }
 
 /// Reasons that were never given are left out.
@@ -102,6 +103,7 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   supports_given_up += work.supports_given_up;
   islands_put_off_most = std::max(islands_put_off_most, work.islands_put_off);
   islands_too_large += work.islands_too_large;
+  memory_mb = work.memory_mb;
 }
 
 void ServerReport::add(const TickDelta& delta) {

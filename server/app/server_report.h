@@ -28,6 +28,7 @@ struct WorkReport {
   uint64_t supports_given_up = 0;
   uint32_t islands_put_off_most = 0;
   uint64_t islands_too_large = 0;
+  uint32_t memory_mb = 0;  ///< in the last tick
 
   void add(Tick tick, const TickWork& work);
 };

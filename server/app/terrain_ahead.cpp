@@ -50,7 +50,7 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
     idle = wanted_.empty();
   }
   for (Ready& each : ready) field.adopt_generated(each.coord, std::move(each.chunk));
-  const size_t room = limits::generated_chunks_max / 2;
+  const size_t room = field.generated_chunks_max() / 2;
   if (!idle || eyes_m.empty() || field.generated_chunks() >= room) return;
   std::vector<ChunkCoord> wanted = look_around(field, eyes_m);
   if (wanted.empty()) return;

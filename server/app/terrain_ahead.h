@@ -26,7 +26,7 @@ class TerrainAhead {
 
   /// Hands the generated chunks to the field, which has the constructor's source, and requests chunks that it
   /// lacks around the eyes (metres): the nearest first, limits::ahead_looks_per_tick at a time. Requests none
-  /// when the field is so full that it would drop generated chunks (limits::generated_chunks_max). Call once
+  /// when the field is so full that it would drop generated chunks (Field::generated_chunks_max). Call once
   /// a tick.
   void serve(Field& field, std::span<const glm::vec3> eyes_m);
 

@@ -82,6 +82,20 @@ inline constexpr float debt_budgets_max = 16.0F;
 /// Share of a tick's budget that pays back debt at least, however many bodies there are.
 inline constexpr float payback_share = 0.1F;
 
+/// Memory, bytes: the program with its libraries, pieces and clients; an edited brick in the field (with
+/// OpenVDB's leaf), in the published state and in a recording's; a region of OpenVDB's tree, 16 bricks wide,
+/// that holds some; a generated chunk at most. As measured by the bench memory, rounded up.
+inline constexpr double fixed_memory_bytes = 112.0 * 1024.0 * 1024.0;
+inline constexpr double brick_memory_bytes = 1400.0;
+inline constexpr double region_memory_bytes = 40.0 * 1024.0;
+inline constexpr double generated_chunk_bytes = 34.0 * 1024.0;
+inline constexpr int region_bits = 4;
+
+/// Share of all memory that generated chunks may take; and the share that requests leave to merges of pieces,
+/// which are never refused.
+inline constexpr double generated_memory_share = 0.125;
+inline constexpr double merge_memory_share = 0.0625;
+
 /// Requests of all clients that wait for a tick with room for them. A client may have as many waiting as
 /// there are places left, so that one more client always finds one. Above: refused.
 inline constexpr size_t requests_waiting_max = 1024;

@@ -23,6 +23,7 @@ enum class Refusal : uint8_t {
   pieces_max,
   pieces_share,
   requests_waiting,
+  memory_max,
   // Of a request, by the network side.
   replay,
   requests_per_second,

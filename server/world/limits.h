@@ -11,6 +11,11 @@ namespace scree::limits {
 inline constexpr uint32_t pieces_max_min = 1;
 inline constexpr uint32_t pieces_max_max = 20000;
 
+/// Memory that a world may be asked to keep to, megabytes: below, hardly more than the program fits. Above:
+/// as good as no limit. Refused where a world is created.
+inline constexpr uint32_t memory_max_min_mb = 256;
+inline constexpr uint32_t memory_max_max_mb = 1024 * 1024;
+
 /// Merges in one tick that a world may be asked for; 0: nothing merges. So many take two ticks of 60 Hz.
 /// Above: refused where a world is created.
 inline constexpr uint32_t merges_per_tick_max_max = 1000;

@@ -69,6 +69,7 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
 }
 
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
+constexpr std::array<std::string_view, 1> little_memory{"256"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
@@ -83,6 +84,9 @@ constexpr std::array table{
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
     number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; carves beyond are refused",
                                      {limits::pieces_max_min, limits::pieces_max_max, "pieces"}, few_pieces),
+    number<&WorldConfig::memory_max_mb>(
+        "memory-max", "memory of the terrain and the program; edits beyond are refused",
+        {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}, little_memory),
     number<&ServiceLimits::sessions_max>("sessions-max", "clients at once; more are refused",
                                          {1, limits::sessions_max_max, "clients"}),
     number<&ServiceLimits::requests_per_second>(
@@ -93,13 +97,15 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. Of a WorldConfig,
 /// the terrain, the tick's length and merges_per_tick_max are fixed from the start.
 constexpr size_t members() {
-  const auto [terrain, tick_rate_hz, pieces_max, merges_per_tick_max, methods, service] = WorldConfig{};
+  const auto [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, methods, service] =
+      WorldConfig{};
   const auto [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
   const auto [sessions_max, requests_per_second] = service;
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
-                          static_cast<double>(pieces_max), static_cast<double>(merges_per_tick_max)};
+                          static_cast<double>(pieces_max), static_cast<double>(memory_max_mb),
+                          static_cast<double>(merges_per_tick_max)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),

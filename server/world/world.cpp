@@ -56,9 +56,18 @@ void describe_physics(World::State& state, TickDelta& delta) {
   delta.physics = std::move(physics);
 }
 
+/// All uniform bricks of one kind are the same object.
+std::shared_ptr<const Brick> shared_copy(const Brick& brick) {
+  static const auto air = std::make_shared<const Brick>(air_brick());
+  static const auto solid = std::make_shared<const Brick>(solid_brick());
+  const Brick* const uniform = uniform_equivalent(brick);
+  if (uniform == nullptr) return std::make_shared<const Brick>(brick);
+  return uniform == &air_brick() ? air : solid;
+}
+
 void publish(World::State& state, TickDelta& delta) {
   for (const BrickCoord coord : state.changed) {
-    auto brick = std::make_shared<const Brick>(state.field.brick(coord));
+    std::shared_ptr<const Brick> brick = shared_copy(state.field.brick(coord));
     const std::optional<Material> paint = state.field.painted(coord);
     const uint64_t hash = brick_hash(coord, *brick, paint);
     delta.bricks.push_back({coord, std::move(brick), hash, paint});
@@ -67,6 +76,9 @@ void publish(World::State& state, TickDelta& delta) {
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = state.ledger;
   state.work.report(delta.work);
+  constexpr double mb = 1024.0 * 1024.0;
+  delta.work.memory_mb = static_cast<uint32_t>(
+      state.memory.used_bytes(state.field.edited_brick_count(), state.config.memory_max_mb) / mb);
   delta.field_hash = state.field.hash();
   delta.state_hash =
       state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});

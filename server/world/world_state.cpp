@@ -60,6 +60,7 @@ World::State::State(const WorldConfig& world_config)
       requests(limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz)) {
   WorldConfig parsed = config;
   CHECK(set_all(parsed, print(config)) && parsed == config);
+  field.bound_generated(generated_chunks_within(config.memory_max_mb));
 }
 
 Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,
@@ -70,6 +71,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
+  memory.note(applied.changed);
   const Loose loose = left_by(operation);
   if (loose == Loose::islands) cut.insert(applied.changed.begin(), applied.changed.end());
   if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());

@@ -15,6 +15,7 @@
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
+#include "server/work/memory.h"
 #include "server/work/piece_shares.h"
 #include "server/work/request_queue.h"
 #include "server/work/work.h"
@@ -75,6 +76,7 @@ struct World::State {
   IslandQueue islands;
   std::deque<PendingCut> cuts;  ///< in order
   WorkBudget work;
+  TerrainMemory memory;
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner

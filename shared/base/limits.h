@@ -67,8 +67,8 @@ inline constexpr size_t token_bytes_max = 128;
 /// Radius of interest that a client may ask for, metres; more is cut to this.
 inline constexpr float interest_radius_max_m = 256.0F;
 
-/// Generated chunks kept in memory by a field (32 KiB each at most); above: all are dropped and made anew on
-/// demand.
+/// Generated chunks kept in memory by a field (32 KiB each at most), unless it is given a lower bound; above:
+/// all are dropped and made anew on demand.
 inline constexpr size_t generated_chunks_max = 8192;
 
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.

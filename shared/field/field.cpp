@@ -87,16 +87,22 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material
   return hash;
 }
 
-Field::Field(const TerrainSource& source) : source_(source) {
+Field::Field(const TerrainSource& source)
+    : source_(source), generated_chunks_max_(limits::generated_chunks_max) {
   CHECK(source.voxel_size_m > 0.0F);
 }
 
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   const auto found = generated_.find(chunk);
   if (found != generated_.end()) return found->second;
-  if (generated_.size() >= limits::generated_chunks_max) forget_generated();
-  CHECK_DEBUG(generated_.size() < limits::generated_chunks_max);
+  if (generated_.size() >= generated_chunks_max_) forget_generated();
   return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
+}
+
+void Field::bound_generated(size_t chunks) {
+  CHECK(chunks > 0 && chunks <= limits::generated_chunks_max);
+  generated_chunks_max_ = chunks;
+  if (generated_.size() > chunks) forget_generated();
 }
 
 void Field::forget_generated() {
@@ -141,6 +147,7 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   uint64_t change = brick_hash(coord, brick);
   if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
   store_edited(coord, brick);
+  edited_bricks_ += (chunk.bricks & bit) == 0 ? 1 : 0;
   chunk.bricks |= bit;
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
@@ -179,6 +186,9 @@ void Field::forget_chunk(ChunkCoord chunk) {
     hash_left -= brick_hash(coord, *find_edited(coord), painted(coord));
     erase_edited(coord);
   }
+  const auto forgotten = static_cast<size_t>(std::popcount(found->second.bricks));
+  CHECK(edited_bricks_ >= forgotten);
+  edited_bricks_ -= forgotten;
   CHECK(hash_left == 0);  // a chunk's hash is the sum over its edited bricks
   hash_ -= found->second.hash;
   edited_.erase(found);
@@ -209,7 +219,7 @@ std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
 
 void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
-  if (generated_.size() >= limits::generated_chunks_max) forget_generated();
+  if (generated_.size() >= generated_chunks_max_) forget_generated();
   generated_.try_emplace(chunk, std::move(generated));
 }
 

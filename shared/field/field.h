@@ -62,8 +62,12 @@ class Field {
   /// Takes a chunk that another thread generated, so that brick() need not generate it.
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
   bool has_generated(ChunkCoord chunk) const { return generated_.contains(chunk); }
-  /// Number of generated chunks kept; at limits::generated_chunks_max all are dropped.
+  /// Number of generated chunks kept; at generated_chunks_max() all are dropped.
   size_t generated_chunks() const { return generated_.size(); }
+  size_t generated_chunks_max() const { return generated_chunks_max_; }
+  /// `chunks` is positive, and at most limits::generated_chunks_max, which holds at first.
+  void bound_generated(size_t chunks);
+  size_t edited_brick_count() const { return edited_bricks_; }
 
  protected:
   virtual const Brick* find_edited(BrickCoord coord) const = 0;
@@ -90,6 +94,8 @@ class Field {
   std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> generated_;
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
   std::optional<LastChunk> last_;
+  size_t generated_chunks_max_;
+  size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
 };
 

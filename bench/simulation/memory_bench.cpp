@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
+#include "server/world/published_state.h"
+#include "shared/base/random.h"
+
+namespace scree {
+
+namespace {
+
+constexpr uint32_t memory_max_mb = 512;
+constexpr float half_width_m = 2000.0F;
+
+/// Memory of this process that lies in RAM.
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  statm >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+CarveRequest carve_anywhere(const TerrainSource& terrain, Random& random) {
+  const auto along = [&] { return (2.0F * random.unit() - 1.0F) * half_width_m; };
+  const float x = along(), z = along();
+  return blow_at(terrain, x, z, 8.0F, 8, random.next());
+}
+
+}  // namespace
+
+/// As a server that records: the world, and the published state twice, which share their bricks.
+BenchReport run_memory_bench(const BenchOptions& options) {
+  const int edits = options.quick ? 600 : 5000;
+  WorldConfig config;
+  config.memory_max_mb = memory_max_mb;
+  World world(config);
+  PublishedState published, recorded;
+  Random random(9);
+  double most_mb = 0.0, most_model_mb = 0.0;
+  int accepted = 0, refused = 0, refused_for_memory = 0;
+  const auto take = [&](const TickDelta& delta) {
+    published.apply(delta);
+    recorded.apply(delta);
+    for (const Reply& reply : delta.replies) {
+      (reply.refusal.empty() ? accepted : refused) += 1;
+      refused_for_memory += reply.reason == Refusal::memory_max ? 1 : 0;
+    }
+    most_model_mb = std::max(most_model_mb, static_cast<double>(delta.work.memory_mb));
+  };
+  for (int edit = 0; edit < edits; ++edit) {
+    take(*world.step({{{0, static_cast<uint32_t>(edit), carve_anywhere(config.terrain, random)}}}));
+    for (int tick = 0; tick < 4; ++tick) take(*world.step({}));
+    most_mb = std::max(most_mb, resident_mb());
+    if (edit % 50 == 0) options.progress(static_cast<double>(edit) / edits);
+  }
+  for (int tick = 0; tick < 1200; ++tick) {
+    const auto delta = world.step({});
+    take(*delta);
+    if (delta->pieces.empty() && accepted + refused == edits) break;
+  }
+  most_mb = std::max(most_mb, resident_mb());
+  BenchReport report;
+  report.metric("edits", edits);
+  report.metric("accepted", accepted);
+  report.metric("refused_for_memory", refused_for_memory);
+  report.metric("refused_otherwise", refused - refused_for_memory);
+  report.metric("resident_most_mb", most_mb);
+  report.metric("model_most_mb", most_model_mb);
+  report.metric("edited_bricks", static_cast<double>(world.field().edited_brick_count()));
+  report.check("resident_most_mb", most_mb <= memory_max_mb,
+               fmt::format("{:.0f}, at most {}", most_mb, memory_max_mb));
+  report.check("answered", accepted + refused == edits, fmt::format("{} of {}", accepted + refused, edits));
+  return report;
+}
+
+}  // namespace scree
