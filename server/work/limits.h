@@ -85,9 +85,9 @@ inline constexpr float payback_share = 0.1F;
 /// Memory, bytes: the program with its libraries, pieces and clients; an edited brick in the field (with
 /// OpenVDB's leaf), in the published state and in a recording's; a region of OpenVDB's tree, 16 bricks wide,
 /// that holds some; a generated chunk at most. As measured by the bench memory, rounded up.
-inline constexpr double fixed_memory_bytes = 112.0 * 1024.0 * 1024.0;
-inline constexpr double brick_memory_bytes = 1400.0;
-inline constexpr double region_memory_bytes = 40.0 * 1024.0;
+inline constexpr double fixed_memory_bytes = 80.0 * 1024.0 * 1024.0;
+inline constexpr double brick_memory_bytes = 1200.0;
+inline constexpr double region_memory_bytes = 36.0 * 1024.0;
 inline constexpr double generated_chunk_bytes = 34.0 * 1024.0;
 inline constexpr int region_bits = 4;
 
