@@ -25,14 +25,14 @@ bool is_finite(const btVector3& v) {
 }
 
 /// The impulse of a contact in the last step on the one of its bodies that is static.
-struct Blow {
+struct BlowOnStatic {
   btVector3 impulse{0.0F, 0.0F, 0.0F};
   btVector3 at{0.0F, 0.0F, 0.0F};
   float strength = 0.0F;  ///< sum of the points' impulses
 };
 
-Blow blow_on(const btPersistentManifold& manifold, bool first) {
-  Blow blow;
+BlowOnStatic blow_on(const btPersistentManifold& manifold, bool first) {
+  BlowOnStatic blow;
   for (int k = 0; k < manifold.getNumContacts(); ++k) {
     const btManifoldPoint& point = manifold.getContactPoint(k);
     blow.impulse += point.m_normalWorldOnB * (first ? point.m_appliedImpulse : -point.m_appliedImpulse);
@@ -210,7 +210,7 @@ void Bodies::State::wake(Body& body) {
 }
 
 void Bodies::State::thaw_struck() {
-  std::vector<std::pair<PieceId, Blow>> struck;
+  std::vector<std::pair<PieceId, BlowOnStatic>> struck;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     if (manifold.getBody1() == &terrain) continue;
@@ -218,7 +218,7 @@ void Bodies::State::thaw_struck() {
     if (first == manifold.getBody1()->isStaticObject()) continue;
     if (!(first ? manifold.getBody1() : manifold.getBody0())->isActive()) continue;
     const PieceId id = id_of(first ? manifold.getBody0() : manifold.getBody1());
-    const Blow blow = blow_on(manifold, first);
+    const BlowOnStatic blow = blow_on(manifold, first);
     if (blow.strength >= limits::thaw_speed_m_s * bodies.at(id).mass_kg) struck.emplace_back(id, blow);
   }
   for (const auto& [id, blow] : struck) {

@@ -13,14 +13,14 @@ namespace scree {
 
 namespace {
 
-struct Blow {
+struct ContactBlow {
   float impulse_n_s = 0.0F;
   btVector3 point{0.0F, 0.0F, 0.0F};
   btVector3 normal{0.0F, 0.0F, 0.0F};  ///< towards body 0
 };
 
-Blow blow_of(const btPersistentManifold& manifold) {
-  Blow blow;
+ContactBlow blow_of(const btPersistentManifold& manifold) {
+  ContactBlow blow;
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
     const float impulse = point.m_appliedImpulse;
@@ -57,7 +57,7 @@ std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCol
     const btRigidBody* second = manifold.getBody1() == &terrain ? nullptr : body_of(manifold.getBody1());
     // The solver skips sleeping bodies: their impulses are those of an earlier step.
     if (!is_active(first) && !is_active(second)) continue;
-    const Blow blow = blow_of(manifold);
+    const ContactBlow blow = blow_of(manifold);
     const auto note = [&](const btRigidBody* body, const btRigidBody* other, float sign) {
       if (body == nullptr || blow.impulse_n_s * body->getInvMass() < speed_min_m_s) return;
       BodyImpact impact{id_of(body), std::nullopt, from_bullet(blow.point), from_bullet(blow.normal * sign),

@@ -8,14 +8,11 @@
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
+#include "shared/field/voxel_vector.h"
 
 namespace scree {
 
 namespace {
-
-glm::vec3 as_vec3(int x, int y, int z) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
 
 /// The plane half-way between two seeds, as distance(v) = offset + dot(normal, v); positive beyond it.
 struct Bisector {
@@ -138,7 +135,7 @@ SCREE_VECTOR_CLONES CellPart cut_part(const Window& volume, const VoxelBox& box,
       const Code* from = volume.codes.data() + volume.index(x, y, box.lo.z);
       for (int z = box.lo.z; z < box.hi.z; z += cut_width) {
         const int count = std::min(cut_width, box.hi.z - z);
-        const glm::vec3 first = as_vec3(x, y, z);
+        const glm::vec3 first = as_vector({x, y, z});
         // A count that is known makes single moves of the copies.
         if (count == cut_width)
           cut_voxels(planes, own.size(), first, cut_width, from, to, within);

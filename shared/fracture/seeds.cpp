@@ -5,6 +5,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "shared/field/voxel_vector.h"
 #include "shared/fracture/voronoi.h"
 
 namespace scree {
@@ -51,17 +52,13 @@ std::vector<VoxelCoord> solid_voxels(const Window& volume) {
   return out;
 }
 
-glm::vec3 as_vec3(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// The density of seeds: ∝ 1/d² from the nearest of the places, or uniform if there are none.
 class Density {
  public:
   Density(std::vector<glm::vec3> places, const std::vector<VoxelCoord>& solid) : places_(std::move(places)) {
     if (places_.empty()) return;
-    float nearest2 = distance2(as_vec3(solid.front()));
-    for (const VoxelCoord& voxel : solid) nearest2 = std::min(nearest2, distance2(as_vec3(voxel)));
+    float nearest2 = distance2(as_vector(solid.front()));
+    for (const VoxelCoord& voxel : solid) nearest2 = std::min(nearest2, distance2(as_vector(voxel)));
     // Within a voxel of a place the density is that at one voxel: 1/d² has no bound.
     nearest2_ = std::max(1.0F, nearest2);
   }
@@ -100,7 +97,7 @@ std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 
       break;
     case SeedPattern::clustered:
       for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
-        places.push_back(as_vec3(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+        places.push_back(as_vector(solid[random.below(static_cast<uint32_t>(solid.size()))]));
       break;
     case SeedPattern::uniform:
     case SeedPattern::authored:  // these two are never drawn (scatter_seeds)
@@ -129,7 +126,7 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
     const VoxelCoord voxel = solid[random.below(static_cast<uint32_t>(solid.size()))];
     const float dx = random.unit() - 0.5F, dy = random.unit() - 0.5F, dz = random.unit() - 0.5F;
-    const glm::vec3 p = as_vec3(voxel) + glm::vec3(dx, dy, dz);
+    const glm::vec3 p = as_vector(voxel) + glm::vec3(dx, dy, dz);
     const float draw = random.unit();
     // In the last quarter of the tries every pattern becomes uniform.
     if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(p);

@@ -9,7 +9,7 @@ namespace scree {
 namespace {
 
 /// Side of a block, voxels: a cell of a carve into 64 touches about eight.
-constexpr double block_side = 4.0;
+constexpr double grid_block_side = 4.0;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ TriangleGrid::TriangleGrid(const PolygonMesh& mesh) : mesh_(mesh), bounds_(bound
 TriangleGrid::Blocks TriangleGrid::blocks_of(const PolygonBounds& bounds) const {
   const auto block = [](double x, double lo, double hi) {
     const double within = std::clamp(x, lo, hi);
-    return static_cast<int>((within - lo) / block_side);
+    return static_cast<int>((within - lo) / grid_block_side);
   };
   const glm::dvec3 &lo = bounds_.lo, &hi = bounds_.hi;
   return {{block(bounds.lo.x, lo.x, hi.x), block(bounds.lo.y, lo.y, hi.y), block(bounds.lo.z, lo.z, hi.z)},

@@ -11,6 +11,7 @@
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/field/voxel_vector.h"
 #include "shared/fracture/cell_cut.h"
 #include "shared/fracture/cell_groups.h"
 
@@ -21,11 +22,7 @@ namespace {
 using Label = CellLabel;
 
 /// Side of the blocks of voxels that share a list of candidate seeds.
-constexpr int block_side = 4;
-
-glm::vec3 as_vec3(int x, int y, int z) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
+constexpr int label_block_side = 4;
 
 /// The seeds that can be nearest to some voxel of a block with that centre.
 void find_candidates(const std::vector<glm::vec3>& seeds, glm::vec3 centre, std::vector<float>& distances,
@@ -43,13 +40,13 @@ void find_candidates(const std::vector<glm::vec3>& seeds, glm::vec3 centre, std:
   CHECK_DEBUG(!out.empty());
 }
 
-/// Labels a row of block_side voxels from (x, y, z) on; the lowest index wins a tie. In vectors, spelt out:
-/// the compiler alone takes one voxel at a time.
+/// Labels a row of label_block_side voxels from (x, y, z) on; the lowest index wins a tie. In vectors, spelt
+/// out: the compiler alone takes one voxel at a time.
 void label_row(const std::vector<glm::vec3>& seeds, const std::vector<Label>& candidates, glm::vec3 first,
-               std::array<int, block_side>& labels) {
+               std::array<int, label_block_side>& labels) {
   using Lanes = float __attribute__((vector_size(16)));
   using IntLanes = int __attribute__((vector_size(16)));
-  static_assert(sizeof(Lanes) == block_side * sizeof(float));
+  static_assert(sizeof(Lanes) == label_block_side * sizeof(float));
   const Lanes steps = {0.0F, 1.0F, 2.0F, 3.0F};
   Lanes nearest = Lanes{} + std::numeric_limits<float>::max();
   IntLanes own{};
@@ -81,22 +78,22 @@ std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec
   const VoxelBox& box = volume.box;
   const auto label_block = [&](const VoxelBox& block) {
     if (all_air(volume, block)) return;
-    find_candidates(seeds, as_vec3(block.lo.x, block.lo.y, block.lo.z) + 1.5F, distances, candidates);
-    std::array<int, block_side> row{};
+    find_candidates(seeds, as_vector(block.lo) + 1.5F, distances, candidates);
+    std::array<int, label_block_side> row{};
     for (int x = block.lo.x; x < block.hi.x; ++x)
       for (int y = block.lo.y; y < block.hi.y; ++y) {
-        label_row(seeds, candidates, as_vec3(x, y, block.lo.z), row);
+        label_row(seeds, candidates, as_vector({x, y, block.lo.z}), row);
         Label* out = labels.data() + volume.index(x, y, block.lo.z);
         for (int k = 0; k < block.hi.z - block.lo.z; ++k)
           out[k] = static_cast<Label>(row[static_cast<size_t>(k)]);
       }
   };
-  for (int x = box.lo.x; x < box.hi.x; x += block_side)
-    for (int y = box.lo.y; y < box.hi.y; y += block_side)
-      for (int z = box.lo.z; z < box.hi.z; z += block_side)
+  for (int x = box.lo.x; x < box.hi.x; x += label_block_side)
+    for (int y = box.lo.y; y < box.hi.y; y += label_block_side)
+      for (int z = box.lo.z; z < box.hi.z; z += label_block_side)
         label_block({{x, y, z},
-                     {std::min(x + block_side, box.hi.x), std::min(y + block_side, box.hi.y),
-                      std::min(z + block_side, box.hi.z)}});
+                     {std::min(x + label_block_side, box.hi.x), std::min(y + label_block_side, box.hi.y),
+                      std::min(z + label_block_side, box.hi.z)}});
   return labels;
 }
 

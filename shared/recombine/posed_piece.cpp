@@ -28,7 +28,7 @@ struct PosedAxes {
   glm::vec3 local(glm::vec3 world) const { return to_local * (world - world_centre) + local_centre; }
 };
 
-constexpr Code near_surface = 21;  ///< half a voxel
+constexpr Code near_code_max = 21;  ///< half a voxel
 
 static_assert(std::endian::native == std::endian::little, "near_bits reads eight codes as one word");
 
@@ -38,7 +38,7 @@ uint64_t near_bits(const Code* codes) {
   uint64_t eight = 0;
   std::memcpy(&eight, codes, sizeof(eight));
   // Adding this carries codes that are not negative into the highest bit when they are above.
-  return (eight | ~((eight & ~highest) + ones * (127 - near_surface))) & highest;
+  return (eight | ~((eight & ~highest) + ones * (127 - near_code_max))) & highest;
 }
 
 struct Range {
@@ -50,8 +50,8 @@ Range near_range(const Code* row, int count) {
   constexpr int word = sizeof(uint64_t);
   int first = 0, last = count - 1;
   if (count < word) {
-    while (first < count && row[first] > near_surface) ++first;
-    while (last > first && row[last] > near_surface) --last;
+    while (first < count && row[first] > near_code_max) ++first;
+    while (last > first && row[last] > near_code_max) --last;
     return {first, last};
   }
   uint64_t bits = 0;

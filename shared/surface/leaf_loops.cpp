@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "shared/base/check.h"
+#include "shared/surface/surface_cells.h"
 
 namespace scree {
 namespace {
-
-constexpr uint8_t no_sheet = 255;
 
 int& component(VoxelCoord& v, int axis) {
   return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);

@@ -15,12 +15,10 @@
 namespace scree {
 namespace {
 
-constexpr int steps_per_side = static_cast<int>(surface_steps_per_voxel);
-
 using Steps = std::array<int32_t, 3>;
 
 Steps steps_of(VoxelCoord p) {
-  return {p.x * steps_per_side, p.y * steps_per_side, p.z * steps_per_side};
+  return {p.x * surface_steps, p.y * surface_steps, p.z * surface_steps};
 }
 
 CellSteps steps_in(const Leaf& leaf, const Steps& steps) {
@@ -31,7 +29,7 @@ CellSteps steps_in(const Leaf& leaf, const Steps& steps) {
 Steps steps_of(const LeafGrid& grid, const LeafEdge& edge) {
   Steps steps = steps_of(edge.from);
   // Off the ends, where other edges' crossings might be.
-  const int length = edge.length * steps_per_side;
+  const int length = edge.length * surface_steps;
   const auto along = static_cast<int>(crossing_of(grid, edge) * static_cast<float>(length) + 0.5F);
   steps[static_cast<size_t>(edge.axis)] += std::clamp(along, 1, length - 1);
   return steps;

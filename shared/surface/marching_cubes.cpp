@@ -14,7 +14,6 @@
 namespace scree {
 namespace {
 
-constexpr int steps_per_side = static_cast<int>(surface_steps_per_voxel);
 constexpr uint32_t no_vertex = 0xFFFFFFFFU;
 
 /// The place where an edge is crossed, in 1/256 of it: never at its ends, where other edges' crossings may
@@ -22,12 +21,12 @@ constexpr uint32_t no_vertex = 0xFFFFFFFFU;
 int crossing_steps(float from, float to) {
   CHECK_DEBUG((from < 0.0F) != (to < 0.0F));
   const auto along = static_cast<int>(from / (from - to) * surface_steps_per_voxel + 0.5F);
-  return std::clamp(along, 1, steps_per_side - 1);
+  return std::clamp(along, 1, surface_steps - 1);
 }
 
-class Builder {
+class CubesBuilder {
  public:
-  Builder(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask)
+  CubesBuilder(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask)
       : window_(window), before_(before), mask_(mask), owned_(owned), cells_(owned.size()) {
     mesh_.origin = owned.lo;
   }
@@ -107,9 +106,9 @@ class Builder {
     const int along = crossing_steps(window_.at(p.x, p.y, p.z), next);
     PlacedVertex vertex;
     vertex.cell = static_cast<int32_t>(window_.index(p.x, p.y, p.z));
-    for (size_t i = 0; i < 3; ++i) vertex.position[i] = static_cast<uint16_t>(at[i] * steps_per_side);
+    for (size_t i = 0; i < 3; ++i) vertex.position[i] = static_cast<uint16_t>(at[i] * surface_steps);
     vertex.position[static_cast<size_t>(axis)] =
-        static_cast<uint16_t>(at[static_cast<size_t>(axis)] * steps_per_side + along);
+        static_cast<uint16_t>(at[static_cast<size_t>(axis)] * surface_steps + along);
     vertex.fraction[axis] = static_cast<float>(along) / surface_steps_per_voxel;
     vertices_.push_back(vertex);
     return static_cast<uint32_t>(vertices_.size() - 1);
@@ -152,8 +151,8 @@ class LeafFiller {
   uint32_t vertex_on(const LeafEdge& edge, const Leaf& leaf) {
     const auto [found, is_new] = vertices_.try_emplace(edge, static_cast<uint32_t>(mesh_.points.size()));
     if (is_new) {
-      std::array<int32_t, 3> steps{edge.from.x * steps_per_side, edge.from.y * steps_per_side,
-                                   edge.from.z * steps_per_side};
+      std::array<int32_t, 3> steps{edge.from.x * surface_steps, edge.from.y * surface_steps,
+                                   edge.from.z * surface_steps};
       steps[static_cast<size_t>(edge.axis)] +=
           crossing_steps(grid_.distance_at(edge.from), grid_.distance_at(edge.to())) * edge.length;
       mesh_.points.push_back({leaf, steps});
@@ -169,9 +168,9 @@ class LeafFiller {
     const std::array<int, 3> low{leaf.at.x, leaf.at.y, leaf.at.z};
     LeafPoint middle{leaf, {}};
     for (size_t i = 0; i < 3; ++i) {
-      const int lowest = low[i] * steps_per_side;
+      const int lowest = low[i] * surface_steps;
       const auto mean = static_cast<int>(sum[i] / static_cast<int64_t>(around.size()));
-      middle.steps[i] = std::clamp(mean, lowest + 1, lowest + leaf.side * steps_per_side - 1);
+      middle.steps[i] = std::clamp(mean, lowest + 1, lowest + leaf.side * surface_steps - 1);
     }
     const auto centre = static_cast<uint32_t>(mesh_.points.size());
     mesh_.points.push_back(middle);
@@ -194,7 +193,7 @@ SurfaceMesh marching_cubes(const Window& window, const VoxelBox& owned, const Wi
   CHECK(size.z <= marching_cubes_side_max && std::max(size.x, size.y) <= surface_side_max);
   CHECK(before == nullptr || before->box == window.box);
   CHECK(mask == nullptr || mask->cells().covers(owned));
-  return Builder(window, owned, before, mask).build();
+  return CubesBuilder(window, owned, before, mask).build();
 }
 
 LeafMesh leaf_cubes(const LeafGrid& grid, std::span<const Leaf> leaves) {

@@ -36,7 +36,7 @@ std::vector<LeafCrossing> crossings_of(const Window& window, const CrossedSheet&
 }  // namespace
 
 CellSteps steps_inside(glm::vec3 place, std::span<const CellSteps> sheets_before) {
-  constexpr int side = static_cast<int>(surface_steps_per_voxel);
+  constexpr int side = surface_steps;
   CellSteps steps;
   for (size_t i = 0; i < 3; ++i) {
     const auto inner = static_cast<int>(place[static_cast<int>(i)] * surface_steps_per_voxel + 0.5F);
@@ -51,7 +51,7 @@ CellSteps steps_inside(glm::vec3 place, std::span<const CellSteps> sheets_before
 
 std::vector<PlacedVertex> placed_sheets(const Window& window, VoxelCoord origin,
                                         std::span<const CrossedSheet> sheets, const SheetPlace& place) {
-  constexpr int side = static_cast<int>(surface_steps_per_voxel);
+  constexpr int side = surface_steps;
   std::vector<PlacedVertex> placed;
   placed.reserve(sheets.size());
   std::vector<CellSteps> in_cell;

@@ -7,6 +7,7 @@
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
+#include "shared/field/voxel_vector.h"
 
 namespace scree {
 namespace {
@@ -37,10 +38,6 @@ const glm::vec3 cell_centre(0.5F);
 VoxelCoord block_point(size_t i) {
   const auto k = static_cast<int>(i);
   return {k / 16 - 1, k / 4 % 4 - 1, k % 4 - 1};
-}
-
-glm::vec3 as_vector(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 struct Places {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "shared/field/voxel_vector.h"
+
 namespace scree {
 namespace {
 
@@ -70,10 +72,6 @@ class BestCorner {
   glm::vec3 at_;
   float share_ = 0.0F;
 };
-
-glm::vec3 as_vector(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// The crossed edge's ends, from the cell's lowest corner.
 std::array<VoxelCoord, 2> ends_of(const LeafCrossing& crossing) {

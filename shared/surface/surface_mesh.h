@@ -15,7 +15,8 @@ namespace scree {
 inline constexpr int surface_nets_apron = 4;
 
 /// Positions are multiples of 1/256 voxel.
-inline constexpr float surface_steps_per_voxel = 256.0F;
+inline constexpr int surface_steps = 256;
+inline constexpr float surface_steps_per_voxel = surface_steps;
 
 /// Longest side of an owned box, voxels: positions must fit 16 bits.
 inline constexpr int surface_side_max = 250;

@@ -19,10 +19,10 @@ struct ManySheets {
   const CellCase* sheets;
 };
 
-class Builder {
+class NetsBuilder {
  public:
-  Builder(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask,
-          const SheetPlace* place)
+  NetsBuilder(const Window& window, const VoxelBox& owned, const Window* before, const CellMask* mask,
+              const SheetPlace* place)
       : window_(window), before_(before), mask_(mask), place_(place), tables_(cell_tables()) {
     const VoxelCoord size = window.box.size();
     stride_x_ = static_cast<std::ptrdiff_t>(size.y) * size.z;
@@ -281,7 +281,7 @@ SurfaceMesh build(const Window& window, const VoxelBox& owned, const Window* bef
   CHECK(!owned.empty() && std::max({size.x, size.y, size.z}) <= surface_side_max);
   CHECK(before == nullptr || before->box == window.box);
   CHECK(mask == nullptr || is_about(*mask, owned));
-  return Builder(window, owned, before, mask, place).build();
+  return NetsBuilder(window, owned, before, mask, place).build();
 }
 
 }  // namespace

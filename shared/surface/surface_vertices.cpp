@@ -241,7 +241,7 @@ SCREE_INLINE void load(const Source& source, const PlacedVertex* placed, Batch& 
 SCREE_INLINE void step_into(const Lanes& part, Ints& whole) {
   const Ints inner = __builtin_convertvector(part * surface_steps_per_voxel + 0.5F, Ints);
   const Ints above = inner < 1 ? Ints{} + 1 : inner;
-  whole = whole * static_cast<int>(surface_steps_per_voxel) + (above > 255 ? Ints{} + 255 : above);
+  whole = whole * surface_steps + (above > 255 ? Ints{} + 255 : above);
 }
 
 /// Batches computed together: values that one stage stores lane by lane have reached the cache when the next

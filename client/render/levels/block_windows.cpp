@@ -112,7 +112,7 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
 
 void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
-  constexpr int steps = static_cast<int>(surface_steps_per_voxel);
+  constexpr int steps = surface_steps;
   // One sample for two voxels along a side, in a block of usual size.
   constexpr int looks = 10;
   std::array<uint8_t, looks * looks * looks> looked{};  // 1 + the layer's number

@@ -193,7 +193,7 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
   SurfaceMesh mesh;
   mesh.origin = origin;
   mesh.indices = leaves.indices;
-  constexpr auto steps = static_cast<int>(surface_steps_per_voxel);
+  constexpr auto steps = surface_steps;
   std::vector<PlacedVertex> vertices;
   vertices.reserve(leaves.points.size());
   for (const LeafPoint& point : leaves.points) {
@@ -234,7 +234,7 @@ SheetPlace place_by(Polygoniser polygoniser, const Window& window) {
 void append(const SurfaceMesh& coarser, SurfaceMesh& mesh) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   const VoxelCoord off = scaled(coarser.origin, own_side) - mesh.origin;
-  constexpr auto steps = static_cast<int>(surface_steps_per_voxel);
+  constexpr auto steps = surface_steps;
   const std::array<int, 3> from{off.x * steps, off.y * steps, off.z * steps};
   for (SurfaceVertex vertex : coarser.vertices) {
     for (size_t i = 0; i < 3; ++i)

@@ -3,15 +3,10 @@
 #include <glm/geometric.hpp>
 
 #include "client/render/scene/piece_tint.h"
+#include "shared/field/voxel_vector.h"
 
 namespace scree {
-namespace {
-
-glm::vec3 as_vector(VoxelCoord v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void PieceViews::show(const PieceMesh& piece, float voxel_m) {
   remove(piece.id);

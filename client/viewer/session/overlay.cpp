@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "shared/field/voxel_vector.h"
+
 namespace scree {
 namespace {
 
@@ -22,10 +24,6 @@ constexpr float contact_min_m = 0.15F;
 constexpr float contact_max_m = 1.5F;
 constexpr float cursor_half_m = 0.35F;
 constexpr float eye_ring_m = 0.3F;
-
-glm::vec3 as_vector(VoxelCoord v) {
-  return {v.x, v.y, v.z};
-}
 
 void add_chunk(LineList& lines, ChunkCoord chunk, float voxel_m, LineColour colour) {
   const float side_m = static_cast<float>(chunk_size) * voxel_m;
