@@ -12,6 +12,7 @@
 #include "client/mirror/mirror.h"
 #include "server/store/recording_reader.h"
 #include "shared/base/limits.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/raw_client.h"
 
 namespace scree {
@@ -74,7 +75,7 @@ class LiveServerTest : public ::testing::Test {
     folder = fs::temp_directory_path() /
              ("scree_live_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
     fs::create_directories(folder);
-    config.world.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.world.terrain = flat_terrain;
     config.pacing = Pacing::by_hand;
   }
   void TearDown() override {

@@ -16,6 +16,8 @@
 #include "server/store/recorder.h"
 #include "shared/base/limits.h"
 #include "shared/base/token.h"
+#include "tests/support/flat_world.h"
+#include "tests/support/holds.h"
 
 namespace scree {
 namespace {
@@ -23,12 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string good_token = "a-token-of-some-length";
-
-WorldConfig flat_world() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
-  return config;
-}
 
 Command change(const SettingValues& settings) {
   return {1, 7, SettingsRequest{settings}};
@@ -53,10 +49,6 @@ int64_t islands_in(const TickDelta& delta) {
   return std::ranges::count_if(delta.operations, [](const AppliedOperation& applied) {
     return std::holds_alternative<IslandOperation>(applied.operation);
   });
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(settings, every_one_prints_what_it_was_set_to_and_says_what_it_may_be) {

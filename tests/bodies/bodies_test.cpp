@@ -11,15 +11,10 @@
 #include "shared/base/random.h"
 #include "shared/field/paint.h"
 #include "shared/operation/operation.h"
+#include "tests/support/bodies_support.h"
 
 namespace scree {
 namespace {
-
-constexpr float voxel_m = 0.25F;
-
-TerrainSource terrain(TerrainKind kind) {
-  return {kind, 7, voxel_m};
-}
 
 BodyShape box_shape(glm::vec3 half_m) {
   BodyShape shape;
@@ -42,29 +37,12 @@ BodyShape turned(BodyShape shape, glm::quat turn) {
   return shape;
 }
 
-BodyState body_at(PieceId id, glm::vec3 position_m, glm::vec3 velocity_m_s = glm::vec3(0.0F)) {
-  return {id, {position_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)}, velocity_m_s, glm::vec3(0.0F)};
-}
-
-void step(Bodies& bodies, int ticks) {
-  for (int i = 0; i < ticks; ++i) bodies.step();
-}
-
 float speed_of(const BodyState& state) {
   return std::sqrt(glm::dot(state.velocity_m_s, state.velocity_m_s));
 }
 
-/// Takes a ball out of the ground, and tells the bodies.
-void dig(Field& field, Bodies& bodies, glm::vec3 centre_m, float radius_m) {
-  CarveOperation carve;
-  carve.shape = sphere(centre_m, radius_m);
-  PieceTable pieces;
-  apply(carve, field, pieces);
-  bodies.terrain_changed(band_box(in_voxels(carve.shape, voxel_m)));
-}
-
 /// Boxes of all sizes thrown about over a patch of ground.
-void rain(Bodies& bodies, const TerrainSource& source, PieceId count) {
+void rain_boxes(Bodies& bodies, const TerrainSource& source, PieceId count) {
   Random random(42);
   for (PieceId id = 1; id <= count; ++id) {
     const float x = random.unit() * 12.0F, z = random.unit() * 12.0F;
@@ -78,7 +56,7 @@ void rain(Bodies& bodies, const TerrainSource& source, PieceId count) {
 }
 
 TEST(Bodies, falls_and_rests_on_flat_ground) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.1F, 4.0F, 0.1F}));
   step(bodies, 30);
@@ -92,7 +70,7 @@ TEST(Bodies, falls_and_rests_on_flat_ground) {
 }
 
 TEST(Bodies, the_axes_in_which_a_body_is_described_make_no_difference) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   const glm::quat lean = glm::angleAxis(0.5F, glm::normalize(glm::vec3(0.2F, 0.1F, 1.0F)));
   const glm::quat turn = glm::angleAxis(0.8F, glm::normalize(glm::vec3(1.0F, 2.0F, 3.0F)));
   const BodyShape rod = box_shape({1.0F, 0.15F, 0.25F});
@@ -114,7 +92,7 @@ TEST(Bodies, the_axes_in_which_a_body_is_described_make_no_difference) {
 }
 
 TEST(Bodies, a_stack_says_who_carries_whom) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   for (PieceId id = 1; id <= 3; ++id)
     bodies.add(box_shape(glm::vec3(0.5F)), body_at(id, {0.0F, 1.1F * static_cast<float>(id), 0.0F}));
@@ -127,7 +105,7 @@ TEST(Bodies, a_stack_says_who_carries_whom) {
 
 /// How far a box slides that sets out at 4 m/s over ground of the material.
 float slide_m(Material material) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   paint(field, in_voxels(sphere({0.0F, 0.0F, 0.0F}, 12.0F), voxel_m), material);
   Bodies bodies(field, {});
   bodies.add(box_shape({0.6F, 0.2F, 0.6F}), body_at(1, {-4.0F, 0.21F, 0.1F}, {4.0F, 0.0F, 0.0F}));
@@ -143,9 +121,9 @@ TEST(Bodies, the_material_of_the_ground_holds_them_back) {
 }
 
 TEST(Bodies, none_of_two_hundred_falls_through_noise_terrain) {
-  MapField field(terrain(TerrainKind::noise));
+  MapField field(ground(TerrainKind::noise));
   Bodies bodies(field, {});
-  rain(bodies, field.source(), 200);
+  rain_boxes(bodies, field.source(), 200);
   float deepest_voxels = 0.0F;
   for (int tick = 0; tick < 480; ++tick) {
     bodies.step();
@@ -160,7 +138,7 @@ TEST(Bodies, none_of_two_hundred_falls_through_noise_terrain) {
 }
 
 TEST(Bodies, a_speck_at_top_speed_does_not_pass_the_ground) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   for (PieceId id = 1; id <= 20; ++id)
     bodies.add(box_shape(glm::vec3(0.1F)),
@@ -173,7 +151,7 @@ TEST(Bodies, a_speck_at_top_speed_does_not_pass_the_ground) {
 }
 
 TEST(Bodies, speed_and_spin_are_cut_to_what_a_tick_can_carry) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   BodyState mad = body_at(1, {0.0F, 50.0F, 0.0F}, {1000.0F, 0.0F, 0.0F});
   mad.spin_rad_s = {0.0F, 1000.0F, 0.0F};
@@ -189,7 +167,7 @@ TEST(Bodies, speed_and_spin_are_cut_to_what_a_tick_can_carry) {
 }
 
 TEST(Bodies, a_spike_does_not_pass_through_a_big_face) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   PieceTable pieces;
   apply(FillOperation{capsule({0.0F, -1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.4F)}, field, pieces);
   Bodies bodies(field, {});
@@ -199,7 +177,7 @@ TEST(Bodies, a_spike_does_not_pass_through_a_big_face) {
 }
 
 TEST(Bodies, buried_bodies_are_pushed_out) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.3F)), body_at(1, {0.0F, -2.0F, 0.0F}));
   step(bodies, 240);
@@ -207,13 +185,13 @@ TEST(Bodies, buried_bodies_are_pushed_out) {
 }
 
 TEST(Bodies, a_sleeping_body_wakes_when_the_ground_is_taken_away) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.6F, 0.0F}));
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {20.0F, 0.6F, 0.0F}));
   step(bodies, 400);
   ASSERT_EQ(bodies.awake(), 0U);
-  dig(field, bodies, {0.0F, 0.0F, 0.0F}, 3.0F);
+  dig(field, {0.0F, 0.0F, 0.0F}, 3.0F, bodies);
   EXPECT_EQ(bodies.awake(), 1U);
   step(bodies, 120);
   EXPECT_LT(bodies.state(1).pose.position_m.y, -1.5F);
@@ -221,7 +199,7 @@ TEST(Bodies, a_sleeping_body_wakes_when_the_ground_is_taken_away) {
 }
 
 TEST(Bodies, a_sleeping_body_wakes_when_what_carries_it_is_removed) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {0.0F, 1.5F, 0.0F}));
@@ -235,22 +213,22 @@ TEST(Bodies, a_sleeping_body_wakes_when_what_carries_it_is_removed) {
 }
 
 TEST(Bodies, two_worlds_with_the_same_calls_agree_bit_for_bit) {
-  MapField field_a(terrain(TerrainKind::noise)), field_b(terrain(TerrainKind::noise));
+  MapField field_a(ground(TerrainKind::noise)), field_b(ground(TerrainKind::noise));
   Bodies a(field_a, {}), b(field_b, {});
-  rain(a, field_a.source(), 100);
-  rain(b, field_b.source(), 100);
+  rain_boxes(a, field_a.source(), 100);
+  rain_boxes(b, field_b.source(), 100);
   const glm::vec3 hole(6.0F, ground_height_m(field_a.source(), 6.0F, 6.0F), 6.0F);
   for (int tick = 1; tick <= 300; ++tick) {
     a.step();
     b.step();
-    if (tick == 90) dig(field_a, a, hole, 2.0F), dig(field_b, b, hole, 2.0F);
+    if (tick == 90) dig(field_a, hole, 2.0F, a), dig(field_b, hole, 2.0F, b);
     if (tick % 50 == 0) a.remove(static_cast<PieceId>(tick / 10)), b.remove(static_cast<PieceId>(tick / 10));
     ASSERT_EQ(a.state_hash(), b.state_hash()) << "at tick " << tick;
   }
 }
 
 TEST(Bodies, what_is_no_number_is_stopped_where_it_was) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   const float nan = std::numeric_limits<float>::quiet_NaN();
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 5.0F, 0.0F}, {nan, 0.0F, 0.0F}));
@@ -259,7 +237,7 @@ TEST(Bodies, what_is_no_number_is_stopped_where_it_was) {
 }
 
 TEST(Frozen, stands_still_and_carries_like_the_ground) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
   step(bodies, 60);
@@ -277,7 +255,7 @@ TEST(Frozen, stands_still_and_carries_like_the_ground) {
 }
 
 TEST(Frozen, a_heap_thaws_from_the_ground_up_when_it_is_undermined) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   for (PieceId id = 1; id <= 4; ++id)
     bodies.add(box_shape(glm::vec3(0.5F)), body_at(id, {0.0F, 1.02F * static_cast<float>(id) - 0.5F, 0.0F}));
@@ -285,7 +263,7 @@ TEST(Frozen, a_heap_thaws_from_the_ground_up_when_it_is_undermined) {
   for (PieceId id = 1; id <= 4; ++id) bodies.freeze(id);
   step(bodies, 60);
   EXPECT_EQ(bodies.awake(), 0U);
-  dig(field, bodies, {0.0F, -0.6F, 0.0F}, 1.0F);
+  dig(field, {0.0F, -0.6F, 0.0F}, 1.0F, bodies);
   EXPECT_GT(bodies.frozen(), 0U) << "the upper ones are far from the ground";
   EXPECT_LT(bodies.frozen(), 4U);
   step(bodies, 120);
@@ -295,7 +273,7 @@ TEST(Frozen, a_heap_thaws_from_the_ground_up_when_it_is_undermined) {
 }
 
 TEST(Frozen, a_hard_blow_thaws_and_its_momentum_is_kept) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   BodiesConfig config;
   config.gravity_m_s2 = 0.0F;
   Bodies bodies(field, config);
@@ -310,7 +288,7 @@ TEST(Frozen, a_hard_blow_thaws_and_its_momentum_is_kept) {
 }
 
 TEST(Frozen, removing_what_it_touches_thaws_it_and_a_light_touch_does_not) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 0.5F, 0.0F}));
   bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {0.0F, 1.52F, 0.0F}));
@@ -347,7 +325,7 @@ BodyShape gate(bool of_parts) {
 
 TEST(Compound, a_gate_comes_down_about_what_stands_in_its_opening) {
   for (const bool of_parts : {true, false}) {
-    MapField field(terrain(TerrainKind::flat));
+    MapField field(ground(TerrainKind::flat));
     Bodies bodies(field, {});
     bodies.add(box_shape(glm::vec3(0.6F)), body_at(1, {0.0F, 0.6F, 0.0F}));
     bodies.add(gate(of_parts), body_at(2, {0.0F, 3.0F, 0.0F}));
@@ -362,7 +340,7 @@ TEST(Compound, a_gate_comes_down_about_what_stands_in_its_opening) {
 }
 
 TEST(Compound, its_parts_bear_what_falls_on_them) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   bodies.add(gate(true), body_at(1, {0.0F, 1.5F, 0.0F}));
   bodies.add(box_shape(glm::vec3(0.3F)), body_at(2, {0.0F, 3.5F, 0.0F}));

@@ -11,17 +11,13 @@
 #include "server/bodies/nearest_triangle.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
+#include "tests/support/bodies_support.h"
 
 namespace scree {
 namespace {
 
-constexpr float voxel_m = 0.25F;
 constexpr TerrainColliderKind kinds[] = {TerrainColliderKind::field, TerrainColliderKind::mesh,
                                          TerrainColliderKind::rays};
-
-TerrainSource terrain(TerrainKind kind) {
-  return {kind, 7, voxel_m};
-}
 
 BodyShape cube(float half_m) {
   BodyShape shape;
@@ -33,25 +29,7 @@ BodyShape cube(float half_m) {
   return shape;
 }
 
-BodyState body_at(PieceId id, glm::vec3 position_m) {
-  return {id, {position_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)}, glm::vec3(0.0F), glm::vec3(0.0F)};
-}
-
-void step(Bodies& bodies, int ticks) {
-  for (int i = 0; i < ticks; ++i) bodies.step();
-}
-
-/// Takes a ball out of the ground, and tells whoever is given.
-template <typename... Listener>
-void dig(Field& field, glm::vec3 centre_m, float radius_m, Listener&... listeners) {
-  CarveOperation carve;
-  carve.shape = sphere(centre_m, radius_m);
-  PieceTable pieces;
-  apply(carve, field, pieces);
-  (listeners.terrain_changed(band_box(in_voxels(carve.shape, voxel_m))), ...);
-}
-
-void rain(Bodies& bodies, const TerrainSource& source, PieceId count) {
+void rain_cubes(Bodies& bodies, const TerrainSource& source, PieceId count) {
   Random random(42);
   for (PieceId id = 1; id <= count; ++id) {
     const float x = random.unit() * 10.0F, z = random.unit() * 10.0F;
@@ -73,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TerrainColliders, ::testing::ValuesIn(kinds), []
 });
 
 TEST_P(TerrainColliders, a_cube_rests_on_flat_ground) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, config());
   bodies.add(cube(0.5F), body_at(1, {0.1F, 3.0F, 0.1F}));
   step(bodies, 180);
@@ -82,7 +60,7 @@ TEST_P(TerrainColliders, a_cube_rests_on_flat_ground) {
 }
 
 TEST_P(TerrainColliders, a_sleeping_cube_falls_into_the_hole_that_is_dug_under_it) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, config());
   bodies.add(cube(0.5F), body_at(1, {0.0F, 0.6F, 0.0F}));
   step(bodies, 400);
@@ -93,10 +71,10 @@ TEST_P(TerrainColliders, a_sleeping_cube_falls_into_the_hole_that_is_dug_under_i
 }
 
 TEST_P(TerrainColliders, two_worlds_agree_bit_for_bit) {
-  MapField field_a(terrain(TerrainKind::noise)), field_b(terrain(TerrainKind::noise));
+  MapField field_a(ground(TerrainKind::noise)), field_b(ground(TerrainKind::noise));
   Bodies a(field_a, config()), b(field_b, config());
-  rain(a, field_a.source(), 40);
-  rain(b, field_b.source(), 40);
+  rain_cubes(a, field_a.source(), 40);
+  rain_cubes(b, field_b.source(), 40);
   const glm::vec3 hole(5.0F, ground_height_m(field_a.source(), 5.0F, 5.0F), 5.0F);
   for (int tick = 1; tick <= 150; ++tick) {
     a.step();
@@ -107,7 +85,7 @@ TEST_P(TerrainColliders, two_worlds_agree_bit_for_bit) {
 }
 
 TEST_P(TerrainColliders, another_one_takes_over_and_bodies_stay_where_they_are) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
   for (PieceId id = 1; id <= 5; ++id)
     bodies.add(cube(0.4F), body_at(id, {2.0F * static_cast<float>(id), 0.5F, 0.0F}));
@@ -139,7 +117,7 @@ std::vector<TerrainContact> contacts_of(TerrainCollider& collider, glm::vec3 cen
 }
 
 TEST(TerrainCollider, mesh_and_field_see_the_same_ground) {
-  MapField field(terrain(TerrainKind::noise));
+  MapField field(ground(TerrainKind::noise));
   const auto by_field = make_field_collider(field), by_mesh = make_mesh_collider(field);
   const float reach_m = voxel_m;
   size_t compared = 0;
@@ -159,7 +137,7 @@ TEST(TerrainCollider, mesh_and_field_see_the_same_ground) {
 }
 
 TEST(TerrainCollider, a_mesh_is_made_anew_where_the_terrain_changed) {
-  MapField field(terrain(TerrainKind::flat));
+  MapField field(ground(TerrainKind::flat));
   TerrainMesh mesh(field);
   const VoxelBox box{{-8, -8, -8}, {8, 8, 8}};
   const auto lowest = [&] {

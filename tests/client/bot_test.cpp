@@ -8,6 +8,7 @@
 #include "client/bot/limits.h"
 #include "server/app/live_server.h"
 #include "shared/base/quantile.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/raw_server.h"
 
 namespace scree {
@@ -19,7 +20,7 @@ class BotTest : public ::testing::Test {
  protected:
   void SetUp() override {
     LiveConfig config;
-    config.world.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.world.terrain = flat_terrain;
     config.pacing = Pacing::by_hand;
     config.world.service.requests_per_second = 1000.0;  // else a bot at full speed is refused some in no time
     auto started = LiveServer::start(config);

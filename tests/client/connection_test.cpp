@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "client/connection/limits.h"
+#include "tests/support/holds.h"
 #include "tests/support/raw_server.h"
 
 namespace scree {
@@ -18,10 +19,6 @@ constexpr auto deadline = 10s;
 std::string failure(uint16_t port, std::chrono::milliseconds within = deadline) {
   const auto connected = Connection::connect("127.0.0.1", port, HelloMessage{}, within);
   return connected ? "" : connected.error().message;
-}
-
-bool holds(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// A server's side of one connection, on a thread that ends with the scope.

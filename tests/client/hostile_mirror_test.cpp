@@ -9,16 +9,10 @@
 #include "proto/operation_codec.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "tests/support/flat_welcome.h"
 
 namespace scree {
 namespace {
-
-WelcomeMessage welcome(float voxel_size_m = 0.25F) {
-  WelcomeMessage message;
-  message.terrain = {TerrainKind::flat, 1, voxel_size_m};
-  message.interest_radius_m = 64.0F;
-  return message;
-}
 
 /// As it comes off the wire; the error is the decoder's.
 Result<MirrorChanges> send(Mirror& mirror, const ServerMessage& message) {
@@ -47,7 +41,7 @@ FrameMessage frame_of(const Operation& operation, Tick tick) {
 TEST(HostileMirror, a_stamp_of_a_window_beyond_all_bounds_is_an_error) {
   for (const StampMethod method : {StampMethod::stamp, StampMethod::slices, StampMethod::sphere})
     for (const Code code : {code_air, code_solid}) {
-      Mirror mirror(welcome());
+      Mirror mirror(flat_welcome());
       Volume volume = block(limits::window_side_max, code);
       volume.mass = int64_t{units_per_voxel} << 21;  // whatever its codes say
       const QuantisedPose turned = quantise({{}, {0.0F, 0.57735027F, 0.57735027F, 0.57735027F}});
@@ -62,7 +56,7 @@ TEST(HostileMirror, a_stamp_of_a_window_beyond_all_bounds_is_an_error) {
 TEST(HostileMirror, a_centre_of_mass_far_from_its_volume_is_refused) {
   for (const glm::vec3 centre :
        {glm::vec3(9.5F, 1.0F, 1.0F), glm::vec3(1.0F, -0.5F, 1.0F), glm::vec3(1.0F, 1.0F, 16777216.0F)}) {
-    Mirror mirror(welcome());
+    Mirror mirror(flat_welcome());
     Volume volume = block(8, code_solid);
     volume.centre_voxels = centre;
     const auto sent = send(mirror, PieceMessage{1, volume, {}});
@@ -73,7 +67,7 @@ TEST(HostileMirror, a_centre_of_mass_far_from_its_volume_is_refused) {
 
 /// Each is a hundred bytes on the wire and 2 MiB here.
 TEST(HostileMirror, pieces_of_air_cannot_fill_the_memory) {
-  Mirror mirror(welcome());
+  Mirror mirror(flat_welcome());
   const Volume volume = block(limits::window_side_max);
   const size_t most = limits::piece_voxels_max / volume.window.codes.size();
   for (PieceId id = 1; id <= most; ++id) ASSERT_TRUE(send(mirror, PieceMessage{id, volume, {}})) << id;
@@ -191,7 +185,7 @@ TEST(HostileMirror, seeded_pieces_and_operations_are_survived) {
   uint64_t applied = 0, refused = 0;
   for (uint64_t round = 0; round < count; ++round) {
     Hostility hostility(seed + round);
-    Mirror mirror(welcome(round % 3 == 0 ? limits::voxel_size_min_m : 0.25F));
+    Mirror mirror(flat_welcome(round % 3 == 0 ? limits::voxel_size_min_m : voxel_m));
     bool alive = true;
     for (PieceId id = 1; alive && id <= 6; ++id)
       alive = send(mirror, PieceMessage{id, hostility.volume(), hostility.pose()}).has_value();

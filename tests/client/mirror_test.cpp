@@ -8,19 +8,11 @@
 
 #include "client/mirror/limits.h"
 #include "proto/transforms.h"
+#include "tests/support/flat_welcome.h"
 #include "tests/support/tick_source.h"
 
 namespace scree {
 namespace {
-
-const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
-
-WelcomeMessage welcome() {
-  WelcomeMessage message;
-  message.terrain = flat;
-  message.interest_radius_m = 64.0F;
-  return message;
-}
 
 uint32_t fold(uint64_t hash) {
   return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
@@ -28,8 +20,8 @@ uint32_t fold(uint64_t hash) {
 
 /// A client and the world that it follows, which is rebuilt here as a server would send it.
 struct Pair {
-  TickSource source{flat};
-  Mirror mirror{welcome()};
+  TickSource source{flat_terrain};
+  Mirror mirror{flat_welcome()};
 
   /// The next tick as a frame of operations.
   FrameMessage frame(const std::vector<Operation>& operations, bool with_poses = false) {
@@ -96,7 +88,7 @@ TEST(Mirror, children_of_a_piece_that_shatters_start_where_it_was_seen) {
   EXPECT_EQ(broken->pieces_added.size(), 4U);
   EXPECT_EQ(pair.mirror.counters().operations.of<ShatterOperation>(), 1U);
   for (const auto& [id, motion] : pair.mirror.pieces()) {
-    const glm::vec3 cut_m = motion.volume->centre_voxels * flat.voxel_size_m;
+    const glm::vec3 cut_m = motion.volume->centre_voxels * voxel_m;
     EXPECT_NEAR(glm::distance(motion.to.position_m, cut_m + glm::vec3(3.0F, 7.0F, 0.0F)), 0.0F, 0.01F);
   }
 }
@@ -254,7 +246,7 @@ TEST(Mirror, a_piece_that_lay_still_starts_to_move_one_interval_before_its_next_
   pair.source.move(id, {0.0F, 1.0F, 0.0F});
   ASSERT_TRUE(pair.mirror.apply(pair.frame({}, true)));
   const PieceMotion& motion = pair.mirror.pieces().at(id);
-  EXPECT_EQ(motion.to_tick - motion.from_tick, welcome().ticks_per_transform);
+  EXPECT_EQ(motion.to_tick - motion.from_tick, flat_welcome().ticks_per_transform);
 }
 
 TEST(Mirror, a_reset_forgets_everything_and_lets_the_tick_go_back) {

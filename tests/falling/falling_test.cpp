@@ -8,24 +8,14 @@
 #include "server/store/recorder.h"
 #include "server/world/published_state.h"
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
 #include "tests/support/verify_recording.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
 
-constexpr int settle_ticks_max = 1800;
-
-std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
-  return world.step(commands);
-}
-
-WorldConfig flat_world() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
-  return config;
-}
-
-std::vector<Command> pour(const std::vector<Shape>& shapes) {
+std::vector<Command> pour_all(const std::vector<Shape>& shapes) {
   std::vector<Command> commands;
   for (const Shape& shape : shapes) commands.push_back({1, 1, FillRequest{shape}});
   return commands;
@@ -53,7 +43,7 @@ MassUnits mass_of(const TickDelta& delta, size_t spawned) {
 
 TEST(falling, a_tower_cut_at_its_foot_falls_in_the_tick_of_the_cut) {
   World world(flat_world());
-  const auto poured = step(world, pour({box({0.0F, 4.0F, 0.0F}, {1.5F, 6.0F, 1.5F})}));
+  const auto poured = step(world, pour_all({box({0.0F, 4.0F, 0.0F}, {1.5F, 6.0F, 1.5F})}));
   const auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {2.0F, 0.5F, 2.0F}))});
   EXPECT_TRUE(delta->replies[0].refusal.empty()) << delta->replies[0].refusal;
   ASSERT_EQ(islands_of(*delta), 1U);
@@ -67,7 +57,7 @@ TEST(falling, a_tower_cut_at_its_foot_falls_in_the_tick_of_the_cut) {
 
 TEST(falling, what_fell_comes_to_rest_and_is_terrain_again) {
   World world(flat_world());
-  step(world, pour({box({0.0F, 2.0F, 0.0F}, {1.0F, 3.0F, 1.0F})}));
+  step(world, pour_all({box({0.0F, 2.0F, 0.0F}, {1.0F, 3.0F, 1.0F})}));
   PublishedState published;
   auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {1.5F, 0.5F, 1.5F}))});
   ASSERT_EQ(islands_of(*delta), 1U);
@@ -83,8 +73,9 @@ TEST(falling, what_fell_comes_to_rest_and_is_terrain_again) {
 
 TEST(falling, an_arch_cut_at_one_end_hangs_and_at_both_ends_falls) {
   World world(flat_world());
-  step(world, pour({box({-5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}), box({5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
-                    box({0.0F, 6.5F, 0.0F}, {6.0F, 1.0F, 1.0F})}));
+  step(world,
+       pour_all({box({-5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}), box({5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
+                 box({0.0F, 6.5F, 0.0F}, {6.0F, 1.0F, 1.0F})}));
   const auto one = step(world, {cut(sphere({-5.0F, 2.0F, 0.0F}, 2.0F))});
   EXPECT_EQ(islands_of(*one), 0U);
   const auto both = step(world, {cut(sphere({5.0F, 2.0F, 0.0F}, 2.0F))});
@@ -100,7 +91,7 @@ std::vector<Command> viaduct() {
   for (const float x : {-16.0F, 0.0F, 16.0F}) shapes.push_back(box({x, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}));
   for (const float x : {-16.5F, -5.5F, 5.5F, 16.5F})
     shapes.push_back(box({x, 7.5F, 0.0F}, {5.75F, 1.0F, 2.0F}));
-  return pour(shapes);
+  return pour_all(shapes);
 }
 
 TEST(falling, a_viaduct_longer_than_a_piece_may_be_falls_in_several) {
@@ -150,8 +141,8 @@ TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
   // Its legs end half a metre above the ground; a block stands between them, higher than they reach down.
   auto delta = step(
       world,
-      pour({box({-4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}), box({4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}),
-            box({0.0F, 7.0F, 0.0F}, {5.0F, 1.0F, 1.0F}), box({0.0F, 1.5F, 0.0F}, {1.5F, 2.0F, 1.5F})}));
+      pour_all({box({-4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}), box({4.0F, 4.25F, 0.0F}, {1.0F, 3.75F, 1.0F}),
+                box({0.0F, 7.0F, 0.0F}, {5.0F, 1.0F, 1.0F}), box({0.0F, 1.5F, 0.0F}, {1.5F, 2.0F, 1.5F})}));
   while (delta->work.requests_waiting > 0) delta = step(world);
   delta = step(world, {{1, 9, SettingsRequest{{{"islands", "true"}}}}});
   ASSERT_EQ(islands_of(*delta), 1U);
@@ -174,8 +165,8 @@ TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
 
 /// A beam on a post: what is cut out of it drops, and leaves the gap open.
 auto cut_beam(World& world) {
-  step(world,
-       pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
+  step(world, pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}),
+                        box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
   return step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
 }
 
@@ -203,7 +194,7 @@ TEST(falling, what_waits_to_fall_and_is_propped_up_meanwhile_stays) {
   auto delta = cut_beam(world);
   ASSERT_EQ(delta->work.islands_put_off, 1U);
   EXPECT_TRUE(delta->work.cut_short());
-  delta = step(world, pour({box({7.0F, 3.0F, 0.0F}, {0.5F, 4.0F, 0.5F})}));
+  delta = step(world, pour_all({box({7.0F, 3.0F, 0.0F}, {0.5F, 4.0F, 0.5F})}));
   EXPECT_EQ(delta->work.islands_put_off, 0U);
   size_t islands = 0;
   for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) {
@@ -219,8 +210,8 @@ TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
   for (int tick = 0; tick < 200; ++tick) {
     std::vector<Command> commands;
     if (tick == 0)
-      commands =
-          pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({6.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+      commands = pour_all(
+          {box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({6.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
     if (tick == 1) commands = {cut(sphere({0.0F, 1.5F, 0.0F}, 2.0F)), cut(sphere({6.0F, 1.5F, 0.0F}, 2.0F))};
     const auto a = step(one, commands), b = step(other, commands);
     ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
@@ -236,7 +227,7 @@ TEST(falling, a_client_that_applies_the_same_operations_has_the_same_field_and_p
   size_t islands = 0;
   for (int tick = 0; tick < 60; ++tick) {
     std::vector<Command> commands;
-    if (tick == 0) commands = pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+    if (tick == 0) commands = pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
     if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
     const auto delta = step(world, commands);
     FrameMessage frame;
@@ -261,7 +252,7 @@ TEST(falling, a_recorded_fall_verifies) {
     ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
     for (int tick = 0; tick < 120; ++tick) {
       std::vector<Command> commands;
-      if (tick == 0) commands = pour({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
+      if (tick == 0) commands = pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
       if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
       (*recorder)->push(step(world, commands), commands);
     }

@@ -10,11 +10,11 @@
 #include "shared/base/random.h"
 #include "shared/falling/island_search.h"
 #include "shared/field/edit.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
 
-constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
 /// What the random fields are made of: within four chunks, two of them below ground.
 constexpr VoxelBox edited{{8, -16, 8}, {48, 16, 24}};
 /// Reaches into unedited chunks on all sides.
@@ -52,11 +52,6 @@ std::array<VoxelCoord, 6> neighbours(VoxelCoord v) {
            {v.x, v.y, v.z + 1}}};
 }
 
-bool holds(const VoxelBox& box, VoxelCoord v) {
-  return v.x >= box.lo.x && v.y >= box.lo.y && v.z >= box.lo.z && v.x < box.hi.x && v.y < box.hi.y &&
-         v.z < box.hi.z;
-}
-
 /// The component of a solid voxel, marked as seen; whether it touches one of the bricks, and the ground.
 struct Component {
   std::vector<VoxelCoord> voxels;
@@ -75,7 +70,7 @@ Component label(const Field& field, const Window& window, const std::set<BrickCo
     found.grounded = found.grounded || (chunk_of(v).y < 0 && !field.has_edits(chunk_of(v)));
     for (const VoxelCoord n : neighbours(v)) {
       found.touched = found.touched || changed.contains(brick_of(n));
-      if (!holds(window.box, n)) continue;
+      if (!window.box.holds(n)) continue;
       const size_t at = window.index(n.x, n.y, n.z);
       if (window.codes[at] >= 0 || seen[at] != 0) continue;
       seen[at] = 1;
@@ -127,7 +122,7 @@ void print(std::ostream& out, const std::vector<Island>& islands) {
 
 TEST(island, the_search_finds_what_brute_force_finds_in_random_fields) {
   size_t found = 0;
-  MapField field(flat);
+  MapField field(flat_terrain);
   for (uint64_t round = 0; round < SCREE_ISLAND_ROUNDS; ++round) {
     Random random(round);
     for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
@@ -157,7 +152,7 @@ Window slab_on_a_post(Field& field, bool post) {
 
 TEST(island, what_stands_on_a_post_is_ground_and_without_it_an_island) {
   for (const bool post : {true, false}) {
-    MapField field(flat);
+    MapField field(flat_terrain);
     const std::vector<BrickCoord> changed = scatter(field, slab_on_a_post(field, post));
     EXPECT_EQ(search(field, changed, 1000).size(), post ? 0U : 1U);
   }
@@ -165,7 +160,7 @@ TEST(island, what_stands_on_a_post_is_ground_and_without_it_an_island) {
 
 TEST(island, a_search_goes_down_to_the_ground_before_it_climbs) {
   constexpr int height = 40, changed = 4;
-  MapField field(flat);
+  MapField field(flat_terrain);
   for (int y = 0; y < height; ++y) field.set_brick({0, y, 0}, solid_brick());
   IslandSearch search(field, std::vector<BrickCoord>{{0, changed, 0}});
   size_t bricks = 1000;
@@ -186,7 +181,7 @@ std::vector<BrickCoord> bar_of(Field& field, int length) {
 
 TEST(island, what_is_longer_than_a_piece_may_be_comes_in_blocks) {
   for (const int length : {limits::island_side_max_bricks, limits::island_side_max_bricks + 1, 100}) {
-    MapField field(flat);
+    MapField field(flat_terrain);
     const std::vector<BrickCoord> bar = bar_of(field, length);
     const std::vector<Island> blocks = search(field, {bar.front()}, 1000);
     int64_t voxels = 0;
@@ -201,7 +196,7 @@ TEST(island, what_is_longer_than_a_piece_may_be_comes_in_blocks) {
 }
 
 TEST(island, a_component_of_too_many_parts_counts_as_ground_and_is_counted) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   const std::vector<BrickCoord> bar = bar_of(field, 20);
   for (const size_t parts_max : {size_t{19}, size_t{20}}) {
     // From both ends: two floods that meet are one component.
@@ -228,7 +223,7 @@ std::vector<Island> split_by_brute_force(Field& field, const Island& whole,
       ahead.pop_back();
       ++own.voxels;
       for (const VoxelCoord n : neighbours(v)) {
-        if (!holds(block.box, n) || window.at(n.x, n.y, n.z) >= 0) continue;
+        if (!block.box.holds(n) || window.at(n.x, n.y, n.z) >= 0) continue;
         uint8_t& mark = seen[window.index(n.x, n.y, n.z)];
         if (mark != 0) continue;
         mark = 1;
@@ -243,7 +238,7 @@ std::vector<Island> split_by_brute_force(Field& field, const Island& whole,
 TEST(island, blocks_of_random_islands_are_connected_and_hold_every_voxel_once) {
   size_t split = 0;
   for (uint64_t round = 0; round < 40; ++round) {
-    MapField field(flat);
+    MapField field(flat_terrain);
     Random random(round);
     scatter(field, random_window(field, random, round % 2 == 1));
     std::vector<BrickCoord> bricks;
@@ -268,7 +263,7 @@ TEST(island, blocks_of_random_islands_are_connected_and_hold_every_voxel_once) {
 }
 
 TEST(island, a_block_that_is_cut_off_leaves_a_flat_face_and_takes_exactly_its_mass) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   const Shape bar = box({36.0F, 44.0F, 4.0F}, {30.5F, 3.3F, 3.3F});
   const VoxelBox all{{-8, 32, -8}, {80, 56, 16}};
   Window window = gather(field, all);
@@ -295,7 +290,7 @@ TEST(island, a_block_that_is_cut_off_leaves_a_flat_face_and_takes_exactly_its_ma
 }
 
 TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_had_never_been) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   Window with = slab_on_a_post(field, false);
   // Near the ground: their bands overlap.
   fill(with, codes_of(sphere({14.0F, 4.0F, 14.0F}, 2.3F), with.box));
@@ -321,7 +316,7 @@ TEST(island, lifting_takes_all_mass_of_the_island_and_leaves_the_field_as_if_it_
 }
 
 TEST(island, lifting_from_a_seed_in_air_changes_nothing) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   const VoxelBox box{{0, 20, 0}, {4, 24, 4}};
   Window window = gather(field, lift_box(box));
   const Window before = window;

@@ -4,13 +4,14 @@
 
 #include "shared/falling/support_search.h"
 #include "shared/operation/operation.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
 
 /// Whether a beam of so many metres that sticks out of a wall breaks; its width is 2 m.
 bool beam_breaks(Material material, float height_m, float length_m) {
-  MapField field({TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   PieceTable none;
   for (const Shape& shape :
        {box({-3.0F, 5.0F, 0.1F}, {2.9F, 8.0F, 6.0F}),

@@ -12,12 +12,12 @@
 #include "shared/base/random.h"
 #include "shared/falling/support_search.h"
 #include "shared/field/edit.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/verify_recording.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
-
-constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
 
 void add(Field& field, const VoxelBox& voxels) {
   for_each_brick(voxels, [&](BrickCoord coord) {
@@ -96,7 +96,7 @@ TEST(support, the_neck_is_the_thinnest_section_counted_by_brute_force) {
   for (int round = 0; round < 60; ++round) {
     const bool in_one_brick = round % 2 == 0;
     const Table table(random, in_one_brick);
-    MapField field(flat);
+    MapField field(flat_terrain);
     table.build(field);
     const int64_t section = least_section(field, {{-16, 1, -16}, {16, 24, 16}});
     ASSERT_EQ(section, table.notch_x * table.leg_z);
@@ -122,7 +122,7 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
   // Cubes of 16³ voxels at the end of a neck, from a block that is too large to be anything but held: 0:
   // sticking out, 4 · n faces; 1: upright, n; 2: hanging, 2 · n.
   const auto holds = [](int axis, int n) {
-    MapField field(flat);
+    MapField field(flat_terrain);
     if (axis == 0) {
       add(field, {{-100, -8, -8}, {-20, 60, 24}});
       add(field, {{-20, 38, 0}, {0, 42, n}});
@@ -149,11 +149,7 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
   EXPECT_TRUE(holds(0, 14));
 }
 
-std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
-  return world.step(commands);
-}
-
-WorldConfig supported(TerrainSource terrain = flat) {
+WorldConfig supported(TerrainSource terrain = flat_terrain) {
   WorldConfig config;
   config.terrain = terrain;
   config.methods.support = true;
@@ -164,7 +160,7 @@ Command pour(const Shape& shape) {
   return {1, 1, FillRequest{shape}};
 }
 
-Command cut(const Shape& shape) {
+Command blow_away(const Shape& shape) {
   CarveRequest request;
   request.shape = shape;
   request.seeds = 2;
@@ -202,7 +198,7 @@ Happened play(const WorldConfig& config, const std::vector<std::vector<Command>>
 std::vector<std::vector<Command>> table_whose_leg_is_carved(float left_m) {
   return {{pour(box({0.0F, 2.0F, 0.0F}, {1.0F, 3.0F, 1.0F}))},
           {pour(box({0.0F, 5.5F, 0.0F}, {6.0F, 0.75F, 6.0F}))},
-          {cut(box({2.0F + left_m, 2.5F, 0.0F}, {3.0F, 0.5F, 2.0F}))}};
+          {blow_away(box({2.0F + left_m, 2.5F, 0.0F}, {3.0F, 0.5F, 2.0F}))}};
 }
 
 TEST(support, a_table_falls_when_a_carve_makes_its_leg_too_thin) {
@@ -243,7 +239,7 @@ TEST(support, carving_flat_ground_is_the_same_with_it_and_without) {
     std::vector<Command> commands;
     if (tick % 30 == 0) {
       const float x = static_cast<float>(tick / 30) * 1.5F;
-      commands.push_back(cut(sphere({x, -0.5F, 0.0F}, 2.0F)));
+      commands.push_back(blow_away(sphere({x, -0.5F, 0.0F}, 2.0F)));
     }
     const auto a = step(with, commands), b = step(without, commands);
     ASSERT_EQ(a->field_hash, b->field_hash) << "tick " << tick;
@@ -290,7 +286,8 @@ TEST(support, cutting_legs_ends_and_leaves_no_search_behind) {
   for (int tick = 0; tick < 900; ++tick) {
     std::vector<Command> commands;
     if (tick < 4)
-      commands.push_back(cut(box({-6.0F + 4.0F * static_cast<float>(tick), 2.0F, 0.0F}, {1.0F, 0.5F, 7.5F})));
+      commands.push_back(
+          blow_away(box({-6.0F + 4.0F * static_cast<float>(tick), 2.0F, 0.0F}, {1.0F, 0.5F, 7.5F})));
     delta = step(world, commands);
     happened.add(world, *delta);
     report.add(*delta);

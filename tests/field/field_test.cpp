@@ -7,6 +7,7 @@
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/field/mass.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
@@ -34,7 +35,7 @@ TEST(field, occupancy_ramps_over_one_voxel_across_the_surface) {
 }
 
 TEST(field, unedited_terrain_reads_as_generated_and_hashes_to_zero) {
-  MapField field({TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   EXPECT_EQ(field.brick({0, 5, 0}), air_brick());
   EXPECT_EQ(field.brick({0, -5, 0}), solid_brick());
   EXPECT_EQ(field.hash(), 0U);
@@ -44,7 +45,7 @@ TEST(field, unedited_terrain_reads_as_generated_and_hashes_to_zero) {
 TEST(field, hash_is_the_sum_over_edited_bricks_whatever_their_order) {
   Random random(7);
   const Brick a = random_brick(random), b = random_brick(random);
-  MapField one({TerrainKind::flat, 1, 0.25F}), other({TerrainKind::flat, 1, 0.25F});
+  MapField one(flat_terrain), other(flat_terrain);
   one.set_brick({0, 0, 0}, a);
   one.set_brick({-9, 3, 4}, b);
   other.set_brick({-9, 3, 4}, a);
@@ -97,7 +98,7 @@ TEST(field, scatter_sees_a_change_of_any_single_code_whatever_the_window_cuts_of
   for (int begin = 0; begin < brick_size; ++begin)
     for (int end = begin + 1; end <= brick_size; ++end)
       for (int z = begin; z < end; ++z) {
-        MapField field({TerrainKind::flat, 1, 0.25F});
+        MapField field(flat_terrain);
         Window window = gather(field, {{2, 80, begin}, {4, 82, end}});
         window.at(3, 81, z) = 5;
         ASSERT_EQ(scatter(field, window).size(), 1U) << "code " << z << " of " << begin << " to " << end;
@@ -119,7 +120,7 @@ TEST(field, generated_chunks_are_kept_up_to_a_bound_and_made_anew_beyond) {
 }
 
 TEST(field, sampling_a_plane_gives_its_distance_and_normal_across_brick_borders) {
-  MapField field({TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   for (const float y : {-2.0F, -0.25F, 0.4F, 1.9F}) {
     const FieldSample s = sample(field, {7.5F, y, -0.5F});
     EXPECT_NEAR(s.distance_voxels, y, 0.02F);
@@ -129,7 +130,7 @@ TEST(field, sampling_a_plane_gives_its_distance_and_normal_across_brick_borders)
 }
 
 TEST(field, tracing_down_meets_the_ground) {
-  MapField field({TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   const std::optional<float> hit = trace(field, {3.0F, 40.0F, 3.0F}, {0.0F, -1.0F, 0.0F}, 100.0F);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(*hit, 40.0F, 0.1F);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/flat_terrain.h"
+
 namespace scree {
 namespace {
 
@@ -13,7 +15,7 @@ Brick half_full() {
 }
 
 TEST(vdb_field, a_brick_that_became_uniform_reads_so_at_once) {
-  VdbField field({TerrainKind::flat, 1, 0.25F});
+  VdbField field(flat_terrain);
   const Brick mixed = half_full();
   for (int x = 0; x < 64; ++x) {
     const BrickCoord coord{x, 3, 0};
@@ -28,7 +30,7 @@ TEST(vdb_field, a_brick_that_became_uniform_reads_so_at_once) {
 }
 
 TEST(vdb_field, a_forgotten_brick_is_not_edited_any_more) {
-  VdbField field({TerrainKind::flat, 1, 0.25F});
+  VdbField field(flat_terrain);
   const BrickCoord coord{1, -1, 2};
   const Brick generated = field.brick(coord);
   field.set_brick(coord, half_full());

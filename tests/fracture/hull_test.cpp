@@ -7,11 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "shared/field/window_sample.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
-
-constexpr float voxel_m = 0.25F;
 
 struct Blast {
   MapField field{{TerrainKind::noise, 3, voxel_m}};

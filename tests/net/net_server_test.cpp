@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/net/limits.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/raw_client.h"
 #include "tests/support/tick_source.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
 
 HelloMessage hello(uint32_t protocol = protocol_version) {
   return {protocol, "test", {0.0F, 2.0F, 0.0F}, 64.0F};
@@ -32,7 +31,7 @@ class NetServerTest : public ::testing::Test {
  protected:
   void start(const std::function<void(NetConfig&)>& change = {}) {
     NetConfig config;
-    config.terrain = flat;
+    config.terrain = flat_terrain;
     if (change) change(config);
     auto listening = NetServer::listen(config, commands);
     ASSERT_TRUE(listening.has_value()) << listening.error().message;
@@ -63,7 +62,7 @@ class NetServerTest : public ::testing::Test {
   }
 
   CommandQueue commands{4};
-  TickSource source{flat};
+  TickSource source{flat_terrain};
   std::unique_ptr<NetServer> server;
   std::unique_ptr<RawClient> witness;
   Tick seen = 0;
@@ -77,7 +76,7 @@ TEST_F(NetServerTest, welcome_says_what_a_client_needs_to_know) {
   ASSERT_TRUE(welcome.has_value());
   EXPECT_EQ(welcome->protocol, protocol_version);
   EXPECT_EQ(welcome->tick_rate_hz, 30U);
-  EXPECT_EQ(welcome->terrain, flat);
+  EXPECT_EQ(welcome->terrain, flat_terrain);
   EXPECT_FLOAT_EQ(welcome->interest_radius_m, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 1.0F, 4)});
   const auto frame = client.receive_as<FrameMessage>();

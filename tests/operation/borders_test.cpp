@@ -8,6 +8,7 @@
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
 #include "shared/recombine/stamp_method.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
@@ -150,7 +151,7 @@ TEST(Borders, a_volume_of_too_many_faces_is_cut_without_polygons) {
         if ((x + y + z) % 2 == 0) volume.window.at(x, y, z) = code_solid;
   volume.mass = mass_of(volume.window);
   volume.centre_voxels = glm::vec3(0.5F * side);
-  MapField field({TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   std::vector<uint64_t> sizes;
   for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform}) {
     PieceTable pieces{{1, std::make_shared<const Volume>(volume)}};

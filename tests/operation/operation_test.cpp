@@ -8,12 +8,10 @@
 
 #include "shared/base/limits.h"
 #include "shared/recombine/stamp.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
-
-constexpr float dx = 0.25F;
-const TerrainSource flat{TerrainKind::flat, 1, dx};
 
 MassUnits mass_in(Field& field, const VoxelBox& box) {
   MassUnits sum = 0;
@@ -34,9 +32,9 @@ CarveOperation ball(uint32_t seeds, SeedPattern pattern = SeedPattern::uniform) 
 TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
   for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial})
     for (const uint32_t seeds : {1U, 7U, 64U, 500U}) {
-      MapField field(flat);
+      MapField field(flat_terrain);
       PieceTable pieces;
-      const VoxelBox box = band_box(in_voxels(ball(1).shape, dx));
+      const VoxelBox box = band_box(in_voxels(ball(1).shape, voxel_m));
       const MassUnits before = mass_in(field, box);
       const Applied applied = apply(ball(seeds, pattern), field, pieces);
       EXPECT_EQ(mass_in(field, box) - before, applied.terrain_gain);
@@ -50,14 +48,14 @@ TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
 TEST(operation, every_cutter_and_pattern_conserves_mass) {
   for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
     for (const SeedPattern pattern : all_kinds<SeedPattern>) {
-      MapField field(flat);
+      MapField field(flat_terrain);
       PieceTable pieces;
       CarveOperation op = ball(4, pattern);
       op.cutter = cutter;
       // Two inside, one a hair beside the first, one in the air.
       if (!is_drawn(pattern))
         op.authored_m = {{0.3F, -0.5F, 0.1F}, {0.31F, -0.5F, 0.1F}, {0.3F, 9.0F, 0.1F}, {-0.8F, -0.9F, 0.1F}};
-      ASSERT_TRUE(validate(op, pieces, dx).has_value());
+      ASSERT_TRUE(validate(op, pieces, voxel_m).has_value());
       const Applied applied = apply(op, field, pieces);
       EXPECT_EQ(pieces.size(), is_drawn(pattern) ? 4U : 2U);
       EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
@@ -71,7 +69,7 @@ TEST(operation, every_cutter_and_pattern_conserves_mass) {
 }
 
 TEST(operation, authored_seeds_outside_of_the_volume_leave_it_whole) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces;
   CarveOperation op = ball(2, SeedPattern::authored);
   op.authored_m = {{0.3F, 9.0F, 0.1F}, {80.0F, 0.0F, 0.0F}};
@@ -81,7 +79,7 @@ TEST(operation, authored_seeds_outside_of_the_volume_leave_it_whole) {
 }
 
 TEST(operation, a_carve_of_air_makes_nothing) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces;
   CarveOperation op = ball(16);
   op.shape = sphere({0.0F, 20.0F, 0.0F}, 2.0F);
@@ -92,10 +90,10 @@ TEST(operation, a_carve_of_air_makes_nothing) {
 }
 
 TEST(operation, pieces_are_the_same_solid_as_the_volume_that_they_came_from) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces;
   const CarveOperation op = ball(64);
-  const Shape shape = in_voxels(op.shape, dx);
+  const Shape shape = in_voxels(op.shape, voxel_m);
   const Window before = gather(field, band_box(shape));
   apply(op, field, pieces);
   // Every voxel well inside the ball is inside exactly one piece, but for those on the cuts.
@@ -117,7 +115,7 @@ TEST(operation, pieces_are_the_same_solid_as_the_volume_that_they_came_from) {
 }
 
 TEST(operation, a_stamp_gains_what_was_planned_and_stays_within_the_budget) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces;
   apply(ball(40), field, pieces);
   const PieceTable made = pieces;
@@ -127,8 +125,8 @@ TEST(operation, a_stamp_gains_what_was_planned_and_stays_within_the_budget) {
         quantise({{static_cast<float>(id % 7) - 3.0F, 0.2F + 0.1F * static_cast<float>(id), 1.0F},
                   glm::normalize(glm::quat(1.0F, 0.1F * static_cast<float>(id), 0.3F, -0.2F))}),
         0};
-    const Window window = gather(field, stamp_box(*volume, op.pose, dx));
-    const StampPlan plan = plan_stamp(window, *volume, op.pose, dx, volume->mass);
+    const Window window = gather(field, stamp_box(*volume, op.pose, voxel_m));
+    const StampPlan plan = plan_stamp(window, *volume, op.pose, voxel_m, volume->mass);
     op.shift = plan.shift;
     const Applied applied = apply(op, field, pieces);
     EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
@@ -139,10 +137,10 @@ TEST(operation, a_stamp_gains_what_was_planned_and_stays_within_the_budget) {
 }
 
 TEST(operation, an_apply_reads_and_writes_only_its_read_box) {
-  MapField field({TerrainKind::canyon, 2, dx});
+  MapField field({TerrainKind::canyon, 2, voxel_m});
   PieceTable pieces;
   const Operation op = ball(8);
-  const VoxelBox box = read_box(op, pieces, dx);
+  const VoxelBox box = read_box(op, pieces, voxel_m);
   for (const BrickCoord coord : apply(op, field, pieces).changed) {
     bool inside = false;
     for_each_brick(box, [&](BrickCoord b) { inside = inside || b == coord; });
@@ -151,7 +149,7 @@ TEST(operation, an_apply_reads_and_writes_only_its_read_box) {
 }
 
 TEST(operation, two_fields_that_apply_the_same_operations_stay_equal) {
-  MapField one({TerrainKind::canyon, 2, dx}), other({TerrainKind::canyon, 2, dx});
+  MapField one({TerrainKind::canyon, 2, voxel_m}), other({TerrainKind::canyon, 2, voxel_m});
   PieceTable pieces_one, pieces_other;
   const std::vector<Operation> operations = {
       FillOperation{box({3.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})},
@@ -172,7 +170,7 @@ TEST(operation, two_fields_that_apply_the_same_operations_stay_equal) {
 }
 
 TEST(operation, a_piece_that_shatters_shares_out_its_mass_exactly) {
-  MapField field({TerrainKind::flat, 1, dx});
+  MapField field(flat_terrain);
   PieceTable pieces;
   apply(ball(2), field, pieces);
   const uint64_t field_hash = field.hash();
@@ -196,7 +194,7 @@ TEST(operation, a_piece_that_shatters_shares_out_its_mass_exactly) {
 }
 
 TEST(operation, an_island_becomes_a_piece_of_the_mass_that_the_terrain_loses_and_a_speck_dust) {
-  MapField field({TerrainKind::flat, 1, dx});
+  MapField field(flat_terrain);
   PieceTable pieces;
   const Applied poured = apply(FillOperation{sphere({0.0F, 5.0F, 0.0F}, 1.0F)}, field, pieces);
   const VoxelBox whole{{-4, 16, -4}, {5, 25, 5}};
@@ -216,7 +214,7 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinite = std::numeric_limits<float>::infinity();
   const auto refused = [&](const Operation& op, const char* word) {
-    const Result<void> result = validate(op, none, dx);
+    const Result<void> result = validate(op, none, voxel_m);
     ASSERT_FALSE(result.has_value()) << word;
     EXPECT_NE(result.error().message.find(word), std::string::npos) << result.error().message;
   };
@@ -265,7 +263,7 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(DiscardOperation{78}, "no piece 78");
   refused(ShatterOperation{79, SeedPattern::radial, 4, 0, {}, 100}, "no piece 79");
   const VoxelBox island{{0, 0, 0}, {8, 8, 8}};
-  EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none, dx).has_value());
+  EXPECT_TRUE(validate(IslandOperation{island, {7, 0, 0}, 1}, none, voxel_m).has_value());
   refused(IslandOperation{island, {8, 0, 0}, 1}, "start is outside its box");
   refused(IslandOperation{{{0, 0, 0}, {0, 8, 8}}, {0, 0, 0}, 1}, "start is outside its box");
   refused(IslandOperation{{{0, 0, 0}, {8, 113, 8}}, {0, 0, 0}, 1}, "island_side_max_bricks");
@@ -277,15 +275,15 @@ TEST(operation, ids_of_pieces_never_wrap_around) {
   pieces[5] = std::make_shared<const Volume>();
   CarveOperation carve = ball(8);
   carve.first_piece = UINT32_MAX - 8;
-  EXPECT_TRUE(validate(carve, pieces, dx).has_value());
+  EXPECT_TRUE(validate(carve, pieces, voxel_m).has_value());
   ShatterOperation shatter{5, SeedPattern::radial, 8, 0, {}, UINT32_MAX - 8};
-  EXPECT_TRUE(validate(shatter, pieces, dx).has_value());
+  EXPECT_TRUE(validate(shatter, pieces, voxel_m).has_value());
   IslandOperation island{{{0, 0, 0}, {8, 8, 8}}, {7, 0, 0}, UINT32_MAX - 1};
-  EXPECT_TRUE(validate(island, pieces, dx).has_value());
+  EXPECT_TRUE(validate(island, pieces, voxel_m).has_value());
   carve.first_piece = shatter.first_piece = UINT32_MAX - 7;
   island.piece = UINT32_MAX;
   for (const Operation& operation : {Operation(carve), Operation(shatter), Operation(island)}) {
-    const Result<void> valid = validate(operation, pieces, dx);
+    const Result<void> valid = validate(operation, pieces, voxel_m);
     ASSERT_FALSE(valid.has_value());
     EXPECT_NE(valid.error().message.find("used up"), std::string::npos) << valid.error().message;
   }

@@ -4,6 +4,8 @@
 
 #include "proto/codec.h"
 #include "proto/limits.h"
+#include "tests/support/holds.h"
+#include "tests/support/wire_refusals.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -15,12 +17,6 @@ Message round_trip(const Message& sent) {
   const Result<ServerMessage> got = decode_server(samples::body_of(bytes));
   EXPECT_TRUE(got) << got.error().message;
   return got ? std::get<Message>(*got) : Message{};
-}
-
-std::string refusal(const ServerMessage& message) {
-  const std::vector<uint8_t> bytes = encode(message);
-  const Result<ServerMessage> got = decode_server(samples::body_of(bytes));
-  return got ? "" : got.error().message;
 }
 
 /// A ServerMessage's body that holds Physics with one packed field.
@@ -36,10 +32,6 @@ std::string refusal_of_physics(uint8_t field, const std::vector<uint8_t>& packed
   };
   const Result<ServerMessage> got = decode_server(wrapped(10, wrapped(field, packed)));
   return got ? "" : got.error().message;
-}
-
-bool names(const std::string& refusal, const char* what) {
-  return refusal.find(what) != std::string::npos;
 }
 
 TEST(WatchCodec, physics_arrives_as_sent_to_the_step) {
@@ -88,28 +80,28 @@ TEST(WatchCodec, what_is_over_the_limits_is_left_out_by_the_sender) {
 TEST(WatchCodec, what_is_over_the_limits_is_refused_by_the_receiver) {
   std::vector<uint8_t> bodies;
   for (size_t i = 0; i <= limits::watched_bodies_max; ++i) bodies.insert(bodies.end(), {1, 0, 0});
-  EXPECT_TRUE(names(refusal_of_physics(2, bodies), "watched bodies: too many"));
-  EXPECT_TRUE(names(refusal_of_physics(2, {5, 0, 0, 0, 0, 0}), "do not ascend"));
-  EXPECT_TRUE(names(refusal_of_physics(2, {5, 4, 0}), "state"));
-  EXPECT_TRUE(names(refusal_of_physics(2, {5, 1, 65}), "corners"));
+  EXPECT_TRUE(holds(refusal_of_physics(2, bodies), "watched bodies: too many"));
+  EXPECT_TRUE(holds(refusal_of_physics(2, {5, 0, 0, 0, 0, 0}), "do not ascend"));
+  EXPECT_TRUE(holds(refusal_of_physics(2, {5, 4, 0}), "state"));
+  EXPECT_TRUE(holds(refusal_of_physics(2, {5, 1, 65}), "corners"));
   EXPECT_FALSE(refusal_of_physics(2, {5, 1, 2, 0, 0, 0}).empty()) << "ends within a corner";
   std::vector<uint8_t> bricks((limits::watched_bricks_max + 1) * 3, 2);
-  EXPECT_TRUE(names(refusal_of_physics(4, bricks), "searched bricks: too many"));
-  EXPECT_TRUE(names(refusal_of_physics(3, {0, 0, 0, 0xFF, 0x7F, 0, 0, 0, 0, 0, 0}), "normal"));
+  EXPECT_TRUE(holds(refusal_of_physics(4, bricks), "searched bricks: too many"));
+  EXPECT_TRUE(holds(refusal_of_physics(3, {0, 0, 0, 0xFF, 0x7F, 0, 0, 0, 0, 0, 0}), "normal"));
 }
 
 TEST(WatchCodec, numbers_that_are_none_are_refused_by_name) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   PhysicsMessage physics;
   physics.contacts = {{{}, {}, -1.0F}};
-  EXPECT_TRUE(names(refusal(physics), "impulse is negative"));
+  EXPECT_TRUE(holds(server_refusal(physics), "impulse is negative"));
   physics.contacts = {{{}, {}, nan}};
-  EXPECT_TRUE(names(refusal(physics), "impulse"));
-  EXPECT_TRUE(names(refusal(CursorsMessage{{{1, "", {nan, 0, 0}, {}}}}), "eye"));
+  EXPECT_TRUE(holds(server_refusal(physics), "impulse"));
+  EXPECT_TRUE(holds(server_refusal(CursorsMessage{{{1, "", {nan, 0, 0}, {}}}}), "eye"));
   const std::vector<uint8_t> bytes = encode(ClientMessage{CursorMessage{{}, {0, nan, 0}}});
   const Result<ClientMessage> got = decode_client(samples::body_of(bytes));
   ASSERT_FALSE(got);
-  EXPECT_TRUE(names(got.error().message, "aim")) << got.error().message;
+  EXPECT_TRUE(holds(got.error().message, "aim")) << got.error().message;
 }
 
 }  // namespace

@@ -7,15 +7,14 @@
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "shared/operation/prepared_stamp.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
 
-constexpr float dx = 0.25F;
-
 /// A ball out of the ground in two dozen pieces, and these where they were.
 struct Heap {
-  MapField field{{TerrainKind::noise, 3, dx}};
+  MapField field{{TerrainKind::noise, 3, voxel_m}};
   PieceTable pieces;
   std::vector<StampedPiece> places;
 
@@ -23,7 +22,7 @@ struct Heap {
     const glm::vec3 centre(0.0F, ground_height_m(field.source(), 0.0F, 0.0F) - 0.5F, 0.0F);
     apply(CarveOperation{sphere(centre, 1.4F), SeedPattern::uniform, 24, 7, centre, 1}, field, pieces);
     for (const auto& [id, volume] : pieces)
-      places.push_back({id, quantise({volume->centre_voxels * dx, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)})});
+      places.push_back({id, quantise({volume->centre_voxels * voxel_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)})});
   }
   /// So many of the places from one on; fewer at the end.
   std::vector<StampedPiece> group(size_t first, size_t count) const {
@@ -45,8 +44,8 @@ TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_change
       MassUnits mass = 0;
       for (const StampedPiece& one : group) mass += with.pieces.at(one.piece)->mass;
       const PreparedStamp prepared = prepare_group(with.field, with.pieces, group, mass);
-      ASSERT_TRUE(validate(prepared.operation, with.pieces, dx).has_value());
-      const VoxelBox reads = read_box(prepared.operation, with.pieces, dx);
+      ASSERT_TRUE(validate(prepared.operation, with.pieces, voxel_m).has_value());
+      const VoxelBox reads = read_box(prepared.operation, with.pieces, voxel_m);
       const Applied a = apply(prepared.operation, with.field, with.pieces, &prepared);
       const Applied b = apply(prepared.operation, without.field, without.pieces);
       EXPECT_EQ(a.terrain_gain, prepared.gain);
@@ -72,12 +71,12 @@ TEST(group_merge, what_lies_apart_merges_as_it_would_alone) {
   StampedPiece far = together.places[1];
   far.pose.x = near.pose.x + static_cast<int32_t>(2.9F * pose_steps_per_m);
   StampOperation op = operation_of({near, far});
-  ASSERT_TRUE(validate(op, together.pieces, dx).has_value());
+  ASSERT_TRUE(validate(op, together.pieces, voxel_m).has_value());
   apply(op, together.field, together.pieces);
   apply(operation_of({near}), alone.field, alone.pieces);
   apply(operation_of({far}), alone.field, alone.pieces);
   // The mass is met as a whole, so single codes may lie elsewhere.
-  const VoxelBox all = read_box(op, Heap().pieces, dx);
+  const VoxelBox all = read_box(op, Heap().pieces, voxel_m);
   const Window a = gather(together.field, all), b = gather(alone.field, all);
   size_t sides = 0;
   for (size_t i = 0; i < a.codes.size(); ++i) sides += (a.codes[i] < 0) != (b.codes[i] < 0) ? 1 : 0;
@@ -102,12 +101,12 @@ TEST(group_merge, every_piece_of_a_group_is_there_though_their_boxes_overlap) {
 TEST(group_merge, groups_that_may_not_merge_together_are_refused_by_name) {
   const Heap heap;
   const auto refused = [&](const StampOperation& op, const char* why) {
-    const Result<void> valid = validate(op, heap.pieces, dx);
+    const Result<void> valid = validate(op, heap.pieces, voxel_m);
     ASSERT_FALSE(valid);
     EXPECT_NE(valid.error().message.find(why), std::string::npos) << valid.error().message;
   };
   const StampOperation fine = operation_of(heap.group(0, limits::stamp_group_max));
-  EXPECT_TRUE(validate(fine, heap.pieces, dx).has_value());
+  EXPECT_TRUE(validate(fine, heap.pieces, voxel_m).has_value());
   refused(operation_of(heap.group(0, limits::stamp_group_max + 1)), "limits.stamp_group_max");
   StampOperation op = fine;
   op.method = StampMethod::slices;

@@ -10,11 +10,10 @@
 #include "server/replay/verify.h"
 #include "server/store/recorder.h"
 #include "server/world/world.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
-
-constexpr int settle_ticks_max = 1800;
 
 WorldConfig config_of(Recombination recombination) {
   WorldConfig config;

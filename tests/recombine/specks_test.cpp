@@ -12,11 +12,12 @@
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/operation/operation.h"
+#include "tests/support/flat_terrain.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
 
-constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
 constexpr VoxelBox air{{0, 16, 0}, {16, 32, 16}};
 
 /// By brute force: every component of solid voxels in the box that does not touch its sides and is lighter
@@ -57,7 +58,7 @@ std::vector<Island> specks_by_brute_force(Field& field, const VoxelBox& box) {
 
 TEST(specks, the_search_finds_what_brute_force_finds_in_random_fields) {
   size_t found = 0;
-  MapField field(flat);
+  MapField field(flat_terrain);
   std::vector<BrickCoord> bricks;
   for_each_brick(air, [&](BrickCoord brick) { bricks.push_back(brick); });
   for (uint64_t round = 0; round < 10; ++round) {
@@ -84,7 +85,7 @@ Volume ball_with_a_crumb() {
 }
 
 TEST(specks, what_an_odd_stamp_leaves_in_the_air_becomes_dust_to_the_unit) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces{{1, std::make_shared<const Volume>(ball_with_a_crumb())}};
   const MassUnits mass = pieces.at(1)->mass;
   const QuantisedPose pose = quantise({{5.0F, 0.5F, 5.0F}, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)});
@@ -134,7 +135,7 @@ size_t swept_by_merges(const TickDelta& delta) {
 class SpecksAfterMerges : public ::testing::TestWithParam<Recombination> {};
 
 TEST_P(SpecksAfterMerges, none_are_left_over_random_cycles_of_blows_and_merges) {
-  constexpr int cycles = 25, settle_ticks_max = 1800;
+  constexpr int cycles = 25;
   WorldConfig config;
   config.methods.recombine = GetParam();
   World world(config);

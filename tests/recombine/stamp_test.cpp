@@ -7,15 +7,14 @@
 #include "shared/operation/operation.h"
 #include "shared/operation/prepared_stamp.h"
 #include "shared/recombine/merge_patch.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
 
-constexpr float dx = 0.25F;
-
 /// Pieces of a ball out of the ground, and where they lie turned on it, apart from each other.
 struct Rubble {
-  MapField field{{TerrainKind::noise, 3, dx}};
+  MapField field{{TerrainKind::noise, 3, voxel_m}};
   PieceTable pieces;
   std::vector<std::pair<PieceId, QuantisedPose>> places;
 
@@ -38,8 +37,8 @@ TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
     for (const auto& [id, pose] : rubble.places) {
       const std::shared_ptr<const Volume> volume = rubble.pieces.at(id);
       const MassUnits mass = volume->mass + dust;
-      const Window window = gather(rubble.field, stamp_box(*volume, pose, dx));
-      const StampPlan plan = plan_stamp(window, *volume, pose, dx, mass);
+      const Window window = gather(rubble.field, stamp_box(*volume, pose, voxel_m));
+      const StampPlan plan = plan_stamp(window, *volume, pose, voxel_m, mass);
       const Applied applied = apply(StampOperation{id, pose, plan.shift}, rubble.field, rubble.pieces);
       EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
       EXPECT_LE(std::abs(applied.terrain_gain - mass) * 1000, mass) << "piece " << id;
@@ -50,7 +49,7 @@ TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
 TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(*rubble.pieces.at(id), pose, dx);
+    const Window laid = lay(*rubble.pieces.at(id), pose, voxel_m);
     const Window terrain = gather(rubble.field, merge_box(laid));
     for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
       MergePatch patch(terrain, laid);
@@ -70,9 +69,9 @@ TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side
 TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(*rubble.pieces.at(id), pose, dx);
+    const Window laid = lay(*rubble.pieces.at(id), pose, voxel_m);
     const VoxelBox reach = merge_box(laid);
-    EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, dx)), reach);
+    EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, voxel_m)), reach);
     const Window terrain = gather(rubble.field, reach);
     Window after = terrain;
     MergePatch patch(terrain, laid);

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "client/render/methods.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
 namespace scree {
 namespace {
 
 constexpr float sky = std::numeric_limits<float>::infinity();
-constexpr float voxel_m = 0.25F;
 /// Pixels. Where one thing hides another far behind it, pictures may differ by a pixel: the more of them, the
 /// less that is of the mean.
 constexpr int picture_width = 320, picture_height = 240;

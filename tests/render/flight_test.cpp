@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "client/render/methods.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
 namespace scree {
 namespace {
-
-constexpr float voxel_m = 0.25F;
 
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;

@@ -6,12 +6,12 @@
 #include "client/render/methods.h"
 #include "client/viewer/pictures/png.h"
 #include "shared/field/paint.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
 namespace scree {
 namespace {
 
-constexpr float voxel_m = 0.25F;
 constexpr float soil_depth_m = traits_of(Material::soil).layer_depth_m;
 /// A wall that faces the camera, from the ground down.
 constexpr float wall_z_m = -4.0F, pit_depth_m = 4.0F;

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include "shared/base/limits.h"
+#include "tests/support/flat_terrain.h"
+#include "tests/support/holds.h"
 #include "tests/support/raw_client.h"
 #include "tests/support/session_support.h"
 
@@ -24,15 +26,11 @@ CarveMessage good_carve(uint32_t request) {
   return carve_message(carve, request);
 }
 
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class BadInputTest : public ::testing::Test {
  protected:
   static LiveConfig flat() {
     LiveConfig config;
-    config.world.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.world.terrain = flat_terrain;
     config.net.stall_seconds = 1.5;
     return config;
   }

@@ -1,12 +1,11 @@
 // A client whose copy goes wrong behind its back: the checks find it, and that chunk alone is sent again.
 #include <gtest/gtest.h>
 
+#include "tests/support/flat_terrain.h"
 #include "tests/support/session_support.h"
 
 namespace scree {
 namespace {
-
-constexpr int ticks_to_settle_max = 3000;
 
 /// Carves along x = 8 m, the border of two chunks, at the surface, the border of two more.
 CarveMessage carve_at(float z_m, uint32_t request) {
@@ -29,7 +28,7 @@ class RepairTest : public ::testing::Test {
  protected:
   static LiveConfig flat() {
     LiveConfig config;
-    config.world.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.world.terrain = flat_terrain;
     return config;
   }
   void SetUp() override {
@@ -37,7 +36,7 @@ class RepairTest : public ::testing::Test {
     witness = &session.join({8.0F, 2.0F, 4.0F}, 64.0F);
     damaged = &session.join({8.0F, 2.0F, 4.0F}, 64.0F);
     ASSERT_NE(session.ask(*witness, carve_at(1.5F, 1)), nullptr) << session.failure;
-    ASSERT_TRUE(session.settle(ticks_to_settle_max)) << session.failure;
+    ASSERT_TRUE(session.settle()) << session.failure;
     flip_a_code(damaged->mirror().field(), chunk);
     ASSERT_NE(damaged->mirror().field().chunk_hash(chunk), session.field().chunk_hash(chunk));
   }
@@ -61,7 +60,7 @@ TEST_F(RepairTest, a_wrong_chunk_is_found_at_its_next_change_and_sent_again_alon
   EXPECT_EQ(damaged->mirror().counters().chunks, 1U);
   EXPECT_EQ(damaged->mirror().field().chunk_hash(chunk), session.field().chunk_hash(chunk));
 
-  ASSERT_TRUE(session.settle(ticks_to_settle_max)) << session.failure;
+  ASSERT_TRUE(session.settle()) << session.failure;
   EXPECT_EQ(damaged->mirror().field().hash(), session.field().hash());
   EXPECT_EQ(damaged->mirror().mismatches(), 1U);
   EXPECT_EQ(repairs(), 1U);

@@ -10,6 +10,7 @@
 #include "proto/transforms.h"
 #include "server/net/limits.h"
 #include "server/net/publisher.h"
+#include "tests/support/flat_terrain.h"
 #include "tests/support/tick_source.h"
 
 namespace scree {
@@ -29,7 +30,7 @@ class TrustingClient {
     std::visit([this](const auto& m) { apply(m); }, *message);
   }
 
-  MapField field{TerrainSource{TerrainKind::flat, 1, 0.25F}};
+  MapField field{flat_terrain};
   PieceTable pieces;
   std::vector<Tick> ticks;
   size_t operations = 0, patches = 0, chunks = 0, piece_messages = 0, resets = 0, drops = 0, mismatches = 0;
@@ -106,7 +107,6 @@ class TrustingClient {
 class PublisherTest : public ::testing::Test {
  protected:
   static constexpr uint64_t session = 1;
-  static constexpr TerrainSource flat{TerrainKind::flat, 1, 0.25F};
 
   void tick(const std::vector<Operation>& operations = {}) { deliver(*source.step(operations)); }
   void deliver(const TickDelta& delta) {
@@ -164,7 +164,7 @@ class PublisherTest : public ::testing::Test {
     publisher.repair(id, {source.tick(), {chunk}, {follower.field.chunk_hash(chunk)}});
   }
 
-  TickSource source{flat};
+  TickSource source{flat_terrain};
   Publisher publisher{PublisherConfig{}};
   std::map<uint64_t, TrustingClient> followers;
   std::map<uint64_t, size_t> bytes;

@@ -13,12 +13,12 @@
 #include "server/store/recorder.h"
 #include "server/store/recording_reader.h"
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
 
 namespace scree {
 
 inline WorldConfig small_world() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  WorldConfig config = flat_world();
   config.pieces_max = 100;
   return config;
 }

@@ -17,6 +17,7 @@ constexpr auto patience = 30s;
 
 /// Ticks without a change after which a session is at rest.
 constexpr int calm_ticks = 60;
+constexpr int settle_ticks_max = 3600;
 
 /// Ticks within which a request is answered: it is on its way while the server steps.
 constexpr int reply_ticks_max = 2000;
@@ -131,16 +132,16 @@ bool LoopbackSession::steps(int count) {
   return true;
 }
 
-bool LoopbackSession::settle(int ticks_max) {
+bool LoopbackSession::settle() {
   int calm = 0;
-  for (int i = 0; i < ticks_max && calm < calm_ticks; ++i) {
+  for (int i = 0; i < settle_ticks_max && calm < calm_ticks; ++i) {
     if (!step()) return false;
     const auto delta = server_->last_delta();
     calm = delta->pieces.empty() && delta->operations.empty() ? calm + 1 : 0;
   }
   if (calm < calm_ticks)
     failure = std::to_string(server_->last_delta()->pieces.size()) + " pieces are alive after " +
-              std::to_string(ticks_max) + " ticks";
+              std::to_string(settle_ticks_max) + " ticks";
   return failure.empty();
 }
 

@@ -64,8 +64,8 @@ class LoopbackSession {
   /// Runs one tick, which every client applies; false, with a failure, when one does not.
   bool step();
   bool steps(int count);
-  /// Steps until no piece is alive and nothing changed for a second; false after `ticks_max` ticks.
-  bool settle(int ticks_max);
+  /// Steps until no piece is alive and nothing changed for a second; false when it takes a minute.
+  bool settle();
   /// Steps until the client has the reply; null, and a failure, when it does not come.
   const ReplyMessage* ask(SessionClient& client, const CarveMessage& carve);
 

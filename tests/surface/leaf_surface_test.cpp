@@ -81,11 +81,11 @@ struct Mean final : LeafRules {
   }
 };
 
-int open_edges(const LeafMesh& mesh) {
+int open_edges_of(const LeafMesh& mesh) {
   EdgeUses<uint32_t> uses;
   count_edges(
       std::span<const uint32_t>(mesh.indices), [](uint32_t index) { return index; }, uses);
-  return scree::open_edges(uses);
+  return open_edges(uses);
 }
 
 TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
@@ -97,7 +97,7 @@ TEST(LeafSurface, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet) {
     });
     const LeafMesh mesh = leaf_surface(grid, all_leaves(grid), Mean());
     EXPECT_GT(mesh.indices.size(), 300U);
-    EXPECT_EQ(open_edges(mesh), 0) << "random seed " << random_seed;
+    EXPECT_EQ(open_edges_of(mesh), 0) << "random seed " << random_seed;
   }
 }
 
@@ -114,7 +114,8 @@ LeafGrid noisy_octree(uint64_t random_seed) {
 TEST(LeafSurface, every_edge_has_two_triangles_even_in_noise) {
   for (uint64_t random_seed = 1; random_seed <= 20; ++random_seed) {
     const LeafGrid grid = noisy_octree(random_seed);
-    EXPECT_EQ(open_edges(leaf_surface(grid, all_leaves(grid), Mean())), 0) << "random seed " << random_seed;
+    EXPECT_EQ(open_edges_of(leaf_surface(grid, all_leaves(grid), Mean())), 0)
+        << "random seed " << random_seed;
   }
 }
 
@@ -123,7 +124,7 @@ TEST(LeafCubes, every_edge_has_two_triangles_where_leaves_of_all_sizes_meet_even
     const LeafGrid grid = noisy_octree(random_seed);
     const LeafMesh mesh = leaf_cubes(grid, all_leaves(grid));
     EXPECT_GT(mesh.indices.size(), 3000U);
-    EXPECT_EQ(open_edges(mesh), 0) << "random seed " << random_seed;
+    EXPECT_EQ(open_edges_of(mesh), 0) << "random seed " << random_seed;
   }
 }
 
@@ -149,7 +150,7 @@ TEST(LeafSurface, leaves_of_one_size_have_what_surface_nets_has) {
   for (const uint32_t index : ours.indices) here.insert(ours.points[index].steps);
   for (const uint32_t index : nets.indices) {
     const auto& p = nets.vertices[index].position;
-    constexpr auto steps = static_cast<int>(surface_steps_per_voxel);
+    constexpr auto steps = surface_steps;
     there.insert({nets.origin.x * steps + p[0], nets.origin.y * steps + p[1], nets.origin.z * steps + p[2]});
   }
   EXPECT_GT(here.size(), 10000U);

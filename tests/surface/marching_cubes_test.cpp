@@ -7,27 +7,17 @@
 #include "shared/base/random.h"
 #include "shared/surface/surface_nets.h"
 #include "tests/support/edge_uses.h"
+#include "tests/support/mesh_position.h"
+#include "tests/support/voxel_cube.h"
 
 namespace scree {
 namespace {
 
-constexpr int steps = static_cast<int>(surface_steps_per_voxel);
-
-using Position = std::array<int, 3>;
-using Edges = EdgeUses<Position>;
-
-VoxelBox cube(int lo, int hi) {
-  return {{lo, lo, lo}, {hi, hi, hi}};
-}
-
-Position position(const SurfaceMesh& mesh, uint32_t index) {
-  const auto& p = mesh.vertices[index].position;
-  return {mesh.origin.x * steps + p[0], mesh.origin.y * steps + p[1], mesh.origin.z * steps + p[2]};
-}
+using Edges = EdgeUses<MeshPosition>;
 
 void count(const SurfaceMesh& mesh, Edges& uses) {
   count_edges(
-      std::span<const uint32_t>(mesh.indices), [&](uint32_t i) { return position(mesh, i); }, uses);
+      std::span<const uint32_t>(mesh.indices), [&](uint32_t i) { return position_of(mesh, i); }, uses);
 }
 
 /// Every corner of ambiguity at once, with air all around.
@@ -92,7 +82,7 @@ TEST(MarchingCubes, vertices_lie_on_the_surface_and_triangles_face_the_air) {
   constexpr float radius = 9.3F;
   const SurfaceMesh mesh = marching_cubes(ball(cube(-16, 16), radius), cube(-12, 12));
   const auto place = [&](uint32_t index) {
-    const Position p = position(mesh, index);
+    const MeshPosition p = position_of(mesh, index);
     return glm::vec3(p[0], p[1], p[2]) / surface_steps_per_voxel;
   };
   for (uint32_t i = 0; i < mesh.vertices.size(); ++i) {

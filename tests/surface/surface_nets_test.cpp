@@ -10,15 +10,11 @@
 
 #include "shared/base/random.h"
 #include "tests/support/edge_uses.h"
+#include "tests/support/mesh_position.h"
+#include "tests/support/voxel_cube.h"
 
 namespace scree {
 namespace {
-
-using Position = std::array<int, 3>;
-
-VoxelBox cube(int lo, int hi) {
-  return {{lo, lo, lo}, {hi, hi, hi}};
-}
 
 Window window_of(const VoxelBox& box, const std::function<float(glm::vec3)>& distance) {
   Window window(box);
@@ -31,30 +27,27 @@ Window window_of(const VoxelBox& box, const std::function<float(glm::vec3)>& dis
 /// A vertex of a mesh made of several: its place in the world in 1/256 voxel, and which of a cell's sheets it
 /// is on (two sheets may meet in a point without being joined).
 struct Corner {
-  Position position;
-  Position normal;
+  MeshPosition position;
+  std::array<int, 3> normal;
 
   auto operator<=>(const Corner&) const = default;
 };
 
 Corner corner(const SurfaceMesh& mesh, uint32_t index) {
-  const SurfaceVertex& v = mesh.vertices[index];
-  const auto steps = static_cast<int>(surface_steps_per_voxel);
-  return {{mesh.origin.x * steps + v.position[0], mesh.origin.y * steps + v.position[1],
-           mesh.origin.z * steps + v.position[2]},
-          {v.normal[0], v.normal[1], v.normal[2]}};
+  const auto& normal = mesh.vertices[index].normal;
+  return {position_of(mesh, index), {normal[0], normal[1], normal[2]}};
 }
 
-using Edges = EdgeUses<Corner>;
+using SheetEdges = EdgeUses<Corner>;
 
-void count(const SurfaceMesh& mesh, Edges& uses) {
+void count(const SurfaceMesh& mesh, SheetEdges& uses) {
   count_edges(
       std::span<const uint32_t>(mesh.indices), [&](uint32_t i) { return corner(mesh, i); }, uses);
 }
 
 /// Meshes blocks of `side` voxels that tile [0, extent)³ one by one, each from its own window.
-Edges mesh_in_blocks(const Window& whole, int extent, int side) {
-  Edges uses;
+SheetEdges mesh_in_blocks(const Window& whole, int extent, int side) {
+  SheetEdges uses;
   for (int x = 0; x < extent; x += side)
     for (int y = 0; y < extent; y += side)
       for (int z = 0; z < extent; z += side) {
@@ -87,7 +80,7 @@ TEST(SurfaceNets, watertight_across_blocks_after_random_edits) {
           code = carving ? std::max(code, encode(-d)) : std::min(code, encode(d));
         }
     if (edit % 12 != 11) continue;
-    const Edges uses = mesh_in_blocks(whole, extent, 16);
+    const SheetEdges uses = mesh_in_blocks(whole, extent, 16);
     EXPECT_GT(uses.size(), 1000U);
     EXPECT_EQ(open_edges(uses), 0) << "after edit " << edit;
   }
@@ -157,9 +150,9 @@ TEST(SurfaceNets, long_windows_are_meshed_as_short_ones) {
   const Window window = window_of(owned.grown(surface_nets_apron), [](glm::vec3 p) {
     return 5.0F - glm::length(glm::vec3(p.x - 8.0F, p.y - 8.0F, std::fmod(p.z + 5.0F, 25.0F) - 12.0F));
   });
-  Edges whole;
+  SheetEdges whole;
   count(surface_nets(window, owned), whole);
-  Edges parts;
+  SheetEdges parts;
   for (int z = 0; z < 200; z += 25) {
     const VoxelBox part{{0, 0, z}, {16, 16, z + 25}};
     count(surface_nets(part_of(window, part.grown(surface_nets_apron)), part), parts);

@@ -8,14 +8,13 @@
 #include "client/viewer/window/hud_facts.h"
 #include "server/app/live_server.h"
 #include "tests/support/loaded_libraries.h"
+#include "tests/support/patience.h"
 #include "tests/support/run_viewer.h"
 
 namespace scree {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr auto patience = 60s;
 
 TEST(ViewerOdd, no_display_is_said_with_the_way_out) {
   const auto [status, said] = run_viewer("-u DISPLAY -u WAYLAND_DISPLAY", "--port 1");

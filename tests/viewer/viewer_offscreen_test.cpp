@@ -1,4 +1,5 @@
 // Drawing into images, and what the viewer relies on in doing so.
+#include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
 namespace scree {
@@ -7,7 +8,7 @@ namespace {
 /// Flat ground.
 class ViewerOffscreen : public OffscreenTest {
  protected:
-  ViewerOffscreen() : OffscreenTest("mesh", {TerrainKind::flat, 1, 0.25F}) {}
+  ViewerOffscreen() : OffscreenTest("mesh", flat_terrain) {}
 };
 
 /// The mean of a row's red and blue: ground is warm, sky is blue.

@@ -8,6 +8,7 @@
 #include "client/viewer/session/playback.h"
 #include "client/viewer/session/sight.h"
 #include "client/viewer/viewing/options.h"
+#include "tests/support/flat_terrain.h"
 
 namespace scree {
 namespace {
@@ -153,7 +154,7 @@ TEST(Options, nonsense_is_refused) {
 }
 
 TEST(Sight, rock_hides_pieces_and_so_does_the_edge_of_the_picture) {
-  MapField field(TerrainSource{TerrainKind::flat, 1, 0.25F});
+  MapField field(flat_terrain);
   Camera camera;
   camera.eye_m = {0.0F, 2.0F, 0.0F};
   const auto seen_at = [&](glm::vec3 place_m) {

@@ -9,14 +9,13 @@
 #include "client/viewer/window_app.h"
 #include "server/app/live_server.h"
 #include "tests/support/loaded_libraries.h"
+#include "tests/support/patience.h"
 #include "tests/support/run_viewer.h"
 
 namespace scree {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr auto patience = 60s;
 
 /// An X server on a display that is free; ends with the object.
 class VirtualScreen {

@@ -5,11 +5,12 @@
 #include "bench/support/travels.h"
 #include "server/world/world.h"
 #include "shared/field/piece.h"
+#include "tests/support/flat_world.h"
 
 namespace scree {
 namespace {
 
-constexpr int settle_ticks_max = 3600;
+constexpr int burial_ticks_max = 3600;
 constexpr float travel_max_m = 1.0F;
 
 class Buried : public ::testing::TestWithParam<TerrainColliderKind> {
@@ -17,8 +18,7 @@ class Buried : public ::testing::TestWithParam<TerrainColliderKind> {
   Buried() : world_(config()) {}
 
   static WorldConfig config() {
-    WorldConfig config;
-    config.terrain = {TerrainKind::flat, 1, 0.25F};
+    WorldConfig config = flat_world();
     config.methods.collider = GetParam();
     return config;
   }
@@ -45,7 +45,7 @@ class Buried : public ::testing::TestWithParam<TerrainColliderKind> {
   }
   void expect_all_become_terrain() {
     auto delta = step();
-    for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) delta = step();
+    for (int tick = 0; tick < burial_ticks_max && !delta->pieces.empty(); ++tick) delta = step();
     EXPECT_TRUE(delta->pieces.empty()) << delta->pieces.size() << " are still alive";
     EXPECT_EQ(world_.measure_terrain(), delta->ledger.terrain);
     EXPECT_LE(travels_.farthest_m(), travel_max_m);

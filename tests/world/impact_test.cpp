@@ -12,20 +12,12 @@
 #include "server/world/limits.h"
 #include "server/world/published_state.h"
 #include "server/world/spawn.h"
+#include "tests/support/flat_world.h"
 #include "tests/support/verify_recording.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
-
-WorldConfig flat_world() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
-  return config;
-}
-
-std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
-  return world.step(commands);
-}
 
 /// A block of rock in the air, cut loose at once: it falls from there.
 std::vector<Command> hang_block(glm::vec3 centre_m, float half_m, uint32_t seeds) {
@@ -56,12 +48,6 @@ std::shared_ptr<const TickDelta> step_until(World& world, int ticks = 240) {
   return nullptr;
 }
 
-MassUnits mass_of(const TickDelta& delta) {
-  MassUnits mass = 0;
-  for (const SpawnedPiece& piece : delta.spawned) mass += piece.volume->mass;
-  return mass;
-}
-
 TEST(impact, a_hard_fall_breaks_a_piece_where_it_struck) {
   WorldConfig config = flat_world();
   config.methods.dents = false;
@@ -75,15 +61,15 @@ TEST(impact, a_hard_fall_breaks_a_piece_where_it_struck) {
   EXPECT_EQ(shatter->piece, born->spawned.front().id);
   EXPECT_GE(broken->spawned.size(), 2U);
   EXPECT_LT(shatter->impact_voxels.y, parent.centre_voxels.y) << "the piece's lower side struck";
-  EXPECT_EQ(mass_of(*broken), parent.mass);
+  EXPECT_EQ(mass_of(broken->spawned), parent.mass);
   EXPECT_EQ(broken->ledger.pieces, parent.mass);
 }
 
 TEST(material, soil_lies_on_rock_and_ice_on_the_heights) {
-  const TerrainSource flat{TerrainKind::flat, 1, 0.25F};
-  EXPECT_EQ(material_at(flat, {3.0F, -0.5F, 8.0F}), Material::soil);
-  EXPECT_EQ(material_at(flat, {3.0F, -1.5F, 8.0F}), Material::rock);
-  EXPECT_EQ(material_at(flat, {3.0F, 0.5F, 8.0F}), Material::rock) << "what is poured above the ground";
+  EXPECT_EQ(material_at(flat_terrain, {3.0F, -0.5F, 8.0F}), Material::soil);
+  EXPECT_EQ(material_at(flat_terrain, {3.0F, -1.5F, 8.0F}), Material::rock);
+  EXPECT_EQ(material_at(flat_terrain, {3.0F, 0.5F, 8.0F}), Material::rock)
+      << "what is poured above the ground";
   const TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
   uint32_t seen[3] = {0, 0, 0};
   for (int x = -40; x < 40; x += 2)

@@ -8,13 +8,14 @@
 #include "shared/base/limits.h"
 #include "shared/field/edit.h"
 #include "shared/fracture/polygon_cut.h"
+#include "tests/support/flat_world.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
 
-WorldConfig flat_world(uint32_t pieces_max = 8000) {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
+WorldConfig world_for(uint32_t pieces_max = 8000) {
+  WorldConfig config = flat_world();
   config.pieces_max = pieces_max;
   return config;
 }
@@ -32,12 +33,6 @@ Command carve(const Shape& shape, uint32_t seeds, float blast_speed_m_s = 6.0F, 
 
 Command fill(const Shape& shape) {
   return {1, 9, FillRequest{shape}};
-}
-
-MassUnits mass_of(const std::vector<SpawnedPiece>& pieces) {
-  MassUnits mass = 0;
-  for (const SpawnedPiece& piece : pieces) mass += piece.volume->mass;
-  return mass;
 }
 
 template <typename T>
@@ -60,7 +55,7 @@ class OddInput : public ::testing::Test {
     EXPECT_EQ(world->measure_terrain(), delta->ledger.terrain);
   }
 
-  std::unique_ptr<World> world = std::make_unique<World>(flat_world());
+  std::unique_ptr<World> world = std::make_unique<World>(world_for());
 };
 
 TEST_F(OddInput, carve_in_air) {
@@ -113,7 +108,7 @@ TEST_F(OddInput, four_thousand_and_ninety_six_seeds) {
 }
 
 TEST_F(OddInput, an_edit_too_small_for_the_voxels_is_told_the_least_size) {
-  WorldConfig coarse = flat_world();
+  WorldConfig coarse = world_for();
   coarse.terrain.voxel_size_m = limits::voxel_size_max_m;
   start(coarse);
   const glm::vec3 at_m(0.7F, 0.4F, -0.6F);
@@ -141,7 +136,7 @@ TEST_F(OddInput, more_seeds_than_there_is_room_for) {
 /// Two posts, and a carve that takes the middle of both: what it takes hangs together nowhere.
 TEST_F(OddInput, volume_split_in_two_by_the_carve) {
   for (const uint32_t seeds : {1U, 2U, 7U}) {
-    start(flat_world());
+    start(world_for());
     step({fill(box({-1.5F, 3.0F, 0.0F}, {0.5F, 3.2F, 0.5F})),
           fill(box({1.5F, 3.0F, 0.0F}, {0.5F, 3.2F, 0.5F}))});
     auto delta = step({carve(box({0.0F, 2.0F, 0.0F}, {3.0F, 0.5F, 1.0F}), seeds)});
@@ -187,7 +182,7 @@ TEST_F(OddInput, two_carves_in_one_tick_at_the_same_place) {
 }
 
 TEST_F(OddInput, limit_of_pieces_reached_between_two_carves) {
-  start(flat_world(20));
+  start(world_for(20));
   const auto delta =
       step({carve(sphere({0.0F, -0.5F, 0.0F}, 2.0F), 16), carve(sphere({9.0F, -0.5F, 0.0F}, 2.0F), 16)});
   EXPECT_EQ(delta->replies[0].pieces, 16U);
@@ -197,14 +192,14 @@ TEST_F(OddInput, limit_of_pieces_reached_between_two_carves) {
 }
 
 TEST_F(OddInput, a_carve_that_finds_no_room_is_told_what_would_help) {
-  start(flat_world(2000));
+  start(world_for(2000));
   const auto refusal = [&](uint32_t seeds) {
     return step({carve(sphere({40.0F, -0.5F, 0.0F}, 2.0F), seeds)})->replies[0].refusal;
   };
   const std::string never = refusal(limits::seeds_max);
   EXPECT_NE(never.find("ask for 2000 seeds at most"), std::string::npos) << never;
   EXPECT_NE(never.find("raised to 4096 (--pieces-max)"), std::string::npos) << never;
-  start(flat_world(20));
+  start(world_for(20));
   step({carve(sphere({0.0F, -0.5F, 0.0F}, 2.0F), 16)});
   const std::string now = refusal(10);
   EXPECT_NE(now.find("wait until 6 have settled, ask for 4 seeds at most"), std::string::npos) << now;
@@ -215,7 +210,7 @@ TEST_F(OddInput, a_carve_that_finds_no_room_is_told_what_would_help) {
 
 /// A block that shatters on hard ground, again and again, in a world that has room for few of its pieces.
 TEST_F(OddInput, limit_of_pieces_reached_in_mid_fracture) {
-  WorldConfig config = flat_world(7);
+  WorldConfig config = world_for(7);
   config.methods.dents = false;  // they would take the room
   start(config);
   auto delta = step({fill(box({0.0F, 30.0F, 0.0F}, glm::vec3(2.0F))),
@@ -237,7 +232,7 @@ TEST_F(OddInput, limit_of_pieces_reached_in_mid_fracture) {
 class OddSeeds : public ::testing::TestWithParam<std::pair<const char*, std::vector<glm::vec3>>> {};
 
 TEST_P(OddSeeds, share_out_all_mass) {
-  MapField field(flat_world().terrain);
+  MapField field(flat_terrain);
   const Shape ball = in_voxels(sphere({0.0F, -0.5F, 0.0F}, 1.5F), 0.25F);
   const Window before = gather(field, band_box(ball));
   const Window solid = codes_of(ball, before.box);

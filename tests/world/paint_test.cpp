@@ -16,19 +16,12 @@
 #include "server/store/limits.h"
 #include "server/store/recorder.h"
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
 
 namespace scree {
 namespace {
 
-constexpr float dx = 0.25F;
-const TerrainSource flat{TerrainKind::flat, 1, dx};
 const Shape patch = box({0.0F, 0.0F, 0.0F}, {5.0F, 3.0F, 5.0F});
-
-WorldConfig flat_world() {
-  WorldConfig config;
-  config.terrain = flat;
-  return config;
-}
 
 Command paint_it(Material material, const Shape& shape = patch) {
   return {1, 1, PaintRequest{shape, material}};
@@ -45,18 +38,19 @@ Command carve_at(glm::vec3 centre_m, uint32_t seeds = 6) {
 TEST(paint, a_shape_is_rounded_to_the_bricks_whose_centres_it_holds) {
   // Bricks are 2 m wide: from −4 to 4 m along x and z, from −2 to 2 m along y.
   const std::vector<BrickCoord> bricks =
-      bricks_of(in_voxels(box({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 4.0F}), dx));
+      bricks_of(in_voxels(box({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 4.0F}), voxel_m));
   EXPECT_EQ(bricks.size(), 4U * 2U * 4U);
   EXPECT_TRUE(std::ranges::is_sorted(bricks));
-  const VoxelBox box = paint_box(in_voxels(scree::box({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 4.0F}), dx));
+  const VoxelBox box = paint_box(in_voxels(scree::box({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 4.0F}), voxel_m));
   EXPECT_EQ(box, (VoxelBox{{-16, -8, -16}, {16, 8, 16}}));
-  EXPECT_EQ(bricks_of(in_voxels(sphere({0.3F, 0.3F, 0.3F}, 0.2F), dx)), std::vector<BrickCoord>{BrickCoord{}})
+  EXPECT_EQ(bricks_of(in_voxels(sphere({0.3F, 0.3F, 0.3F}, 0.2F), voxel_m)),
+            std::vector<BrickCoord>{BrickCoord{}})
       << "too small for any centre: the brick that holds it";
 }
 
 TEST(paint, hashes_know_it_only_where_it_is_and_forget_it_with_its_chunk) {
-  MapField map(flat);
-  VdbField vdb(flat);
+  MapField map(flat_terrain);
+  VdbField vdb(flat_terrain);
   const auto fields = {static_cast<Field*>(&map), static_cast<Field*>(&vdb)};
   for (Field* field : fields) {
     const BrickCoord coord{0, -1, 0};
@@ -79,9 +73,9 @@ TEST(paint, hashes_know_it_only_where_it_is_and_forget_it_with_its_chunk) {
     field->forget_chunk(chunk_of(coord));
     EXPECT_EQ(field->painted(coord), std::nullopt);
     EXPECT_EQ(field->hash(), 0U);
-    const std::vector<BrickCoord> painted = paint(*field, in_voxels(patch, dx), Material::ice);
+    const std::vector<BrickCoord> painted = paint(*field, in_voxels(patch, voxel_m), Material::ice);
     EXPECT_FALSE(painted.empty());
-    EXPECT_TRUE(paint(*field, in_voxels(patch, dx), Material::ice).empty()) << "it was ice before";
+    EXPECT_TRUE(paint(*field, in_voxels(patch, voxel_m), Material::ice).empty()) << "it was ice before";
   }
   EXPECT_EQ(map.hash(), vdb.hash());
 }
@@ -104,7 +98,7 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   EXPECT_GT(soil, 0U);
   const std::vector<Command> other{paint_it(Material::rock)};
   world.step(other);
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces{{1, delta->spawned.front().volume}};
   const Volume& parent = *delta->spawned.front().volume;
   ASSERT_EQ(parent.material, Material::ice);
@@ -114,7 +108,7 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
 }
 
 TEST(paint, an_island_is_made_of_what_its_place_was_painted) {
-  MapField field(flat);
+  MapField field(flat_terrain);
   PieceTable pieces;
   apply(FillOperation{sphere({0.0F, 5.0F, 0.0F}, 1.0F)}, field, pieces);
   apply(PaintOperation{sphere({0.0F, 5.0F, 0.0F}, 3.0F), Material::soil}, field, pieces);
@@ -162,7 +156,7 @@ class Client {
  public:
   Client(Publisher& publisher, uint64_t session, glm::vec3 eye_m, float radius_m) : session_(session) {
     WelcomeMessage welcome;
-    welcome.terrain = flat;
+    welcome.terrain = flat_terrain;
     welcome.tick = publisher.state().tick();
     mirror = std::make_unique<Mirror>(welcome);
     publisher.join(session, eye_m, radius_m);
@@ -196,7 +190,7 @@ void expect_same(const Client& client, World& world) {
 
 TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   World world(flat_world());
-  Publisher publisher({dx, 60, 3});
+  Publisher publisher({voxel_m, 60, 3});
   const auto tick = [&](const std::vector<Command>& commands, std::initializer_list<Client*> clients) {
     const auto delta = world.step(commands);
     const auto outgoing = publisher.publish(*delta, [](uint64_t) { return size_t{0}; });

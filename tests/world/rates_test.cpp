@@ -7,37 +7,37 @@
 
 #include "bench/support/scenes.h"
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
 
 namespace scree {
 namespace {
 
-struct Outcome {
+struct Settling {
   double settled_s = 0.0;  ///< until every piece was terrain again
   float highest_m = 0.0F;  ///< of any piece, above the ground
 };
 
-Outcome outcome_at(uint32_t rate_hz) {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
+Settling settling_at(uint32_t rate_hz) {
+  WorldConfig config = flat_world();
   config.tick_rate_hz = rate_hz;
   World world(config);
   const std::vector<Command> carve{{1, 1, blow_at(config.terrain, 0.0F, 0.0F, 2.0F, 48, 5)}};
   auto delta = world.step(carve);
-  Outcome outcome;
+  Settling settling;
   const uint32_t ticks_max = 60 * rate_hz;
   while (!delta->pieces.empty() && delta->tick < ticks_max) {
     for (const PieceState& piece : delta->pieces)
-      outcome.highest_m = std::max(outcome.highest_m, dequantise(piece.pose).position_m.y);
+      settling.highest_m = std::max(settling.highest_m, dequantise(piece.pose).position_m.y);
     delta = world.step({});
   }
-  outcome.settled_s = static_cast<double>(delta->tick) / rate_hz;
-  return outcome;
+  settling.settled_s = static_cast<double>(delta->tick) / rate_hz;
+  return settling;
 }
 
 class Rates : public ::testing::TestWithParam<uint32_t> {};
 
 TEST_P(Rates, pieces_settle_as_soon_and_rise_no_higher_than_at_60_hz) {
-  const Outcome usual = outcome_at(60), here = outcome_at(GetParam());
+  const Settling usual = settling_at(60), here = settling_at(GetParam());
   std::printf("%u Hz: settled after %.2f s (60 Hz: %.2f), highest %.2f m (%.2f)\n", GetParam(),
               here.settled_s, usual.settled_s, static_cast<double>(here.highest_m),
               static_cast<double>(usual.highest_m));
@@ -49,8 +49,7 @@ TEST_P(Rates, pieces_settle_as_soon_and_rise_no_higher_than_at_60_hz) {
 /// Two tunnels that cross within rock, cut without a blast: the second's pieces lie in and over the first's,
 /// and only gravity and the overlaps move them.
 TEST_P(Rates, nothing_moves_faster_in_crossing_tunnels_than_it_could_fall) {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  WorldConfig config = flat_world();
   config.tick_rate_hz = GetParam();
   World world(config);
   CarveRequest request;

@@ -5,15 +5,10 @@
 #include <set>
 
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
 
 namespace scree {
 namespace {
-
-WorldConfig flat_world() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
-  return config;
-}
 
 Command blow() {
   CarveRequest carve;

@@ -14,13 +14,11 @@
 #include "server/world/merge_stage.h"
 #include "server/world/spawn.h"
 #include "server/world/world.h"
+#include "tests/support/flat_world.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
-
-std::shared_ptr<const TickDelta> step(World& world, const std::vector<Command>& commands = {}) {
-  return world.step(commands);
-}
 
 /// That many blows side by side, as if asked for at once.
 std::vector<Command> blows(const World& world, uint32_t a_side, uint32_t seeds) {
@@ -212,8 +210,7 @@ TEST(work, what_is_cut_is_the_same_every_time_and_reported) {
 }
 
 TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
+  const WorldConfig config = flat_world();
   World::State state(config);
   TickDelta delta;
   const glm::vec3 centre_m(0.0F, 0.0F, 0.0F);
@@ -221,7 +218,7 @@ TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
       CarveOperation{sphere(centre_m, 2.0F), SeedPattern::uniform, 64, 1, centre_m, 1}, delta);
   const auto where_it_was = [](PieceId, const Volume& volume) {
     Newborn born;
-    born.body.pose.position_m = volume.centre_voxels * 0.25F;
+    born.body.pose.position_m = volume.centre_voxels * voxel_m;
     return born;
   };
   spawn(state, cut, where_it_was, delta);

@@ -11,7 +11,7 @@
 namespace scree {
 namespace {
 
-WorldConfig flat_world(float voxel_size_m, uint32_t tick_rate_hz) {
+WorldConfig world_of(float voxel_size_m, uint32_t tick_rate_hz) {
   WorldConfig config;
   config.terrain = {TerrainKind::flat, 1, voxel_size_m};
   config.tick_rate_hz = tick_rate_hz;
@@ -32,15 +32,15 @@ TEST(WorldConfig, voxels_beyond_the_limits_are_refused) {
   const float infinite = std::numeric_limits<float>::infinity();
   for (const float size_m : {0.05F, 0.0F, -0.25F, nan, infinite, 5.0F, limits::voxel_size_min_m * 0.999F,
                              limits::voxel_size_max_m * 1.001F})
-    expect_refused(flat_world(size_m, 60), "limits.voxel_size_min_m, voxel_size_max_m");
-  EXPECT_NE(refusal(flat_world(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.15 to 2 "),
+    expect_refused(world_of(size_m, 60), "limits.voxel_size_min_m, voxel_size_max_m");
+  EXPECT_NE(refusal(world_of(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.15 to 2 "),
             std::string::npos);
 }
 
 TEST(WorldConfig, rates_and_numbers_beyond_the_limits_are_refused) {
   for (const uint32_t rate_hz :
        {0U, limits::tick_rate_min_hz - 1, limits::tick_rate_max_hz + 1, 100'000U, UINT32_MAX})
-    expect_refused(flat_world(0.25F, rate_hz), "tick_rate_max_hz");
+    expect_refused(world_of(0.25F, rate_hz), "tick_rate_max_hz");
   for (const uint32_t pieces : {0U, limits::pieces_max_max + 1, UINT32_MAX}) {
     WorldConfig config;
     config.pieces_max = pieces;
@@ -67,7 +67,7 @@ struct Ends {
 class WorldAtItsEnds : public ::testing::TestWithParam<Ends> {};
 
 TEST_P(WorldAtItsEnds, carves_throws_and_merges) {
-  WorldConfig config = flat_world(GetParam().voxel_size_m, GetParam().tick_rate_hz);
+  WorldConfig config = world_of(GetParam().voxel_size_m, GetParam().tick_rate_hz);
   config.methods.recombine = GetParam().recombine;
   const auto world = World::create(config);
   ASSERT_TRUE(world) << world.error().message;

@@ -7,15 +7,10 @@
 
 #include "bench/support/scenes.h"
 #include "server/world/published_state.h"
+#include "tests/support/world_steps.h"
 
 namespace scree {
 namespace {
-
-constexpr int settle_ticks_max = 1800;
-
-std::shared_ptr<const TickDelta> step(World& world, std::vector<Command> commands = {}) {
-  return world.step(commands);
-}
 
 Command blow(const World& world, float x_m, float z_m, uint32_t seeds, uint32_t request = 1) {
   return {7, request, blow_at(world.config().terrain, x_m, z_m, 1.5F, seeds, 3)};
