@@ -2,6 +2,5 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "cmake/precompiled.h"
