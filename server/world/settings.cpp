@@ -69,7 +69,6 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
 }
 
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
-constexpr std::array<std::string_view, 1> little_memory{"256"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
@@ -84,9 +83,9 @@ constexpr std::array table{
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
     number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; carves beyond are refused",
                                      {limits::pieces_max_min, limits::pieces_max_max, "pieces"}, few_pieces),
-    number<&WorldConfig::memory_max_mb>(
-        "memory-max", "memory of the terrain and the program; edits beyond are refused",
-        {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}, little_memory),
+    number<&WorldConfig::memory_max_mb>("memory-max",
+                                        "memory of the terrain and the program; edits beyond are refused",
+                                        {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
     number<&ServiceLimits::sessions_max>("sessions-max", "clients at once; more are refused",
                                          {1, limits::sessions_max_max, "clients"}),
     number<&ServiceLimits::requests_per_second>(
