@@ -24,11 +24,12 @@ constexpr Demand demands[] = {
 std::vector<BotConfig> bots_of(size_t greedy, const Demand& demand) {
   BotConfig like;
   like.rate_hz = 30.0;
-  like.interest_radius_m = 48.0F;
+  like.interest_radius_m = 24.0F;  // they want to ask, not to watch: all clients share this machine's cores
   like.carver.radius_m = demand.radius_m;
   like.carver.seeds = demand.seeds;
   std::vector<BotConfig> bots = bots_on_a_grid(greedy + 1, 50.0F, like);
   bots.front().rate_hz = 2.0;
+  bots.front().interest_radius_m = 48.0F;
   bots.front().carver.radius_m = 2.0F;
   bots.front().carver.seeds = 64;
   return bots;

@@ -185,6 +185,7 @@ void Bodies::State::step() {
 
 void Bodies::step() {
   State& s = *state_;
+  s.tell_changes();
   s.struck.clear();
   for (int step = 0; step < s.steps_a_tick; ++step) {
     if (step > 0) {
@@ -203,6 +204,7 @@ void Bodies::step() {
 
 void Bodies::freeze(PieceId id) {
   const auto found = state_->bodies.find(id);
+  state_->tell_changes();  // or what changed before would thaw it
   CHECK(found != state_->bodies.end() && !found->second.frozen);
   state_->freeze(id, found->second);
 }
@@ -218,21 +220,15 @@ size_t Bodies::frozen() const {
 }
 
 void Bodies::terrain_changed(const VoxelBox& box) {
-  State& s = *state_;
   CHECK(!box.empty());
-  s.terrain_collider->terrain_changed(box);
-  for (auto& [id, body] : s.bodies) body.probe->terrain_changed(box);
-  const auto corner = [&](VoxelCoord v) {
-    return btVector3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) *
-           s.voxel_size_m;
-  };
-  const VoxelBox near = box.grown(1);
-  s.wake_near(corner(near.lo), corner(near.hi));
+  state_->terrain_collider->terrain_changed(box);
+  state_->changes.push_back(box);
 }
 
 void Bodies::set_terrain_collider(TerrainColliderKind kind) {
   State& s = *state_;
   if (kind == s.config.terrain_collider) return;
+  s.tell_changes();
   s.config.terrain_collider = kind;
   // Each probe is replaced before its collider is destroyed.
   const std::unique_ptr<TerrainCollider> old =
@@ -333,6 +329,10 @@ size_t Bodies::contact_points() const {
   for (int i = 0; i < s.dispatcher.getNumManifolds(); ++i)
     points += static_cast<size_t>(manifolds[i]->getNumContacts());
   return points;
+}
+
+size_t Bodies::pairs() const {
+  return static_cast<size_t>(state_->broadphase.m_paircache->getNumOverlappingPairs());
 }
 
 void Bodies::describe(PhysicsMessage& to) const {

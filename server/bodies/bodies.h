@@ -107,7 +107,7 @@ class Bodies {
   size_t frozen() const;
 
   /// Tells the bodies that the terrain changed within this box of voxels (after an operation: the box of its
-  /// changed bricks). Call before the next step. Bodies near the box wake and read the terrain again.
+  /// changed bricks). Bodies near the box wake and read the terrain again in the next step.
   void terrain_changed(const VoxelBox& box);
 
   /// Changes the way in which bodies find the terrain, from the next step on. Poses and speeds stay; all
@@ -136,6 +136,8 @@ class Bodies {
   size_t awake() const;
   /// Number of points at which bodies touched terrain or each other in the last step.
   size_t contact_points() const;
+  /// Number of pairs of bodies whose bounds met in the last step.
+  size_t pairs() const;
   /// Appends every body, and every point of contact of the last step, for display.
   void describe(PhysicsMessage& to) const;
 

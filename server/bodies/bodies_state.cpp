@@ -164,6 +164,24 @@ void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
   }
 }
 
+void Bodies::State::tell_changes() {
+  if (changes.empty()) return;
+  const auto corner = [&](VoxelCoord v) {
+    return btVector3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) *
+           voxel_size_m;
+  };
+  std::vector<Bounds> near;
+  for (const VoxelBox& box : changes) near.push_back({corner(box.grown(1).lo), corner(box.grown(1).hi)});
+  for (auto& [id, body] : bodies) {
+    for (const VoxelBox& box : changes) body.probe->terrain_changed(box);
+    btVector3 lo, hi;
+    body.rigid->getAabb(lo, hi);
+    if (std::ranges::any_of(near, [&](const Bounds& b) { return TestAabbAgainstAabb2(b.lo, b.hi, lo, hi); }))
+      wake(body);
+  }
+  changes.clear();
+}
+
 void Bodies::State::enter(Body& body) {
   CHECK(body.ground == nullptr && body.rigid->getBroadphaseHandle() == nullptr);
   dynamics.addRigidBody(body.rigid.get());

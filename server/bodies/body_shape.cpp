@@ -96,8 +96,10 @@ std::vector<glm::vec3> surface_points(const std::vector<glm::vec3>& hull_m, floa
            e = e->getNextEdgeOfFace())
         fill_triangle(a, corner(e->getSourceVertex()), corner(e->getTargetVertex()), spacing, extra);
     }
-    for (const glm::vec3& p : extra)
+    for (const glm::vec3& p : extra) {
+      if (points.size() > limits::samples_max) break;
       if (!near_any(points, p, 0.5F * spacing)) points.push_back(p);
+    }
     if (points.size() <= limits::samples_max || points.size() == hull_m.size()) return points;
   }
 }

@@ -14,20 +14,22 @@ inline constexpr float work_share = 0.75F;
 inline constexpr float crowded_share = 0.5F;
 
 /// The model, microseconds as measured on one core of a 2023 server (benches storm and worst): a body that is
-/// awake, and a point of contact, in a step.
-inline constexpr float body_cost_us = 4.2F;
-inline constexpr float contact_cost_us = 1.2F;
+/// awake, a point of contact, and a pair of bodies whose bounds meet, in a step. Cells that still lie packed
+/// have 30 such pairs each, rubble has 5.
+inline constexpr float body_cost_us = 1.5F;
+inline constexpr float contact_cost_us = 1.0F;
+inline constexpr float pair_cost_us = 0.33F;
 
 /// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
 inline constexpr float edit_cost_us = 400.0F;
-inline constexpr float edit_voxel_cost_us = 0.025F;
+inline constexpr float edit_voxel_cost_us = 0.05F;
 inline constexpr float chunk_cost_us = 300.0F;
 
 /// A volume that is cut into pieces by the cutter `field`, a voxel of its window, and a piece with its hull
 /// and body.
 inline constexpr float cut_cost_us = 100.0F;
-inline constexpr float cut_voxel_cost_us = 0.03F;
-inline constexpr float piece_cost_us = 30.0F;
+inline constexpr float cut_voxel_cost_us = 0.07F;
+inline constexpr float piece_cost_us = 25.0F;
 
 /// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
 inline constexpr float relax_cost_us = 2200.0F;
@@ -39,7 +41,7 @@ inline constexpr float polygons_voxel_cost_us = 0.9F;
 inline constexpr float polygons_piece_cost_us = 350.0F;
 
 /// A merge, by method; a dent, and the crushing of a neck, whose sizes vary little.
-inline constexpr float stamp_cost_us = 30.0F;
+inline constexpr float stamp_cost_us = 55.0F;
 inline constexpr float slices_cost_us = 60.0F;
 inline constexpr float sphere_cost_us = 170.0F;
 inline constexpr float dent_cost_us = 700.0F;
@@ -57,11 +59,24 @@ inline constexpr float lift_voxel_cost_us = 0.09F;
 /// in later ticks.
 inline constexpr float cut_at_once_us = 5000.0F;
 
-/// Price of a volume, cut by a cutter of polygons into two, above which `field` makes the first cut.
-inline constexpr float polygons_at_once_us = 20000.0F;
+/// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
+inline constexpr float cut_rest_s = 0.1F;
 
-/// Load by bodies, as a share of the budget, above which requests wait; one every `request_rest_s` does not.
-inline constexpr float load_max = 0.8F;
+/// Pieces that a volume is cut into at once, however large it is.
+inline constexpr uint32_t cut_at_once_min = 8;
+
+/// Price of a carve's voxels and of its first cut, by `field`, above which it takes its volume out whole:
+/// that is cut from the next tick on. A longer tick's budget, where that is more.
+inline constexpr float carve_at_once_us = 12000.0F;
+
+/// Price of a volume, cut by a cutter of polygons into two, above which `field` makes the first cut: in a
+/// carve or a break, and in the cuts of later ticks, which are many.
+inline constexpr float polygons_at_once_us = 20000.0F;
+inline constexpr float polygons_later_us = 9000.0F;
+
+/// Load by bodies, as a share of the budget, above which requests wait until they fit; one every
+/// `request_rest_s` does not.
+inline constexpr float load_max = 0.5F;
 inline constexpr float request_rest_s = 0.5F;
 
 /// Share of the budget that merges of pieces at rest may keep from requests: they take load away for good.

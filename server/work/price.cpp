@@ -36,18 +36,18 @@ size_t untouched_chunks(const VoxelBox& box, const Field& field) {
   return count;
 }
 
+/// Reading and changing the field in a valid shape's box.
+float edit_price_us(const Shape& shape, const Field& field) {
+  const float dx = field.source().voxel_size_m;
+  CHECK(validate(Operation(FillOperation{shape}), {}, dx));
+  const VoxelBox box = band_box(in_voxels(shape, dx));
+  return limits::edit_cost_us + limits::edit_voxel_cost_us * voxels_of(box) +
+         limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
+}
+
 struct Pricing {
   const Field& field;
   Cutter cutter;
-
-  /// Of reading and changing the shape's box.
-  float edit(const Shape& shape) const {
-    const float dx = field.source().voxel_size_m;
-    CHECK(validate(Operation(FillOperation{shape}), {}, dx));
-    const VoxelBox box = band_box(in_voxels(shape, dx));
-    return limits::edit_cost_us + limits::edit_voxel_cost_us * voxels_of(box) +
-           limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
-  }
 
   static float seeds_price_us(const CarveRequest& request) {
     if (!is_relaxed(request.pattern)) return 0.0F;
@@ -56,12 +56,12 @@ struct Pricing {
 
   float operator()(const CarveRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
-    const float own = edit(request.shape);
+    const float own = edit_price_us(request.shape, field);
     const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
     return own + seeds_price_us(request) + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
   }
-  float operator()(const FillRequest& request) const { return edit(request.shape); }
-  float operator()(const PaintRequest& request) const { return edit(request.shape); }
+  float operator()(const FillRequest& request) const { return edit_price_us(request.shape, field); }
+  float operator()(const PaintRequest& request) const { return edit_price_us(request.shape, field); }
   float operator()(const SettingsRequest&) const { return 0.0F; }
 };
 
@@ -80,14 +80,15 @@ float cut_price_us(Cutter cutter, float voxels, uint32_t pieces) {
   return limits::cut_cost_us + limits::cut_voxel_cost_us * voxels + limits::piece_cost_us * count;
 }
 
-uint32_t pieces_at_once(Cutter cutter, uint32_t wanted) {
+uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted) {
   const float each = cuts_polygons(cutter) ? limits::polygons_piece_cost_us : limits::piece_cost_us;
-  const auto paid = std::max(2U, static_cast<uint32_t>(limits::cut_at_once_us / each));
+  const float left_us = limits::cut_at_once_us - limits::cut_cost_us - limits::cut_voxel_cost_us * voxels;
+  const auto paid = std::max(limits::cut_at_once_min, static_cast<uint32_t>(std::max(left_us, 0.0F) / each));
   return wanted <= paid + paid / 2 ? wanted : paid;
 }
 
-Cutter cutter_for(Cutter wanted, float voxels) {
-  return cut_price_us(wanted, voxels, 2) > limits::polygons_at_once_us ? Cutter::field : wanted;
+Cutter cutter_for(Cutter wanted, float voxels, float limit_us) {
+  return cut_price_us(wanted, voxels, 2) > limit_us ? Cutter::field : wanted;
 }
 
 float lift_price_us(const VoxelBox& box) {

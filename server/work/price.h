@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "server/work/limits.h"
 #include "shared/field/field.h"
 #include "shared/field/window.h"
 #include "shared/fracture/voronoi.h"
@@ -17,12 +18,12 @@ float voxels_of(const VoxelBox& box);
 
 /// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.
 float cut_price_us(Cutter cutter, float voxels, uint32_t pieces);
-/// How many of the wanted pieces a volume is cut into at once: all of them, or as many as
+/// How many of the wanted pieces a volume of so many voxels is cut into at once: all of them, or as many as
 /// limits::cut_at_once_us pays, if that is much less.
-uint32_t pieces_at_once(Cutter cutter, uint32_t wanted);
-/// The cutter for a volume of so many voxels: the one that is wanted, or `field` where that one takes too
-/// long at once (limits::polygons_at_once_us).
-Cutter cutter_for(Cutter wanted, float voxels);
+uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted);
+/// The cutter for a volume of so many voxels: the one that is wanted, or `field` where that one's price is
+/// over the limit.
+Cutter cutter_for(Cutter wanted, float voxels, float limit_us = limits::polygons_at_once_us);
 /// Lifting an island of that box, with its hulls and body.
 float lift_price_us(const VoxelBox& box);
 

@@ -10,7 +10,8 @@ namespace {
 
 float cost_of(const Bodies& bodies) {
   const float a_step = limits::body_cost_us * static_cast<float>(bodies.awake()) +
-                       limits::contact_cost_us * static_cast<float>(bodies.contact_points());
+                       limits::contact_cost_us * static_cast<float>(bodies.contact_points()) +
+                       limits::pair_cost_us * static_cast<float>(bodies.pairs());
   return a_step * static_cast<float>(bodies.steps_a_tick());
 }
 

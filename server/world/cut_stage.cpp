@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -16,10 +17,10 @@ ShatterOperation operation_of(const World::State& state, const PendingCut& cut, 
   const Volume& volume = *state.pieces.at(cut.piece);
   const glm::vec3 off_m = glm::conjugate(body.pose.rotation) * (cut.impact_m - body.pose.position_m);
   const auto voxels = static_cast<float>(volume.window.codes.size());
-  const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
+  const Cutter cutter = cutter_for(state.config.methods.cutter, voxels, limits::polygons_later_us);
   return {.piece = cut.piece,
           .pattern = cut.pattern,
-          .seeds = pieces_at_once(cutter, cut.pieces),
+          .seeds = pieces_at_once(cutter, voxels, cut.pieces),
           .random_seed = cut.random_seed + cut.piece,
           .impact_voxels = volume.centre_voxels + off_m / state.config.terrain.voxel_size_m,
           .first_piece = state.next_piece,
@@ -32,6 +33,7 @@ void share_out(World::State& state, const Applied& applied, const PendingCut& of
   if (mass == 0 || of_all.pieces <= applied.created.size()) return;
   for (const CreatedPiece& created : applied.created) {
     PendingCut cut = of_all;
+    if (cut.piece != 0) cut.thrown_by = nullptr;  // its parts were thrown when it was cut
     cut.piece = created.id;
     cut.pieces = static_cast<uint32_t>(state.pieces.at(created.id)->mass * of_all.pieces / mass);
     if (cut.pieces >= 2) state.cuts.push_back(cut);
@@ -48,8 +50,14 @@ void cut_piece(World::State& state, const PendingCut& cut, ShatterOperation oper
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   const float dx = state.config.terrain.voxel_size_m;
-  const auto born = [&](PieceId, const Volume& volume) {
-    return Newborn{part_of(body, (volume.centre_voxels - centre_voxels) * dx), traits};
+  const auto born = [&](PieceId id, const Volume& volume) {
+    Newborn part{part_of(body, (volume.centre_voxels - centre_voxels) * dx), traits};
+    if (cut.thrown_by != nullptr) {
+      const BodyState flight = thrown(id, part.body.pose.position_m, *cut.thrown_by);
+      part.body.velocity_m_s += flight.velocity_m_s;
+      part.body.spin_rad_s += flight.spin_rad_s;
+    }
+    return part;
   };
   spawn(state, applied, born, delta);
   share_out(state, applied, cut);
@@ -57,16 +65,19 @@ void cut_piece(World::State& state, const PendingCut& cut, ShatterOperation oper
 
 }  // namespace
 
-void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted) {
+void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted,
+                  bool whole) {
+  state.cut_at = state.tick;
   share_out(state, applied,
             {.pieces = wanted,
              .pattern = is_drawn(request.pattern) ? request.pattern : SeedPattern::uniform,
              .random_seed = request.random_seed,
-             .impact_m = request.impact_m});
+             .impact_m = request.impact_m,
+             .thrown_by = whole ? std::make_shared<const CarveRequest>(request) : nullptr});
 }
 
 void cut_pieces(World::State& state, TickDelta& delta) {
-  bool first = true;
+  const auto rest = static_cast<Tick>(limits::cut_rest_s * static_cast<float>(state.config.tick_rate_hz));
   while (!state.cuts.empty()) {
     const PendingCut cut = state.cuts.front();
     const size_t others = state.pieces.size() - 1;
@@ -80,8 +91,10 @@ void cut_pieces(World::State& state, TickDelta& delta) {
     const float price =
         cut_price_us(operation.cutter, static_cast<float>(state.pieces.at(cut.piece)->window.codes.size()),
                      operation.seeds);
-    if (!first && !state.work.affords(price)) break;
-    first = false;
+    // A whole volume is thrown when it is cut, so it is next.
+    const Tick wait = cut.thrown_by != nullptr ? 1 : rest;
+    if (!state.work.affords(price) && state.tick - state.cut_at < wait) break;
+    state.cut_at = state.tick;
     state.cuts.pop_front();
     cut_piece(state, cut, operation, delta);
     state.work.spend(price);

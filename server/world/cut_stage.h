@@ -8,10 +8,13 @@
 namespace scree {
 
 /// Enters the pieces of a carve that asked for `wanted` pieces: each is to be cut into its share, by mass.
-void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted);
+/// `whole`: there is one, which the blow has not thrown yet.
+void cut_on_later(World::State& state, const Applied& applied, const CarveRequest& request, uint32_t wanted,
+                  bool whole);
 
-/// Cuts waiting pieces, in order: as many as the tick's budget allows, and one at least. Pieces that are gone
-/// need no cut any more; where there is no room for more pieces (WorldConfig::pieces_max) they stay whole.
+/// Cuts waiting pieces, in order: as many as the tick's budget allows, and now and then one that it does not.
+/// Pieces that are gone need no cut any more; where there is no room for more pieces
+/// (WorldConfig::pieces_max) they stay whole.
 void cut_pieces(World::State& state, TickDelta& delta);
 
 }  // namespace scree

@@ -85,22 +85,25 @@ void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   });
 }
 
-bool IslandQueue::search(Field& field, size_t& bricks, uint32_t& too_large) {
-  if (waiting_.empty() || bricks == 0) return false;
+bool IslandQueue::search(Field& field, IslandLook& look) {
+  if (waiting_.empty() || look.bricks == 0) return false;
   Waiting& first = waiting_.front();
   if (first.search == nullptr) {
     first.search = std::make_unique<IslandSearch>(field, first.cut, limits::island_parts_max);
-    bricks -= std::min(bricks, first.cut.size());  // it has read these
+    look.read += first.search->bricks_visited();
+    look.bricks -= std::min(look.bricks, first.search->bricks_visited());
   }
   const unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
-  size_t own = bricks << doublings;
-  const bool finished = first.search->advance(own);
-  CHECK(own >> doublings <= bricks);
-  bricks = own >> doublings;
+  const size_t allowed = look.bricks << doublings;
+  size_t left = allowed;
+  const bool finished = first.search->advance(left);
+  CHECK(left <= allowed);
+  look.read += allowed - left;
+  look.bricks = left >> doublings;
   if (!finished) return false;
   Falling falling{first.search->islands(), std::move(first.search)};
   waiting_.pop_front();
-  too_large += static_cast<uint32_t>(falling.search->too_large());
+  look.too_large += static_cast<uint32_t>(falling.search->too_large());
   // From the ground up, so that none falls on one that waits.
   std::ranges::sort(falling.islands, std::ranges::greater{},
                     [](const Island& island) { return std::pair(island.box.lo.y, island.start); });
@@ -125,11 +128,11 @@ void drop_islands(World::State& state, TickDelta& delta) {
   state.islands.changed(changed);
   if (!state.config.methods.islands) return;
   take_cuts(state);
-  size_t bricks = limits::island_bricks_per_tick;
-  while (state.islands.search(state.field, bricks, delta.work.islands_too_large)) {
+  IslandLook look{.bricks = limits::island_bricks_per_tick};
+  while (state.islands.search(state.field, look)) {
   }
-  state.work.spend(limits::island_brick_cost_us *
-                   static_cast<float>(limits::island_bricks_per_tick - bricks));
+  delta.work.islands_too_large += look.too_large;
+  state.work.spend(limits::island_brick_cost_us * static_cast<float>(look.read));
   bool first = true;
   while (const Island* next = state.islands.next()) {
     const Island island = *next;

@@ -24,6 +24,13 @@
 
 namespace scree {
 
+/// What a tick's searches may read, and what came of them.
+struct IslandLook {
+  size_t bricks = 0;       ///< left to read; a search that began again reads more for each of them
+  size_t read = 0;         ///< bricks that were read
+  uint32_t too_large = 0;  ///< components that were taken for ground
+};
+
 class IslandQueue {
  public:
   /// Adds a search around bricks that lost rock; none for an empty list.
@@ -32,10 +39,9 @@ class IslandQueue {
   void changed(std::span<const BrickCoord> bricks);
   /// The same for bricks that the fall of an island changed: finished searches stay valid.
   void fell(std::span<const BrickCoord> bricks);
-  /// Continues the first search, by at most `bricks` bricks, and subtracts those that it read. True when it
-  /// ended: its islands wait to fall, and `too_large` grows by the components that it took for ground. False
-  /// when `bricks` are used up or there is no search.
-  bool search(Field& field, size_t& bricks, uint32_t& too_large);
+  /// Continues the first search, as far as `look` allows. True when it ended: its islands wait to fall. False
+  /// when no bricks are left or there is no search.
+  bool search(Field& field, IslandLook& look);
   /// The next island that waits to fall, valid until pop(); null when none waits.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.front().islands.back(); }
   /// Removes the next island; there must be one.

@@ -27,31 +27,11 @@ namespace {
 using Outcome = tl::expected<uint32_t, Refused>;
 using Checked = tl::expected<void, Refused>;
 
-/// The initial state of a piece of a carve: it flies away from the mirror image of the impact behind the
-/// shape's centre, so towards the impact, more slowly with distance, and spins. Away from the impact itself,
-/// most pieces would be pressed into the rock behind them.
-BodyState blast(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
-  const glm::vec3 source_m = 2.0F * centre_of(request.shape) - request.impact_m;
-  const glm::vec3 away = centre_m - source_m;
-  const float distance_m = std::sqrt(glm::dot(away, away));
-  // Plus a part upwards: a blow against flat ground would otherwise press half of the pieces into it.
-  const glm::vec3 direction = away / std::max(distance_m, 0.01F) + glm::vec3(0.0F, 0.7F, 0.0F);
-  const float reach_m = std::max(reach_of(request.shape), 0.01F);
-  const float speed = request.blast_speed_m_s * reach_m / (reach_m + distance_m);
-  Random random(request.random_seed * 0x9E3779B97F4A7C15ULL + id);
-  const auto spin = [&] { return (random.unit() - 0.5F) * speed; };
-  BodyState state;
-  state.pose.position_m = centre_m;
-  state.velocity_m_s = direction * speed;
-  state.spin_rad_s = {spin(), spin(), spin()};
-  return state;
-}
-
 void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t session,
                TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto born = [&](PieceId id, const Volume& volume) {
-    return Newborn{blast(id, volume.centre_voxels * dx, request), {.owner = session}};
+    return Newborn{thrown(id, volume.centre_voxels * dx, request), {.owner = session}};
   };
   spawn(state, applied, born, delta);
 }
@@ -123,9 +103,14 @@ void relax_seeds(World::State& state, CarveOperation& operation) {
 }
 
 /// Seeds of the first cut; the pieces that chosen points make are made at once.
-uint32_t seeds_at_once(const CarveRequest& request, const PieceGrant& grant, Cutter cutter) {
+uint32_t seeds_at_once(const World::State& state, const CarveRequest& request, const PieceGrant& grant,
+                       Cutter cutter) {
   if (!is_drawn(request.pattern)) return grant.pieces;
-  return pieces_at_once(cutter, grant.pieces);
+  const float voxels = voxels_of(band_box(in_voxels(request.shape, state.config.terrain.voxel_size_m)));
+  const uint32_t at_once = pieces_at_once(cutter, voxels, grant.pieces);
+  const float price_us = limits::edit_voxel_cost_us * voxels + cut_price_us(cutter, voxels, at_once);
+  const float most_us = std::max(limits::carve_at_once_us, state.work.budget_us());
+  return cutter == Cutter::field && price_us > most_us ? 1 : at_once;
 }
 
 /// Refuses what no wait could make valid.
@@ -162,6 +147,11 @@ struct Checking {
   }
 };
 
+CarveRequest at_rest(CarveRequest request) {
+  request.blast_speed_m_s = 0.0F;
+  return request;
+}
+
 Outcome carve(World::State& state, const CarveRequest& request, uint64_t session, const PieceGrant& grant,
               TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
@@ -169,13 +159,14 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t session
   CHECK(grant.pieces <= request.seeds);
   const Cutter cutter =
       cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
-  const uint32_t at_once = seeds_at_once(request, grant, cutter);
+  const uint32_t at_once = seeds_at_once(state, request, grant, cutter);
   CarveOperation operation = operation_of(state, request, at_once, cutter);
   if (is_relaxed(request.pattern)) relax_seeds(state, operation);
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
-  throw_out(state, applied, request, session, delta);
-  if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces);
+  const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
+  throw_out(state, applied, whole ? at_rest(request) : request, session, delta);
+  if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces, whole);
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -260,12 +251,13 @@ float relief_us(const World::State& state) {
   return std::min(wanted, limits::relief_share * state.work.budget_us());
 }
 
-/// Whether a request that costs time may be carried out in this tick, though it may not fit: with few bodies
-/// at any time, with many now and then.
-bool may_begin(const World::State& state) {
+/// Whether a tick's first request that costs time may be carried out, though it may not fit: at any time with
+/// few bodies, now and then with many.
+bool may_begin(const World::State& state, float cost_us) {
   if (state.work.in_debt()) return false;
+  if (state.work.bodies_load() < limits::load_max || state.work.affords(cost_us)) return true;
   const auto rest = static_cast<Tick>(limits::request_rest_s * static_cast<float>(state.config.tick_rate_hz));
-  return state.work.bodies_load() < limits::load_max || state.tick - state.requested >= rest;
+  return state.tick - state.requested >= rest;
 }
 
 bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
@@ -361,7 +353,7 @@ void carry_out(World::State& state, TickDelta& delta) {
     const float cost = cost_with(state, *next, grant);
     const bool costs_nothing = cost <= limits::refusal_cost_us;
     if (!costs_nothing) {
-      if (first ? !may_begin(state) : !state.work.affords(cost + relief)) break;
+      if (first ? !may_begin(state, cost + relief) : !state.work.affords(cost + relief)) break;
       first = false;
       state.requested = state.tick;
     }

@@ -41,6 +41,9 @@ struct PendingCut {
   SeedPattern pattern = SeedPattern::uniform;
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};
+  /// The carve whose volume this is, whole: its blow throws the pieces. Null: they move on as parts of the
+  /// piece.
+  std::shared_ptr<const CarveRequest> thrown_by{};
 };
 
 struct World::State {
@@ -75,6 +78,7 @@ struct World::State {
   std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last
   IslandQueue islands;
   std::deque<PendingCut> cuts;  ///< in order
+  Tick cut_at = 0;              ///< tick in which one of them, or what they are parts of, was cut last
   WorkBudget work;
   TerrainMemory memory;
   RequestQueue requests;         ///< that wait for a tick with room for them

@@ -204,8 +204,9 @@ bool IslandSearch::advance(size_t& bricks) {
       continue;
     }
     if (bricks == 0) return false;
-    --bricks;
+    const size_t before = sites_.size();
     grow(flood);
+    bricks -= std::min(bricks, std::max<size_t>(1, sites_.size() - before));
     ++turn_;
   }
   return true;

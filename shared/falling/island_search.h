@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -47,7 +48,7 @@ class IslandSearch {
   /// the search runs. Components of more than `parts_max` parts count as ground.
   IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max = SIZE_MAX);
 
-  /// Visits up to `bricks` more bricks and subtracts their number; true when the search is finished.
+  /// Reads about `bricks` more bricks and subtracts their number; true when the search is finished.
   bool advance(size_t& bricks);
 
   /// Whether the search has read this brick: if the brick changes, a new search must begin.
@@ -97,7 +98,9 @@ class IslandSearch {
   Field& field_;
   Ground ground_;
   size_t parts_max_;
-  std::unordered_map<BrickCoord, Site, CoordHash> sites_;
+  /// Of sites_: a search of 60,000 bricks that must begin again is thrown away within a tick.
+  std::pmr::monotonic_buffer_resource memory_;
+  std::pmr::unordered_map<BrickCoord, Site, CoordHash> sites_{&memory_};
   std::vector<Part> parts_;
   std::vector<Flood> floods_;
   std::vector<uint32_t> open_;  ///< floods; those that ended are taken out when their turn comes

@@ -192,6 +192,7 @@ TEST(Bodies, a_sleeping_body_wakes_when_the_ground_is_taken_away) {
   step(bodies, 400);
   ASSERT_EQ(bodies.awake(), 0U);
   dig(field, {0.0F, 0.0F, 0.0F}, 3.0F, bodies);
+  bodies.step();
   EXPECT_EQ(bodies.awake(), 1U);
   step(bodies, 120);
   EXPECT_LT(bodies.state(1).pose.position_m.y, -1.5F);
@@ -264,6 +265,7 @@ TEST(Frozen, a_heap_thaws_from_the_ground_up_when_it_is_undermined) {
   step(bodies, 60);
   EXPECT_EQ(bodies.awake(), 0U);
   dig(field, {0.0F, -0.6F, 0.0F}, 1.0F, bodies);
+  bodies.step();
   EXPECT_GT(bodies.frozen(), 0U) << "the upper ones are far from the ground";
   EXPECT_LT(bodies.frozen(), 4U);
   step(bodies, 120);

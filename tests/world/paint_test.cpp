@@ -82,13 +82,16 @@ TEST(paint, hashes_know_it_only_where_it_is_and_forget_it_with_its_chunk) {
 
 TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   World world(flat_world());
-  const std::vector<Command> commands{paint_it(Material::ice), carve_at({0.0F, -0.3F, 0.0F}),
-                                      carve_at({20.0F, 0.0F, 0.0F})};
-  auto delta = world.step(commands);
+  world.step({{paint_it(Material::ice)}});
+  auto delta = world.step({{carve_at({0.0F, -0.3F, 0.0F})}});
   ASSERT_EQ(delta->replies.front().refusal, "");
+  std::vector<SpawnedPiece> spawned = delta->spawned;
+  delta = world.step({{carve_at({20.0F, 0.0F, 0.0F})}});
+  ASSERT_EQ(delta->replies.front().refusal, "");
+  spawned.insert(spawned.end(), delta->spawned.begin(), delta->spawned.end());
   EXPECT_EQ(delta->ledger.error(), 0);
   size_t ice = 0, soil = 0;
-  for (const SpawnedPiece& piece : delta->spawned) {
+  for (const SpawnedPiece& piece : spawned) {
     const bool painted = piece.volume->centre_voxels.x < 40.0F;
     EXPECT_EQ(piece.volume->material == Material::ice, painted);
     ice += piece.volume->material == Material::ice ? 1 : 0;
@@ -99,8 +102,8 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   const std::vector<Command> other{paint_it(Material::rock)};
   world.step(other);
   MapField field(flat_terrain);
-  PieceTable pieces{{1, delta->spawned.front().volume}};
-  const Volume& parent = *delta->spawned.front().volume;
+  PieceTable pieces{{1, spawned.front().volume}};
+  const Volume& parent = *spawned.front().volume;
   ASSERT_EQ(parent.material, Material::ice);
   apply(ShatterOperation{1, SeedPattern::uniform, 3, 1, parent.centre_voxels, 10}, field, pieces);
   ASSERT_GE(pieces.size(), 2U);

@@ -36,11 +36,14 @@ TEST(work, requests_over_the_budget_wait_and_are_carried_out_in_order) {
   EXPECT_EQ(delta->replies.size() + delta->work.requests_waiting, 16U);
   EXPECT_TRUE(delta->work.cut_short());
   uint32_t next = 0;
-  for (int tick = 0; tick < 16; ++tick) {
+  int waited = 0;
+  for (int tick = 0; tick < 300; ++tick) {
     for (const Reply& reply : delta->replies) EXPECT_EQ(reply.request, next++) << reply.refusal;
     if (next == 16) break;
+    waited = delta->replies.empty() ? waited + 1 : 0;
+    EXPECT_LE(static_cast<float>(waited), 60.0F * limits::request_rest_s)
+        << "one is carried out now and then";
     delta = step(world);
-    EXPECT_GE(delta->replies.size(), 1U) << "every tick carries out one, whatever it costs";
   }
   EXPECT_EQ(next, 16U);
   EXPECT_EQ(delta->work.requests_waiting, 0U);
