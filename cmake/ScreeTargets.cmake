@@ -18,10 +18,12 @@ function(scree_library NAME)
 endfunction()
 
 # Options and reports: nobody waits for them to run, but for CLI11 and nlohmann's JSON to compile, which are headers
-# only. (Precompiled they are slower: every source then compiles CLI11's global objects once more.)
+# only. (Precompiled they are slower: every source then compiles CLI11's global objects once more; and the precompiled
+# header is an optimised one.)
 # Usage: scree_optimise_little(SOURCES …)
 function(scree_optimise_little)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O0>
+                                                 SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # False alarms of g++ 12 where strings are put together from literals (its bugs 105329 and 105651).

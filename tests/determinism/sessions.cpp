@@ -15,8 +15,8 @@
 namespace scree {
 namespace {
 
-constexpr Tick ticks = 240;
-constexpr Tick ticks_per_line = 40;
+constexpr Tick ticks = 180;
+constexpr Tick ticks_per_line = 30;
 constexpr TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
 
 /// On the ground of the session at x.

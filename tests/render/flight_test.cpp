@@ -150,7 +150,7 @@ class Flight : public OffscreenTest, public testing::WithParamInterface<std::str
 };
 
 TEST_P(Flight, no_frame_shows_a_hole) {
-  constexpr int legs = 3, frames = 8;
+  constexpr int legs = 2, frames = 8;
   for (int leg = 0; leg < legs; ++leg) {
     // What a frame shows is one of these: all is shown when a leg begins, and not awaited from then on.
     std::deque<Moment> moments;
