@@ -44,6 +44,24 @@ void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::
     }
 }
 
+/// Bullet's hull with tight bounds: its own are those of the turned box around the hull, which meet twice as
+/// many others.
+class TightHull final : public btConvexHullShape {
+ public:
+  void getAabb(const btTransform& at, btVector3& lo, btVector3& hi) const override {
+    const btMatrix3x3& turn = at.getBasis();
+    lo = hi = turn * getUnscaledPoints()[0];
+    for (int i = 1; i < getNumPoints(); ++i) {
+      const btVector3 p = turn * getUnscaledPoints()[i];
+      lo.setMin(p);
+      hi.setMax(p);
+    }
+    const btVector3 margin(getMargin(), getMargin(), getMargin());
+    lo += at.getOrigin() - margin;
+    hi += at.getOrigin() + margin;
+  }
+};
+
 bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance) {
   return std::ranges::any_of(points,
                              [&](glm::vec3 q) { return glm::dot(p - q, p - q) < distance * distance; });
@@ -57,7 +75,7 @@ std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3
   const float thickness = std::max(thickness_of(hull_m, middle_m), 0.01F);
   const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
   const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
-  auto shape = std::make_unique<btConvexHullShape>();
+  auto shape = std::make_unique<TightHull>();
   for (const glm::vec3& corner : hull_m) {
     const glm::vec3 p = middle_m + (corner - middle_m) * scale;
     shape->addPoint(btVector3(p.x, p.y, p.z), false);

@@ -15,10 +15,10 @@ inline constexpr float crowded_share = 0.5F;
 
 /// The model, microseconds as measured on one core of a 2023 server (benches storm and worst): a body that is
 /// awake, a point of contact, and a pair of bodies whose bounds meet, in a step. Cells that still lie packed
-/// have 30 such pairs each, rubble has 5.
-inline constexpr float body_cost_us = 1.5F;
+/// have 11 such pairs each, rubble has 4.
+inline constexpr float body_cost_us = 0.3F;
 inline constexpr float contact_cost_us = 1.0F;
-inline constexpr float pair_cost_us = 0.33F;
+inline constexpr float pair_cost_us = 0.4F;
 
 /// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
 inline constexpr float edit_cost_us = 400.0F;
