@@ -150,13 +150,13 @@ void Bodies::remove(PieceId id) {
   const auto found = s.bodies.find(id);
   CHECK(found != s.bodies.end());
   Body& body = found->second;
-  btVector3 lo, hi;
-  body.rigid->getAabb(lo, hi);
+  Bounds stood;
+  body.rigid->getAabb(stood.lo, stood.hi);
+  s.freed.push_back(stood);
   s.leave(body);
   if (body.frozen) --s.frozen;
   s.bodies.erase(found);
   CHECK(s.frozen <= s.bodies.size());
-  s.wake_near(lo, hi);
 }
 
 bool Bodies::contains(PieceId id) const {

@@ -89,7 +89,7 @@ class Bodies {
   /// limits::travel_max_voxels a step are reduced to it; a body whose speed is not finite is stopped by the
   /// next step.
   void add(const BodyShape& given, const BodyState& state);
-  /// Removes a body, which must be present, and wakes the bodies that touch its bounds.
+  /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
   void remove(PieceId id);
   bool contains(PieceId id) const;
   size_t size() const;

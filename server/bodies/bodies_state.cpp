@@ -165,12 +165,12 @@ void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
 }
 
 void Bodies::State::tell_changes() {
-  if (changes.empty()) return;
+  if (changes.empty() && freed.empty()) return;
   const auto corner = [&](VoxelCoord v) {
     return btVector3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) *
            voxel_size_m;
   };
-  std::vector<Bounds> near;
+  std::vector<Bounds> near = std::exchange(freed, {});
   for (const VoxelBox& box : changes) near.push_back({corner(box.grown(1).lo), corner(box.grown(1).hi)});
   for (auto& [id, body] : bodies) {
     for (const VoxelBox& box : changes) body.probe->terrain_changed(box);

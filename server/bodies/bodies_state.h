@@ -78,7 +78,7 @@ struct Bodies::State {
   /// Wakes the body; thaws it if it is frozen.
   void wake(Body& body);
   void wake_near(const btVector3& lo, const btVector3& hi);
-  /// Tells the bodies what terrain changed since the last step: each looks at all changes in turn, because a
+  /// Tells the bodies what changed since the last step: each looks at all changes in turn, because a
   /// tick has hundreds of both.
   void tell_changes();
   /// Adds the body to Bullet's world, and removes it; a body whose mass is set to 0 is static there.
@@ -110,6 +110,7 @@ struct Bodies::State {
   btCollisionObject terrain;
   std::unique_ptr<TerrainCollider> terrain_collider;
   std::map<PieceId, Body> bodies;
+  std::vector<Bounds> freed;          ///< of bodies that were removed, which wakes their neighbours
   std::vector<VoxelBox> changes;      ///< of the terrain, that the bodies have not been told
   size_t frozen = 0;                  ///< number of frozen bodies
   std::vector<TerrainContact> found;  ///< scratch memory of find_ground()

@@ -301,6 +301,7 @@ TEST(Frozen, removing_what_it_touches_thaws_it_and_a_light_touch_does_not) {
   step(bodies, 60);
   EXPECT_EQ(bodies.frozen(), 2U);
   bodies.remove(1);
+  bodies.step();
   EXPECT_FALSE(bodies.state(2).frozen);
   step(bodies, 60);
   EXPECT_NEAR(bodies.state(2).pose.position_m.y, 0.5F, 0.03F);
