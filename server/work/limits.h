@@ -8,7 +8,7 @@ namespace scree::limits {
 
 /// Share of a tick's length that its work may take by the model; the rest is for work outside the model, and
 /// for other threads. Above: requests wait, pieces merge sooner, fewer break.
-inline constexpr float work_share = 0.75F;
+inline constexpr float work_share = 0.7F;
 
 /// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.
 inline constexpr float crowded_share = 0.5F;
@@ -16,9 +16,9 @@ inline constexpr float crowded_share = 0.5F;
 /// The model, microseconds as measured on one core of a 2023 server (benches storm and worst): a body that is
 /// awake, a point of contact, and a pair of bodies whose bounds meet, in a step. Cells that still lie packed
 /// have 11 such pairs each, rubble has 4.
-inline constexpr float body_cost_us = 0.3F;
-inline constexpr float contact_cost_us = 1.0F;
-inline constexpr float pair_cost_us = 0.4F;
+inline constexpr float body_cost_us = 0.4F;
+inline constexpr float contact_cost_us = 1.3F;
+inline constexpr float pair_cost_us = 0.55F;
 
 /// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
 inline constexpr float edit_cost_us = 400.0F;

@@ -31,6 +31,7 @@ void share_out(World::State& state, const Applied& applied, const PendingCut& of
   MassUnits mass = 0;
   for (const CreatedPiece& created : applied.created) mass += state.pieces.at(created.id)->mass;
   if (mass == 0 || of_all.pieces <= applied.created.size()) return;
+  if (of_all.piece != 0 && applied.created.size() < 2) return;  // it cannot be cut, now or later
   for (const CreatedPiece& created : applied.created) {
     PendingCut cut = of_all;
     if (cut.piece != 0) cut.thrown_by = nullptr;  // its parts were thrown when it was cut
@@ -93,7 +94,8 @@ void cut_pieces(World::State& state, TickDelta& delta) {
                      operation.seeds);
     // A whole volume is thrown when it is cut, so it is next.
     const Tick wait = cut.thrown_by != nullptr ? 1 : rest;
-    if (!state.work.affords(price) && state.tick - state.cut_at < wait) break;
+    const bool fits = state.work.affords(price) && !state.work.crowded();
+    if (!fits && state.tick - state.cut_at < wait) break;
     state.cut_at = state.tick;
     state.cuts.pop_front();
     cut_piece(state, cut, operation, delta);

@@ -13,6 +13,7 @@ namespace scree {
 
 BodyState part_of(const BodyState& body, glm::vec3 offset_m) {
   BodyState part = body;
+  part.frozen = false;
   const glm::vec3 turned_m = body.pose.rotation * offset_m;
   part.pose.position_m += turned_m;
   part.velocity_m_s += glm::cross(body.spin_rad_s, turned_m);

@@ -73,6 +73,7 @@ bool all_air(const Window& volume, const VoxelBox& block) {
 /// Index of the nearest seed of every voxel; 0 in blocks of only air, in which no piece has a part.
 std::vector<Label> label_voxels(const Window& volume, const std::vector<glm::vec3>& seeds) {
   std::vector<Label> labels(volume.codes.size());
+  if (seeds.size() == 1) return labels;
   std::vector<float> distances(seeds.size());
   std::vector<Label> candidates;
   const VoxelBox& box = volume.box;
@@ -155,6 +156,7 @@ class TouchMatrix {
 /// Pairs of cells (low, high) that touch within the volume, sorted.
 std::vector<std::pair<Label, Label>> touching_cells(const Window& volume, const std::vector<Label>& labels,
                                                     size_t cells) {
+  if (cells == 1) return {};
   TouchMatrix touch(cells);
   const VoxelCoord size = volume.box.size();
   const auto nz = static_cast<ptrdiff_t>(size.z);
