@@ -15,7 +15,8 @@ struct Newborn {
   bool may_be_concave = false;  ///< collides with the ground by its own surface instead of its hull's
 };
 
-/// The motion of a part, which is not frozen, of a body whose centre of mass is `offset_m` (in the volume's axes) from the body's.
+/// The motion of a part, which is not frozen, of a body whose centre of mass is `offset_m` (in the volume's
+/// axes) from the body's.
 BodyState part_of(const BodyState& body, glm::vec3 offset_m);
 
 /// The motion of a piece of a carve: it flies away from the mirror image of the impact behind the shape's

@@ -14,6 +14,7 @@
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/recorder.h"
+#include "server/work/limits.h"
 #include "shared/base/limits.h"
 #include "shared/base/token.h"
 #include "tests/support/flat_world.h"
@@ -325,9 +326,10 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
   start("");
   const auto status = read_status(target);
   ASSERT_TRUE(status) << status.error().message;
-  EXPECT_EQ(status->work.budget_us, 12500U);
-  EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": 12500"));
-  EXPECT_TRUE(holds(status_lines(*status), "work.budget_us             12500\n"));
+  const auto budget_us = static_cast<uint32_t>(limits::work_share * 1e6F / 60.0F);
+  EXPECT_EQ(status->work.budget_us, budget_us);
+  EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": " + std::to_string(budget_us)));
+  EXPECT_TRUE(holds(status_lines(*status), "work.budget_us             " + std::to_string(budget_us) + "\n"));
 }
 
 TEST_F(AdminSession, whoever_does_not_is_refused) {

@@ -174,11 +174,16 @@ TEST_F(OddInput, two_carves_in_one_tick_at_the_same_place) {
   const Shape ball = sphere({0.3F, -0.4F, 0.1F}, 1.5F);
   const Shape beside = sphere({0.7F, -0.4F, 0.1F}, 1.5F);
   const auto delta = step({carve(ball, 8, 6.0F, 1), carve(ball, 8, 6.0F, 2), carve(beside, 8, 6.0F, 3)});
-  ASSERT_EQ(delta->replies.size(), 3U);
-  EXPECT_EQ(delta->replies[0].pieces, 8U);
-  EXPECT_EQ(delta->replies[1].pieces, 0U) << "the first carve left nothing";
-  for (const Reply& reply : delta->replies) EXPECT_EQ(reply.refusal, "");
-  for (int tick = 0; tick < 300; ++tick) step();
+  std::vector<Reply> replies = delta->replies;
+  ASSERT_GE(replies.size(), 2U);
+  EXPECT_EQ(replies[0].pieces, 8U);
+  EXPECT_EQ(replies[1].pieces, 0U) << "the first carve left nothing";
+  for (int tick = 0; tick < 300; ++tick) {
+    const auto later = step();
+    replies.insert(replies.end(), later->replies.begin(), later->replies.end());
+  }
+  EXPECT_EQ(replies.size(), 3U);
+  for (const Reply& reply : replies) EXPECT_EQ(reply.refusal, "");
 }
 
 TEST_F(OddInput, limit_of_pieces_reached_between_two_carves) {
