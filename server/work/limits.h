@@ -31,14 +31,14 @@ inline constexpr float cut_cost_us = 100.0F;
 inline constexpr float cut_voxel_cost_us = 0.07F;
 inline constexpr float piece_cost_us = 25.0F;
 
-/// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
-inline constexpr float relax_cost_us = 2200.0F;
-inline constexpr float relax_seed_cost_us = 70.0F;
-
 /// The same for the cutters of polygons.
 inline constexpr float polygons_cost_us = 6000.0F;
 inline constexpr float polygons_voxel_cost_us = 0.9F;
 inline constexpr float polygons_piece_cost_us = 350.0F;
+
+/// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
+inline constexpr float relax_cost_us = 2200.0F;
+inline constexpr float relax_seed_cost_us = 70.0F;
 
 /// A merge, by method; a dent, and the crushing of a neck, whose sizes vary little.
 inline constexpr float stamp_cost_us = 55.0F;

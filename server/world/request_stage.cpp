@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <string>
 
 #include "server/fracture/even_seeds.h"
@@ -17,7 +16,6 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
-#include "shared/base/random.h"
 
 namespace scree {
 

@@ -232,12 +232,7 @@ class Sweep {
   }
 
   Candidate worst_section(const Lump& lump, const std::vector<SupportLink>& links) {
-    int first = 1 - brick_size, last = brick_size - 1;
-    for (const SupportLink& link : links) {
-      first = std::max(first, parts_.first_place(link));
-      last = std::min(last, parts_.last_place(link));
-    }
-    CHECK(first <= 0 && last >= 0);
+    const auto [first, last] = parts_.common_places(links);
     const double bearing = bearing_pa(links);
     const int face = (along(parts_.parts()[links.front().lower].brick, axis_) + 1) * brick_size;
     Candidate worst;

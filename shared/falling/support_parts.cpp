@@ -225,6 +225,16 @@ int SupportParts::last_place(const SupportLink& link) const {
   return parts_[link.upper].middle[static_cast<size_t>(link.axis)];
 }
 
+std::pair<int, int> SupportParts::common_places(std::span<const SupportLink> links) const {
+  int first = 1 - brick_size, last = brick_size - 1;
+  for (const SupportLink& link : links) {
+    first = std::max(first, first_place(link));
+    last = std::min(last, last_place(link));
+  }
+  CHECK(first <= 0 && last >= 0);
+  return {first, last};
+}
+
 SupportLink SupportParts::link_of(uint32_t lower, uint32_t upper, int axis) const {
   constexpr int full = brick_size * brick_size;
   SupportLink link{lower, upper, axis, 0, full};

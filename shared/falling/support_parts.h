@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "shared/falling/ground.h"
@@ -59,6 +60,8 @@ class SupportParts {
   /// First and last place of a section between the middles of the two parts.
   int first_place(const SupportLink& link) const;
   int last_place(const SupportLink& link) const;
+  /// First and last place that all of these links have; the face is among them.
+  std::pair<int, int> common_places(std::span<const SupportLink> links) const;
   /// The voxels of a section on its lower side, each with a next neighbour on the upper side.
   SectionVoxels section_voxels(const SupportLink& link, int at) const;
   /// Smallest box of the voxels on both sides of the links' sections there, in the field's coordinates.

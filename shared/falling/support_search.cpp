@@ -140,12 +140,7 @@ class Search {
 
   /// One section through all of the links, where it is least in sum.
   Neck neck(const std::vector<SupportLink>& links) const {
-    int first = 1 - brick_size, last = brick_size - 1;
-    for (const SupportLink& link : links) {
-      first = std::max(first, parts_.first_place(link));
-      last = std::min(last, parts_.last_place(link));
-    }
-    CHECK(first <= 0 && last >= 0);
+    const auto [first, last] = parts_.common_places(links);
     Neck neck{{}, INT64_MAX};
     int place = 0;
     for (int at = first; at <= last; ++at) {
