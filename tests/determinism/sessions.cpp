@@ -1,13 +1,16 @@
 // Plays one session under every value of every setting, one varied at a time, each twice side by side in this
-// process; prints the hashes, a line for every so many ticks and one over all of them. The output must be the
-// same from every compiler at every optimisation (tests/determinism/CMakeLists.txt).
+// process, or once with the argument `once`; prints the hashes, a line for every so many ticks and one over
+// all of them. The output must be the same from every compiler at every optimisation
+// (tests/determinism/CMakeLists.txt).
 //
 // Fails when two worlds with the same commands part, when the session lacks something that methods are for,
 // and when a value of a setting makes no difference: then it says nothing about that method.
 #include <cinttypes>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/world/settings.h"
 #include "server/world/world.h"
@@ -77,16 +80,18 @@ struct Played {
   Happened happened;
 };
 
-/// False when the two worlds part.
-bool play(const std::string& name, WorldConfig config, Played& played) {
+/// False when two worlds part, that is, with twins.
+bool play(const std::string& name, WorldConfig config, bool twins, Played& played) {
   config.terrain = terrain;
-  World one(config), other(config);
+  World one(config);
+  std::optional<World> other;
+  if (twins) other.emplace(config);
   const auto commands_by_tick = script();
   for (Tick tick = 1; tick <= ticks; ++tick) {
     const auto found = commands_by_tick.find(tick);
     const std::vector<Command> commands =
         found == commands_by_tick.end() ? std::vector<Command>{} : found->second;
-    const auto a = one.step(commands), b = other.step(commands);
+    const auto a = one.step(commands), b = other ? other->step(commands) : a;
     if (a->state_hash != b->state_hash || a->field_hash != b->field_hash) {
       std::fprintf(stderr, "%s: two worlds with the same commands part at tick %" PRIu64 "\n", name.c_str(),
                    tick);
@@ -105,9 +110,9 @@ bool play(const std::string& name, WorldConfig config, Played& played) {
   return true;
 }
 
-int run() {
+int run(bool twins) {
   Played usual;
-  if (!play("default", WorldConfig{}, usual)) return 1;
+  if (!play("default", WorldConfig{}, twins, usual)) return 1;
   const Happened& h = usual.happened;
   if (h.shatters == 0 || h.dents == 0 || h.islands == 0 || h.merges == 0) {
     std::fprintf(stderr, "the session lacks shatters, dents, islands or merges\n");
@@ -120,7 +125,7 @@ int run() {
       if (!setting.parse(value, config) || config == WorldConfig{}) continue;
       const std::string name = std::string(setting.name) + "=" + std::string(value);
       Played played;
-      if (!play(name, config, played)) return 1;
+      if (!play(name, config, twins, played)) return 1;
       if (played.digest != usual.digest) continue;
       std::fprintf(stderr, "%s makes no difference in this session\n", name.c_str());
       ++failures;
@@ -131,6 +136,6 @@ int run() {
 }  // namespace
 }  // namespace scree
 
-int main() {
-  return scree::run();
+int main(int argc, char** argv) {
+  return scree::run(argc < 2 || std::string_view(argv[1]) != "once");
 }
