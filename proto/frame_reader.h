@@ -19,6 +19,9 @@ class FrameReader {
   explicit FrameReader(size_t message_bytes_max = limits::message_bytes_max)
       : message_bytes_max_(message_bytes_max) {}
 
+  /// Holds from the next message on that next() looks at.
+  void set_message_bytes_max(size_t bytes) { message_bytes_max_ = bytes; }
+
   /// Appends received bytes. Call next() until it returns nothing before the next push.
   void push(std::span<const uint8_t> bytes);
 

@@ -9,6 +9,11 @@
 
 namespace scree::limits {
 
+/// The longest message of a client, and the longest first one; bytes. Above: the connection ends. (A
+/// server's: message_bytes_max.)
+inline constexpr size_t client_message_bytes_max = size_t{64} << 10;
+inline constexpr size_t hello_bytes_max = 1024;
+
 /// Bricks in one message: 2 MiB of codes, which compress to about message_bytes_max. When a tick changes more
 /// for one client, whole chunks are streamed instead.
 inline constexpr size_t bricks_per_message_max = 4096;

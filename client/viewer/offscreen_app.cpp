@@ -7,6 +7,7 @@
 #include "client/viewer/app.h"
 #include "client/viewer/pictures/egl_context.h"
 #include "client/viewer/viewing/flight.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 namespace {

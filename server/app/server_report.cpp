@@ -76,6 +76,7 @@ Json json_of(const NetStats& net) {
           {"joined", net.sessions_joined},
           {"refused", net.sessions_refused},
           {"cut", net.sessions_cut},
+          {"turned_away", net.turned_away},
           {"resets", sent.resets},
           {"repairs", sent.repairs},
           {"requests", net.requests},

@@ -3,10 +3,15 @@
 #include <array>
 #include <asio/buffer.hpp>
 #include <chrono>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include "proto/codec.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -22,26 +27,35 @@ std::string peer_of(const asio::ip::tcp::socket& socket) {
   return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
 }
 
-double steady_now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+/// What is not sent yet waits in the outbox, where newer state can still take its place, and not in the
+/// kernel. A socket that takes no options still works.
+void tune(asio::ip::tcp::socket& socket) {
+  asio::error_code ignored;
+  socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+  socket.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
+  const int unsent_bytes = limits::socket_unsent_bytes;
+  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_bytes, sizeof unsent_bytes);
+  const auto timeout_ms = static_cast<unsigned>(limits::stall_seconds_max * 1000.0);
+  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &timeout_ms, sizeof timeout_ms);
 }
 
 }  // namespace
 
-ClientSession::ClientSession(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host,
-                             const SessionTimes& times, double now_s)
+ClientSession::ClientSession(asio::ip::tcp::socket socket, std::string address, uint64_t id,
+                             SessionHost& host, const SessionTimes& times, double now_s)
     : socket_(std::move(socket)),
       id_(id),
       host_(host),
       times_(times),
       peer_(peer_of(socket_)),
+      address_(std::move(address)),
       phase_since_s_(now_s),
       progress_s_(now_s),
       now_s_(now_s),
-      messages_(limits::messages_per_second_max, limits::messages_burst_max) {
-  asio::error_code ignored;  // a socket that takes no options still works
-  socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
-  socket_.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
+      acted_s_(now_s),
+      messages_(limits::messages_per_second_max, limits::messages_burst_max),
+      bytes_(limits::client_bytes_per_second_max, limits::client_bytes_burst_max) {
+  tune(socket_);
 }
 
 void ClientSession::start() {
@@ -71,7 +85,11 @@ void ClientSession::read_failed(bool orderly, const std::string& why) {
 
 void ClientSession::read_done(size_t bytes) {
   now_s_ = steady_now_s();
-  if (phase_ != Phase::refused) {
+  if (phase_ != Phase::refused && !bytes_.take(now_s_, static_cast<double>(bytes)))
+    refuse({Refusal::bytes_per_second,
+            fmt::format("more than {} bytes a second (limits.client_bytes_per_second_max)",
+                        limits::client_bytes_per_second_max)});
+  if (phase_ == Phase::hello || phase_ == Phase::joined) {
     reader_.push(std::span<const uint8_t>(incoming_.data(), bytes));
     while (phase_ == Phase::hello || phase_ == Phase::joined) {
       const auto message = reader_.next();
@@ -103,10 +121,13 @@ bool ClientSession::take_message(std::span<const uint8_t> body) {
     const auto welcome = host_.admit(*this, *hello);
     if (!welcome) return fail_with(welcome.error());
     phase_ = Phase::joined;
-    phase_since_s_ = now_s_;
+    phase_since_s_ = acted_s_ = now_s_;
+    reader_.set_message_bytes_max(limits::client_message_bytes_max);
     send(ServerMessage(*welcome));
     return true;
   }
+  inert_ = false;
+  if (!std::holds_alternative<AckMessage>(*message)) acted_s_ = now_s_;
   const auto received = host_.receive(*this, *message);
   if (!received) return fail_with(received.error());
   return phase_ == Phase::joined;
@@ -123,11 +144,10 @@ void ClientSession::send(SharedBytes bytes) {
   backlog_bytes_ += bytes->size();
   outbox_.push_back(std::move(bytes));
   CHECK_DEBUG(backlog_adds_up());
-  if (backlog_bytes_ > limits::outbox_hard_bytes) {
-    cut_for_ = Refusal::outbox_full;
-    return close("read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
-                 " bytes waited for it (limits.outbox_hard_bytes)");
-  }
+  if (backlog_bytes_ > limits::outbox_hard_bytes)
+    return cut_off(Refusal::outbox_full, "read too little: more than " +
+                                             std::to_string(limits::outbox_hard_bytes) +
+                                             " bytes waited for it (limits.outbox_hard_bytes)");
   write();
 }
 
@@ -202,10 +222,18 @@ void ClientSession::check_time(double now_s) {
     return refuse(
         {Refusal::hello_late, "no hello within " + std::to_string(times_.hello_s) + " s of connecting"});
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");
-  if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s) {
-    cut_for_ = Refusal::reading_stalled;
-    close("read nothing for " + std::to_string(times_.stall_s) + " s");
-  }
+  if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s)
+    cut_off(Refusal::reading_stalled, "read nothing for " + std::to_string(times_.stall_s) + " s");
+}
+
+void ClientSession::cut_off(Refusal reason, const std::string& words) {
+  cut_for_ = reason;
+  close(words);
+}
+
+bool ClientSession::may_make_room(double now_s) const {
+  if (phase_ != Phase::joined) return false;
+  return idle_s(now_s) >= (inert_ ? limits::inert_seconds_max : limits::idle_seconds_max);
 }
 
 }  // namespace scree

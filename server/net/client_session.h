@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "proto/frame_reader.h"
+#include "proto/limits.h"
 #include "proto/messages.h"
 #include "server/net/encode_cache.h"
 #include "server/net/rate_limit.h"
@@ -46,12 +47,14 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
  public:
   enum class Phase { hello, joined, refused, closed };
 
-  ClientSession(asio::ip::tcp::socket socket, uint64_t id, SessionHost& host, const SessionTimes& times,
-                double now_s);
+  ClientSession(asio::ip::tcp::socket socket, std::string address, uint64_t id, SessionHost& host,
+                const SessionTimes& times, double now_s);
 
   void start();
   void send(SharedBytes bytes);
   void send(const ServerMessage& message);
+  /// Closes at once, and is counted by this reason.
+  void cut_off(Refusal reason, const std::string& words);
   /// Sends the reason, and closes when the client has read it or limits::linger_seconds_max are over.
   void refuse(const Refused& refused);
   /// Closes at once.
@@ -62,8 +65,15 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   uint64_t id() const { return id_; }
   Phase phase() const { return phase_; }
   const std::string& peer() const { return peer_; }
+  /// As of Door.
+  const std::string& address() const { return address_; }
+  /// Seconds since it did anything but apply frames.
+  double idle_s(double now_s) const { return now_s - acted_s_; }
+  /// Whether it has been idle so long that another may have its place (limits::idle_seconds_max,
+  /// inert_seconds_max).
+  bool may_make_room(double now_s) const;
   size_t backlog_bytes() const { return backlog_bytes_; }
-  /// Why it was closed, when it did not read.
+  /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
 
  private:
@@ -82,13 +92,17 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   SessionHost& host_;
   SessionTimes times_;
   std::string peer_;
+  std::string address_;
   Phase phase_ = Phase::hello;
   std::optional<Refusal> cut_for_;
   double phase_since_s_;
   double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;
+  double acted_s_;
+  bool inert_ = true;  ///< it has sent nothing but its hello
   RateLimit messages_;
-  FrameReader reader_;
+  RateLimit bytes_;
+  FrameReader reader_{limits::hello_bytes_max};
   std::array<uint8_t, 16384> incoming_{};
   std::deque<SharedBytes> outbox_;
   size_t front_sent_bytes_ = 0;  ///< sent bytes of the first message in the outbox

@@ -33,13 +33,19 @@ inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
 /// Bytes of any kind waiting for one client, as replies that it never reads. Above: it is cut off.
 inline constexpr size_t outbox_hard_bytes = 16 * 1024 * 1024;
 
-/// Bytes of the kernel's send buffer for one client; newer state cannot replace the bytes in it.
+/// Bytes of the kernel's send buffer for one client, most of them on their way; newer state cannot replace
+/// those in it.
 inline constexpr int socket_send_buffer_bytes = 256 * 1024;
+
+/// Bytes in that buffer that are not on their way yet. Above: the socket takes no more, and what waits is
+/// held back where newer state can replace it.
+inline constexpr int socket_unsent_bytes = 16 * 1024;
 
 /// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
 inline constexpr size_t encoded_chunks_max = 1024;
 
-/// Seconds within which a client must read some of the bytes that wait for it. Above: it is cut off.
+/// Seconds within which a client must read some of the bytes that wait for it, and its machine acknowledge
+/// those that were sent. Above: it is cut off.
 inline constexpr double stall_seconds_max = 20.0;
 
 /// Seconds from the connection to the hello; beyond: refused and closed.
@@ -48,8 +54,43 @@ inline constexpr double hello_seconds_max = 5.0;
 /// Seconds that a refused client has to read the refusal before its connection is closed.
 inline constexpr double linger_seconds_max = 2.0;
 
-/// Connections that have not said hello yet, all together; above: refused at once.
-inline constexpr uint32_t pending_sessions_max = 64;
+/// Connections that are no sessions (they have not said hello, or were refused and may still read why), all
+/// together; above: the oldest of them is closed for the newest, so that whoever says hello at once always
+/// comes in.
+inline constexpr size_t outsiders_max = 512;
+
+/// Descriptors that the process keeps for files and threads, beside connections.
+inline constexpr size_t descriptors_reserved = 64;
+
+/// Connections that one address (Door) may hold; above: closed at once.
+inline constexpr size_t connections_per_address_max = 64;
+
+/// Connections that one address may open, a second and at once; above: closed at once.
+inline constexpr double connects_per_second_max = 10.0;
+inline constexpr double connects_burst_max = 64.0;
+
+/// Addresses that are remembered; above: those without a connection are forgotten, the longest quiet first.
+inline constexpr size_t door_addresses_max = 65536;
+
+/// Seconds for which an address without connections is remembered, when others need its place, and after
+/// which its wrong guesses at tokens are forgiven.
+inline constexpr double door_memory_s = 600.0;
+
+/// Seconds that an address waits after its first wrong token, and at most.
+inline constexpr double guess_wait_min_s = 1.0;
+inline constexpr double guess_wait_max_s = 60.0;
+
+/// Milliseconds for which no connection is accepted after accepting has failed.
+inline constexpr int accept_pause_ms = 100;
+
+/// When the server is full, a session makes room for the next if it has done nothing for so many seconds;
+/// sooner if it has never sent anything since its hello, not even that it applied a frame.
+inline constexpr double idle_seconds_max = 60.0;
+inline constexpr double inert_seconds_max = 2.0;
+
+/// Lines of one kind in the log, a second and at once; the rest is counted.
+inline constexpr double log_lines_per_second = 2.0;
+inline constexpr double log_lines_burst = 8.0;
 
 /// Requests that a client may make at once after a silence, in seconds of its rate
 /// (ServiceLimits::requests_per_second). Above: each gets a reply that refuses it.
@@ -58,6 +99,10 @@ inline constexpr double requests_burst_s = 2.0;
 /// Messages of any kind from one client, per second and at once. No client needs as many: refused and closed.
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;
+
+/// Bytes from one client, per second and at once; refused and closed.
+inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
+inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;
 
 /// Commands that wait for the next tick; above: each gets a reply that refuses it.
 inline constexpr size_t commands_waiting_max = 1024;

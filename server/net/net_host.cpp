@@ -7,9 +7,11 @@
 #include <spdlog/spdlog.h>
 
 #include "proto/codec.h"
+#include "server/net/descriptors.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/timing.h"
 #include "shared/base/token.h"
 
 namespace scree {
@@ -21,10 +23,6 @@ constexpr std::chrono::milliseconds timer_period{100};
 constexpr std::chrono::milliseconds timer_period_stopping{5};
 /// Given to clients to read the goodbye.
 constexpr double stop_seconds_max = 0.5;
-
-double steady_now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double burst_of(double requests_per_second) {
   return std::max(1.0, requests_per_second * limits::requests_burst_s);
@@ -49,27 +47,13 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
     : config_(config),
       service_(config.service),
       commands_(commands),
-      acceptor_(context_),
+      entrance_(context_, config.door, *this),
       timer_(context_),
       publisher_(publisher_config(config)) {}
 
 Result<void> NetHost::listen() {
-  const std::string where = config_.bind + ":" + std::to_string(config_.port);
-  asio::error_code error;
-  const auto address = asio::ip::make_address(config_.bind, error);
-  if (error) return fail("cannot listen on " + where + ": '" + config_.bind + "' is no IP address (--bind)");
-  const asio::ip::tcp::endpoint endpoint(address, config_.port);
-  acceptor_.open(endpoint.protocol(), error);
-  if (!error) acceptor_.set_option(asio::ip::tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor_.bind(endpoint, error);
-  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-  if (error == asio::error::address_in_use)
-    return fail("cannot listen on " + where +
-                ": the port is in use; stop what uses it, or choose another one (--port)");
-  if (error) return fail("cannot listen on " + where + ": " + error.message());
-  port_ = acceptor_.local_endpoint(error).port();
-  if (error) return fail("cannot listen on " + where + ": " + error.message());
-  accept();
+  if (auto listening = entrance_.listen(config_.bind, config_.port); !listening) return listening;
+  fit_descriptors();
   tick_timer();
   return {};
 }
@@ -79,31 +63,73 @@ void NetHost::run() {
   context_.run();
 }
 
-void NetHost::accept() {
-  acceptor_.async_accept([this](asio::error_code error, asio::ip::tcp::socket socket) {
-    if (error == asio::error::operation_aborted || stopping_) return;
-    if (error)
-      spdlog::warn("cannot accept a connection: {}", error.message());
-    else
-      accepted(std::move(socket));
-    accept();
-  });
+/// Room for all sessions and outsiders, or as many as the process may have.
+void NetHost::fit_descriptors() {
+  const size_t wanted = service_.sessions_max + limits::outsiders_max + limits::descriptors_reserved;
+  const size_t granted = raise_descriptors(wanted);
+  descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
+  outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
+  if (granted >= wanted) return;
+  spdlog::warn(
+      "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
+      "LimitNOFILE of a "
+      "service, says how many",
+      granted, descriptors_ - outsiders_max_, service_.sessions_max);
 }
 
-void NetHost::accepted(asio::ip::tcp::socket socket) {
+void NetHost::say(spdlog::level::level_enum level, std::string_view kind, const std::string& line) {
+  if (const auto more = log_.take(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
+}
+
+void NetHost::accepting_failed(const std::string& why) {
+  say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
+  close_oldest_outsider("the server lacks descriptors: " + why);
+}
+
+void NetHost::turned_away(const std::string& peer, const Refused& refused) {
+  ++counts_.turned_away;
+  counts_.refusals.add(refused.reason);
+  say(spdlog::level::warn, name_of(refused.reason),
+      fmt::format("{} turned away ({}): {}", peer, name_of(refused.reason), refused.message));
+  update_stats();
+}
+
+void NetHost::entered(asio::ip::tcp::socket socket, const std::string& address) {
   const uint64_t id = next_session_++;
   const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
-  const auto session = std::make_shared<ClientSession>(std::move(socket), id, *this, times, steady_now_s());
-  const size_t pending = sessions_.size() - joined_count();
+  const auto session =
+      std::make_shared<ClientSession>(std::move(socket), address, id, *this, times, steady_now_s());
   const double rate = service_.requests_per_second;
   CHECK(!sessions_.contains(id));
   sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate)), {}});
+  outsiders_.insert(id);
   spdlog::debug("session {}: {} connected", id, session->peer());
-  if (pending >= limits::pending_sessions_max)
-    session->refuse(
-        {Refusal::sessions_pending,
-         "too many connections that have not said hello (limits.pending_sessions_max); try again"});
+  if (outsiders_.size() > outsiders_max_)
+    close_oldest_outsider("too many connections that have not said hello (limits.outsiders_max)");
   session->start();
+}
+
+/// The longest silent, or what was refused first.
+void NetHost::close_oldest_outsider(const std::string& why) {
+  if (outsiders_.empty()) return;
+  const auto session = sessions_.at(*outsiders_.begin()).session;
+  if (session->phase() == ClientSession::Phase::refused) return session->close("refused before");
+  session->cut_off(Refusal::outsiders_max, why);
+}
+
+/// Ends the session that has been idle for the longest time; false when none has been for long enough.
+bool NetHost::make_room() {
+  const double now_s = steady_now_s();
+  std::shared_ptr<ClientSession> idlest;
+  for (const auto& [id, entry] : sessions_) {
+    if (!entry.session->may_make_room(now_s)) continue;
+    if (!idlest || entry.session->idle_s(now_s) > idlest->idle_s(now_s)) idlest = entry.session;
+  }
+  if (!idlest) return false;
+  idlest->refuse({Refusal::idle_made_room,
+                  fmt::format("the server is full, and you did nothing for {:.0f} s: another has your place",
+                              idlest->idle_s(now_s))});
+  return true;
 }
 
 void NetHost::tick_timer() {
@@ -123,9 +149,8 @@ void NetHost::tick_timer() {
 }
 
 uint32_t NetHost::joined_count() const {
-  return static_cast<uint32_t>(std::ranges::count_if(sessions_, [](const auto& entry) {
-    return entry.second.session->phase() == ClientSession::Phase::joined;
-  }));
+  CHECK(outsiders_.size() <= sessions_.size());
+  return static_cast<uint32_t>(sessions_.size() - outsiders_.size());
 }
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
@@ -135,17 +160,20 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
                                                  std::to_string(hello.protocol) +
                                                  ": use a client and a server of the same release");
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
-  if (joined_count() >= service_.sessions_max)
-    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(service_.sessions_max) +
+  const size_t sessions_max = std::min<size_t>(service_.sessions_max, descriptors_ - outsiders_max_);
+  if (joined_count() >= sessions_max && !make_room())
+    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(sessions_max) +
                                              " sessions (sessions-max); try again later");
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   publisher_.join(session.id(), hello.eye_m, *radius_m);
+  outsiders_.erase(session.id());
   sessions_.at(session.id()).name = hello.name;
   ++counts_.sessions_joined;
   update_stats();
-  spdlog::info("session {}: {} joined from {}, interest {} m", session.id(), hello.client, session.peer(),
-               *radius_m);
+  say(spdlog::level::info, "joined",
+      fmt::format("session {}: {} joined from {}, interest {} m", session.id(), hello.client, session.peer(),
+                  *radius_m));
   WelcomeMessage welcome;
   welcome.session = session.id();
   welcome.tick = publisher_.state().tick();
@@ -170,8 +198,9 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
                           return {};
                         },
                         [&](const RepairRequest& repair) -> Done {
-                          spdlog::warn("session {}: {} chunks differ at tick {}", session.id(),
-                                       repair.chunks.size(), repair.tick);
+                          say(spdlog::level::warn, "repair",
+                              fmt::format("session {}: {} chunks differ at tick {}", session.id(),
+                                          repair.chunks.size(), repair.tick));
                           publisher_.repair(session.id(), repair);
                           return {};
                         },
@@ -230,8 +259,15 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
                     "(--admin-token-file)"});
     return {};
   }
-  if (!same_token(message.token, config_.admin_token))
+  const double now_s = steady_now_s();
+  if (const double wait_s = entrance_.door().wait_for_guess_s(session.address(), now_s); wait_s > 0.0)
+    return refuse(Refusal::token_guesses,
+                  fmt::format("wrong tokens came from your address: the next is looked at in {:.0f} s",
+                              std::ceil(wait_s)));
+  if (!same_token(message.token, config_.admin_token)) {
+    entrance_.door().guessed_wrong(session.address(), now_s);
     return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
+  }
   std::string changes;
   for (const SettingValue& setting : message.settings) changes += " " + setting.name + "=" + setting.value;
   spdlog::info("session {}: {} sets{}", session.id(), session.peer(), changes);
@@ -242,9 +278,11 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
 void NetHost::refused(ClientSession& session, const Refused& refused) {
   ++counts_.sessions_refused;
   counts_.refusals.add(refused.reason);
-  spdlog::warn("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
-               refused.message);
+  say(spdlog::level::warn, name_of(refused.reason),
+      fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
+                  refused.message));
   publisher_.leave(session.id());
+  outsiders_.insert(session.id());
   update_stats();
 }
 
@@ -252,18 +290,24 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   if (const std::optional<Refusal> cut_for = session.cut_for()) {
     ++counts_.sessions_cut;
     counts_.refusals.add(*cut_for);
-    spdlog::warn("session {}: {} cut off: {}", session.id(), session.peer(), reason);
+    say(spdlog::level::warn, name_of(*cut_for),
+        fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
   } else {
-    spdlog::info("session {}: {} closed: {}", session.id(), session.peer(), reason);
+    say(spdlog::level::info, "closed",
+        fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
+  entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
+  outsiders_.erase(session.id());
   sessions_.erase(session.id());
   update_stats();
 }
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.
 void NetHost::grant(const ServiceLimits& service) {
+  const bool more = service.sessions_max > service_.sessions_max;
   service_ = service;
+  if (more) fit_descriptors();
   const double rate = service.requests_per_second;
   for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
 }
@@ -292,8 +336,7 @@ void NetHost::shut_down() {
   if (stopping_) return;
   stopping_ = true;
   stop_deadline_s_ = steady_now_s() + stop_seconds_max;
-  asio::error_code ignored;
-  acceptor_.close(ignored);
+  entrance_.close();
   std::vector<std::shared_ptr<ClientSession>> sessions;
   for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
   for (const auto& session : sessions) session->refuse({Refusal::server_stops, "the server stops"});

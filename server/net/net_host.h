@@ -9,21 +9,25 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <spdlog/common.h>
 
 #include "server/net/client_session.h"
+#include "server/net/entrance.h"
+#include "server/net/log_limit.h"
 #include "server/net/net_server.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
 
-class NetHost final : public SessionHost {
+class NetHost final : public SessionHost, public EntranceHost {
  public:
   NetHost(const NetConfig& config, CommandQueue& commands);
   ~NetHost() override = default;
 
   /// Call before the thread runs.
   Result<void> listen();
-  uint16_t port() const { return port_; }
+  uint16_t port() const { return entrance_.port(); }
   /// The network thread: returns after shut_down().
   void run();
 
@@ -41,15 +45,21 @@ class NetHost final : public SessionHost {
   tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) override;
   void refused(ClientSession& session, const Refused& refused) override;
   void closed(ClientSession& session, const std::string& reason) override;
+  void entered(asio::ip::tcp::socket socket, const std::string& address) override;
+  void turned_away(const std::string& peer, const Refused& refused) override;
+  void accepting_failed(const std::string& why) override;
 
-  void accept();
-  void accepted(asio::ip::tcp::socket socket);
+  void close_oldest_outsider(const std::string& why);
+  bool make_room();
+  /// A line of the log, of a kind of which there are few a second.
+  void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
   void tick_timer();
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   void request(ClientSession& session, const Command& command);
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
+  void fit_descriptors();
   uint32_t joined_count() const;
   void update_stats();
 
@@ -62,13 +72,16 @@ class NetHost final : public SessionHost {
   ServiceLimits service_;  ///< as they stand
   CommandQueue& commands_;
   asio::io_context context_;
-  asio::ip::tcp::acceptor acceptor_;
+  Entrance entrance_;
   asio::steady_timer timer_;
-  uint16_t port_ = 0;
+  LogLimit log_;
   bool stopping_ = false;
   double stop_deadline_s_ = 0.0;
   uint64_t next_session_ = 1;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
+  std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused
+  size_t outsiders_max_ = limits::outsiders_max;
+  size_t descriptors_ = 0;  ///< for connections
   Publisher publisher_;
   std::atomic<bool> watched_{false};
   ThreadCheck network_thread_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/net/command_queue.h"
+#include "server/net/door.h"
 #include "server/net/limits.h"
 #include "server/net/publisher.h"
 #include "server/world/service_limits.h"
@@ -28,6 +29,8 @@ struct NetConfig {
   ServiceLimits service;    ///< until a tick says otherwise
   bool replay = false;      ///< a recording: requests are refused
   std::string admin_token;  ///< a client with it may change settings; empty: no client may
+  Door::Rules door{limits::connections_per_address_max, limits::connects_per_second_max,
+                   limits::connects_burst_max};
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
 };
@@ -38,11 +41,12 @@ struct NetStats {
   uint32_t sessions = 0;  ///< now
   uint64_t sessions_joined = 0;
   uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
-  uint64_t sessions_cut = 0;      ///< cut off because they did not read
+  uint64_t sessions_cut = 0;      ///< cut off: they did not read, or said no hello
+  uint64_t turned_away = 0;       ///< connections closed without a session
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
-  RefusalCounts refusals;         ///< of requests, by the world and the network side, and of sessions
-  uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
+  RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
+  uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
 };
 
 class NetServer {

@@ -15,13 +15,13 @@ class RateLimit {
     CHECK(per_second >= 0.0 && burst >= 1.0);
   }
 
-  /// Takes a token; false when there is none.
-  [[nodiscard]] bool take(double now_s) {
-    CHECK(std::isfinite(now_s));
+  /// Takes tokens; false when there are not as many.
+  [[nodiscard]] bool take(double now_s, double tokens = 1.0) {
+    CHECK(std::isfinite(now_s) && tokens >= 0.0);
     tokens_ = std::min(burst_, tokens_ + std::max(0.0, now_s - last_s_) * per_second_);
     last_s_ = now_s;
-    if (tokens_ < 1.0) return false;
-    tokens_ -= 1.0;
+    if (tokens_ < tokens) return false;
+    tokens_ -= tokens;
     return true;
   }
 

@@ -29,9 +29,13 @@ enum class Refusal : uint8_t {
   requests_per_second,
   commands_waiting,
   no_admin_token,
+  // Of a connection, which is closed at once.
+  connects_per_second,
+  connections_per_address,
+  outsiders_max,
   // Of a session.
-  sessions_pending,
   sessions_max,
+  idle_made_room,
   protocol_version,
   hello_missing,
   hello_late,
@@ -39,8 +43,10 @@ enum class Refusal : uint8_t {
   message_malformed,
   message_cut_short,
   messages_per_second,
+  bytes_per_second,
   interest_invalid,
   admin_token_wrong,
+  token_guesses,
   server_stops,
   // Of a session, cut off for not reading.
   outbox_full,

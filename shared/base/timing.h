@@ -1,9 +1,14 @@
-// A stopwatch for instrumentation. The simulation never uses its readings.
+// A clock and a stopwatch for timeouts and instrumentation. The simulation never uses its readings.
 #pragma once
 
 #include <chrono>
 
 namespace scree {
+
+/// Seconds of the clock that never goes back.
+inline double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 class Stopwatch {
  public:

@@ -4,69 +4,12 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
+#include <thread>
 
-#include "server/net/limits.h"
-#include "tests/support/flat_terrain.h"
-#include "tests/support/raw_client.h"
-#include "tests/support/tick_source.h"
+#include "tests/support/net_server_fixture.h"
 
 namespace scree {
 namespace {
-
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
-HelloMessage hello(uint32_t protocol = protocol_version) {
-  return {protocol, "test", {0.0F, 2.0F, 0.0F}, 64.0F};
-}
-
-CarveMessage carve(uint32_t request) {
-  CarveMessage message;
-  message.request = request;
-  message.shape = sphere({}, 1.0F);
-  return message;
-}
-
-class NetServerTest : public ::testing::Test {
- protected:
-  void start(const std::function<void(NetConfig&)>& change = {}) {
-    NetConfig config;
-    config.terrain = flat_terrain;
-    if (change) change(config);
-    auto listening = NetServer::listen(config, commands);
-    ASSERT_TRUE(listening.has_value()) << listening.error().message;
-    server = std::move(*listening);
-    witness = std::make_unique<RawClient>(server->port());
-    ASSERT_TRUE(witness->send(hello()));
-    ASSERT_TRUE(witness->receive_as<WelcomeMessage>().has_value());
-  }
-  void tick(const std::vector<Operation>& operations = {}) { server->publish(source.step(operations)); }
-
-  /// The well-behaved client still gets every tick.
-  void expect_witness_unmoved() {
-    tick();
-    const Tick wanted = source.tick();
-    for (;;) {
-      const auto frame = witness->receive_as<FrameMessage>();
-      ASSERT_TRUE(frame.has_value());
-      ASSERT_EQ(frame->tick, ++seen);
-      if (frame->tick == wanted) return;
-    }
-  }
-  void expect_refused(RawClient& client, const std::string& because) {
-    const auto refusal = client.receive_as<RefusalMessage>();
-    ASSERT_TRUE(refusal.has_value());
-    EXPECT_NE(refusal->reason.find(because), std::string::npos) << refusal->reason;
-    EXPECT_TRUE(client.closed_within(seconds(10)));
-    expect_witness_unmoved();
-  }
-
-  CommandQueue commands{4};
-  TickSource source{flat_terrain};
-  std::unique_ptr<NetServer> server;
-  std::unique_ptr<RawClient> witness;
-  Tick seen = 0;
-};
 
 TEST_F(NetServerTest, welcome_says_what_a_client_needs_to_know) {
   start([](NetConfig& config) { config.tick_rate_hz = 30; });
@@ -102,14 +45,6 @@ TEST_F(NetServerTest, garbage_is_refused) {
   const std::vector<uint8_t> garbage{12, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 2, 3, 4, 5, 6, 7, 8};
   ASSERT_TRUE(client.send_bytes(garbage));
   expect_refused(client, "not a protobuf of this protocol");
-}
-
-TEST_F(NetServerTest, oversized_message_is_refused_naming_the_limit) {
-  start();
-  RawClient client(server->port());
-  const std::vector<uint8_t> length{0xFF, 0xFF, 0xFF, 0x7F};
-  ASSERT_TRUE(client.send_bytes(length));
-  expect_refused(client, std::to_string(limits::message_bytes_max));
 }
 
 TEST_F(NetServerTest, message_cut_short_is_refused) {
@@ -291,19 +226,6 @@ TEST_F(NetServerTest, what_waits_for_one_client_is_bounded_whatever_it_is) {
   reply_with(limits::outbox_hard_bytes);
   EXPECT_EQ(server->stats().sessions_cut, 1U) << "twice limits.outbox_hard_bytes wait";
   expect_witness_unmoved();
-}
-
-TEST_F(NetServerTest, silent_connections_over_the_limit_are_refused_at_once) {
-  start([](NetConfig& config) { config.hello_seconds = 1000.0; });
-  std::vector<std::unique_ptr<RawClient>> silent;
-  for (uint32_t i = 0; i < limits::pending_sessions_max; ++i)
-    silent.push_back(std::make_unique<RawClient>(server->port()));
-  RawClient another(server->port());
-  expect_refused(another, "limits.pending_sessions_max");
-  ASSERT_TRUE(silent.front()->send(hello()));
-  EXPECT_TRUE(silent.front()->receive_as<WelcomeMessage>().has_value()) << "those within the limit may go on";
-  EXPECT_TRUE(silent.back()->send(hello()));
-  EXPECT_TRUE(silent.back()->receive_as<WelcomeMessage>().has_value());
 }
 
 TEST_F(NetServerTest, message_flood_is_refused) {

@@ -27,10 +27,6 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 
 }  // namespace
 
-double steady_now_s() {
-  return seconds_of(std::chrono::steady_clock::now());
-}
-
 ViewerSession::ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name)
     : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
 

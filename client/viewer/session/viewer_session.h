@@ -18,9 +18,6 @@
 
 namespace scree {
 
-/// std::chrono::steady_clock's time, seconds.
-double steady_now_s();
-
 struct SessionStep {
   bool new_world = false;  ///< the mirror is another one; nothing of the last one's holds
   MirrorChanges changes;

@@ -1,0 +1,86 @@
+#include "server/net/door.h"
+
+#include <algorithm>
+#include <asio/ip/address.hpp>
+#include <cmath>
+
+#include "server/net/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::string_view this_machine = "loopback";
+
+}  // namespace
+
+std::string door_address(const std::string& ip) {
+  asio::error_code error;
+  asio::ip::address address = asio::ip::make_address(ip, error);
+  if (error) return ip;
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    address = asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+  if (address.is_loopback()) return std::string(this_machine);
+  if (address.is_v4()) return address.to_string();
+  auto bytes = address.to_v6().to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), uint8_t{0});
+  return asio::ip::address_v6(bytes).to_string() + "/64";
+}
+
+bool Door::is_free(const std::string& address) const {
+  return rules_.loopback_is_free && address == this_machine;
+}
+
+Door::Visitor& Door::visitor(const std::string& address, double now_s) {
+  const auto known = visitors_.find(address);
+  if (known == visitors_.end() && visitors_.size() >= limits::door_addresses_max) forget_the_gone(now_s);
+  Visitor& found =
+      visitors_
+          .try_emplace(address, Visitor{0, RateLimit(rules_.connects_per_second, rules_.connects_burst), 0,
+                                        0.0, now_s})
+          .first->second;
+  found.seen_s = now_s;
+  return found;
+}
+
+/// Of those without a connection: all that have been quiet for long, and if that is too little, all.
+void Door::forget_the_gone(double now_s) {
+  const auto forget = [&](double quiet_s) {
+    std::erase_if(visitors_, [&](const auto& entry) {
+      return entry.second.connections == 0 && now_s - entry.second.seen_s >= quiet_s;
+    });
+  };
+  forget(limits::door_memory_s);
+  if (visitors_.size() >= limits::door_addresses_max) forget(0.0);
+}
+
+std::optional<Refusal> Door::enter(const std::string& address, double now_s) {
+  Visitor& from = visitor(address, now_s);
+  if (!is_free(address)) {
+    if (!from.connects.take(now_s)) return Refusal::connects_per_second;
+    if (from.connections >= rules_.connections_max) return Refusal::connections_per_address;
+  }
+  ++from.connections;
+  return std::nullopt;
+}
+
+void Door::leave(const std::string& address, double now_s) {
+  Visitor& from = visitor(address, now_s);
+  CHECK(from.connections > 0);
+  --from.connections;
+}
+
+double Door::wait_for_guess_s(const std::string& address, double now_s) const {
+  const auto known = visitors_.find(address);
+  return known == visitors_.end() ? 0.0 : std::max(0.0, known->second.guess_after_s - now_s);
+}
+
+void Door::guessed_wrong(const std::string& address, double now_s) {
+  Visitor& from = visitor(address, now_s);
+  if (now_s - from.guess_after_s > limits::door_memory_s) from.wrong_guesses = 0;
+  const double wait_s = limits::guess_wait_min_s * std::exp2(std::min(from.wrong_guesses, 30U));
+  from.guess_after_s = now_s + std::min(wait_s, limits::guess_wait_max_s);
+  ++from.wrong_guesses;
+}
+
+}  // namespace scree

@@ -1,0 +1,63 @@
+// Who may come in, by address: how many connections an address holds, how fast it opens new ones, how often
+// it has guessed at a token. No sockets; time is an argument (seconds). Not thread-safe.
+//
+// An address is a whole IPv4 address, or the first 64 bits of an IPv6 one, which is what one customer is
+// given. This machine's own addresses may hold and open as many connections as they like: who can run
+// programs here needs no network to do harm. Guesses at tokens are slowed down from everywhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "server/net/rate_limit.h"
+#include "server/work/refusal.h"
+
+namespace scree {
+
+/// A text as of asio::ip::address; any text that is none is an address of its own.
+std::string door_address(const std::string& ip);
+
+class Door {
+ public:
+  struct Rules {
+    size_t connections_max = 0;  ///< of one address
+    double connects_per_second = 0.0;
+    double connects_burst = 1.0;
+    bool loopback_is_free = true;
+  };
+
+  explicit Door(const Rules& rules) : rules_(rules) {}
+
+  /// A connection has come. With a reason it is not let in, and not to be given back.
+  std::optional<Refusal> enter(const std::string& address, double now_s);
+  /// A connection that was let in has ended.
+  void leave(const std::string& address, double now_s);
+
+  /// Seconds until this address may present a token again; 0: now.
+  double wait_for_guess_s(const std::string& address, double now_s) const;
+  /// The address has presented a wrong token: it waits for limits::guess_wait_min_s, twice as long after each
+  /// further one, at most limits::guess_wait_max_s.
+  void guessed_wrong(const std::string& address, double now_s);
+
+  size_t addresses() const { return visitors_.size(); }
+
+ private:
+  struct Visitor {
+    size_t connections = 0;
+    RateLimit connects;
+    uint32_t wrong_guesses = 0;
+    double guess_after_s = 0.0;
+    double seen_s = 0.0;
+  };
+  Visitor& visitor(const std::string& address, double now_s);
+  void forget_the_gone(double now_s);
+  bool is_free(const std::string& address) const;
+
+  Rules rules_;
+  std::unordered_map<std::string, Visitor> visitors_;
+};
+
+}  // namespace scree

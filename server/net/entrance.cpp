@@ -1,0 +1,89 @@
+#include "server/net/entrance.h"
+
+#include <asio/buffer.hpp>
+#include <asio/write.hpp>
+#include <chrono>
+
+#include "proto/codec.h"
+#include "server/net/limits.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+Refused words_for(Refusal reason) {
+  if (reason == Refusal::connects_per_second)
+    return {reason, "too many connections a second from your address (limits.connects_per_second_max)"};
+  CHECK(reason == Refusal::connections_per_address);
+  return {reason, "too many connections from your address (limits.connections_per_address_max)"};
+}
+
+}  // namespace
+
+Result<void> Entrance::listen(const std::string& bind, uint16_t port) {
+  const std::string where = bind + ":" + std::to_string(port);
+  asio::error_code error;
+  const auto address = asio::ip::make_address(bind, error);
+  if (error) return fail("cannot listen on " + where + ": '" + bind + "' is no IP address (--bind)");
+  const asio::ip::tcp::endpoint endpoint(address, port);
+  acceptor_.open(endpoint.protocol(), error);
+  if (!error) acceptor_.set_option(asio::ip::tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use)
+    return fail("cannot listen on " + where +
+                ": the port is in use; stop what uses it, or choose another one (--port)");
+  if (error) return fail("cannot listen on " + where + ": " + error.message());
+  port_ = acceptor_.local_endpoint(error).port();
+  if (error) return fail("cannot listen on " + where + ": " + error.message());
+  accept();
+  return {};
+}
+
+void Entrance::close() {
+  asio::error_code ignored;
+  acceptor_.close(ignored);
+  pause_.cancel();
+}
+
+void Entrance::accept() {
+  acceptor_.async_accept([this](asio::error_code error, asio::ip::tcp::socket socket) {
+    if (!acceptor_.is_open()) return;
+    if (error) {
+      host_.accepting_failed(error.message());
+      return rest();
+    }
+    accepted(std::move(socket));
+    accept();
+  });
+}
+
+/// Asking again at once would fail again.
+void Entrance::rest() {
+  pause_.expires_after(std::chrono::milliseconds(limits::accept_pause_ms));
+  pause_.async_wait([this](asio::error_code error) {
+    if (!error && acceptor_.is_open()) accept();
+  });
+}
+
+void Entrance::accepted(asio::ip::tcp::socket socket) {
+  asio::error_code error;
+  const auto endpoint = socket.remote_endpoint(error);
+  if (error) return;  // it has gone already
+  const std::string ip = endpoint.address().to_string();
+  const std::string address = door_address(ip);
+  if (const auto no = door_.enter(address, steady_now_s())) return turn_away(std::move(socket), ip, *no);
+  host_.entered(std::move(socket), address);
+}
+
+void Entrance::turn_away(asio::ip::tcp::socket socket, const std::string& peer, Refusal reason) {
+  const Refused refused = words_for(reason);
+  asio::error_code ignored;
+  socket.non_blocking(true, ignored);
+  socket.write_some(asio::buffer(encode(ServerMessage(RefusalMessage{refused.message}))), ignored);
+  host_.turned_away(peer, refused);
+}
+
+}  // namespace scree

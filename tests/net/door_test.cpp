@@ -1,0 +1,85 @@
+#include "server/net/door.h"
+
+#include <gtest/gtest.h>
+
+#include "server/net/limits.h"
+#include "server/net/log_limit.h"
+
+namespace scree {
+namespace {
+
+constexpr Door::Rules rules{2, 1.0, 3.0, true};
+
+TEST(Door, an_address_is_a_machine_or_what_one_customer_is_given) {
+  EXPECT_EQ(door_address("203.0.113.7"), "203.0.113.7");
+  EXPECT_EQ(door_address("::ffff:203.0.113.7"), "203.0.113.7");
+  EXPECT_EQ(door_address("2001:db8:1:2::1"), door_address("2001:db8:1:2:ffff::9"));
+  EXPECT_NE(door_address("2001:db8:1:2::1"), door_address("2001:db8:1:3::1"));
+  EXPECT_EQ(door_address("127.0.0.1"), door_address("::1"));
+  EXPECT_EQ(door_address("127.8.9.1"), door_address("::ffff:127.0.0.1"));
+}
+
+TEST(Door, connections_are_bounded_in_number_and_in_rate_for_each_address_alone) {
+  Door door(rules);
+  EXPECT_EQ(door.enter("a", 0.0), std::nullopt);
+  EXPECT_EQ(door.enter("a", 0.0), std::nullopt);
+  EXPECT_EQ(door.enter("a", 0.0), Refusal::connections_per_address);
+  EXPECT_EQ(door.enter("a", 0.0), Refusal::connects_per_second);
+  EXPECT_EQ(door.enter("b", 0.0), std::nullopt);
+  door.leave("a", 0.5);
+  EXPECT_EQ(door.enter("a", 0.5), Refusal::connects_per_second);
+  EXPECT_EQ(door.enter("a", 1.5), std::nullopt);
+}
+
+TEST(Door, this_machine_is_free_unless_told_otherwise) {
+  const std::string here = door_address("127.0.0.1");
+  Door door(rules), strict({2, 1.0, 3.0, false});
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(door.enter(here, 0.0), std::nullopt);
+  for (int i = 0; i < 3; ++i) static_cast<void>(strict.enter(here, 0.0));
+  EXPECT_TRUE(strict.enter(here, 0.0).has_value());
+}
+
+TEST(Door, each_wrong_guess_makes_the_next_wait_longer_up_to_a_bound_and_only_there) {
+  Door door(rules);
+  double now_s = 100.0, wait_s = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    door.guessed_wrong("a", now_s);
+    EXPECT_GE(door.wait_for_guess_s("a", now_s), wait_s);
+    wait_s = door.wait_for_guess_s("a", now_s);
+    if (i < 2) {
+      EXPECT_EQ(wait_s, (1.0 + i) * limits::guess_wait_min_s);
+    }
+    now_s += wait_s;
+    EXPECT_LE(door.wait_for_guess_s("a", now_s), 0.0);
+  }
+  EXPECT_EQ(wait_s, limits::guess_wait_max_s);
+  EXPECT_EQ(door.wait_for_guess_s("b", now_s), 0.0);
+  door.guessed_wrong("a", now_s + 2.0 * limits::door_memory_s);
+  EXPECT_EQ(door.wait_for_guess_s("a", now_s + 2.0 * limits::door_memory_s), limits::guess_wait_min_s)
+      << "it is forgiven in the end";
+}
+
+TEST(Door, addresses_are_bounded_and_those_with_connections_are_kept) {
+  Door door(rules);
+  EXPECT_EQ(door.enter("stays", 0.0), std::nullopt);
+  for (size_t i = 0; i < 2 * limits::door_addresses_max; ++i) {
+    const std::string address = std::to_string(i);
+    EXPECT_EQ(door.enter(address, 1.0), std::nullopt);
+    door.leave(address, 1.0);
+  }
+  EXPECT_LE(door.addresses(), limits::door_addresses_max);
+  door.leave("stays", 2.0);
+}
+
+TEST(LogLimit, a_few_lines_of_each_kind_and_the_count_of_the_rest) {
+  LogLimit log;
+  int written = 0;
+  for (int i = 0; i < 1000; ++i) written += log.take("one", 0.0) ? 1 : 0;
+  EXPECT_EQ(written, static_cast<int>(limits::log_lines_burst));
+  EXPECT_EQ(log.take("other", 0.0), std::string());
+  EXPECT_EQ(log.take("one", 1.0), " (and " + std::to_string(1000 - written) + " more like this)");
+  EXPECT_EQ(log.take("one", 1.0), std::string());
+}
+
+}  // namespace
+}  // namespace scree
