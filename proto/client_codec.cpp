@@ -2,6 +2,7 @@
 #include "proto/codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -13,10 +14,10 @@ struct Writing {
   void operator()(const HelloMessage& from) const {
     wire::Hello& hello = *to.mutable_hello();
     hello.set_protocol(from.protocol);
-    hello.set_client(clean_text(from.client, limits::client_name_bytes_max));
+    hello.set_client(showable(from.client, limits::client_name_bytes_max));
     write(*hello.mutable_eye(), from.eye_m);
     hello.set_interest_radius_m(from.interest_radius_m);
-    hello.set_name(clean_text(from.name, limits::person_name_bytes_max));
+    hello.set_name(showable(from.name, limits::person_name_bytes_max));
   }
   void operator()(const InterestMessage& from) const {
     wire::Interest& interest = *to.mutable_interest();
@@ -60,7 +61,7 @@ struct Writing {
   void operator()(const AdminMessage& from) const {
     wire::Admin& admin = *to.mutable_admin();
     admin.set_request(from.request);
-    admin.set_token(clean_text(from.token, limits::token_bytes_max));
+    admin.set_token(showable(from.token, limits::token_bytes_max));
     write(*admin.mutable_settings(), from.settings);
   }
 };

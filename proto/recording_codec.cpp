@@ -10,6 +10,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -94,7 +95,7 @@ ClientMessage message_of(const RecordedCommand& command) {
 std::vector<uint8_t> encode(const RecordedHeader& header) {
   recorded::Header to;
   to.set_format(header.format);
-  to.set_program(clean_text(header.program, program_bytes_max));
+  to.set_program(showable(header.program, program_bytes_max));
   to.set_terrain_kind(static_cast<uint32_t>(header.terrain.kind));
   to.set_terrain_seed(header.terrain.random_seed);
   to.set_voxel_size_m(header.terrain.voxel_size_m);

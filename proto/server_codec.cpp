@@ -8,6 +8,7 @@
 #include "proto/watch_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -101,13 +102,13 @@ void write(wire::Status& to, const StatusMessage& from) {
   write(*to.mutable_settings(), from.settings);
   for (const StageTime& stage : from.stages) {
     wire::StageTime& one = *to.add_stages();
-    one.set_name(clean_text(stage.name, limits::stage_name_bytes_max));
+    one.set_name(showable(stage.name, limits::stage_name_bytes_max));
     one.set_ms(stage.ms);
   }
   write(*to.mutable_work(), from.work);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
-    added.set_reason(clean_text(refusal.reason, limits::refusal_name_bytes_max));
+    added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
     added.set_count(refusal.count);
   }
 }
@@ -129,7 +130,7 @@ struct Writing {
     welcome.set_replay(from.replay);
   }
   void operator()(const RefusalMessage& from) const {
-    to.mutable_refusal()->set_reason(clean_text(from.reason, limits::reason_bytes_max));
+    to.mutable_refusal()->set_reason(showable(from.reason, limits::reason_bytes_max));
   }
   void operator()(const FrameMessage& from) const { write(*to.mutable_frame(), from); }
   void operator()(const ChunkMessage& from) const {
@@ -152,7 +153,7 @@ struct Writing {
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
     reply.set_request(from.request);
-    reply.set_refusal(clean_text(from.refusal, limits::reason_bytes_max));
+    reply.set_refusal(showable(from.refusal, limits::reason_bytes_max));
     reply.set_pieces(from.pieces);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }

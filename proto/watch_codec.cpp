@@ -5,6 +5,7 @@
 
 #include "proto/byte_stream.h"
 #include "proto/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 namespace {
@@ -115,7 +116,7 @@ void write(wire::Cursors& to, const CursorsMessage& from) {
        std::span(from.cursors).first(std::min(from.cursors.size(), limits::cursors_max))) {
     wire::PlayerCursor& one = *to.add_cursors();
     one.set_session(cursor.session);
-    one.set_name(clean_text(cursor.name, limits::person_name_bytes_max));
+    one.set_name(showable(cursor.name, limits::person_name_bytes_max));
     write(*one.mutable_eye(), cursor.eye_m);
     write(*one.mutable_aim(), cursor.aim_m);
   }

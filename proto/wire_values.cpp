@@ -5,6 +5,7 @@
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "shared/base/check.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -15,11 +16,6 @@ static_assert(wire::ShapeKind_ARRAYSIZE == kind_count<ShapeKind>);
 static_assert(wire::SeedPattern_ARRAYSIZE == kind_count<SeedPattern>);
 static_assert(wire::TerrainKind_ARRAYSIZE == kind_count<TerrainKind>);
 static_assert(wire::Material_ARRAYSIZE == kind_count<Material>);
-
-bool is_control(char c) {
-  const auto byte = static_cast<uint8_t>(c);
-  return byte < 0x20 || byte == 0x7F;
-}
 
 }  // namespace
 
@@ -56,8 +52,7 @@ std::string FieldChecker::text(const std::string& value, size_t bytes_max, const
            std::to_string(bytes_max));
     return {};
   }
-  for (const char c : value)
-    if (is_control(c)) refuse(std::string(what) + " holds control characters");
+  if (const auto fault = fault_of_text(value)) refuse(std::string(what) + " " + std::string(*fault));
   return failed() ? std::string() : value;
 }
 
@@ -129,20 +124,9 @@ void write(wire::Shape& to, const Shape& from) {
 void write(WireSettings& to, const SettingValues& from) {
   for (const SettingValue& setting : from) {
     wire::Setting& added = *to.Add();
-    added.set_name(clean_text(setting.name, limits::setting_name_bytes_max));
-    added.set_value(clean_text(setting.value, limits::setting_value_bytes_max));
+    added.set_name(showable(setting.name, limits::setting_name_bytes_max));
+    added.set_value(showable(setting.value, limits::setting_value_bytes_max));
   }
-}
-
-std::string clean_text(std::string text, size_t bytes_max) {
-  if (text.size() > bytes_max) {
-    size_t end = bytes_max;
-    while (end > 0 && (static_cast<uint8_t>(text[end]) & 0xC0U) == 0x80U) --end;
-    text.resize(end);
-  }
-  for (char& c : text)
-    if (is_control(c)) c = ' ';
-  return text;
 }
 
 std::string pack_chunks(const std::vector<ChunkCoord>& chunks) {

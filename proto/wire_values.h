@@ -58,8 +58,6 @@ class FieldChecker {
 void write(wire::Vec3& to, glm::vec3 from);
 void write(wire::Shape& to, const Shape& from);
 void write(WireSettings& to, const SettingValues& from);
-/// The text cut to the limit at the end of a character, with control characters replaced by spaces.
-std::string clean_text(std::string text, size_t bytes_max);
 std::string pack_chunks(const std::vector<ChunkCoord>& chunks);
 std::string pack_points(const std::vector<glm::vec3>& points);
 

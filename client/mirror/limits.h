@@ -13,6 +13,10 @@ inline constexpr size_t mirror_chunks_max = 32768;
 /// Pieces alive, many times a server's. Above: the connection is closed.
 inline constexpr size_t mirror_pieces_max = 65536;
 
+/// Work of one frame's operations by the model (shared/operation/price.h), microseconds: far more than a
+/// server may do in its longest tick. Above: the connection is closed before it is done.
+inline constexpr float mirror_frame_work_max_us = 2.0e6F;
+
 /// Ticks after which the repair of a chunk is requested again: two seconds at 60 Hz. Until then, further
 /// mismatches of the chunk are expected.
 inline constexpr uint64_t repair_patience_ticks = 120;

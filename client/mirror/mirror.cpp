@@ -8,6 +8,7 @@
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/overloaded.h"
+#include "shared/operation/price.h"
 
 namespace scree {
 
@@ -90,8 +91,9 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
     return fail("a frame of tick " + std::to_string(frame.tick) + " came after that of tick " +
                 std::to_string(tick_));
   ChunkSet changed;
+  float work_us = 0.0F;
   for (const Operation& operation : frame.operations) {
-    Result<void> applied = apply_operation(operation, frame.tick, changed, changes);
+    Result<void> applied = apply_operation(operation, frame.tick, work_us, changed, changes);
     if (!applied) return fail("tick " + std::to_string(frame.tick) + ": " + applied.error().message);
     if (applied = within_limits(); !applied) return applied;
   }
@@ -110,9 +112,12 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
   return apply_transforms(frame.transforms, frame.tick);
 }
 
-Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
+Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, float& work_us, ChunkSet& changed,
                                      MirrorChanges& changes) {
   if (Result<void> valid = validate(operation, table_, field_.source().voxel_size_m); !valid) return valid;
+  work_us += price_us(operation, field_, table_);
+  if (work_us > limits::mirror_frame_work_max_us)
+    return fail("more work than any tick's (limits.mirror_frame_work_max_us)");
   const PieceIds made = ids_made_by(operation);
   const auto taken = table_.lower_bound(made.first);
   if (taken != table_.end() && taken->first - made.first < made.count)

@@ -103,7 +103,8 @@ class Mirror {
 
   Birthplace birthplace_of(const Operation& operation) const;
   Result<void> apply_frame(const FrameMessage& frame, MirrorChanges& changes);
-  Result<void> apply_operation(const Operation& operation, Tick tick, ChunkSet& changed,
+  /// `work_us`: of the frame's operations so far.
+  Result<void> apply_operation(const Operation& operation, Tick tick, float& work_us, ChunkSet& changed,
                                MirrorChanges& changes);
   void apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed, MirrorChanges& changes);
   Result<void> apply_transforms(const std::vector<uint8_t>& packed, Tick tick);

@@ -44,6 +44,7 @@ struct FrameSelection {
   uint32_t check = 0;
 
   bool operator==(const FrameSelection&) const = default;
+  bool is_empty() const { return *this == FrameSelection{}; }
 };
 
 class ClientView {

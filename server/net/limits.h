@@ -24,8 +24,13 @@ inline constexpr size_t patch_bricks_max = 1024;
 /// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
 inline constexpr uint32_t rescan_ticks_min = 6;
 
-/// Bytes waiting for one client above which it gets no transforms and no streaming: it has enough to read.
-inline constexpr size_t outbox_soft_bytes = 256 * 1024;
+/// Seconds after which a client gets a frame though nothing happened: it sees that the server lives, and what
+/// time it is there.
+inline constexpr double heartbeat_s = 0.5;
+
+/// Bytes waiting for one client above which it gets no transforms and no streaming: what it reads must not be
+/// old.
+inline constexpr size_t outbox_soft_bytes = 16 * 1024;
 
 /// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;

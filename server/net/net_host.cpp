@@ -30,7 +30,7 @@ double burst_of(double requests_per_second) {
 
 PublisherConfig publisher_config(const NetConfig& config) {
   return {config.terrain.voxel_size_m, std::max(1U, config.tick_rate_hz),
-          std::max(1U, config.ticks_per_transform)};
+          std::max(1U, config.ticks_per_transform), config.heartbeat_s};
 }
 
 Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {

@@ -33,6 +33,7 @@ struct NetConfig {
                    limits::connects_burst_max};
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
+  double heartbeat_s = limits::heartbeat_s;  ///< as of PublisherConfig
 };
 
 /// Counts since the start.

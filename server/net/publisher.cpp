@@ -125,6 +125,7 @@ bool Publisher::ready(Client& client, size_t backlog_bytes) {
   if (client.reset_due) {
     client.reset_due = false;
     client.view.reset();
+    client.last_frame = 0;
     send(client, bytes_of(ResetMessage{}));
   }
   return true;
@@ -138,14 +139,24 @@ void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog
   if (!send_frame(client, changes, with_poses)) return;
   if (reads_along) stream_chunks(client, changes);
   if (with_poses) stream_pieces(client);
-  if (tick % config_.tick_rate_hz == 0) send_status(client);
+  if (status_due(tick)) send_status(client);
   if (!reads_along) return;
   if (tick % ticks_per_watch == 0) send_cursors(client);
   if (client.watches && changes.delta.physics) send_physics(client, *changes.delta.physics);
 }
 
+/// Whether the client gets a frame of this tick though nothing happened for it.
+bool Publisher::frame_due(const Client& client, Tick tick) const {
+  const auto heartbeat_ticks = static_cast<Tick>(config_.heartbeat_s * config_.tick_rate_hz);
+  return client.last_frame == 0 || tick >= client.last_frame + heartbeat_ticks || status_due(tick);
+}
+
 bool Publisher::send_frame(Client& client, const TickChanges& changes, bool with_poses) {
-  const EncodeCache::Frame& frame = cache_.frame(client.view.select_frame(changes, with_poses), changes);
+  FrameSelection selection = client.view.select_frame(changes, with_poses);
+  const Tick tick = changes.delta.tick;
+  if (selection.is_empty() && !frame_due(client, tick)) return true;
+  client.last_frame = tick;
+  const EncodeCache::Frame& frame = cache_.frame(std::move(selection), changes);
   if (frame.bytes->size() > limits::message_bytes_max) {
     // A frame of this size must not cross the wire: the client is reset, and gets the state in small
     // messages.

@@ -1,6 +1,10 @@
 // Turns the ticks of the world into messages for each client. ClientView selects; clients with the same
 // selection share the encoded bytes; slow readers get less.
 //
+// A client gets a frame of a tick in which something happened for it, and one every limits::heartbeat_s
+// anyway, by which it sees that time goes on. The frame of its tick comes
+// before a status.
+//
 // A slow client gets newer state, not a longer queue: while more than limits::outbox_soft_bytes wait for it,
 // it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
 // everything, a ResetMessage tells it to forget its edits and pieces, and it joins anew.
@@ -17,6 +21,7 @@
 #include "proto/messages.h"
 #include "server/net/client_view.h"
 #include "server/net/encode_cache.h"
+#include "server/net/limits.h"
 #include "server/net/tick_clock.h"
 #include "shared/operation/per_operation.h"
 
@@ -26,6 +31,7 @@ struct PublisherConfig {
   float voxel_size_m = 0.25F;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
+  double heartbeat_s = limits::heartbeat_s;  ///< 0: a frame every tick
 };
 
 /// Bytes for a client, length prefix included.
@@ -85,6 +91,7 @@ class Publisher {
     int64_t piece_credit_bytes = 0;
     bool stopped = false;  ///< gets no frames until it has read all that waits
     bool reset_due = false;
+    Tick last_frame = 0;  ///< tick of the last frame that it got; 0: none
     uint64_t sent_bytes = 0;
     uint32_t repairs = 0;
     bool watches = false;
@@ -94,6 +101,8 @@ class Publisher {
   void serve(Client& client, const TickChanges& changes, size_t backlog_bytes);
   bool ready(Client& client, size_t backlog_bytes);
   bool send_frame(Client& client, const TickChanges& changes, bool with_poses);
+  bool frame_due(const Client& client, Tick tick) const;
+  bool status_due(Tick tick) const { return tick % config_.tick_rate_hz == 0; }
   void stream_chunks(Client& client, const TickChanges& changes);
   void stream_pieces(Client& client);
   void send_cursors(Client& client);

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "shared/operation/limits.h"
+
 namespace scree::limits {
 
 /// Share of a tick's length that its work may take by the model; the rest is for work outside the model, and
@@ -13,47 +15,24 @@ inline constexpr float work_share = 0.7F;
 /// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.
 inline constexpr float crowded_share = 0.5F;
 
-/// The model, microseconds as measured on one core of a 2023 server (benches storm and worst): a body that is
+/// The model (with shared/operation/limits.h), microseconds as measured: a body that is
 /// awake, a point of contact, and a pair of bodies whose bounds meet, in a step. Cells that still lie packed
 /// have 11 such pairs each, rubble has 4.
 inline constexpr float body_cost_us = 0.4F;
 inline constexpr float contact_cost_us = 1.3F;
 inline constexpr float pair_cost_us = 0.55F;
 
-/// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
-inline constexpr float edit_cost_us = 400.0F;
-inline constexpr float edit_voxel_cost_us = 0.05F;
-inline constexpr float chunk_cost_us = 300.0F;
-
-/// A volume that is cut into pieces by the cutter `field`, a voxel of its window, and a piece with its hull
-/// and body.
-inline constexpr float cut_cost_us = 100.0F;
-inline constexpr float cut_voxel_cost_us = 0.07F;
-inline constexpr float piece_cost_us = 25.0F;
-
-/// The same for the cutters of polygons.
-inline constexpr float polygons_cost_us = 6000.0F;
-inline constexpr float polygons_voxel_cost_us = 0.9F;
-inline constexpr float polygons_piece_cost_us = 350.0F;
-
 /// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
 inline constexpr float relax_cost_us = 2200.0F;
 inline constexpr float relax_seed_cost_us = 70.0F;
 
-/// A merge, by method; a dent, and the crushing of a neck, whose sizes vary little.
-inline constexpr float stamp_cost_us = 55.0F;
-inline constexpr float slices_cost_us = 60.0F;
-inline constexpr float sphere_cost_us = 170.0F;
+/// A dent, and the crushing of a neck, whose sizes vary little.
 inline constexpr float dent_cost_us = 700.0F;
 
 /// A brick of a search for islands; a part of the terrain in a search for support
 /// (shared/falling/support_search.h).
 inline constexpr float island_brick_cost_us = 1.0F;
 inline constexpr float support_part_cost_us = 0.7F;
-
-/// An island that is lifted, and a voxel of its box, both with hull, surface points and convex parts.
-inline constexpr float lift_cost_us = 400.0F;
-inline constexpr float lift_voxel_cost_us = 0.09F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.

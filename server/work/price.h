@@ -1,4 +1,4 @@
-// What work costs by the model: microseconds on one core of the machine that server/work/limits.h names.
+// What work costs by the model: microseconds on one core of the machine that shared/operation/limits.h names.
 // Prices are functions of the request and of the simulation's state alone. The bench worst compares them with
 // the clock.
 #pragma once
@@ -7,26 +7,18 @@
 
 #include "server/work/limits.h"
 #include "shared/field/field.h"
-#include "shared/field/window.h"
 #include "shared/fracture/voronoi.h"
+#include "shared/operation/price.h"
 #include "shared/operation/request.h"
 
 namespace scree {
 
-/// Voxels of a box.
-float voxels_of(const VoxelBox& box);
-
-/// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.
-float cut_price_us(Cutter cutter, float voxels, uint32_t pieces);
 /// How many of the wanted pieces a volume of so many voxels is cut into at once: all of them, or as many as
 /// limits::cut_at_once_us pays, if that is much less.
 uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted);
 /// The cutter for a volume of so many voxels: the one that is wanted, or `field` where that one's price is
 /// over the limit.
 Cutter cutter_for(Cutter wanted, float voxels, float limit_us = limits::polygons_at_once_us);
-/// Lifting an island of that box, with its hulls and body.
-float lift_price_us(const VoxelBox& box);
-
 /// Carrying out a valid request in this field. A carve's price is that of all its pieces.
 float price_us(const Request& request, const Field& field, Cutter cutter);
 

@@ -77,6 +77,7 @@ class LiveServerTest : public ::testing::Test {
     fs::create_directories(folder);
     config.world.terrain = flat_terrain;
     config.pacing = Pacing::by_hand;
+    config.net.heartbeat_s = 0.0;
   }
   void TearDown() override {
     server.reset();

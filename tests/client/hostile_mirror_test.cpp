@@ -53,6 +53,21 @@ TEST(HostileMirror, a_stamp_of_a_window_beyond_all_bounds_is_an_error) {
     }
 }
 
+TEST(HostileMirror, a_frame_of_more_work_than_a_tick_ends_the_connection_before_it_is_done) {
+  Mirror mirror(flat_welcome());
+  FrameMessage frame;
+  frame.tick = 1;
+  CarveOperation carve;
+  carve.shape = sphere({0.0F, 100.0F, 0.0F}, 8.0F);  // in the air, so it leaves nothing behind
+  carve.cutter = Cutter::conform;
+  carve.seeds = limits::seeds_max;
+  for (int i = 0; i < 100; ++i) frame.operations.push_back(carve);
+  const auto applied = send(mirror, frame);
+  ASSERT_FALSE(applied);
+  EXPECT_NE(applied.error().message.find("mirror_frame_work_max_us"), std::string::npos)
+      << applied.error().message;
+}
+
 TEST(HostileMirror, a_centre_of_mass_far_from_its_volume_is_refused) {
   for (const glm::vec3 centre :
        {glm::vec3(9.5F, 1.0F, 1.0F), glm::vec3(1.0F, -0.5F, 1.0F), glm::vec3(1.0F, 1.0F, 16777216.0F)}) {

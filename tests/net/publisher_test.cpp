@@ -187,8 +187,10 @@ TEST_F(PublisherTest, slow_client_gets_no_poses_then_no_frames_then_a_reset) {
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
   TrustingClient& follower = followers.at(session);
   backlog_bytes = limits::outbox_soft_bytes + 1;
+  const size_t frames = follower.ticks.size();
+  tick({source.carve({6.0F, 0.0F, 0.0F}, 1.0F, 2)});
   for (int i = 0; i < 6; ++i) tick();
-  EXPECT_EQ(follower.ticks.back(), source.tick());
+  EXPECT_EQ(follower.ticks.size(), frames + 1);
   EXPECT_TRUE(follower.poses.empty());
   backlog_bytes = limits::outbox_resync_bytes + 1;
   tick();
@@ -201,6 +203,20 @@ TEST_F(PublisherTest, slow_client_gets_no_poses_then_no_frames_then_a_reset) {
   EXPECT_EQ(follower.resets, 1U);
   EXPECT_EQ(publisher.stats().resets, 1U);
   expect_whole_field_equal(session);
+}
+
+TEST_F(PublisherTest, while_nothing_happens_there_are_few_frames_and_one_before_each_status) {
+  join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
+  for (int i = 0; i < 300; ++i) tick();
+  const TrustingClient& follower = followers.at(session);
+  EXPECT_LE(follower.ticks.size(), 11U) << "two a second, and the first";
+  EXPECT_GE(follower.ticks.size(), 9U);
+  ASSERT_EQ(follower.statuses.size(), 5U);
+  for (const StatusMessage& status : follower.statuses)
+    EXPECT_TRUE(std::ranges::find(follower.ticks, status.tick) != follower.ticks.end());
+  const size_t before = follower.ticks.size();
+  tick({source.carve({0.0F, 0.0F, 0.0F}, 1.0F, 4)});
+  EXPECT_EQ(follower.ticks.size(), before + 1) << "at once";
 }
 
 TEST_F(PublisherTest, keyframe_out_of_sequence_starts_every_client_anew) {

@@ -36,6 +36,7 @@ class NetServerTest : public ::testing::Test {
   void start(const std::function<void(NetConfig&)>& change = {}) {
     NetConfig config;
     config.terrain = flat_terrain;
+    config.heartbeat_s = 0.0;
     if (change) change(config);
     auto listening = NetServer::listen(config, commands);
     ASSERT_TRUE(listening.has_value()) << listening.error().message;

@@ -90,6 +90,7 @@ void SessionClient::look_from(glm::vec3 eye_m) {
 LoopbackSession::LoopbackSession(LiveConfig config) {
   config.net.port = 0;
   config.pacing = Pacing::by_hand;
+  config.net.heartbeat_s = 0.0;  // clients follow to every tick
   auto started = LiveServer::start(config);
   if (!started) {
     failure = started.error().message;

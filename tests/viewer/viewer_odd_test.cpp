@@ -7,6 +7,7 @@
 #include "client/viewer/pictures/picture_difference.h"
 #include "client/viewer/window/hud_facts.h"
 #include "server/app/live_server.h"
+#include "shared/base/timing.h"
 #include "tests/support/loaded_libraries.h"
 #include "tests/support/patience.h"
 #include "tests/support/run_viewer.h"

@@ -8,6 +8,7 @@
 
 #include "client/viewer/window_app.h"
 #include "server/app/live_server.h"
+#include "shared/base/timing.h"
 #include "tests/support/loaded_libraries.h"
 #include "tests/support/patience.h"
 #include "tests/support/run_viewer.h"

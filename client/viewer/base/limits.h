@@ -11,6 +11,10 @@ namespace scree::limits {
 /// arrive in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
 inline constexpr double playback_delay_s = 0.1;
 
+/// Seconds for which the playback clock runs on without a frame, because a server sends none while nothing
+/// happens. Above: the link has a gap, and what is shown waits.
+inline constexpr double playback_quiet_s = 0.6;
+
 /// Part of a later frame's delay that the playback clock takes over: follows drift within seconds, ignores
 /// jitter.
 inline constexpr double playback_drift = 0.01;

@@ -38,7 +38,8 @@ double Playback::clock(double now_s) {
   if (!start_s_) return clock_;
   const double behind_s = limits::playback_delay_s - transform_ticks_ / rate_hz_;
   const double wanted = (now_s - *start_s_ - std::max(behind_s, 0.0)) * rate_hz_;
-  clock_ = std::clamp(wanted, clock_, std::max(clock_, static_cast<double>(newest_)));
+  const double last = static_cast<double>(newest_) + limits::playback_quiet_s * rate_hz_;
+  clock_ = std::clamp(wanted, clock_, std::max(clock_, last));
   return clock_;
 }
 

@@ -1,0 +1,20 @@
+// Text from outside that people will read, in logs, on terminals and screens: valid UTF-8 without control
+// characters (C0, DEL, C1) and without those that set its direction, by which a text can be made to read as
+// another.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace scree {
+
+/// What is wrong with it, as the end of a sentence; nothing when it may be shown.
+std::optional<std::string_view> fault_of_text(std::string_view text);
+
+/// The text cut to the limit at the end of a character, each character that may not be shown replaced by a
+/// space, each byte that is no UTF-8 by '?'. fault_of_text() finds nothing in it.
+std::string showable(std::string_view text, size_t bytes_max);
+
+}  // namespace scree

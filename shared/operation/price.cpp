@@ -1,0 +1,104 @@
+#include "shared/operation/price.h"
+
+#include "shared/base/check.h"
+#include "shared/falling/island.h"
+#include "shared/field/edit.h"
+#include "shared/operation/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Chunks of the box that no edit has touched: their terrain may have to be generated. Whether it has been is
+/// not part of the simulation's state.
+size_t untouched_chunks(const VoxelBox& box, const Field& field) {
+  const ChunkCoord lo = chunk_of(brick_of(box.lo)), hi = chunk_of(brick_of(box.hi));
+  size_t count = 0;
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z) count += field.has_edits({x, y, z}) ? 0 : 1;
+  return count;
+}
+
+float merge_price_us(StampMethod method) {
+  switch (method) {
+    case StampMethod::slices:
+      return limits::slices_cost_us;
+    case StampMethod::sphere:
+      return limits::sphere_cost_us;
+    case StampMethod::stamp:
+      break;
+  }
+  return limits::stamp_cost_us;
+}
+
+struct OperationPricing {
+  const Field& field;
+  const PieceTable& pieces;
+
+  float voxels_of_piece(PieceId id) const { return voxels_of(pieces.at(id)->window.box); }
+  float merge_us(PieceId id, StampMethod method) const {
+    return merge_price_us(method) + limits::cut_voxel_cost_us * voxels_of_piece(id);
+  }
+
+  float operator()(const CarveOperation& carve) const {
+    const float voxels = voxels_of(band_box(in_voxels(carve.shape, field.source().voxel_size_m)));
+    return edit_price_us(carve.shape, field) + cut_price_us(carve.cutter, voxels, carve.seeds);
+  }
+  float operator()(const FillOperation& fill) const { return edit_price_us(fill.shape, field); }
+  float operator()(const PaintOperation& paint) const { return edit_price_us(paint.shape, field); }
+  float operator()(const StampOperation& stamp) const {
+    float sum_us = merge_us(stamp.piece, stamp.method);
+    for (const StampedPiece& other : stamp.others) sum_us += merge_us(other.piece, stamp.method);
+    return sum_us;
+  }
+  float operator()(const DiscardOperation&) const { return 0.0F; }
+  float operator()(const ShatterOperation& shatter) const {
+    return cut_price_us(shatter.cutter, voxels_of_piece(shatter.piece), shatter.seeds);
+  }
+  float operator()(const IslandOperation& island) const { return lift_price_us(island.box); }
+};
+
+}  // namespace
+
+bool cuts_polygons(Cutter cutter) {
+  switch (cutter) {
+    case Cutter::field:
+      return false;
+    case Cutter::slice:
+    case Cutter::conform:
+      break;
+  }
+  return true;
+}
+
+float edit_price_us(const Shape& shape, const Field& field) {
+  const float dx = field.source().voxel_size_m;
+  CHECK(validate(Operation(FillOperation{shape}), {}, dx));
+  const VoxelBox box = band_box(in_voxels(shape, dx));
+  return limits::edit_cost_us + limits::edit_voxel_cost_us * voxels_of(box) +
+         limits::chunk_cost_us * static_cast<float>(untouched_chunks(box, field));
+}
+
+float voxels_of(const VoxelBox& box) {
+  const VoxelCoord size = box.size();
+  return static_cast<float>(size.x) * static_cast<float>(size.y) * static_cast<float>(size.z);
+}
+
+float cut_price_us(Cutter cutter, float voxels, uint32_t pieces) {
+  const auto count = static_cast<float>(pieces);
+  if (cuts_polygons(cutter))
+    return limits::polygons_cost_us + limits::polygons_voxel_cost_us * voxels +
+           limits::polygons_piece_cost_us * count;
+  return limits::cut_cost_us + limits::cut_voxel_cost_us * voxels + limits::piece_cost_us * count;
+}
+
+float lift_price_us(const VoxelBox& box) {
+  return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels_of(lift_box(box));
+}
+
+float price_us(const Operation& operation, const Field& field, const PieceTable& pieces) {
+  return std::visit(OperationPricing{field, pieces}, operation);
+}
+
+}  // namespace scree

@@ -1,0 +1,29 @@
+// What operations cost by the model of work: microseconds on one core of the machine that
+// shared/operation/limits.h names. Prices are functions of the operation and of what it is applied to alone.
+#pragma once
+
+#include <cstdint>
+
+#include "shared/field/field.h"
+#include "shared/field/window.h"
+#include "shared/fracture/voronoi.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+/// Voxels of a box.
+float voxels_of(const VoxelBox& box);
+
+/// Whether the cutter computes parts of the volume as polygons.
+bool cuts_polygons(Cutter cutter);
+/// Reading and changing the field in the box of a shape that is valid.
+float edit_price_us(const Shape& shape, const Field& field);
+/// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.
+float cut_price_us(Cutter cutter, float voxels, uint32_t pieces);
+/// Lifting an island of that box, with its hulls and body.
+float lift_price_us(const VoxelBox& box);
+
+/// Applying a valid operation to this field and these pieces.
+float price_us(const Operation& operation, const Field& field, const PieceTable& pieces);
+
+}  // namespace scree
