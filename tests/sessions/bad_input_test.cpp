@@ -135,7 +135,7 @@ TEST_F(BadInputTest, truncated_frame) {
 }
 
 TEST_F(BadInputTest, oversized_frame) {
-  expect_closed({0xFF, 0xFF, 0xFF, 0x7F}, std::to_string(limits::message_bytes_max));
+  expect_closed({0xFF, 0xFF, 0xFF, 0x7F}, std::to_string(limits::hello_bytes_max));
 }
 
 TEST_F(BadInputTest, client_that_never_reads) {
