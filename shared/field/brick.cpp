@@ -14,6 +14,17 @@ Brick filled(Code code) {
   return brick;
 }
 
+constexpr size_t hashed_bytes = 12 + brick_voxels;
+
+/// The coordinate and the codes, at the beginning of `bytes`.
+void lay_out(BrickCoord coord, const Brick& brick, unsigned char* bytes) {
+  static_assert(sizeof(Brick) == brick_voxels);
+  std::memcpy(bytes, &coord.x, 4);
+  std::memcpy(bytes + 4, &coord.y, 4);
+  std::memcpy(bytes + 8, &coord.z, 4);
+  std::memcpy(bytes + 12, brick.codes.data(), brick_voxels);
+}
+
 }  // namespace
 
 const Brick& air_brick() {
@@ -33,12 +44,15 @@ const Brick* uniform_equivalent(const Brick& brick) {
 }
 
 uint64_t brick_hash(BrickCoord coord, const Brick& brick) {
-  static_assert(sizeof(Brick) == brick_voxels);
-  std::array<unsigned char, 12 + brick_voxels> bytes;
-  std::memcpy(bytes.data(), &coord.x, 4);
-  std::memcpy(bytes.data() + 4, &coord.y, 4);
-  std::memcpy(bytes.data() + 8, &coord.z, 4);
-  std::memcpy(bytes.data() + 12, brick.codes.data(), brick_voxels);
+  std::array<unsigned char, hashed_bytes> bytes;
+  lay_out(coord, brick, bytes.data());
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t material) {
+  std::array<unsigned char, hashed_bytes + 1> bytes;
+  lay_out(coord, brick, bytes.data());
+  bytes.back() = material;
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 

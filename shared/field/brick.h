@@ -54,5 +54,7 @@ const Brick* uniform_equivalent(const Brick& brick);
 
 /// XXH3 of the coordinate and the codes.
 uint64_t brick_hash(BrickCoord coord, const Brick& brick);
+/// XXH3 of the coordinate, the codes and the number of the material that the brick is painted with.
+uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t material);
 
 }  // namespace scree

@@ -77,14 +77,7 @@ void for_each_row(BrickCoord brick, const Window& window, F&& f) {
 }  // namespace
 
 uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint) {
-  uint64_t hash = brick_hash(coord, brick);
-  if (!paint) return hash;
-  // SplitMix64's finaliser, so that neighbours painted alike do not add up to something else painted alike.
-  uint64_t mixed = mixed_bits(coord) + 0x9E3779B97F4A7C15ULL * (static_cast<uint64_t>(*paint) + 1);
-  mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
-  hash += mixed ^ (mixed >> 31U);
-  return hash;
+  return paint ? painted_brick_hash(coord, brick, static_cast<uint8_t>(*paint)) : brick_hash(coord, brick);
 }
 
 Field::Field(const TerrainSource& source)
@@ -144,8 +137,9 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   EditedChunk& chunk = edited_[chunk_of(coord)];
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
   CHECK_DEBUG(((chunk.bricks & bit) != 0) == is_edited(coord));
-  uint64_t change = brick_hash(coord, brick);
-  if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord));
+  const std::optional<Material> paint = painted(coord);
+  uint64_t change = brick_hash(coord, brick, paint);
+  if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord), paint);
   store_edited(coord, brick);
   edited_bricks_ += (chunk.bricks & bit) == 0 ? 1 : 0;
   chunk.bricks |= bit;

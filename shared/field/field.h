@@ -19,7 +19,7 @@
 
 namespace scree {
 
-/// Hash of a brick with its paint; without paint it is brick.h's.
+/// XXH3 of the coordinate, the codes and, when the brick is painted, the material's number.
 uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint);
 
 class Field {
