@@ -18,6 +18,7 @@ struct Writing {
     write(*hello.mutable_eye(), from.eye_m);
     hello.set_interest_radius_m(from.interest_radius_m);
     hello.set_name(showable(from.name, limits::person_name_bytes_max));
+    hello.set_lacks_kernels(from.lacks_kernels);
   }
   void operator()(const InterestMessage& from) const {
     wire::Interest& interest = *to.mutable_interest();
@@ -57,6 +58,9 @@ struct Writing {
     write(*to.mutable_cursor()->mutable_aim(), from.aim_m);
   }
   void operator()(const WatchMessage& from) const { to.mutable_watch()->set_physics(from.physics); }
+  void operator()(const GroundRequest& from) const {
+    to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
+  }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const {
     wire::Admin& admin = *to.mutable_admin();
@@ -75,6 +79,7 @@ HelloMessage read(const wire::Hello& from, FieldChecker& check) {
   hello.eye_m = check.vec3(from.eye(), "eye");
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
+  hello.lacks_kernels = from.lacks_kernels();
   return hello;
 }
 
@@ -154,6 +159,9 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
           CursorMessage{check.vec3(from.cursor().eye(), "eye"), check.vec3(from.cursor().aim(), "aim")});
     case wire::ClientMessage::kWatch:
       return WatchMessage{from.watch().physics()};
+    case wire::ClientMessage::kGround:
+      return checked(GroundRequest{
+          check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

@@ -27,6 +27,10 @@ inline constexpr size_t entries_per_frame_max = 65536;
 /// Chunks in one repair request; more mismatches wait for the next request.
 inline constexpr size_t repair_chunks_max = 1024;
 
+/// Chunks of ground in one request, and asked for by one client and not answered yet. Above: refused, and the
+/// connection ends.
+inline constexpr size_t ground_chunks_max = 1024;
+
 /// Length of a client's name, bytes.
 inline constexpr size_t client_name_bytes_max = 64;
 

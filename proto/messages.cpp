@@ -55,6 +55,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      },
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
+                     [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const ResetMessage&) { return size_t{0}; },
                      [](const ReplyMessage& m) { return m.refusal.size(); },
                      [](const StatusMessage& m) {

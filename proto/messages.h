@@ -27,7 +27,8 @@ struct HelloMessage {
   std::string client;  ///< name of the program, for the server's log; at most 64 bytes
   glm::vec3 eye_m{0.0F};
   float interest_radius_m = 0.0F;
-  std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
+  std::string name{};          ///< the person's, shown to others; at most limits::person_name_bytes_max
+  bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
 };
 
 /// The client's eye; the client follows the chunks and pieces within the radius.
@@ -80,8 +81,14 @@ struct WatchMessage {
   bool physics = false;
 };
 
-using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
-                                   RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage>;
+/// Asks for the generated ground of chunks; each is answered by a GroundMessage.
+struct GroundRequest {
+  std::vector<ChunkCoord> chunks;
+};
+
+using ClientMessage =
+    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairRequest,
+                 AckMessage, AdminMessage, CursorMessage, WatchMessage, GroundRequest>;
 
 // ---- server to client
 
@@ -128,6 +135,15 @@ struct ChunkMessage {
   Tick version = 0;
   std::vector<BrickPatch> bricks;
   uint64_t hash = 0;  ///< Σ brick_hash
+};
+
+/// The ground of a chunk as generated: bricks that are neither wholly rock nor in the list are wholly air.
+struct GroundMessage {
+  ChunkCoord chunk;
+  bool beyond = false;  ///< not within interest: nothing else is set
+  uint64_t rock = 0;    ///< bit i: brick i of the chunk (index_in_chunk) is wholly rock
+  std::vector<BrickPatch> bricks{};
+  uint64_t hash = 0;  ///< Σ brick_hash of all bricks
 };
 
 /// A piece whose creating operation the client did not get.
@@ -238,8 +254,9 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
-                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage>;
+using ServerMessage =
+    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
+                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -140,6 +140,14 @@ struct Writing {
     chunk.set_bricks(to_string(encode_bricks(from.bricks)));
     chunk.set_hash(from.hash);
   }
+  void operator()(const GroundMessage& from) const {
+    wire::Ground& ground = *to.mutable_ground();
+    ground.set_chunk(pack_chunks({from.chunk}));
+    ground.set_beyond(from.beyond);
+    ground.set_rock(from.rock);
+    ground.set_bricks(to_string(encode_bricks(from.bricks)));
+    ground.set_hash(from.hash);
+  }
   void operator()(const PieceMessage& from) const {
     wire::Piece& piece = *to.mutable_piece();
     piece.set_id(from.id);
@@ -192,20 +200,44 @@ FrameMessage read(const wire::Frame& from, FieldChecker& check) {
   return frame;
 }
 
+ChunkCoord one_chunk(const std::string& packed, FieldChecker& check) {
+  const std::vector<ChunkCoord> coords = check.chunks(packed, 1, "chunk");
+  if (!coords.empty()) return coords.front();
+  check.refuse("a chunk without a coordinate");
+  return {};
+}
+
+std::vector<BrickPatch> bricks_within(ChunkCoord chunk, const std::string& packed, FieldChecker& check) {
+  std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed), bricks_per_chunk));
+  for (const BrickPatch& patch : bricks)
+    if (chunk_of(patch.coord) != chunk) check.refuse("a brick of another chunk");
+  return bricks;
+}
+
 ChunkMessage read(const wire::Chunk& from, FieldChecker& check) {
   ChunkMessage chunk;
-  const std::vector<ChunkCoord> coords = check.chunks(from.chunk(), 1, "chunk");
-  if (coords.empty()) {
-    check.refuse("a chunk without a coordinate");
-    return chunk;
-  }
-  chunk.chunk = coords.front();
+  chunk.chunk = one_chunk(from.chunk(), check);
   chunk.version = from.version();
-  chunk.bricks = check.take(decode_bricks(as_span(from.bricks()), bricks_per_chunk));
-  for (const BrickPatch& patch : chunk.bricks)
-    if (chunk_of(patch.coord) != chunk.chunk) check.refuse("a brick of another chunk");
+  chunk.bricks = bricks_within(chunk.chunk, from.bricks(), check);
   chunk.hash = from.hash();
   return chunk;
+}
+
+GroundMessage read(const wire::Ground& from, FieldChecker& check) {
+  GroundMessage ground;
+  ground.chunk = one_chunk(from.chunk(), check);
+  ground.beyond = from.beyond();
+  ground.rock = from.rock();
+  ground.bricks = bricks_within(ground.chunk, from.bricks(), check);
+  ground.hash = from.hash();
+  for (const BrickPatch& patch : ground.bricks) {
+    if (patch.paint) check.refuse("a painted brick of ground");
+    if (((ground.rock >> index_in_chunk(patch.coord)) & 1U) != 0)
+      check.refuse("a brick of ground that is listed, and wholly rock as well");
+  }
+  if (ground.beyond && (ground.rock != 0 || !ground.bricks.empty() || ground.hash != 0))
+    check.refuse("ground beyond the interest that has bricks");
+  return ground;
 }
 
 PieceMessage read(const wire::Piece& from, FieldChecker& check) {
@@ -291,6 +323,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.frame(), check));
     case wire::ServerMessage::kChunk:
       return checked(read(from.chunk(), check));
+    case wire::ServerMessage::kGround:
+      return checked(read(from.ground(), check));
     case wire::ServerMessage::kPiece:
       return checked(read(from.piece(), check));
     case wire::ServerMessage::kReset:

@@ -65,6 +65,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const ReplyMessage&) -> Done { return {}; },
           [](const CursorsMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
+          // Never asked for: the field generates it.
+          [](const GroundMessage&) -> Done { return {}; },
       },
       message);
   if (applied) applied = within_limits();

@@ -148,6 +148,7 @@ std::string to_json(const ServerReport& report) {
                {"transform_bytes", sent.transform_bytes},
                {"chunk_bytes", sent.chunk_bytes},
                {"piece_bytes", sent.piece_bytes},
+               {"ground_bytes", sent.ground_bytes},
                {"bytes_per_carve", mean<CarveOperation>(sent)},
                {"bytes_per_merge", mean<StampOperation>(sent)},
                {"sessions", json_of(report.net)},

@@ -22,6 +22,14 @@ uint32_t fold(uint64_t hash) {
   return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
 }
 
+float distance_between_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) {
+  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
+  const glm::vec3 lo(static_cast<float>(chunk.x) * side_m, static_cast<float>(chunk.y) * side_m,
+                     static_cast<float>(chunk.z) * side_m);
+  const glm::vec3 nearest = glm::clamp(eye_m, lo, lo + side_m);
+  return glm::length(nearest - eye_m);
+}
+
 uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
   uint64_t sum = 0;
   for (const ChunkCoord chunk : chunks) {
@@ -45,8 +53,13 @@ TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const
     for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
 }
 
-ClientView::ClientView(glm::vec3 eye_m, float radius_m)
-    : eye_m_(eye_m), radius_m_(radius_m), next_eye_m_(eye_m), next_radius_m_(radius_m) {
+ClientView::ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels)
+    : eye_m_(eye_m),
+      radius_m_(radius_m),
+      next_eye_m_(eye_m),
+      next_radius_m_(radius_m),
+      has_kernels_(has_kernels),
+      patch_credit_bricks_(limits::patch_bricks_max) {
   CHECK(radius_m >= 0.0F);
 }
 
@@ -67,11 +80,12 @@ void ClientView::reset() {
 }
 
 float ClientView::distance_m(ChunkCoord chunk, float voxel_size_m) const {
-  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
-  const glm::vec3 lo(static_cast<float>(chunk.x) * side_m, static_cast<float>(chunk.y) * side_m,
-                     static_cast<float>(chunk.z) * side_m);
-  const glm::vec3 nearest = glm::clamp(eye_m_, lo, lo + side_m);
-  return glm::length(nearest - eye_m_);
+  return distance_between_m(eye_m_, chunk, voxel_size_m);
+}
+
+bool ClientView::may_see(ChunkCoord chunk, float voxel_size_m) const {
+  return distance_between_m(next_eye_m_, chunk, voxel_size_m) <=
+         next_radius_m_ * limits::interest_keep_factor;
 }
 
 bool ClientView::near(ChunkCoord chunk, float voxel_size_m) const {
@@ -86,6 +100,7 @@ bool ClientView::near(const QuantisedPose& pose, float factor) const {
 /// that nothing but operations of this frame has ever changed.
 bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges& changes,
                            const ChunkSet& tainted) const {
+  if (!has_kernels_) return false;
   const auto readable = [&](ChunkCoord chunk) {
     if (tainted.contains(chunk)) return false;
     if (held_.contains(chunk) || changes.fresh.contains(chunk)) return true;
@@ -136,8 +151,16 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
   }
 }
 
-void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tainted, FrameSelection& frame,
-                                ChunkSet& changed) {
+/// Bricks that the frame may patch.
+size_t ClientView::patch_room(bool allowed) {
+  if (has_kernels_) return allowed ? limits::patch_bricks_max : 0;
+  patch_credit_bricks_ =
+      std::min(patch_credit_bricks_ + limits::patch_bricks_per_tick, limits::patch_bricks_max);
+  return allowed ? patch_credit_bricks_ : 0;
+}
+
+void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room,
+                                FrameSelection& frame, ChunkSet& changed) {
   std::vector<std::pair<float, ChunkCoord>> order;
   for (const ChunkCoord chunk : tainted) order.emplace_back(distance_m(chunk, changes.voxel_size_m), chunk);
   std::ranges::sort(order);
@@ -148,7 +171,7 @@ void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tain
     const bool is_held = held_.contains(chunk);
     const bool is_near = distance <= radius_m_;
     const bool complete = is_held || (is_near && changes.fresh.contains(chunk) && !stale_.contains(chunk));
-    if (complete && bricks + found->second.size() <= limits::patch_bricks_max) {
+    if (complete && bricks + found->second.size() <= room) {
       bricks += found->second.size();
       frame.patched.push_back(chunk);
       held_.insert(chunk);
@@ -158,6 +181,7 @@ void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tain
     if (is_held) distrust(chunk);
     if (is_held || is_near) wanted_.insert(chunk);
   }
+  if (!has_kernels_) patch_credit_bricks_ -= bricks;
 }
 
 /// Follows the eye: edited chunks that came into the interest are wanted, chunks that left it are dropped.
@@ -211,7 +235,7 @@ bool ClientView::is_sound(const ChunkSet& changed) const {
          std::ranges::all_of(stale_, [this](ChunkCoord chunk) { return wanted_.contains(chunk); });
 }
 
-FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_poses) {
+FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope parts) {
   CHECK_EQ(changes.state.tick(), changes.delta.tick);
   FrameSelection frame;
   ChunkSet tainted = changes.orphan;
@@ -222,10 +246,10 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, bool with_po
   ChunkSet half_told;
   for (const ChunkCoord chunk : tainted)
     if (changed.erase(chunk) != 0) half_told.insert(chunk);
-  select_patches(changes, tainted, frame, changed);
+  select_patches(changes, tainted, patch_room(parts.patches), frame, changed);
   if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
     rescan(changes, changed, frame);
-  if (with_poses) select_poses(changes, frame);
+  if (parts.poses) select_poses(changes, frame);
   std::ranges::sort(frame.removed);
   CHECK_DEBUG(is_sound(changed));
   CHECK_DEBUG(std::ranges::adjacent_find(frame.removed, std::ranges::greater_equal{}) == frame.removed.end());

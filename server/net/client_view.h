@@ -4,6 +4,9 @@
 // so far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it.
 // An edited chunk within interest is held or wanted, never both; a stale chunk is wanted and not held.
 // `known` pieces are those that the client has. Lengths in metres. Not thread-safe.
+//
+// A client without kernels never gets an operation: the bricks that operations changed come as patches,
+// within a budget of bricks, or with their whole chunk, and pieces come whole.
 #pragma once
 
 #include <cstdint>
@@ -47,19 +50,27 @@ struct FrameSelection {
   bool is_empty() const { return *this == FrameSelection{}; }
 };
 
+/// What a frame may have besides the tick's operations.
+struct FrameScope {
+  bool poses = true;    ///< poses, and removals of pieces that ended or left the interest
+  bool patches = true;  ///< false: chunks that would be patched are wanted whole, later
+};
+
 class ClientView {
  public:
-  /// The radius is not negative.
-  ClientView(glm::vec3 eye_m, float radius_m);
+  /// The radius is not negative. `has_kernels`: whether the client can carry out operations.
+  ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels);
 
   glm::vec3 eye_m() const { return next_eye_m_; }
   float radius_m() const { return next_radius_m_; }
   /// Changes eye and radius within limits::rescan_ticks_min ticks. The radius is not negative.
   void set_interest(glm::vec3 eye_m, float radius_m);
+  bool has_kernels() const { return has_kernels_; }
+  /// Whether the chunk lies within the interest as last set, times limits::interest_keep_factor.
+  bool may_see(ChunkCoord chunk, float voxel_size_m) const;
 
   /// Selects the frame of a tick, and notes it as sent. Call once for each tick whose frame is sent.
-  /// `with_poses`: includes poses, and removes pieces that ended or left the interest.
-  FrameSelection select_frame(const TickChanges& changes, bool with_poses);
+  FrameSelection select_frame(const TickChanges& changes, FrameScope parts);
 
   /// Up to `count` chunks (pieces) to send whole, nearest first.
   std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
@@ -90,8 +101,9 @@ class ClientView {
   bool concerns(const AppliedOperation& operation, const TickChanges& changes) const;
   void select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
                          ChunkSet& changed);
-  void select_patches(const TickChanges& changes, const ChunkSet& tainted, FrameSelection& frame,
+  void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
                       ChunkSet& changed);
+  size_t patch_room(bool allowed);
   void select_poses(const TickChanges& changes, FrameSelection& frame);
   void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
   void forget_piece(PieceId piece, FrameSelection& frame);
@@ -102,6 +114,8 @@ class ClientView {
   float radius_m_;
   glm::vec3 next_eye_m_;
   float next_radius_m_;
+  bool has_kernels_;
+  size_t patch_credit_bricks_;  ///< of a client without kernels
   bool rescan_due_ = true;
   Tick rescanned_ = 0;
   ChunkSet held_;

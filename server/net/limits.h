@@ -21,6 +21,24 @@ inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
 /// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
 inline constexpr size_t patch_bricks_max = 1024;
 
+/// Bricks sent as patches to a client without kernels, in a tick on average; what is saved up, up to
+/// patch_bricks_max, may go at once. 32 KiB of codes compress to less than chunk_bytes_per_tick. Above: whole
+/// chunks are streamed instead, within their budget, so that a chunk that changes in every tick is sent as
+/// often as there is room.
+inline constexpr size_t patch_bricks_per_tick = 64;
+
+/// Bytes of ground sent to one client in a tick. Above: the rest waits.
+inline constexpr int64_t ground_bytes_per_tick = 16 * 1024;
+
+/// Ground that the network thread generates in a tick for all clients together: a chunk with a surface counts
+/// 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last one may go
+/// beyond. Above: the rest waits, each client in turn.
+inline constexpr int ground_work_per_tick = 8;
+
+/// Bytes of encoded ground kept to be sent to several clients. Above: all of it is forgotten, and generated
+/// again on demand.
+inline constexpr size_t ground_kept_bytes_max = 32 * 1024 * 1024;
+
 /// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
 inline constexpr uint32_t rescan_ticks_min = 6;
 

@@ -29,8 +29,8 @@ double burst_of(double requests_per_second) {
 }
 
 PublisherConfig publisher_config(const NetConfig& config) {
-  return {config.terrain.voxel_size_m, std::max(1U, config.tick_rate_hz),
-          std::max(1U, config.ticks_per_transform), config.heartbeat_s};
+  return {config.terrain, std::max(1U, config.tick_rate_hz), std::max(1U, config.ticks_per_transform),
+          config.heartbeat_s};
 }
 
 Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
@@ -166,7 +166,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
                                              " sessions (sessions-max); try again later");
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
-  publisher_.join(session.id(), hello.eye_m, *radius_m);
+  publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels);
   outsiders_.erase(session.id());
   sessions_.at(session.id()).name = hello.name;
   ++counts_.sessions_joined;
@@ -187,37 +187,44 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
 
 tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
   using Done = tl::expected<void, Refused>;
-  return std::visit(Overloaded{
-                        [](const HelloMessage&) -> Done {
-                          return refuse(Refusal::hello_repeated,
-                                        "a second hello: this connection has joined already");
-                        },
-                        [&](const InterestMessage& interest) { return follow(session, interest); },
-                        [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
-                          request(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
-                          return {};
-                        },
-                        [&](const RepairRequest& repair) -> Done {
-                          say(spdlog::level::warn, "repair",
-                              fmt::format("session {}: {} chunks differ at tick {}", session.id(),
-                                          repair.chunks.size(), repair.tick));
-                          publisher_.repair(session.id(), repair);
-                          return {};
-                        },
-                        // On TCP the bytes that wait for a client say how far behind it is.
-                        [](const AckMessage&) -> Done { return {}; },
-                        [&](const AdminMessage& admin) { return administer(session, admin); },
-                        [&](const CursorMessage& cursor) -> Done {
-                          publisher_.set_cursor(
-                              {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
-                          return {};
-                        },
-                        [&](const WatchMessage& watch) -> Done {
-                          publisher_.watch(session.id(), watch.physics);
-                          return {};
-                        },
-                    },
-                    message);
+  return std::visit(
+      Overloaded{
+          [](const HelloMessage&) -> Done {
+            return refuse(Refusal::hello_repeated, "a second hello: this connection has joined already");
+          },
+          [&](const InterestMessage& interest) { return follow(session, interest); },
+          [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
+            request(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
+            return {};
+          },
+          [&](const RepairRequest& repair) -> Done {
+            say(spdlog::level::warn, "repair",
+                fmt::format("session {}: {} chunks differ at tick {}", session.id(), repair.chunks.size(),
+                            repair.tick));
+            publisher_.repair(session.id(), repair);
+            return {};
+          },
+          // On TCP the bytes that wait for a client say how far behind it is.
+          [](const AckMessage&) -> Done { return {}; },
+          [&](const AdminMessage& admin) { return administer(session, admin); },
+          [&](const CursorMessage& cursor) -> Done {
+            publisher_.set_cursor(
+                {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
+            return {};
+          },
+          [&](const WatchMessage& watch) -> Done {
+            publisher_.watch(session.id(), watch.physics);
+            return {};
+          },
+          [&](const GroundRequest& ground) -> Done {
+            if (publisher_.ask_ground(session.id(), ground)) return {};
+            return refuse(Refusal::ground_waiting,
+                          fmt::format("more than {} chunks of ground asked for and not answered "
+                                      "(limits.ground_chunks_max)",
+                                      limits::ground_chunks_max));
+          },
+      },
+      message);
 }
 
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {

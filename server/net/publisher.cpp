@@ -28,16 +28,18 @@ int64_t size_of(const SharedBytes& bytes) {
 
 }  // namespace
 
-Publisher::Publisher(const PublisherConfig& config) : config_(config), clock_(config.tick_rate_hz) {}
+Publisher::Publisher(const PublisherConfig& config)
+    : config_(config), ground_(config.terrain), clock_(config.tick_rate_hz) {}
 
-void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m) {
-  clients_.erase(session);
-  clients_.emplace(session, Client{session, ClientView(eye_m, radius_m)});
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels) {
+  leave(session);
+  clients_.emplace(session, Client{session, ClientView(eye_m, radius_m, has_kernels)});
 }
 
 void Publisher::leave(uint64_t session) {
   clients_.erase(session);
   cursors_.erase(session);
+  ground_.leave(session);
 }
 
 void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) {
@@ -79,6 +81,10 @@ void Publisher::repair(uint64_t session, const RepairRequest& request) {
   }
 }
 
+bool Publisher::ask_ground(uint64_t session, const GroundRequest& request) {
+  return !clients_.contains(session) || ground_.ask(session, request.chunks);
+}
+
 const ClientView* Publisher::view(uint64_t session) const {
   const auto client = clients_.find(session);
   return client == clients_.end() ? nullptr : &client->second.view;
@@ -94,15 +100,17 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   }
   // TickChanges must know the chunks edited before this tick: it reads the old state here, and refers to the
   // same object after apply(), so that no copy is needed.
-  const TickChanges changes(delta, state_, state_, config_.voxel_size_m);
+  const TickChanges changes(delta, state_, state_, config_.terrain.voxel_size_m);
   state_.apply(delta);
   clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
   for (auto& [session, client] : clients_) serve(client, changes, backlog_bytes(session));
+  stream_ground(backlog_bytes);
   send_replies(delta);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
-  CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes <= stats_.sent_bytes);
+  CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes + stats_.ground_bytes <=
+        stats_.sent_bytes);
   return std::exchange(out_, {});
 }
 
@@ -136,7 +144,10 @@ void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog
   const Tick tick = changes.delta.tick;
   const bool reads_along = backlog_bytes <= limits::outbox_soft_bytes;
   const bool with_poses = reads_along && tick % config_.ticks_per_transform == 0;
-  if (!send_frame(client, changes, with_poses)) return;
+  // What a client without kernels would get as patches is much: while it reads slowly, it gets none, and
+  // later the chunks as they are then.
+  const bool with_patches = reads_along || client.view.has_kernels();
+  if (!send_frame(client, changes, {with_poses, with_patches})) return;
   if (reads_along) stream_chunks(client, changes);
   if (with_poses) stream_pieces(client);
   if (status_due(tick)) send_status(client);
@@ -151,8 +162,8 @@ bool Publisher::frame_due(const Client& client, Tick tick) const {
   return client.last_frame == 0 || tick >= client.last_frame + heartbeat_ticks || status_due(tick);
 }
 
-bool Publisher::send_frame(Client& client, const TickChanges& changes, bool with_poses) {
-  FrameSelection selection = client.view.select_frame(changes, with_poses);
+bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScope parts) {
+  FrameSelection selection = client.view.select_frame(changes, parts);
   const Tick tick = changes.delta.tick;
   if (selection.is_empty() && !frame_due(client, tick)) return true;
   client.last_frame = tick;
@@ -199,6 +210,18 @@ void Publisher::stream_pieces(Client& client) {
   }
 }
 
+void Publisher::stream_ground(const std::function<size_t(uint64_t)>& backlog_bytes) {
+  const auto reader = [&](uint64_t session) -> const ClientView* {
+    const Client& client = clients_.at(session);
+    const bool reads_along = !client.stopped && backlog_bytes(session) <= limits::outbox_soft_bytes;
+    return reads_along ? &client.view : nullptr;
+  };
+  ground_.serve(reader, [this](uint64_t session, const SharedBytes& bytes) {
+    stats_.ground_bytes += bytes->size();
+    send(clients_.at(session), bytes);
+  });
+}
+
 void Publisher::send_cursors(Client& client) {
   std::vector<PlayerCursor> now =
       cursors_for(client.session, cursors_, client.view.eye_m(), client.view.radius_m());
@@ -209,7 +232,7 @@ void Publisher::send_cursors(Client& client) {
 
 void Publisher::send_physics(Client& client, const PhysicsMessage& physics) {
   const PhysicsMessage part =
-      physics_for(physics, state_, config_.voxel_size_m, client.view.eye_m(), client.view.radius_m());
+      physics_for(physics, state_, config_.terrain.voxel_size_m, client.view.eye_m(), client.view.radius_m());
   send(client, bytes_of(part));
 }
 

@@ -21,6 +21,7 @@
 #include "proto/messages.h"
 #include "server/net/client_view.h"
 #include "server/net/encode_cache.h"
+#include "server/net/ground_stream.h"
 #include "server/net/limits.h"
 #include "server/net/tick_clock.h"
 #include "shared/operation/per_operation.h"
@@ -28,7 +29,7 @@
 namespace scree {
 
 struct PublisherConfig {
-  float voxel_size_m = 0.25F;
+  TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
   double heartbeat_s = limits::heartbeat_s;  ///< 0: a frame every tick
@@ -47,6 +48,7 @@ struct PublisherStats {
   uint64_t transform_bytes = 0;  ///< packed poses within frames
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
+  uint64_t ground_bytes = 0;
   OperationCounts operations;       ///< operations published
   OperationCounts operation_bytes;  ///< their encoded size
   uint64_t repairs = 0;             ///< chunks sent again because a check failed
@@ -57,11 +59,14 @@ class Publisher {
  public:
   explicit Publisher(const PublisherConfig& config);
 
-  void join(uint64_t session, glm::vec3 eye_m, float radius_m);
+  /// `has_kernels`: whether the client can carry out operations.
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
   /// Sends those of the request's chunks again whose hash differs from the server's at that tick.
   void repair(uint64_t session, const RepairRequest& request);
+  /// Queues chunks whose ground the client asks for; false when too many would wait (GroundStream::ask).
+  [[nodiscard]] bool ask_ground(uint64_t session, const GroundRequest& request);
 
   /// Sets how often the server has refused requests and sessions, for the status.
   void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
@@ -100,11 +105,12 @@ class Publisher {
   void count_operations(const TickDelta& delta);
   void serve(Client& client, const TickChanges& changes, size_t backlog_bytes);
   bool ready(Client& client, size_t backlog_bytes);
-  bool send_frame(Client& client, const TickChanges& changes, bool with_poses);
+  bool send_frame(Client& client, const TickChanges& changes, FrameScope parts);
   bool frame_due(const Client& client, Tick tick) const;
   bool status_due(Tick tick) const { return tick % config_.tick_rate_hz == 0; }
   void stream_chunks(Client& client, const TickChanges& changes);
   void stream_pieces(Client& client);
+  void stream_ground(const std::function<size_t(uint64_t)>& backlog_bytes);
   void send_cursors(Client& client);
   void send_physics(Client& client, const PhysicsMessage& physics);
   void send_replies(const TickDelta& delta);
@@ -116,6 +122,7 @@ class Publisher {
   std::map<uint64_t, Client> clients_;
   std::map<uint64_t, PlayerCursor> cursors_;
   EncodeCache cache_;
+  GroundStream ground_;
   TickClock clock_;
   PublisherStats stats_;
   RefusalCounts refusals_;

@@ -42,6 +42,7 @@ constexpr Row rows[] = {
     {Refusal::messages_per_second, "messages_per_second"},
     {Refusal::bytes_per_second, "bytes_per_second"},
     {Refusal::interest_invalid, "interest_invalid"},
+    {Refusal::ground_waiting, "ground_waiting"},
     {Refusal::admin_token_wrong, "admin_token_wrong"},
     {Refusal::token_guesses, "token_guesses"},
     {Refusal::server_stops, "server_stops"},

@@ -45,6 +45,7 @@ enum class Refusal : uint8_t {
   messages_per_second,
   bytes_per_second,
   interest_invalid,
+  ground_waiting,
   admin_token_wrong,
   token_guesses,
   server_stops,

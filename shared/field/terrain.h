@@ -1,5 +1,5 @@
-// The generator of unedited terrain. Server and client generate the same bits; terrain never crosses the
-// wire.
+// The generator of unedited terrain. Server and client generate the same bits; terrain crosses the wire only
+// to clients that cannot generate it.
 #pragma once
 
 #include <array>

@@ -41,6 +41,7 @@ class TrustingClient {
   std::map<PieceId, QuantisedPose> poses;
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
+  std::vector<GroundMessage> grounds;
 
  private:
   void apply(const FrameMessage& frame) {
@@ -96,6 +97,7 @@ class TrustingClient {
     for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
     pieces.clear();
   }
+  void apply(const GroundMessage& message) { grounds.push_back(message); }
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
@@ -117,8 +119,8 @@ class PublisherTest : public ::testing::Test {
       followers[outgoing.session].take(outgoing);
     }
   }
-  void join(uint64_t id, glm::vec3 eye_m, float radius_m) {
-    publisher.join(id, eye_m, radius_m);
+  void join(uint64_t id, glm::vec3 eye_m, float radius_m, bool has_kernels = true) {
+    publisher.join(id, eye_m, radius_m, has_kernels);
     followers.try_emplace(id);
   }
   /// Every chunk that the client holds reads as the server's.
@@ -165,7 +167,7 @@ class PublisherTest : public ::testing::Test {
   }
 
   TickSource source{flat_terrain};
-  Publisher publisher{PublisherConfig{}};
+  Publisher publisher{PublisherConfig{.terrain = flat_terrain}};
   std::map<uint64_t, TrustingClient> followers;
   std::map<uint64_t, size_t> bytes;
   std::map<uint64_t, SharedBytes> last;

@@ -109,12 +109,19 @@ inline std::vector<ServerMessage> server_messages() {
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {
-      welcome,        RefusalMessage{"protocol 9 is not 1"},
-      frame(),        FrameMessage{},
-      chunk,          PieceMessage{31, volume(), {1, -2, 3, 4}},
-      ResetMessage{}, ReplyMessage{7, "radius 12 m is over 8 m", 0},
-      status,         CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
-      physics()};
+      welcome,
+      RefusalMessage{"protocol 9 is not 1"},
+      frame(),
+      FrameMessage{},
+      chunk,
+      PieceMessage{31, volume(), {1, -2, 3, 4}},
+      ResetMessage{},
+      ReplyMessage{7, "radius 12 m is over 8 m", 0},
+      status,
+      CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
+      physics(),
+      GroundMessage{{-1, 2, 0}, false, 1ULL << 62U, {{{-4, 8, 0}, noisy_brick(5)}}, 0x123456789ABCDEF0ULL},
+      GroundMessage{.chunk = {7, -8, 9}, .beyond = true}};
 }
 
 inline std::vector<ClientMessage> client_messages() {
@@ -128,7 +135,7 @@ inline std::vector<ClientMessage> client_messages() {
   authored.pattern = SeedPattern::authored;
   authored.seeds = 2;
   authored.authored_m = {{1.0F, 2.0F, 3.0F}, {-4.0F, 0.25F, 4095.0F}};
-  return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F, "Ann"},
+  return {HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F, "Ann", true},
           InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
           carve,
           authored,
@@ -138,7 +145,8 @@ inline std::vector<ClientMessage> client_messages() {
           AckMessage{1ULL << 40U},
           AdminMessage{8, "a-token-of-some-length", {{"dents", "false"}, {"impacts", ""}}},
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
-          WatchMessage{true}};
+          WatchMessage{true},
+          GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}}};
 }
 
 /// The message without its length prefix.

@@ -162,7 +162,7 @@ class Client {
     welcome.terrain = flat_terrain;
     welcome.tick = publisher.state().tick();
     mirror = std::make_unique<Mirror>(welcome);
-    publisher.join(session, eye_m, radius_m);
+    publisher.join(session, eye_m, radius_m, true);
   }
   void take(const std::vector<Outgoing>& outgoing) {
     for (const Outgoing& message : outgoing) {
@@ -193,7 +193,7 @@ void expect_same(const Client& client, World& world) {
 
 TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   World world(flat_world());
-  Publisher publisher({voxel_m, 60, 3});
+  Publisher publisher({flat_terrain, 60, 3});
   const auto tick = [&](const std::vector<Command>& commands, std::initializer_list<Client*> clients) {
     const auto delta = world.step(commands);
     const auto outgoing = publisher.publish(*delta, [](uint64_t) { return size_t{0}; });
