@@ -1,0 +1,69 @@
+// The test that decodes the examples of docs/protocol.md as this client does: what stands under their bytes is so.
+//   node examples.js DOCUMENT PROTO
+import { readFileSync } from 'node:fs';
+
+import protobuf from 'protobufjs';
+
+import { brickHash } from './hashes.js';
+import { Reader, quaternionOf, unpackBricks, unpackCoords, unpackTransforms } from './packed.js';
+import { World } from './world.js';
+
+const [document, proto] = process.argv.slice(2);
+const ServerMessage = new protobuf.Root().loadSync(proto, { keepCase: true }).lookupType('scree.wire.ServerMessage');
+const MATERIALS = ['rock', 'soil', 'ice'];
+const wordsOf = (coord) => `(${coord.join(', ')})`;
+const hex = (number, digits) => '0x' + number.toString(16).padStart(digits, '0');
+
+function codesInWords(codes) {
+  if (codes.every((code) => code === codes[0])) return `all ${codes.length} codes ${codes[0]}`;
+  return `codes ${codes.slice(0, 3).join(' ')} … ${codes.at(-1)}`;
+}
+
+function brickInWords({ coord, codes, paint }) {
+  const painted = paint === null ? 'not painted' : `painted ${MATERIALS[paint]}`;
+  return `brick: ${wordsOf(coord)}, ${painted}, ${codesInWords(codes)}, hash ${hex(brickHash(coord, codes, paint), 16)}`;
+}
+
+const poseInWords = ({ id, position, rotation }) => `pose: piece ${id} ${wordsOf(position)}, rotation ${hex(rotation, 8)}`;
+
+const decoders = {
+  code: (bytes) => [`distance: ${((new Int8Array(bytes)[0] * 3) / 127).toFixed(4)} voxels`],
+  varint: (bytes) => [`number: ${new Reader(bytes, 'varint').varint()}`],
+  zigzag: (bytes) => [`number: ${new Reader(bytes, 'zigzag').zigzag()}`],
+  coords: (bytes) => ['coords: ' + unpackCoords(bytes).map(wordsOf).join(' ')],
+  bricks: (bytes) => unpackBricks(bytes).map(brickInWords),
+  transforms: (bytes) => unpackTransforms(bytes).map(poseInWords),
+  rotation: (bytes) => {
+    const [x, y, z, w] = quaternionOf(new Reader(bytes, 'rotation').u32()).map((part) => part.toFixed(4));
+    return [`quaternion: x ${x}, y ${y}, z ${z}, w ${w}`];
+  },
+};
+
+/** Messages that change the state are applied, with their hashes and checks. Returns whether it was one. */
+function applied(bytes) {
+  const message = ServerMessage.decode(bytes.subarray(4));
+  const world = new World();
+  for (const id of [3, 5, 7]) world.pieces.set(id, {}); // those of the example frame
+  if (message.kind === 'piece') world.pieces.clear();
+  const apply = { frame: 'frame', chunk: 'chunk', piece: 'piece', ground: 'groundOf' }[message.kind];
+  if (apply === undefined) return false;
+  world[apply](message[message.kind]);
+  if (world.mismatched) throw new Error('a check does not match');
+  return true;
+}
+
+const blocks = [...readFileSync(document, 'utf8').matchAll(/^```example (.+)\n([^]*?)^```$/gm)];
+const count = { decoded: 0, applied: 0 };
+for (const [block, kind, content] of blocks) {
+  const lines = content.trimEnd().split('\n');
+  const digits = lines.filter((line) => line.startsWith('bytes: ')).map((line) => line.slice(7));
+  const bytes = Uint8Array.from(digits.join(' ').split(' '), (byte) => parseInt(byte, 16));
+  if (kind === 'server message') count.applied += applied(bytes) ? 1 : 0;
+  if (!(kind in decoders)) continue;
+  const stated = lines.filter((line) => !line.startsWith('bytes: ')).join('\n');
+  const got = decoders[kind](bytes).join('\n');
+  if (got !== stated) throw new Error(`${block}\nis decoded here as\n${got}`);
+  count.decoded++;
+}
+console.log(JSON.stringify(count));
+if (count.decoded < 10 || count.applied < 5) throw new Error('examples are missing');
