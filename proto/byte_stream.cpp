@@ -25,6 +25,10 @@ void ByteWriter::u32(uint32_t value) {
   for (int i = 0; i < 4; ++i) u8(static_cast<uint8_t>(value >> (8 * i)));
 }
 
+void ByteWriter::u64(uint64_t value) {
+  for (int i = 0; i < 8; ++i) u8(static_cast<uint8_t>(value >> (8 * i)));
+}
+
 void ByteWriter::varint(uint64_t value) {
   while (value >= 0x80) {
     u8(static_cast<uint8_t>(value | 0x80U));
@@ -112,6 +116,16 @@ uint32_t ByteReader::u32(const char* what) {
   uint32_t value = 0;
   for (unsigned i = 0; i < 4; ++i) value |= static_cast<uint32_t>(bytes_[next_ - 4 + i]) << (8 * i);
   return value;
+}
+
+uint64_t ByteReader::u64(const char* what) {
+  const uint64_t low = u32(what);
+  return low | uint64_t{u32(what)} << 32U;
+}
+
+std::span<const uint8_t> ByteReader::take_bytes(size_t count, const char* what) {
+  if (!take(count, what)) return {};
+  return bytes_.subspan(next_ - count, count);
 }
 
 float ByteReader::f32(const char* what) {

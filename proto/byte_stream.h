@@ -1,4 +1,5 @@
-// Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/.
+// Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/ and
+// auth/.
 //
 // After the first error, a reader keeps its reason and returns zeros, so that expressions of several reads
 // stay simple. The caller tests failed() before it uses a value, allocates memory or loops.
@@ -33,6 +34,7 @@ class ByteWriter {
 
   void u8(uint8_t value) { bytes_.push_back(value); }
   void u32(uint32_t value);
+  void u64(uint64_t value);
   void varint(uint64_t value);
   void zigzag(int64_t value);
   void f32(float value);
@@ -59,10 +61,13 @@ class ByteReader {
     return static_cast<Kind>(u8(what, static_cast<uint8_t>(kind_count<Kind> - 1)));
   }
   uint32_t u32(const char* what);
+  uint64_t u64(const char* what);
   float f32(const char* what);
   glm::vec3 vec3(const char* what);
   /// x, y and z of a pose.
   QuantisedPose position(const char* what);
+  /// As many bytes.
+  std::span<const uint8_t> take_bytes(size_t count, const char* what);
   /// All remaining bytes.
   std::span<const uint8_t> rest();
 

@@ -1,4 +1,5 @@
 // ClientMessage to bytes and back.
+#include "proto/admin_codec.h"
 #include "proto/codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -18,6 +19,7 @@ struct Writing {
     write(*hello.mutable_eye(), from.eye_m);
     hello.set_interest_radius_m(from.interest_radius_m);
     hello.set_name(showable(from.name, limits::person_name_bytes_max));
+    hello.set_token(showable(from.token, limits::access_token_bytes_max));
     hello.set_lacks_kernels(from.lacks_kernels);
   }
   void operator()(const InterestMessage& from) const {
@@ -62,12 +64,7 @@ struct Writing {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
-  void operator()(const AdminMessage& from) const {
-    wire::Admin& admin = *to.mutable_admin();
-    admin.set_request(from.request);
-    admin.set_token(showable(from.token, limits::token_bytes_max));
-    write(*admin.mutable_settings(), from.settings);
-  }
+  void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
 };
 
 HelloMessage read(const wire::Hello& from, FieldChecker& check) {
@@ -80,6 +77,7 @@ HelloMessage read(const wire::Hello& from, FieldChecker& check) {
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
   hello.lacks_kernels = from.lacks_kernels();
+  hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   return hello;
 }
 
@@ -113,14 +111,6 @@ RepairRequest read(const wire::Repair& from, FieldChecker& check) {
     check.refuse(std::to_string(repair.hashes.size()) + " hashes for " +
                  std::to_string(repair.chunks.size()) + " chunks");
   return repair;
-}
-
-AdminMessage read(const wire::Admin& from, FieldChecker& check) {
-  AdminMessage admin;
-  admin.request = from.request();
-  admin.token = check.text(from.token(), limits::token_bytes_max, "token");
-  admin.settings = check.settings(from.settings());
-  return admin;
 }
 
 }  // namespace
@@ -165,7 +155,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:
-      return checked(read(from.admin(), check));
+      return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:
       break;
   }

@@ -37,6 +37,22 @@ inline constexpr size_t client_name_bytes_max = 64;
 /// Length of a person's name, bytes; an encoder cuts a longer one.
 inline constexpr size_t person_name_bytes_max = 32;
 
+/// Length of the token in a hello, bytes: an access token with the longest names has 262. Above: refused.
+inline constexpr size_t access_token_bytes_max = 512;
+
+/// Length of a world's name, bytes: of a server's own, and of the one that a token is for. Above: refused.
+inline constexpr size_t world_name_bytes_max = 64;
+
+/// Length of an address as text, and of an administrator's words to who is sent away, bytes. Above: refused.
+inline constexpr size_t address_bytes_max = 64;
+inline constexpr size_t admin_reason_bytes_max = 256;
+
+/// Minutes of a ban: ten years. Above: refused; 0 minutes are for ever.
+inline constexpr uint32_t ban_minutes_max = 5'256'000;
+
+/// Rows of sessions, or of bans, in one answer to an administrator: under 500 KiB. The rest is left out.
+inline constexpr size_t admin_rows_max = 2048;
+
 /// Cursors in one message. Above: the others are not shown.
 inline constexpr size_t cursors_max = 64;
 

@@ -36,6 +36,19 @@ size_t bytes_of(const std::vector<PlayerCursor>& cursors) {
   return bytes;
 }
 
+size_t bytes_of(const std::vector<SessionRow>& sessions) {
+  size_t bytes = 0;
+  for (const SessionRow& row : sessions)
+    bytes += sizeof(SessionRow) + row.name.size() + row.program.size() + row.address.size();
+  return bytes;
+}
+
+size_t bytes_of(const std::vector<BanRow>& bans) {
+  size_t bytes = 0;
+  for (const BanRow& row : bans) bytes += sizeof(BanRow) + row.address.size() + row.reason.size();
+  return bytes;
+}
+
 size_t bytes_of(const std::vector<WatchedBody>& bodies) {
   size_t bytes = 0;
   for (const WatchedBody& body : bodies) bytes += sizeof(WatchedBody) + bytes_of(body.hull_m);
@@ -62,6 +75,7 @@ size_t memory_bytes(const ServerMessage& message) {
                        return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages);
                      },
                      [](const CursorsMessage& m) { return bytes_of(m.cursors); },
+                     [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
                      [](const PhysicsMessage& m) {
                        return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);
                      },

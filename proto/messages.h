@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shared/base/ids.h"
+#include "shared/base/role.h"
 #include "shared/base/setting_value.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/request.h"
@@ -27,7 +28,9 @@ struct HelloMessage {
   std::string client;  ///< name of the program, for the server's log; at most 64 bytes
   glm::vec3 eye_m{0.0F};
   float interest_radius_m = 0.0F;
-  std::string name{};          ///< the person's, shown to others; at most limits::person_name_bytes_max
+  std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
+  /// An access token, or the server's admin token; at most limits::access_token_bytes_max. Empty: none.
+  std::string token{};
   bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
 };
 
@@ -63,11 +66,30 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// Changes the server's settings, all of them or none; answered with a reply.
+/// What an administrator asks for. Settings are changed all, or none.
+struct ListSessions {};
+struct KickSession {
+  uint64_t session = 0;
+  std::string reason;  ///< told to who is sent away; may be empty
+};
+/// An address, or that of a session; whoever is there is sent away.
+struct BanAddress {
+  uint64_t session = 0;  ///< 0: the address says who
+  std::string address;   ///< numeric, IPv4 or IPv6
+  uint32_t minutes = 0;  ///< 0: until it is lifted
+  std::string reason;
+};
+struct ListBans {};
+struct LiftBan {
+  std::string address;
+};
+using AdminAct = std::variant<SettingValues, ListSessions, KickSession, BanAddress, ListBans, LiftBan>;
+
+/// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
   uint32_t request = 0;
-  std::string token;  ///< must be equal to the server's
-  SettingValues settings;
+  std::string token;  ///< equal to the server's, or empty where the session's role is admin
+  AdminAct act;
 };
 
 /// A person's eye and aim, shown to others.
@@ -101,6 +123,7 @@ struct WelcomeMessage {
   TerrainSource terrain;
   float interest_radius_m = 0.0F;  ///< as granted
   bool replay = false;             ///< a recording: requests to carve are refused
+  Role role = Role::viewer;        ///< what this session may do
 };
 
 /// The reason for which the server closes the connection.
@@ -246,6 +269,36 @@ struct WatchedContact {
   float impulse_n_s = 0.0F;
 };
 
+/// A session, as an administrator sees it.
+struct SessionRow {
+  uint64_t session = 0;
+  std::string name;     ///< the person's
+  std::string program;  ///< the client's
+  std::string address;
+  Role role = Role::viewer;
+  uint64_t token_id = 0;  ///< 0: it came without an access token
+  uint32_t joined_s = 0;  ///< seconds since it joined
+  uint64_t sent_bytes = 0;
+  bool encrypted = false;
+
+  bool operator==(const SessionRow&) const = default;
+};
+
+struct BanRow {
+  std::string address;
+  uint64_t left_s = 0;  ///< seconds until it ends; 0: when it is lifted
+  std::string reason;
+
+  bool operator==(const BanRow&) const = default;
+};
+
+/// The answer to ListSessions, or to ListBans.
+struct AdminListMessage {
+  uint32_t request = 0;
+  std::vector<SessionRow> sessions{};
+  std::vector<BanRow> bans{};
+};
+
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
 struct PhysicsMessage {
   Tick tick = 0;
@@ -254,9 +307,9 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage =
-    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
-                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage>;
+using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
+                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
+                                   GroundMessage, AdminListMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

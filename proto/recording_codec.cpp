@@ -70,7 +70,10 @@ RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldCh
                    return RecordedCommand{session, asked.request, static_cast<const Asks&>(asked)};
                  },
                  [&](const AdminMessage& admin) {
-                   return RecordedCommand{session, admin.request, SettingsRequest{admin.settings}};
+                   const auto* settings = std::get_if<SettingValues>(&admin.act);
+                   if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+                   return RecordedCommand{session, admin.request,
+                                          SettingsRequest{settings == nullptr ? SettingValues() : *settings}};
                  },
                  [&](const auto&) {
                    check.refuse("a message that asks for nothing stands where a request should");

@@ -1,6 +1,7 @@
 // ServerMessage to bytes and back.
 #include <algorithm>
 
+#include "proto/admin_codec.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
@@ -128,7 +129,9 @@ struct Writing {
     welcome.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
     welcome.set_interest_radius_m(from.interest_radius_m);
     welcome.set_replay(from.replay);
+    welcome.set_role(static_cast<wire::Role>(from.role));
   }
+  void operator()(const AdminListMessage& from) const { write(*to.mutable_admin_list(), from); }
   void operator()(const RefusalMessage& from) const {
     to.mutable_refusal()->set_reason(showable(from.reason, limits::reason_bytes_max));
   }
@@ -186,6 +189,7 @@ WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
   welcome.terrain.voxel_size_m = voxel_size_m;
   welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   welcome.replay = from.replay();
+  welcome.role = check.kind<Role>(from.role(), "role");
   return welcome;
 }
 
@@ -338,6 +342,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.physics(), check));
     case wire::ServerMessage::kStatus:
       return checked(read(from.status(), check));
+    case wire::ServerMessage::kAdminList:
+      return checked(read_admin_list(from.admin_list(), check));
     case wire::ServerMessage::KIND_NOT_SET:
       break;
   }

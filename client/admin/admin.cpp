@@ -21,10 +21,28 @@ class Talk {
   template <typename T>
   Result<T> next(const char* what) {
     for (;;) {
-      while (at_ < received_.size()) {
-        const ServerMessage& message = received_[at_++].message;
-        if (const T* wanted = std::get_if<T>(&message)) return *wanted;
-      }
+      const auto message = next_message(what);
+      if (!message) return tl::unexpected(message.error());
+      if (const T* wanted = std::get_if<T>(&*message)) return *wanted;
+    }
+  }
+
+  /// The answer to the one request; the error is the refusal, when it is one.
+  template <typename T>
+  Result<T> answer() {
+    for (;;) {
+      const auto message = next_message("reply");
+      if (!message) return tl::unexpected(message.error());
+      const auto* reply = std::get_if<ReplyMessage>(&*message);
+      if (reply != nullptr && !reply->refusal.empty()) return fail(reply->refusal);
+      if (const T* wanted = std::get_if<T>(&*message)) return *wanted;
+    }
+  }
+
+ private:
+  Result<ServerMessage> next_message(const char* what) {
+    for (;;) {
+      if (at_ < received_.size()) return received_[at_++].message;
       // Read before the last messages are taken: no message can come after the end.
       const bool open = connection_->connected();
       received_ = connection_->wait(wait_step);
@@ -36,7 +54,6 @@ class Talk {
     }
   }
 
- private:
   std::unique_ptr<Connection> connection_;
   Clock::time_point until_;
   std::vector<Received> received_;
@@ -47,7 +64,7 @@ Result<Talk> join(const AdminServer& server) {
   const Clock::time_point until = Clock::now() + server.within;
   HelloMessage hello;
   hello.client = "scree-admin";
-  auto connected = Connection::connect(server.host, server.port, hello, server.within);
+  auto connected = Connection::connect(server, hello, server.within);
   if (!connected) return tl::unexpected(connected.error());
   return Talk(std::move(*connected), until);
 }
@@ -60,6 +77,23 @@ Result<SettingValues> settings_of_status(Talk& talk) {
   Result<StatusMessage> status = status_of(talk);
   if (!status) return tl::unexpected(status.error());
   return std::move(status->settings);
+}
+
+/// Joins, asks, and waits for the answer: an error when it is a refusal.
+template <typename Answer>
+Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminAct act) {
+  Result<Talk> talk = join(server);
+  if (!talk) return tl::unexpected(talk.error());
+  talk->send(AdminMessage{1, "", std::move(act)});
+  Result<Answer> answer = talk->answer<Answer>();
+  if (!answer) return tl::unexpected(answer.error());
+  return std::pair{std::move(*answer), std::move(*talk)};
+}
+
+Result<void> done_by(const AdminServer& server, AdminAct act) {
+  const auto asked = ask<ReplyMessage>(server, std::move(act));
+  if (!asked) return tl::unexpected(asked.error());
+  return {};
 }
 
 }  // namespace
@@ -76,16 +110,35 @@ Result<SettingValues> read_settings(const AdminServer& server) {
   return settings_of_status(*talk);
 }
 
-Result<SettingValues> change_settings(const AdminServer& server, const std::string& token,
-                                      const SettingValues& changes) {
-  Result<Talk> talk = join(server);
-  if (!talk) return tl::unexpected(talk.error());
-  talk->send(AdminMessage{1, token, changes});
-  const Result<ReplyMessage> reply = talk->next<ReplyMessage>("reply");
-  if (!reply) return tl::unexpected(reply.error());
-  if (!reply->refusal.empty()) return fail(reply->refusal);
+Result<SettingValues> change_settings(const AdminServer& server, const SettingValues& changes) {
+  auto asked = ask<ReplyMessage>(server, changes);
+  if (!asked) return tl::unexpected(asked.error());
   // A reply follows its own tick's messages, so the next status is of a later one.
-  return settings_of_status(*talk);
+  return settings_of_status(asked->second);
+}
+
+Result<std::vector<SessionRow>> list_sessions(const AdminServer& server) {
+  auto asked = ask<AdminListMessage>(server, ListSessions{});
+  if (!asked) return tl::unexpected(asked.error());
+  return std::move(asked->first.sessions);
+}
+
+Result<std::vector<BanRow>> list_bans(const AdminServer& server) {
+  auto asked = ask<AdminListMessage>(server, ListBans{});
+  if (!asked) return tl::unexpected(asked.error());
+  return std::move(asked->first.bans);
+}
+
+Result<void> kick_session(const AdminServer& server, const KickSession& kick) {
+  return done_by(server, kick);
+}
+
+Result<void> ban_address(const AdminServer& server, const BanAddress& ban) {
+  return done_by(server, ban);
+}
+
+Result<void> lift_ban(const AdminServer& server, const LiftBan& lift) {
+  return done_by(server, lift);
 }
 
 }  // namespace scree

@@ -1,33 +1,48 @@
-// A client that reads a running server's status and settings, and changes settings. Each function makes one
-// connection that follows no terrain, and waits for the server's answers. Safe to call from any thread.
+// A client that reads a running server's status and settings, changes settings, and manages its sessions.
+// Each function makes one connection that follows no terrain, and waits for the server's answers. Safe to
+// call from any thread.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "client/connection/endpoint.h"
 #include "proto/messages.h"
 #include "shared/base/result.h"
 
 namespace scree {
 
-struct AdminServer {
-  std::string host = "127.0.0.1";
-  uint16_t port = default_port;
+/// Its token is the server's admin token, or an access token with the role admin.
+struct AdminServer : ServerEndpoint {
   std::chrono::milliseconds within{10000};  ///< all of the server's answers
 };
 
-/// The server's next status, settings included. Needs no token.
+/// The server's next status, settings included. Needs no token where anonymous sessions are taken.
 Result<StatusMessage> read_status(const AdminServer& server);
 /// The status as JSON, or as lines of a name and a value.
 std::string status_json(const StatusMessage& status);
 std::string status_lines(const StatusMessage& status);
 
-/// All current settings. Needs no token.
+/// All current settings. Needs no token where anonymous sessions are taken.
 Result<SettingValues> read_settings(const AdminServer& server);
 
-/// Changes all these settings or none, and returns all current settings. The error is the server's refusal.
-Result<SettingValues> change_settings(const AdminServer& server, const std::string& token,
-                                      const SettingValues& changes);
+/// Changes all these settings or none, and returns all current settings. The error is the server's refusal,
+/// as of all that follow.
+Result<SettingValues> change_settings(const AdminServer& server, const SettingValues& changes);
+
+/// The sessions that have joined, this one included.
+Result<std::vector<SessionRow>> list_sessions(const AdminServer& server);
+std::string sessions_json(const std::vector<SessionRow>& sessions);
+std::string sessions_lines(const std::vector<SessionRow>& sessions);
+
+Result<std::vector<BanRow>> list_bans(const AdminServer& server);
+std::string bans_json(const std::vector<BanRow>& bans);
+std::string bans_lines(const std::vector<BanRow>& bans);
+
+Result<void> kick_session(const AdminServer& server, const KickSession& kick);
+Result<void> ban_address(const AdminServer& server, const BanAddress& ban);
+Result<void> lift_ban(const AdminServer& server, const LiftBan& lift);
 
 }  // namespace scree

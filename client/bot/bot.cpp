@@ -42,8 +42,7 @@ Result<void> Bot::join() {
 
 Result<void> Bot::connect() {
   const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
-  auto connected = Connection::connect(config_.host, config_.port, hello,
-                                       std::chrono::milliseconds(limits::bot_connect_ms));
+  auto connected = Connection::connect(config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
   if (!connected) return tl::unexpected(connected.error());
   connection_ = std::move(*connected);
   report_.welcome = connection_->welcome();
@@ -53,7 +52,8 @@ Result<void> Bot::connect() {
     const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
     set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
   }
-  log("connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick));
+  log("connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) + " as " +
+      std::string(name_of(report_.welcome.role)));
   return {};
 }
 

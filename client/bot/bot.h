@@ -19,9 +19,7 @@
 
 namespace scree {
 
-struct BotConfig {
-  std::string host = "127.0.0.1";
-  uint16_t port = 0;
+struct BotConfig : ServerEndpoint {
   uint32_t carves = 20;  ///< 0: the bot ends after the handshake and one frame
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come

@@ -72,6 +72,7 @@ std::string to_json(const BotReport& report) {
   json["server"] = report.server;
   json["protocol"] = report.welcome.protocol;
   json["replay"] = report.welcome.replay;
+  json["role"] = name_of(report.welcome.role);
   json["terrain"] = {{"kind", name_of(report.welcome.terrain.kind)},
                      {"seed", report.welcome.terrain.random_seed},
                      {"voxel_size_m", report.welcome.terrain.voxel_size_m}};

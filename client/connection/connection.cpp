@@ -5,7 +5,6 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/post.hpp>
-#include <asio/write.hpp>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -15,6 +14,8 @@
 #include "client/connection/limits.h"
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
+#include "transport/tcp_transport.h"
+#include "transport/tls_transport.h"
 
 namespace scree {
 
@@ -37,10 +38,12 @@ struct Connection::Impl {
   std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work;
   std::thread thread;
   tcp::resolver resolver{context};
-  tcp::socket socket{context};
+  tcp::socket socket{context};           ///< until it is connected
+  std::shared_ptr<Transport> transport;  ///< from then on
   FrameReader reader;
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
   std::deque<std::vector<uint8_t>> outbox;
+  size_t front_sent_bytes = 0;  ///< sent bytes of the first message in the outbox
   size_t outbox_bytes = 0;
   bool reading = false;  ///< a read is under way
   bool paused = false;   ///< by pause_reading
@@ -56,7 +59,7 @@ struct Connection::Impl {
   std::string reason;
   ConnectionCounters counters;
 
-  void start(const std::string& host, uint16_t port, const HelloMessage& hello);
+  Result<void> start(const ServerEndpoint& server, const HelloMessage& hello);
   void end(const std::string& why);
   void read();
   void take_messages();
@@ -67,28 +70,36 @@ struct Connection::Impl {
   std::vector<Received> take_all();
 };
 
-void Connection::Impl::start(const std::string& host, uint16_t port, const HelloMessage& hello) {
-  resolver.async_resolve(
-      host, std::to_string(port), [this, hello](const asio::error_code& error, const auto& found) {
-        if (error) return end("cannot find the host: " + error.message());
-        asio::async_connect(
-            socket, found, [this, hello](const asio::error_code& refused, const tcp::endpoint&) {
-              if (refused)
-                return end("cannot connect: " + refused.message() + "; is a server running there?");
-              asio::error_code ignored;
-              socket.set_option(tcp::no_delay(true), ignored);
-              push(encode(ClientMessage{hello}));
-              read();
-            });
-      });
+Result<void> Connection::Impl::start(const ServerEndpoint& server, const HelloMessage& hello) {
+  if (server.host.empty()) return fail("no server is named (--host)");
+  std::shared_ptr<const TlsClientContext> tls;
+  if (server.tls) {
+    auto made = TlsClientContext::make(server.trust);
+    if (!made) return tl::unexpected(made.error());
+    tls = std::move(*made);
+  }
+  const auto connected = [this, hello, tls, host = server.host](const asio::error_code& refused,
+                                                                const tcp::endpoint&) {
+    if (refused) return end("cannot connect: " + refused.message() + "; is a server running there?");
+    transport = std::make_shared<TcpTransport>(std::move(socket));
+    if (tls) transport = std::make_shared<TlsTransport>(std::move(transport), TlsEngine(tls, host));
+    push(encode(ClientMessage{hello}));
+    read();
+  };
+  resolver.async_resolve(server.host, std::to_string(server.port),
+                         [this, connected](const asio::error_code& error, const auto& found) {
+                           if (error) return end("cannot find the host: " + error.message());
+                           asio::async_connect(socket, found, connected);
+                         });
+  return {};
 }
 
 void Connection::Impl::end(const std::string& why) {
   if (ended) return;
   ended = true;
   asio::error_code ignored;
-  socket.shutdown(tcp::socket::shutdown_both, ignored);
   socket.close(ignored);
+  if (transport) transport->close();
   work.reset();
   {
     const std::scoped_lock lock(mutex);
@@ -102,16 +113,17 @@ void Connection::Impl::end(const std::string& why) {
 void Connection::Impl::read() {
   if (ended || reading || paused) return;
   reading = true;
-  socket.async_read_some(asio::buffer(buffer), [this](const asio::error_code& error, size_t count) {
+  transport->read_some(buffer, [this](const Moved& moved) {
     reading = false;
-    if (error == asio::error::operation_aborted) return;
-    if (error == asio::error::eof) return end("the server closed the connection");
-    if (error) return end("the connection was lost: " + error.message());
+    if (ended) return;
+    if (!moved && !transport->established()) return end(moved.error().why);
+    if (!moved && moved.error().orderly) return end("the server closed the connection");
+    if (!moved) return end("the connection was lost: " + moved.error().why);
     {
       const std::scoped_lock lock(mutex);
-      counters.received_bytes += count;
+      counters.received_bytes += *moved;
     }
-    reader.push(std::span<const uint8_t>(buffer).first(count));
+    reader.push(std::span<const uint8_t>(buffer).first(*moved));
     take_messages();
   });
 }
@@ -182,16 +194,20 @@ void Connection::Impl::push(std::vector<uint8_t> bytes) {
 }
 
 void Connection::Impl::write() {
-  asio::async_write(socket, asio::buffer(outbox.front()), [this](const asio::error_code& error, size_t) {
-    if (error == asio::error::operation_aborted || ended) return;
-    if (error) {
+  const std::span<const uint8_t> rest = std::span<const uint8_t>(outbox.front()).subspan(front_sent_bytes);
+  transport->write_some({&rest, 1}, [this](const Moved& moved) {
+    if (ended) return;
+    if (!moved) {
       // The server may have sent its reason before it closed: unread bytes say more than this error.
       outbox.clear();
-      outbox_bytes = 0;
+      outbox_bytes = front_sent_bytes = 0;
       return;
     }
+    front_sent_bytes += *moved;
+    if (front_sent_bytes < outbox.front().size()) return write();
     outbox_bytes -= outbox.front().size();
     outbox.pop_front();
+    front_sent_bytes = 0;
     if (!outbox.empty()) write();
   });
 }
@@ -209,13 +225,14 @@ std::vector<Received> Connection::Impl::take_all() {
 
 Connection::Connection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
-Result<std::unique_ptr<Connection>> Connection::connect(const std::string& host, uint16_t port,
-                                                        const HelloMessage& hello,
+Result<std::unique_ptr<Connection>> Connection::connect(const ServerEndpoint& server, HelloMessage hello,
                                                         std::chrono::milliseconds within) {
-  const std::string address = host + ":" + std::to_string(port) + ": ";
+  const std::string address = server.host + ":" + std::to_string(server.port) + ": ";
+  hello.token = server.token;
   try {
     auto impl = std::make_unique<Impl>();
-    impl->start(host, port, hello);
+    if (Result<void> started = impl->start(server, hello); !started)
+      return fail(address + started.error().message);
     impl->context.run_for(within);
     if (!impl->welcome) {
       impl->end("no answer within " + std::to_string(within.count()) + " ms");
@@ -293,9 +310,7 @@ void Connection::pause_reading(bool pause) {
 
 void Connection::cut() {
   asio::post(impl_->context, [impl = impl_.get()] {
-    asio::error_code ignored;
-    impl->socket.set_option(asio::socket_base::linger(true, 0), ignored);
-    if (!impl->ended) impl->socket.close(ignored);
+    if (!impl->ended) impl->transport->cut();
     impl->end("cut here");
   });
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/connection/endpoint.h"
 #include "proto/messages.h"
 #include "shared/base/result.h"
 
@@ -33,10 +34,9 @@ struct ConnectionCounters {
 
 class Connection {
  public:
-  /// Connects, sends a hello and waits for the welcome. The error names the address and the failure; a
-  /// refusal has the server's reason.
-  static Result<std::unique_ptr<Connection>> connect(const std::string& host, uint16_t port,
-                                                     const HelloMessage& hello,
+  /// Connects, sends a hello, with the endpoint's token, and waits for the welcome. The error names the
+  /// address and the failure; a refusal has the server's reason.
+  static Result<std::unique_ptr<Connection>> connect(const ServerEndpoint& server, HelloMessage hello,
                                                      std::chrono::milliseconds within);
   /// Closes.
   ~Connection();

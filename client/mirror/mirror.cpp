@@ -63,6 +63,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           },
           // For the person; nothing of the world.
           [](const ReplyMessage&) -> Done { return {}; },
+          [](const AdminListMessage&) -> Done { return {}; },
           [](const CursorsMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.

@@ -204,6 +204,10 @@ bool LiveServer::running() const {
   return state_->running;
 }
 
+Result<void> LiveServer::reload() {
+  return state_->net->reload();
+}
+
 Result<void> LiveServer::stop() {
   {
     const std::scoped_lock lock(state_->mutex);

@@ -48,6 +48,9 @@ class LiveServer {
   /// Whether more ticks follow.
   bool running() const;
 
+  /// Reads certificate, keys and revoked tokens again (NetServer::reload).
+  Result<void> reload();
+
   /// Stops ticking, tells every client, and finishes the recording. Returns the first error since the start.
   /// A second call does nothing more.
   Result<void> stop();

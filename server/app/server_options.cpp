@@ -21,6 +21,7 @@ constexpr int usage_error = 2;
 struct Raw {
   ServerOptions options;
   std::string token_path;
+  std::string anonymous;  ///< empty: by what else is given
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
 
@@ -70,10 +71,42 @@ void add_settings(CLI::App& app, Raw& raw) {
 }
 
 void add_admin(CLI::App& app, Raw& raw) {
-  CLI::Option* token = app.add_option("--admin-token", raw.options.live.net.admin_token,
-                                      "whoever knows it may change settings while it runs; "
-                                      "better in a file: command lines are seen by others");
+  CLI::Option* token =
+      app.add_option("--admin-token", raw.options.live.net.admin_token,
+                     "whoever knows it is an administrator: changes settings, kicks and bans; "
+                     "better in a file: command lines are seen by others");
   app.add_option("--admin-token-file", raw.token_path, "its first line is the admin token")->excludes(token);
+}
+
+constexpr const char* nobody = "none";
+
+void add_access(CLI::App& app, Raw& raw) {
+  AccessConfig& access = raw.options.live.net.access;
+  CLI::Option* certificate =
+      app.add_option("--tls-cert", access.tls_certificate_path,
+                     "PEM file of the certificate, its chain behind it: clients may come by TLS");
+  CLI::Option* key = app.add_option("--tls-key", access.tls_key_path, "PEM file of its private key");
+  certificate->needs(key);
+  key->needs(certificate);
+  app.add_flag("--tls-required", access.tls_required, "refuses connections without TLS")->needs(certificate);
+  CLI::Option* tokens = app.add_option("--token-key", access.token_key_path,
+                                       "public key of access tokens, as scree token key makes it");
+  app.add_option("--token-revoked", access.token_revoked_path,
+                 "file of the tokens that do not hold any more: an id a line")
+      ->needs(tokens);
+  app.add_option("--anonymous", raw.anonymous,
+                 "role of who comes without a token: viewer, carver, builder or none, who is refused; "
+                 "builder unless said otherwise, with --token-key none")
+      ->check(CLI::IsMember(std::vector<std::string>{"viewer", "carver", "builder", nobody}));
+  app.add_option("--world", access.world, "this server's name in tokens that are for one world only");
+  app.add_option("--bans", access.bans_path, "file that keeps bans; without, they end with the server");
+}
+
+/// Who has a key for tokens wants them.
+void take_anonymous(Raw& raw) {
+  AccessConfig& access = raw.options.live.net.access;
+  if (raw.anonymous.empty() && !access.token_key_path.empty()) raw.anonymous = nobody;
+  if (!raw.anonymous.empty()) access.anonymous = kind_named<Role>(raw.anonymous);  // none: no role
 }
 
 void add_recordings(CLI::App& app, Raw& raw) {
@@ -149,12 +182,14 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   add_world(app, raw);
   add_settings(app, raw);
   add_admin(app, raw);
+  add_access(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
   name_environment(app);
   try {
     app.parse(argc, argv);
     take_token(raw);
+    take_anonymous(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;

@@ -1,12 +1,9 @@
 #include "server/net/client_session.h"
 
+#include <algorithm>
 #include <array>
-#include <asio/buffer.hpp>
 #include <chrono>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
 
 #include "proto/codec.h"
 #include "server/net/limits.h"
@@ -20,62 +17,44 @@ namespace {
 /// Buffers handed to one write.
 constexpr size_t gather_max = 16;
 
-std::string peer_of(const asio::ip::tcp::socket& socket) {
-  asio::error_code error;
-  const auto endpoint = socket.remote_endpoint(error);
-  if (error) return "unknown peer";
-  return endpoint.address().to_string() + ":" + std::to_string(endpoint.port());
-}
-
-/// What is not sent yet waits in the outbox, where newer state can still take its place, and not in the
-/// kernel. A socket that takes no options still works.
-void tune(asio::ip::tcp::socket& socket) {
-  asio::error_code ignored;
-  socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-  socket.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
-  const int unsent_bytes = limits::socket_unsent_bytes;
-  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_bytes, sizeof unsent_bytes);
-  const auto timeout_ms = static_cast<unsigned>(limits::stall_seconds_max * 1000.0);
-  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &timeout_ms, sizeof timeout_ms);
-}
-
 }  // namespace
 
-ClientSession::ClientSession(asio::ip::tcp::socket socket, std::string address, uint64_t id,
+ClientSession::ClientSession(std::shared_ptr<Transport> transport, std::string address, uint64_t id,
                              SessionHost& host, const SessionTimes& times, double now_s)
-    : socket_(std::move(socket)),
+    : transport_(std::move(transport)),
       id_(id),
       host_(host),
       times_(times),
-      peer_(peer_of(socket_)),
+      peer_(transport_->address() + ":" + std::to_string(transport_->port())),
       address_(std::move(address)),
       phase_since_s_(now_s),
       progress_s_(now_s),
       now_s_(now_s),
       acted_s_(now_s),
       messages_(limits::messages_per_second_max, limits::messages_burst_max),
-      bytes_(limits::client_bytes_per_second_max, limits::client_bytes_burst_max) {
-  tune(socket_);
-}
+      bytes_(limits::client_bytes_per_second_max, limits::client_bytes_burst_max) {}
 
 void ClientSession::start() {
   read();
 }
 
 void ClientSession::read() {
-  socket_.async_read_some(asio::buffer(incoming_),
-                          [self = shared_from_this()](asio::error_code error, size_t bytes) {
-                            if (self->phase_ == Phase::closed) return;
-                            if (error)
-                              self->read_failed(error == asio::error::eof, error.message());
-                            else
-                              self->read_done(bytes);
-                          });
+  transport_->read_some(incoming_, [self = shared_from_this()](const Moved& moved) {
+    if (self->phase_ == Phase::closed) return;
+    if (moved)
+      self->read_done(*moved);
+    else
+      self->read_failed(moved.error().orderly, moved.error().why);
+  });
 }
 
 void ClientSession::read_failed(bool orderly, const std::string& why) {
   if (phase_ == Phase::refused) return close("refused before");
   peer_ended_ = true;
+  if (!transport_->established()) {
+    cut_for_ = Refusal::tls_failed;
+    return close(why);
+  }
   if (orderly && reader_.buffered_bytes() != 0)
     return refuse({Refusal::message_cut_short, "the connection ended in the middle of a message, after " +
                                                    std::to_string(reader_.buffered_bytes()) +
@@ -154,17 +133,15 @@ void ClientSession::send(SharedBytes bytes) {
 void ClientSession::write() {
   if (writing_ || outbox_.empty() || phase_ == Phase::closed) return;
   writing_ = true;
-  std::vector<asio::const_buffer> buffers;
-  size_t skip = front_sent_bytes_;
-  for (size_t i = 0; i < outbox_.size() && i < gather_max; ++i) {
-    buffers.push_back(asio::buffer(*outbox_[i]) + skip);
-    skip = 0;
-  }
-  socket_.async_write_some(buffers, [self = shared_from_this()](asio::error_code error, size_t bytes) {
+  std::array<std::span<const uint8_t>, gather_max> buffers;
+  const size_t count = std::min(outbox_.size(), gather_max);
+  for (size_t i = 0; i < count; ++i)
+    buffers[i] = std::span<const uint8_t>(*outbox_[i]).subspan(i == 0 ? front_sent_bytes_ : 0);
+  transport_->write_some(std::span(buffers).first(count), [self = shared_from_this()](const Moved& moved) {
     self->writing_ = false;
     if (self->phase_ == Phase::closed) return;
-    if (error) return self->close(error.message());
-    self->write_done(bytes);
+    if (!moved) return self->close(moved.error().why);
+    self->write_done(*moved);
   });
 }
 
@@ -172,6 +149,7 @@ void ClientSession::write_done(size_t bytes) {
   progress_s_ = steady_now_s();
   CHECK(bytes <= backlog_bytes_);
   backlog_bytes_ -= bytes;
+  sent_bytes_ += bytes;
   size_t sent = front_sent_bytes_ + bytes;
   while (!outbox_.empty() && sent >= outbox_.front()->size()) {
     sent -= outbox_.front()->size();
@@ -190,6 +168,7 @@ void ClientSession::refuse(const Refused& refused) {
   phase_ = Phase::refused;
   phase_since_s_ = steady_now_s();
   host_.refused(*this, refused);
+  if (!transport_->established()) close("refused before");  // nobody could read it
 }
 
 bool ClientSession::backlog_adds_up() const {
@@ -202,16 +181,14 @@ bool ClientSession::backlog_adds_up() const {
 /// sending side is closed first, and the socket when the client has closed it, too, or its time is over.
 void ClientSession::finish_sending() {
   if (peer_ended_) return close("refused before");
-  asio::error_code ignored;
-  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  transport_->finish_sending();
 }
 
 void ClientSession::close(const std::string& reason) {
   if (phase_ == Phase::closed) return;
   const auto self = shared_from_this();
   phase_ = Phase::closed;
-  asio::error_code ignored;
-  socket_.close(ignored);
+  transport_->close();
   outbox_.clear();
   backlog_bytes_ = 0;
   host_.closed(*this, reason);

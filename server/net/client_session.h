@@ -1,4 +1,4 @@
-// One client's connection. Used by net_server.cpp only (Asio). All calls are on the network thread.
+// One client's connection. Used by NetHost only. All calls are on the network thread.
 //
 // Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed.
 // The bytes that wait for the client are bounded: the publisher sends less and stops long before
@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <asio/ip/tcp.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "server/net/encode_cache.h"
 #include "server/net/rate_limit.h"
 #include "server/work/refusal.h"
+#include "transport/transport.h"
 
 namespace scree {
 
@@ -47,7 +47,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
  public:
   enum class Phase { hello, joined, refused, closed };
 
-  ClientSession(asio::ip::tcp::socket socket, std::string address, uint64_t id, SessionHost& host,
+  ClientSession(std::shared_ptr<Transport> transport, std::string address, uint64_t id, SessionHost& host,
                 const SessionTimes& times, double now_s);
 
   void start();
@@ -67,11 +67,16 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   const std::string& peer() const { return peer_; }
   /// As of Door.
   const std::string& address() const { return address_; }
+  /// The IP address.
+  const std::string& ip() const { return transport_->address(); }
   /// Seconds since it did anything but apply frames.
   double idle_s(double now_s) const { return now_s - acted_s_; }
   /// Whether it has been idle so long that another may have its place (limits::idle_seconds_max,
   /// inert_seconds_max).
   bool may_make_room(double now_s) const;
+  bool encrypted() const { return transport_->encrypted(); }
+  /// Handed to the transport.
+  uint64_t sent_bytes() const { return sent_bytes_; }
   size_t backlog_bytes() const { return backlog_bytes_; }
   /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
@@ -87,7 +92,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Whether backlog_bytes_ is the rest of the outbox's bytes; for CHECK_DEBUG.
   bool backlog_adds_up() const;
 
-  asio::ip::tcp::socket socket_;
+  std::shared_ptr<Transport> transport_;
   uint64_t id_;
   SessionHost& host_;
   SessionTimes times_;
@@ -107,6 +112,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   std::deque<SharedBytes> outbox_;
   size_t front_sent_bytes_ = 0;  ///< sent bytes of the first message in the outbox
   size_t backlog_bytes_ = 0;     ///< bytes in the outbox that are not sent
+  uint64_t sent_bytes_ = 0;
   bool writing_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
 };

@@ -3,6 +3,9 @@
 #include <asio/buffer.hpp>
 #include <asio/write.hpp>
 #include <chrono>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include "proto/codec.h"
 #include "server/net/limits.h"
@@ -18,6 +21,17 @@ Refused words_for(Refusal reason) {
     return {reason, "too many connections a second from your address (limits.connects_per_second_max)"};
   CHECK(reason == Refusal::connections_per_address);
   return {reason, "too many connections from your address (limits.connections_per_address_max)"};
+}
+
+/// What is not sent yet waits in the outbox, where newer state can still take its place, and not in the
+/// kernel. A socket that takes no options still works.
+void tune(asio::ip::tcp::socket& socket) {
+  asio::error_code ignored;
+  socket.set_option(asio::socket_base::send_buffer_size(limits::socket_send_buffer_bytes), ignored);
+  const int unsent_bytes = limits::socket_unsent_bytes;
+  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_bytes, sizeof unsent_bytes);
+  const auto timeout_ms = static_cast<unsigned>(limits::stall_seconds_max * 1000.0);
+  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &timeout_ms, sizeof timeout_ms);
 }
 
 }  // namespace
@@ -75,6 +89,7 @@ void Entrance::accepted(asio::ip::tcp::socket socket) {
   const std::string ip = endpoint.address().to_string();
   const std::string address = door_address(ip);
   if (const auto no = door_.enter(address, steady_now_s())) return turn_away(std::move(socket), ip, *no);
+  tune(socket);
   host_.entered(std::move(socket), address);
 }
 

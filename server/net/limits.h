@@ -126,6 +126,8 @@ inline constexpr double messages_burst_max = 1000.0;
 /// Bytes from one client, per second and at once; refused and closed.
 inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
 inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;
+/// Addresses that are banned; above: an administrator is told so.
+inline constexpr size_t bans_max = 2048;
 
 /// Commands that wait for the next tick; above: each gets a reply that refuses it.
 inline constexpr size_t commands_waiting_max = 1024;

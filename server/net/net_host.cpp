@@ -52,6 +52,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       publisher_(publisher_config(config)) {}
 
 Result<void> NetHost::listen() {
+  if (Result<void> opened = open_access(); !opened) return opened;
   if (auto listening = entrance_.listen(config_.bind, config_.port); !listening) return listening;
   fit_descriptors();
   tick_timer();
@@ -97,11 +98,11 @@ void NetHost::turned_away(const std::string& peer, const Refused& refused) {
 void NetHost::entered(asio::ip::tcp::socket socket, const std::string& address) {
   const uint64_t id = next_session_++;
   const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
-  const auto session =
-      std::make_shared<ClientSession>(std::move(socket), address, id, *this, times, steady_now_s());
+  const auto session = std::make_shared<ClientSession>(transport_over(std::move(socket)), address, id, *this,
+                                                       times, steady_now_s());
   const double rate = service_.requests_per_second;
   CHECK(!sessions_.contains(id));
-  sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate)), {}});
+  sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate))});
   outsiders_.insert(id);
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (outsiders_.size() > outsiders_max_)
@@ -140,6 +141,7 @@ void NetHost::tick_timer() {
     std::vector<std::shared_ptr<ClientSession>> sessions;
     for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
     for (const auto& session : sessions) session->check_time(now_s);
+    end_lapsed_grants();
     if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
       for (const auto& session : sessions) session->close("the server stops");
       return;
@@ -160,6 +162,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
                                                  std::to_string(hello.protocol) +
                                                  ": use a client and a server of the same release");
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
+  const auto grant = grant_to(session, hello);
+  if (!grant) return tl::unexpected(grant.error());
   const size_t sessions_max = std::min<size_t>(service_.sessions_max, descriptors_ - outsiders_max_);
   if (joined_count() >= sessions_max && !make_room())
     return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(sessions_max) +
@@ -168,12 +172,16 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels);
   outsiders_.erase(session.id());
-  sessions_.at(session.id()).name = hello.name;
+  Entry& entry = sessions_.at(session.id());
+  entry.grant = *grant;
+  entry.name = grant->name;
+  entry.program = hello.client;
+  entry.joined_s = steady_now_s();
   ++counts_.sessions_joined;
   update_stats();
   say(spdlog::level::info, "joined",
-      fmt::format("session {}: {} joined from {}, interest {} m", session.id(), hello.client, session.peer(),
-                  *radius_m));
+      fmt::format("session {}: {} joined from {} as {}, interest {} m", session.id(), hello.client,
+                  session.peer(), name_of(grant->role), *radius_m));
   WelcomeMessage welcome;
   welcome.session = session.id();
   welcome.tick = publisher_.state().tick();
@@ -182,6 +190,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   welcome.terrain = config_.terrain;
   welcome.interest_radius_m = *radius_m;
   welcome.replay = config_.replay;
+  welcome.role = grant->role;
   return welcome;
 }
 
@@ -258,27 +267,28 @@ void NetHost::refuse_request(ClientSession& session, uint32_t request, const Ref
 
 /// A wrong token ends the connection, so that each connection has one attempt.
 tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
-  if (config_.admin_token.empty()) {
-    ++counts_.requests;
-    refuse_request(session, message.request,
-                   {Refusal::no_admin_token,
-                    "this server was started without an admin token: nobody may change its settings "
-                    "(--admin-token-file)"});
+  if (auto admin = may(session, Role::admin); !admin) {
+    const bool nobody_can = config_.admin_token.empty() && !access_->takes_tokens();
+    if (nobody_can || message.token.empty() || config_.admin_token.empty()) {
+      ++counts_.requests;
+      refuse_request(session, message.request,
+                     nobody_can ? Refused{Refusal::no_admin_token,
+                                          "this server was started without an admin token: nobody may "
+                                          "administer it (--admin-token-file, --token-key)"}
+                                : admin.error());
+      return {};
+    }
+    if (auto right = check_admin_token(session, message.token); !right) return right;
+  }
+  const auto* settings = std::get_if<SettingValues>(&message.act);
+  if (settings == nullptr) {
+    administer_sessions(session, message);
     return {};
   }
-  const double now_s = steady_now_s();
-  if (const double wait_s = entrance_.door().wait_for_guess_s(session.address(), now_s); wait_s > 0.0)
-    return refuse(Refusal::token_guesses,
-                  fmt::format("wrong tokens came from your address: the next is looked at in {:.0f} s",
-                              std::ceil(wait_s)));
-  if (!same_token(message.token, config_.admin_token)) {
-    entrance_.door().guessed_wrong(session.address(), now_s);
-    return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
-  }
   std::string changes;
-  for (const SettingValue& setting : message.settings) changes += " " + setting.name + "=" + setting.value;
+  for (const SettingValue& setting : *settings) changes += " " + setting.name + "=" + setting.value;
   spdlog::info("session {}: {} sets{}", session.id(), session.peer(), changes);
-  request(session, {session.id(), message.request, SettingsRequest{message.settings}});
+  request(session, {session.id(), message.request, SettingsRequest{*settings}});
   return {};
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 #include <spdlog/common.h>
 
+#include "server/net/bans.h"
 #include "server/net/client_session.h"
 #include "server/net/entrance.h"
 #include "server/net/log_limit.h"
@@ -33,6 +34,8 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   // ---- on the network thread
   void publish(const TickDelta& delta);
+  /// From now on; sessions whose token was revoked end.
+  void take_access(std::shared_ptr<const Access> access);
   void shut_down();
 
   asio::io_context& context() { return context_; }
@@ -60,13 +63,32 @@ class NetHost final : public SessionHost, public EntranceHost {
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
   void fit_descriptors();
+
+  // ---- who may come in and do what (net_host_access.cpp)
+  Result<void> open_access();
+  std::shared_ptr<Transport> transport_over(asio::ip::tcp::socket socket) const;
+  tl::expected<void, Refused> check_admin_token(const ClientSession& session, const std::string& token);
+  tl::expected<Grant, Refused> grant_to(const ClientSession& session, const HelloMessage& hello);
+  void end_lapsed_grants();
+  tl::expected<void, Refused> may(const ClientSession& session, Role needed) const;
+  void ask(ClientSession& session, const Command& command);
+  void administer_sessions(ClientSession& session, const AdminMessage& message);
+  std::vector<SessionRow> session_rows() const;
+  std::vector<BanRow> ban_rows() const;
+  Result<void> kick(const KickSession& kick);
+  Result<void> ban(const BanAddress& ban);
+  Result<void> lift(const LiftBan& lift);
+
   uint32_t joined_count() const;
   void update_stats();
 
   struct Entry {
     std::shared_ptr<ClientSession> session;
     RateLimit requests;
-    std::string name;  ///< the person's
+    std::string name{};  ///< the person's
+    Grant grant{};       ///< of a joined session
+    std::string program{};
+    double joined_s = 0.0;
   };
   const NetConfig config_;
   ServiceLimits service_;  ///< as they stand
@@ -82,6 +104,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused
   size_t outsiders_max_ = limits::outsiders_max;
   size_t descriptors_ = 0;  ///< for connections
+  std::shared_ptr<const Access> access_;
+  Bans bans_;
   Publisher publisher_;
   std::atomic<bool> watched_{false};
   ThreadCheck network_thread_;

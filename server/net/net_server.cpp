@@ -11,8 +11,9 @@
 namespace scree {
 
 struct NetServer::Impl {
-  Impl(const NetConfig& config, CommandQueue& commands) : host(config, commands) {}
+  Impl(const NetConfig& net, CommandQueue& commands) : config(net), host(net, commands) {}
 
+  const NetConfig config;
   NetHost host;
   std::thread thread;
   std::mutex mutex;
@@ -59,6 +60,14 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
     }
     impl->taken.notify_all();
   });
+}
+
+Result<void> NetServer::reload() {
+  auto access = Access::load(impl_->config.access, impl_->config.admin_token);
+  if (!access) return tl::unexpected(access.error());
+  asio::post(impl_->host.context(),
+             [host = &impl_->host, access = std::move(*access)] { host->take_access(access); });
+  return {};
 }
 
 void NetServer::flush() {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/net/access.h"
 #include "server/net/command_queue.h"
 #include "server/net/door.h"
 #include "server/net/limits.h"
@@ -28,7 +29,8 @@ struct NetConfig {
   uint32_t ticks_per_transform = 3;
   ServiceLimits service;    ///< until a tick says otherwise
   bool replay = false;      ///< a recording: requests are refused
-  std::string admin_token;  ///< a client with it may change settings; empty: no client may
+  std::string admin_token;  ///< a client with it is an administrator; empty: there is none
+  AccessConfig access;
   Door::Rules door{limits::connections_per_address_max, limits::connects_per_second_max,
                    limits::connects_burst_max};
   double hello_seconds = limits::hello_seconds_max;
@@ -64,6 +66,11 @@ class NetServer {
   /// Hands a tick to the network thread; waits while limits::deltas_in_flight_max ticks wait there. From one
   /// thread only.
   void publish(std::shared_ptr<const TickDelta> delta);
+
+  /// Reads the files of NetConfig::access again: certificate, keys, revoked tokens. Sessions go on, but those
+  /// whose token is revoked end. The error says what is wrong with the files; all old ones stay in force
+  /// then.
+  Result<void> reload();
 
   /// Waits until the network thread has handed all published ticks to the sockets.
   void flush();

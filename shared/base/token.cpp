@@ -8,15 +8,32 @@
 
 namespace scree {
 
-Result<std::string> read_token(const std::string& path) {
+Result<void> check_secret(std::string_view secret, size_t bytes_max) {
+  if (secret.size() > bytes_max)
+    return fail("a token has at most " + std::to_string(bytes_max) + " characters");
+  if (std::ranges::any_of(secret, [](char c) { return c <= ' ' || c > '~'; }))
+    return fail("a token consists of printable ASCII characters, without spaces");
+  return {};
+}
+
+Result<std::string> read_secret(const std::string& path, size_t bytes_max) {
   std::ifstream file(path);
   if (!file) return fail("the token's file " + path + " cannot be read");
   // A file that is something else altogether is not read to its end.
-  std::string token(limits::token_bytes_max + 1, '\0');
-  file.read(token.data(), static_cast<std::streamsize>(token.size()));
-  token.resize(static_cast<size_t>(file.gcount()));
-  token.resize(std::min(token.find_first_of("\r\n"), token.size()));
-  if (Result<void> good = check_token(token); !good) return fail(path + ": " + good.error().message);
+  std::string secret(bytes_max + 1, '\0');
+  file.read(secret.data(), static_cast<std::streamsize>(secret.size()));
+  secret.resize(static_cast<size_t>(file.gcount()));
+  secret.resize(std::min(secret.find_first_of("\r\n"), secret.size()));
+  if (Result<void> good = check_secret(secret, bytes_max); !good)
+    return fail(path + ": " + good.error().message);
+  return secret;
+}
+
+Result<std::string> read_token(const std::string& path) {
+  // One more, so that check_token says what the bounds are.
+  Result<std::string> token = read_secret(path, limits::token_bytes_max + 1);
+  if (!token) return token;
+  if (Result<void> good = check_token(*token); !good) return fail(path + ": " + good.error().message);
   return token;
 }
 
@@ -25,9 +42,7 @@ Result<void> check_token(std::string_view token) {
     return fail("a token has " + std::to_string(limits::token_bytes_min) + " to " +
                 std::to_string(limits::token_bytes_max) +
                 " characters (limits.token_bytes_min, token_bytes_max)");
-  if (std::ranges::any_of(token, [](char c) { return c <= ' ' || c > '~'; }))
-    return fail("a token consists of printable ASCII characters, without spaces");
-  return {};
+  return check_secret(token, limits::token_bytes_max);
 }
 
 bool same_token(std::string_view given, std::string_view wanted) {

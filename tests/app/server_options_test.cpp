@@ -120,6 +120,36 @@ TEST(ServerOptions, admin_token_comes_from_a_file_or_the_command_line) {
   EXPECT_EQ(std::get<ServerOptions>(from_line).live.net.admin_token, "token-on-the-line");
 }
 
+TEST(ServerOptions, access_is_configured_like_everything_else) {
+  const auto access = [](std::vector<const char*> arguments) {
+    const auto parsed = parse(std::move(arguments));
+    EXPECT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+    return std::get<ServerOptions>(parsed).live.net.access;
+  };
+  EXPECT_EQ(access({}).anonymous, Role::builder) << "open, where nothing is said";
+  EXPECT_EQ(access({"--token-key", "k"}).anonymous, std::nullopt) << "who has a key for tokens wants them";
+  EXPECT_EQ(access({"--token-key", "k", "--anonymous", "viewer"}).anonymous, Role::viewer);
+  EXPECT_EQ(access({"--anonymous", "none"}).anonymous, std::nullopt);
+  ::setenv("SCREE_TLS_CERT", "c", 1);
+  ::setenv("SCREE_ANONYMOUS", "carver", 1);
+  const AccessConfig all = access({"--tls-key", "k", "--tls-required", "--token-key", "p", "--token-revoked",
+                                   "r", "--world", "mine", "--bans", "b"});
+  ::unsetenv("SCREE_TLS_CERT");
+  ::unsetenv("SCREE_ANONYMOUS");
+  EXPECT_EQ(all.tls_certificate_path, "c");
+  EXPECT_EQ(all.tls_key_path, "k");
+  EXPECT_TRUE(all.tls_required);
+  EXPECT_EQ(all.token_key_path, "p");
+  EXPECT_EQ(all.token_revoked_path, "r");
+  EXPECT_EQ(all.anonymous, Role::carver);
+  EXPECT_EQ(all.world, "mine");
+  EXPECT_EQ(all.bans_path, "b");
+  EXPECT_EQ(exit_code({"--tls-cert", "c"}), 2);
+  EXPECT_EQ(exit_code({"--tls-required"}), 2);
+  EXPECT_EQ(exit_code({"--token-revoked", "r"}), 2);
+  EXPECT_EQ(exit_code({"--anonymous", "admin"}), 2);
+}
+
 TEST(ServerOptions, unknown_name_in_the_file_is_a_mistake) {
   const auto path =
       std::filesystem::temp_directory_path() / ("scree_options_bad_" + std::to_string(::getpid()) + ".toml");

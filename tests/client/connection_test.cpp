@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 constexpr auto deadline = 10s;
 
 std::string failure(uint16_t port, std::chrono::milliseconds within = deadline) {
-  const auto connected = Connection::connect("127.0.0.1", port, HelloMessage{}, within);
+  const auto connected = Connection::connect({.port = port}, HelloMessage{}, within);
   return connected ? "" : connected.error().message;
 }
 
@@ -41,7 +41,7 @@ std::unique_ptr<Connection> welcomed(RawServer& server) {
     s.receive();
     s.send(WelcomeMessage{});
   });
-  auto connected = Connection::connect("127.0.0.1", server.port(), HelloMessage{}, deadline);
+  auto connected = Connection::connect({.port = server.port()}, HelloMessage{}, deadline);
   EXPECT_TRUE(connected) << connected.error().message;
   return connected ? std::move(*connected) : nullptr;
 }

@@ -26,7 +26,7 @@ configure "$folder/built" -DSCREE_BUILD="$build"
 grep -q '^mass error 0$' "$folder/said" || { echo "the README's program should print: mass error 0" >&2; exit 1; }
 
 missing=()
-for package in CLI11 GTest PkgConfig Protobuf SQLite3 fmt glfw3 nlohmann_json spdlog zstd; do
+for package in CLI11 GTest OpenSSL PkgConfig Protobuf SQLite3 fmt glfw3 nlohmann_json spdlog zstd; do
   missing+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 configure "$folder/subdirectory" -DSCREE_SOURCE="$source" "${missing[@]}"

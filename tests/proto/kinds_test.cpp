@@ -156,9 +156,9 @@ TEST(Kinds, every_terrain_goes_through_every_codec_and_an_unknown_one_through_no
   EXPECT_TRUE(holds(refusal_of_header(unknown<TerrainKind>), "terrain_kind"));
 }
 
-/// The names of an enum's values in scree.proto, in small letters, by number.
-std::map<int, std::string> values_of(const std::string& name) {
-  std::ifstream file(std::string(SCREE_SOURCE_DIR) + "/proto/scree.proto");
+/// The names of an enum's values in a file of the specification, in small letters, by number.
+std::map<int, std::string> values_of(const std::string& name, const std::string& file_name = "scree.proto") {
+  std::ifstream file(std::string(SCREE_SOURCE_DIR) + "/proto/" + file_name);
   std::map<int, std::string> values;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {
@@ -185,6 +185,7 @@ std::map<int, std::string> rows() {
 
 TEST(Kinds, are_those_of_the_specification) {
   EXPECT_EQ(values_of("Material"), rows<Material>());
+  EXPECT_EQ(values_of("Role", "access.proto"), rows<Role>());
   EXPECT_EQ(values_of("ShapeKind"), rows<ShapeKind>());
   EXPECT_EQ(values_of("SeedPattern"), rows<SeedPattern>());
   EXPECT_EQ(values_of("TerrainKind"), rows<TerrainKind>());

@@ -37,7 +37,7 @@ float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m)
 SessionClient::SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m)
     : eye_m_(eye_m), radius_m_(radius_m) {
   const HelloMessage hello{protocol_version, "session test", eye_m, radius_m};
-  auto connected = Connection::connect("127.0.0.1", port, hello, patience);
+  auto connected = Connection::connect({.port = port}, hello, patience);
   if (!connected) {
     failure = connected.error().message;
     return;

@@ -1,11 +1,14 @@
-// scree-admin: shows the status of a running server, and shows and changes its settings. Exit status: 0
-// success, 1 failure or refusal, 2 wrong usage.
+// scree-admin: shows the status of a running server, shows and changes its settings, and manages its
+// sessions. Exit status: 0 success, 1 failure or refusal, 2 wrong usage.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "client/admin/admin.h"
-#include "shared/base/token.h"
+#include "client/connection/endpoint_options.h"
+#include "proto/limits.h"
 
 namespace {
 
@@ -15,9 +18,10 @@ constexpr int exit_usage = 2;
 struct Options {
   scree::AdminServer server;
   double timeout_s = 10.0;
-  std::string token;
-  std::string token_file;
   std::vector<std::string> changes;
+  std::string whom;  ///< a session's number, or an address
+  uint32_t minutes = 0;
+  std::string reason;
   bool json = false;
 };
 
@@ -43,13 +47,6 @@ int print(const scree::Result<scree::StatusMessage>& status, bool as_json) {
   return 0;
 }
 
-scree::Result<std::string> token_of(const Options& options) {
-  if (!options.token_file.empty()) return scree::read_token(options.token_file);
-  if (options.token.empty())
-    return scree::fail("changing settings takes the server's token (--token-file, --token)");
-  return options.token;
-}
-
 scree::Result<scree::SettingValues> parse(const std::vector<std::string>& changes) {
   scree::SettingValues parsed;
   for (const std::string& change : changes) {
@@ -63,47 +60,106 @@ scree::Result<scree::SettingValues> parse(const std::vector<std::string>& change
 int change(const Options& options) {
   const auto changes = parse(options.changes);
   if (!changes) return complain(changes.error(), exit_usage);
-  const auto token = token_of(options);
-  if (!token) return complain(token.error(), exit_usage);
-  return print(scree::change_settings(options.server, *token, *changes), options.json);
+  return print(scree::change_settings(options.server, *changes), options.json);
 }
 
-void add_connection(CLI::App& app, Options& options) {
-  app.add_option("--host", options.server.host, "server to connect to")
-      ->envname("SCREE_HOST")
+int print_sessions(const Options& options) {
+  const auto sessions = scree::list_sessions(options.server);
+  if (!sessions) return complain(sessions.error(), exit_failed);
+  std::fputs((options.json ? scree::sessions_json(*sessions) : scree::sessions_lines(*sessions)).c_str(),
+             stdout);
+  return 0;
+}
+
+int print_bans(const Options& options) {
+  const auto bans = scree::list_bans(options.server);
+  if (!bans) return complain(bans.error(), exit_failed);
+  std::fputs((options.json ? scree::bans_json(*bans) : scree::bans_lines(*bans)).c_str(), stdout);
+  return 0;
+}
+
+int told(const scree::Result<void>& done) {
+  return done ? 0 : complain(done.error(), exit_failed);
+}
+
+/// The number of a session; nothing for what is none.
+std::optional<uint64_t> session_number(const std::string& text) {
+  uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stopped != end || number == 0) return std::nullopt;
+  return number;
+}
+
+int kick(const Options& options) {
+  const auto session = session_number(options.whom);
+  if (!session)
+    return complain({"'" + options.whom + "' is no session's number; scree admin sessions lists them"},
+                    exit_usage);
+  return told(scree::kick_session(options.server, {*session, options.reason}));
+}
+
+int ban(const Options& options) {
+  const auto session = session_number(options.whom);
+  return told(scree::ban_address(options.server, {session.value_or(0), session ? std::string() : options.whom,
+                                                  options.minutes, options.reason}));
+}
+
+using Run = int (*)(const Options&);
+
+/// A row each: what to run when the subcommand was given.
+std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options& options) {
+  const auto add = [&](const char* name, const char* what) { return app.add_subcommand(name, what); };
+  CLI::App* show = add("show", "prints every setting as it stands");
+  CLI::App* status = add("status", "prints what the last second's ticks took and had to do, and the ledger");
+  CLI::App* set = add("set", "changes settings, all or none, and prints how every one stands");
+  set->add_option("NAME=VALUE", options.changes, "scree-server --help lists them")->required();
+  CLI::App* sessions = add("sessions", "lists who is there, with role and address");
+  CLI::App* kicked = add("kick", "ends a session");
+  kicked->add_option("SESSION", options.whom, "its number")->required();
+  CLI::App* banned = add("ban", "refuses an address, and ends the sessions from there");
+  banned->add_option("WHOM", options.whom, "an IPv4 or IPv6 address, or the number of a session from there")
+      ->required();
+  banned->add_option("--minutes", options.minutes, "after which it ends; 0: when it is lifted")
+      ->check(CLI::Range(0U, scree::limits::ban_minutes_max))
       ->capture_default_str();
-  app.add_option("--port", options.server.port, "its port")->envname("SCREE_PORT")->capture_default_str();
-  app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "prints JSON");
+  for (CLI::App* command : {kicked, banned})
+    command->add_option("--reason", options.reason, "told to who is sent away");
+  CLI::App* bans = add("bans", "lists the addresses that are refused");
+  CLI::App* unban = add("unban", "lets an address in again");
+  unban->add_option("ADDRESS", options.whom, "as bans lists it")->required();
+  return {{show, [](const Options& o) { return print(scree::read_settings(o.server), o.json); }},
+          {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
+          {set, change},
+          {sessions, print_sessions},
+          {kicked, kick},
+          {banned, ban},
+          {bans, print_bans},
+          {unban, [](const Options& o) { return told(scree::lift_ban(o.server, {o.whom})); }}};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Shows how a running server stands, and shows and changes its settings.", "scree-admin");
+  CLI::App app("Shows how a running server stands, changes its settings, and manages its sessions.",
+               "scree-admin");
   app.require_subcommand(1);
-  add_connection(app, options);
+  scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
+  app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "prints JSON");
   app.fallthrough();
-  const CLI::App* show = app.add_subcommand("show", "prints every setting as it stands");
-  const CLI::App* status =
-      app.add_subcommand("status", "prints what the last second's ticks took and had to do, and the ledger");
-  CLI::App* set = app.add_subcommand("set", "changes settings, all or none, and prints how every one stands");
-  set->add_option("NAME=VALUE", options.changes, "scree-server --help lists them")->required();
-  CLI::Option* token =
-      set->add_option("--token", options.token, "the server's --admin-token")->envname("SCREE_ADMIN_TOKEN");
-  set->add_option("--token-file", options.token_file, "its first line is the token")
-      ->envname("SCREE_ADMIN_TOKEN_FILE")
-      ->excludes(token);
+  const auto commands = add_commands(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
+  if (const auto completed = endpoint.complete(); !completed) return complain(completed.error(), exit_usage);
   options.server.within = std::chrono::milliseconds(static_cast<int64_t>(options.timeout_s * 1000.0));
-  if (show->parsed()) return print(scree::read_settings(options.server), options.json);
-  if (status->parsed()) return print(scree::read_status(options.server), options.json);
-  return change(options);
+  for (const auto& [command, run] : commands)
+    if (command->parsed()) return run(options);
+  return exit_usage;
 }

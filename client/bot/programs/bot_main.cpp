@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "client/bot/bot.h"
+#include "client/connection/endpoint_options.h"
 #include "shared/base/limits.h"
 
 namespace {
@@ -30,10 +31,8 @@ struct Options {
   bool quiet = false;
 };
 
-void add_connection(CLI::App& app, Options& options) {
+void add_interest(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
-  app.add_option("--host", bot.host, "server to connect to")->envname("SCREE_HOST")->capture_default_str();
-  app.add_option("--port", bot.port, "its port")->envname("SCREE_PORT")->capture_default_str();
   app.add_option("--interest", bot.interest_radius_m, "metres around the centre that the bot follows")
       ->envname("SCREE_INTEREST")
       ->check(CLI::Range(0.0F, scree::limits::interest_radius_max_m))
@@ -130,15 +129,19 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  options.bot.port = scree::default_port;
   CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
-  add_connection(app, options);
+  scree::EndpointOptions endpoint(app, options.bot);
+  add_interest(app, options);
   add_carving(app, options);
   add_ending(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  if (const auto completed = endpoint.complete(); !completed) {
+    std::fprintf(stderr, "scree-bot: error: %s\n", completed.error().message.c_str());
+    return exit_usage;
   }
   complete(options);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("bot"));

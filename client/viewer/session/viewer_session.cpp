@@ -27,8 +27,8 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 
 }  // namespace
 
-ViewerSession::ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name)
-    : host_(std::move(host)), port_(port), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
+ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name)
+    : server_(std::move(server)), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
 
 SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
@@ -51,8 +51,8 @@ void ViewerSession::begin_connecting(double now_s, glm::vec3 eye_m) {
   hello.eye_m = eye_m;
   hello.interest_radius_m = interest_radius_m_;
   hello.name = name_;
-  connecting_ = std::async(std::launch::async, [host = host_, port = port_, hello] {
-    Result<std::unique_ptr<Connection>> made = Connection::connect(host, port, hello, connect_within);
+  connecting_ = std::async(std::launch::async, [server = server_, hello] {
+    Result<std::unique_ptr<Connection>> made = Connection::connect(server, hello, connect_within);
     Attempt attempt;
     if (made) {
       attempt.connection = std::move(*made);
@@ -200,8 +200,11 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
 }
 
 std::string ViewerSession::description() const {
-  const std::string where = host_ + ":" + std::to_string(port_);
-  if (connection_) return where + (connection_->welcome().replay ? " (a recording)" : "");
+  const std::string where = server_.host + ":" + std::to_string(server_.port);
+  if (connection_) {
+    const WelcomeMessage& welcome = connection_->welcome();
+    return where + (welcome.replay ? " (a recording)" : ", as " + std::string(name_of(welcome.role)));
+  }
   if (trouble_.empty()) return "connecting to " + where + " ...";
   return trouble_ + " - trying again";
 }

@@ -15,6 +15,7 @@
 #include "client/render/scene/draw_method.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/playback.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -26,7 +27,7 @@ struct SessionStep {
 class ViewerSession {
  public:
   /// `name`: the person's, shown to others.
-  ViewerSession(std::string host, uint16_t port, float interest_radius_m, std::string name);
+  ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name);
 
   SessionStep step(double now_s, const Camera& camera);
 
@@ -76,8 +77,7 @@ class ViewerSession {
   void report_cursor(double now_s, const Camera& camera);
   void lose(double now_s, const std::string& reason);
 
-  std::string host_;
-  uint16_t port_;
+  ServerEndpoint server_;
   float interest_radius_m_;
   std::string name_;
   std::future<Attempt> connecting_;

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "client/connection/endpoint_options.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
-#include "proto/messages.h"
 
 namespace scree {
 namespace {
@@ -55,10 +55,6 @@ struct Texts {
 };
 
 void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
-  app.add_option("--host", options.host, "Server's name or address")->envname("SCREE_HOST");
-  app.add_option("--port", options.port, "Server's TCP port")
-      ->envname("SCREE_PORT")
-      ->check(CLI::Range(1, 65535));
   app.add_option("--name", options.name, "Your name, as others see it at your cursor")->envname("SCREE_NAME");
   app.add_option("--size", texts.size, "Window or image, WIDTHxHEIGHT")->envname("SCREE_SIZE");
   app.add_option("--camera", texts.camera,
@@ -177,7 +173,6 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
 
 std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* argv) {
   ViewerOptions options;
-  options.port = default_port;
   options.view_radius_m = 96.0F;
   if (const char* user = std::getenv("USER")) options.name = user;
   options.timeout_s = 120.0;
@@ -186,6 +181,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   Texts texts;
   CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
   app.option_defaults()->always_capture_default();
+  EndpointOptions endpoint(app, options);
   declare(app, options, texts);
   try {
     app.parse(argc, argv);
@@ -196,7 +192,9 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }
-  if (const Result<void> understood = understand(texts, options); !understood) {
+  Result<void> understood = endpoint.complete();
+  if (understood) understood = understand(texts, options);
+  if (!understood) {
     std::fprintf(stderr, "scree-viewer: %s\n", understood.error().message.c_str());
     return ExitNow{2};
   }

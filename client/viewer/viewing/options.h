@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "client/connection/endpoint.h"
 #include "client/render/methods.h"
 #include "client/render/scene/camera.h"
 #include "client/viewer/pictures/camera_path.h"
@@ -15,9 +16,7 @@
 
 namespace scree {
 
-struct ViewerOptions {
-  std::string host = "127.0.0.1";
-  uint16_t port = 0;
+struct ViewerOptions : ServerEndpoint {
   std::string name;  ///< the person's
   int width = 1280;
   int height = 720;

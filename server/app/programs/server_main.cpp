@@ -18,20 +18,32 @@ constexpr int failed = 1;
 constexpr long poll_period_ns = 20'000'000;
 
 /// Blocked before any thread starts, so that only wait_for_end() sees them.
-sigset_t block_stop_signals() {
+sigset_t block_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
 
-void wait_for_end(const LiveServer& server, const sigset_t& signals) {
+void reload(LiveServer& server) {
+  if (const auto reloaded = server.reload(); reloaded)
+    spdlog::info("certificate, keys and revoked tokens are read again (SIGHUP)");
+  else
+    spdlog::error("nothing is read again (SIGHUP), the old stays in force: {}", reloaded.error().message);
+}
+
+void wait_for_end(LiveServer& server, const sigset_t& signals) {
   const timespec period{0, poll_period_ns};
   while (server.running()) {
     const int signal = sigtimedwait(&signals, nullptr, &period);
     if (signal < 0) continue;
+    if (signal == SIGHUP) {
+      reload(server);
+      continue;
+    }
     spdlog::info("stopping ({})", signal == SIGINT ? "SIGINT" : "SIGTERM");
     return;
   }
@@ -54,7 +66,7 @@ bool write_report(const LiveServer& server, const std::string& path) {
 }
 
 int run(const ServerOptions& options) {
-  const sigset_t signals = block_stop_signals();
+  const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("scree-server"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
   auto server = LiveServer::start(options.live);

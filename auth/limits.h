@@ -1,0 +1,12 @@
+// Bounds of tokens' files. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Ids in a list of revoked tokens: a megabyte of text. Tokens that expire need not stay in it. Above:
+/// refused.
+inline constexpr size_t revoked_tokens_max = size_t{1} << 16;
+
+}  // namespace scree::limits

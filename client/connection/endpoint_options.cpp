@@ -1,0 +1,51 @@
+#include "client/connection/endpoint_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "proto/limits.h"
+#include "shared/base/token.h"
+
+namespace scree {
+
+EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
+                                 const std::string& token_environment)
+    : endpoint_(endpoint) {
+  app.add_option("--host", endpoint.host, "server's name or address")
+      ->envname("SCREE_HOST")
+      ->capture_default_str();
+  app.add_option("--port", endpoint.port, "its TCP port")
+      ->envname("SCREE_PORT")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  app.add_flag("--tls", endpoint.tls,
+               "encrypted, to a server whose certificate is for its name and from an "
+               "authority that this system knows")
+      ->envname("SCREE_TLS");
+  CLI::Option* ca = app.add_option("--tls-ca", endpoint.trust.ca_path,
+                                   "PEM file of the certificates to trust instead; implies --tls")
+                        ->envname("SCREE_TLS_CA");
+  app.add_option("--tls-fingerprint", endpoint.trust.fingerprint,
+                 "SHA-256 of the one certificate to trust, as the server logs it; implies --tls")
+      ->envname("SCREE_TLS_FINGERPRINT")
+      ->excludes(ca);
+  CLI::Option* token = app.add_option("--token", endpoint.token,
+                                      "access token, or the server's admin token; better in a file: command "
+                                      "lines are seen by others")
+                           ->envname(token_environment);
+  app.add_option("--token-file", token_path_, "its first line is the token")
+      ->envname(token_environment + "_FILE")
+      ->excludes(token);
+}
+
+Result<void> EndpointOptions::complete() {
+  endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
+  if (!token_path_.empty()) {
+    auto token = read_secret(token_path_, limits::access_token_bytes_max);
+    if (!token) return tl::unexpected(token.error());
+    endpoint_.token = std::move(*token);
+  }
+  if (endpoint_.token.empty()) return {};
+  return check_secret(endpoint_.token, limits::access_token_bytes_max);
+}
+
+}  // namespace scree

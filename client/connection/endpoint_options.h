@@ -1,0 +1,32 @@
+// The options by which every client is told its server.
+#pragma once
+
+#include <string>
+
+#include "client/connection/endpoint.h"
+#include "shared/base/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scree {
+
+/// Declares --host, --port, --tls and so on, with their names in the environment; the token's is the
+/// caller's, and its file's is that with _FILE. Outlives the parsing.
+class EndpointOptions {
+ public:
+  EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
+                  const std::string& token_environment = "SCREE_TOKEN");
+  EndpointOptions(const EndpointOptions&) = delete;
+  EndpointOptions& operator=(const EndpointOptions&) = delete;
+
+  /// After the parsing: reads the token's file, and understands what to trust as a wish for TLS.
+  Result<void> complete();
+
+ private:
+  ServerEndpoint& endpoint_;
+  std::string token_path_;
+};
+
+}  // namespace scree

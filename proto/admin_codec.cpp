@@ -1,0 +1,129 @@
+#include "proto/admin_codec.h"
+
+#include <algorithm>
+
+#include "proto/limits.h"
+
+namespace scree {
+
+namespace {
+
+struct WritingAct {
+  wire::Admin& to;
+
+  void operator()(const SettingValues& from) const { write(*to.mutable_settings(), from); }
+  void operator()(const ListSessions&) const { to.mutable_list_sessions(); }
+  void operator()(const KickSession& from) const {
+    to.mutable_kick()->set_session(from.session);
+    to.mutable_kick()->set_reason(showable(from.reason, limits::admin_reason_bytes_max));
+  }
+  void operator()(const BanAddress& from) const {
+    wire::Ban& ban = *to.mutable_ban();
+    ban.set_session(from.session);
+    ban.set_address(showable(from.address, limits::address_bytes_max));
+    ban.set_minutes(from.minutes);
+    ban.set_reason(showable(from.reason, limits::admin_reason_bytes_max));
+  }
+  void operator()(const ListBans&) const { to.mutable_list_bans(); }
+  void operator()(const LiftBan& from) const {
+    to.mutable_lift_ban()->set_address(showable(from.address, limits::address_bytes_max));
+  }
+};
+
+AdminAct read_act(const wire::Admin& from, FieldChecker& check) {
+  const auto reason = [&](const std::string& text) {
+    return check.text(text, limits::admin_reason_bytes_max, "reason");
+  };
+  const auto address = [&](const std::string& text) {
+    return check.text(text, limits::address_bytes_max, "address");
+  };
+  switch (from.act_case()) {
+    case wire::Admin::kListSessions:
+      return ListSessions{};
+    case wire::Admin::kKick:
+      return KickSession{from.kick().session(), reason(from.kick().reason())};
+    case wire::Admin::kBan:
+      return BanAddress{from.ban().session(), address(from.ban().address()),
+                        check.within(from.ban().minutes(), 0, limits::ban_minutes_max, "minutes"),
+                        reason(from.ban().reason())};
+    case wire::Admin::kListBans:
+      return ListBans{};
+    case wire::Admin::kLiftBan:
+      return LiftBan{address(from.lift_ban().address())};
+    case wire::Admin::ACT_NOT_SET:
+      break;
+  }
+  return check.settings(from.settings());
+}
+
+SessionRow read(const wire::SessionRow& from, FieldChecker& check) {
+  SessionRow row;
+  row.session = from.session();
+  row.name = check.text(from.name(), limits::person_name_bytes_max, "name of a session");
+  row.program = check.text(from.program(), limits::client_name_bytes_max, "program of a session");
+  row.address = check.text(from.address(), limits::address_bytes_max, "address of a session");
+  row.role = check.kind<Role>(from.role(), "role of a session");
+  row.token_id = from.token_id();
+  row.joined_s = from.joined_s();
+  row.sent_bytes = from.sent_bytes();
+  row.encrypted = from.encrypted();
+  return row;
+}
+
+}  // namespace
+
+void write(wire::Admin& to, const AdminMessage& from) {
+  to.set_request(from.request);
+  to.set_token(showable(from.token, limits::token_bytes_max));
+  std::visit(WritingAct{to}, from.act);
+}
+
+AdminMessage read_admin(const wire::Admin& from, FieldChecker& check) {
+  AdminMessage admin;
+  admin.request = from.request();
+  admin.token = check.text(from.token(), limits::token_bytes_max, "token");
+  admin.act = read_act(from, check);
+  return admin;
+}
+
+void write(wire::AdminList& to, const AdminListMessage& from) {
+  to.set_request(from.request);
+  for (size_t i = 0; i < std::min(from.sessions.size(), limits::admin_rows_max); ++i) {
+    const SessionRow& row = from.sessions[i];
+    wire::SessionRow& added = *to.add_sessions();
+    added.set_session(row.session);
+    added.set_name(showable(row.name, limits::person_name_bytes_max));
+    added.set_program(showable(row.program, limits::client_name_bytes_max));
+    added.set_address(showable(row.address, limits::address_bytes_max));
+    added.set_role(static_cast<wire::Role>(row.role));
+    added.set_token_id(row.token_id);
+    added.set_joined_s(row.joined_s);
+    added.set_sent_bytes(row.sent_bytes);
+    added.set_encrypted(row.encrypted);
+  }
+  for (size_t i = 0; i < std::min(from.bans.size(), limits::admin_rows_max); ++i) {
+    wire::BanRow& added = *to.add_bans();
+    added.set_address(showable(from.bans[i].address, limits::address_bytes_max));
+    added.set_left_s(from.bans[i].left_s);
+    added.set_reason(showable(from.bans[i].reason, limits::admin_reason_bytes_max));
+  }
+}
+
+AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
+  AdminListMessage list;
+  list.request = from.request();
+  const auto rows = static_cast<size_t>(std::max(from.sessions_size(), from.bans_size()));
+  if (rows > limits::admin_rows_max) {
+    check.refuse(std::to_string(rows) + " rows are over the limit of " +
+                 std::to_string(limits::admin_rows_max));
+    return list;
+  }
+  for (const wire::SessionRow& row : from.sessions()) list.sessions.push_back(read(row, check));
+  for (const wire::BanRow& row : from.bans())
+    list.bans.push_back({check.text(row.address(), limits::address_bytes_max, "address of a ban"),
+                         row.left_s(),
+                         check.text(row.reason(), limits::admin_reason_bytes_max, "reason of a ban")});
+  return list;
+}
+
+}  // namespace scree

@@ -1,0 +1,102 @@
+#include "server/net/bans.h"
+
+#include <asio/ip/address.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "server/net/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::string_view network_bits = "/64";
+constexpr size_t network_bytes = 8;
+
+bool has_ended(const Ban& ban, uint64_t now_s) {
+  return ban.until_s != 0 && ban.until_s <= now_s;
+}
+
+Result<void> take_line(const std::string& line, std::map<std::string, Ban>& bans) {
+  std::istringstream words(line);
+  std::string address;
+  Ban ban;
+  if (!(words >> address >> ban.until_s)) return fail("a ban is written as ADDRESS UNTIL REASON");
+  std::getline(words >> std::ws, ban.reason);
+  const auto key = ban_key(address);
+  if (!key) return tl::unexpected(key.error());
+  if (bans.size() >= limits::bans_max && !bans.contains(*key))
+    return fail("there are more than " + std::to_string(limits::bans_max) + " bans (limits.bans_max)");
+  bans[*key] = ban;
+  return {};
+}
+
+}  // namespace
+
+Result<std::string> ban_key(const std::string& address) {
+  std::string bare = address;
+  if (bare.ends_with(network_bits)) bare.resize(bare.size() - network_bits.size());
+  asio::error_code error;
+  const auto parsed = asio::ip::make_address(bare, error);
+  if (error) return fail("'" + address + "' is no IPv4 or IPv6 address");
+  if (parsed.is_v4()) return parsed.to_string();
+  const asio::ip::address_v6 v6 = parsed.to_v6();
+  if (v6.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string();
+  if (v6.is_loopback()) return v6.to_string();
+  asio::ip::address_v6::bytes_type bytes = v6.to_bytes();
+  for (size_t i = network_bytes; i < bytes.size(); ++i) bytes[i] = 0;
+  return asio::ip::address_v6(bytes).to_string() + std::string(network_bits);
+}
+
+Result<Bans> Bans::open(const std::string& path) {
+  Bans bans;
+  bans.path_ = path;
+  if (path.empty() || !std::filesystem::exists(path)) return bans;
+  std::ifstream file(path);
+  if (!file) return fail("the file of bans " + path + " cannot be read (--bans)");
+  size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.empty()) continue;
+    if (Result<void> taken = take_line(line, bans.bans_); !taken)
+      return fail(path + ", line " + std::to_string(number) + ": " + taken.error().message);
+  }
+  return bans;
+}
+
+Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {
+  std::erase_if(bans_, [&](const auto& entry) { return has_ended(entry.second, now_s); });
+  if (bans_.size() >= limits::bans_max && !bans_.contains(key))
+    return fail("there are " + std::to_string(limits::bans_max) +
+                " bans already (limits.bans_max): lift some");
+  bans_[key] = ban;
+  return write();
+}
+
+Result<void> Bans::lift(const std::string& key) {
+  if (bans_.erase(key) == 0) return fail(key + " is not banned");
+  return write();
+}
+
+const Ban* Bans::find(const std::string& address, uint64_t now_s) const {
+  if (bans_.empty()) return nullptr;
+  const auto key = ban_key(address);
+  const auto found = key ? bans_.find(*key) : bans_.end();
+  return found == bans_.end() || has_ended(found->second, now_s) ? nullptr : &found->second;
+}
+
+/// Beside the old one, then in its place: a server that ends halfway loses none.
+Result<void> Bans::write() const {
+  if (path_.empty()) return {};
+  const std::string fresh = path_ + ".new";
+  std::ofstream file(fresh);
+  for (const auto& [key, ban] : bans_) file << key << ' ' << ban.until_s << ' ' << ban.reason << '\n';
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(fresh, path_, error);
+  if (file && !error) return {};
+  return fail("the bans cannot be written to " + path_ + " (--bans): they hold until the server ends");
+}
+
+}  // namespace scree

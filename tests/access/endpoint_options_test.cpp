@@ -1,0 +1,76 @@
+// The options by which every client is told its server: what implies what, files, and the environment.
+#include "client/connection/endpoint_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "proto/limits.h"
+#include "tests/support/certificates.h"
+#include "tests/support/holds.h"
+
+namespace scree {
+namespace {
+
+struct Parsed {
+  ServerEndpoint endpoint;
+  std::string error;  ///< empty: understood
+};
+
+Parsed parse(std::vector<std::string> arguments, const std::string& token_environment = "SCREE_TOKEN") {
+  CLI::App app;
+  Parsed parsed;
+  EndpointOptions options(app, parsed.endpoint, token_environment);
+  std::ranges::reverse(arguments);  // CLI11 takes them from the back
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    parsed.error = error.what();
+    return parsed;
+  }
+  if (const Result<void> completed = options.complete(); !completed) parsed.error = completed.error().message;
+  return parsed;
+}
+
+TEST(EndpointOptions, are_plain_on_this_machine_unless_said_otherwise) {
+  const Parsed parsed = parse({});
+  EXPECT_EQ(parsed.error, "");
+  EXPECT_EQ(parsed.endpoint.host, "127.0.0.1");
+  EXPECT_EQ(parsed.endpoint.port, default_port);
+  EXPECT_FALSE(parsed.endpoint.tls);
+  EXPECT_EQ(parsed.endpoint.token, "");
+}
+
+TEST(EndpointOptions, what_to_trust_implies_tls) {
+  EXPECT_TRUE(parse({"--tls"}).endpoint.tls);
+  EXPECT_TRUE(parse({"--tls-ca", "f"}).endpoint.tls);
+  EXPECT_TRUE(parse({"--tls-fingerprint", "AB"}).endpoint.tls);
+  EXPECT_NE(parse({"--tls-ca", "f", "--tls-fingerprint", "AB"}).error, "");
+  ::setenv("SCREE_TLS_CA", "by-environment", 1);
+  const Parsed parsed = parse({});
+  ::unsetenv("SCREE_TLS_CA");
+  EXPECT_TRUE(parsed.endpoint.tls);
+  EXPECT_EQ(parsed.endpoint.trust.ca_path, "by-environment");
+}
+
+TEST(EndpointOptions, a_token_comes_from_the_line_a_file_or_the_environment) {
+  const TestFolder folder;
+  std::ofstream(folder / "token") << "scree1.in-a-file\n";
+  EXPECT_EQ(parse({"--token", "on-the-line"}).endpoint.token, "on-the-line");
+  EXPECT_EQ(parse({"--token-file", folder / "token"}).endpoint.token, "scree1.in-a-file");
+  EXPECT_NE(parse({"--token", "a", "--token-file", "b"}).error, "");
+  EXPECT_TRUE(holds(parse({"--token-file", folder / "none"}).error, "cannot be read"));
+  EXPECT_TRUE(holds(parse({"--token", "two words"}).error, "without spaces"));
+  EXPECT_TRUE(
+      holds(parse({"--token", std::string(limits::access_token_bytes_max + 1, 'x')}).error, "at most 512"));
+  ::setenv("SCREE_ADMIN_TOKEN_FILE", (folder / "token").c_str(), 1);
+  const Parsed parsed = parse({}, "SCREE_ADMIN_TOKEN");
+  const Parsed other = parse({});
+  ::unsetenv("SCREE_ADMIN_TOKEN_FILE");
+  EXPECT_EQ(parsed.endpoint.token, "scree1.in-a-file");
+  EXPECT_EQ(other.endpoint.token, "") << "an administrator's token is for the administrator's program";
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,293 @@
+// Roles and administrators over loopback: each request against each role, sessions that are refused for their
+// token, tokens revoked while their session lasts, kicking and banning, and bans that outlive the server.
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "auth/access_token.h"
+#include "client/admin/admin.h"
+#include "client/connection/connection.h"
+#include "server/net/bans.h"
+#include "server/net/net_server.h"
+#include "tests/support/certificates.h"
+#include "tests/support/flat_terrain.h"
+#include "tests/support/holds.h"
+#include "tests/support/patience.h"
+#include "tests/support/raw_client.h"
+
+namespace scree {
+namespace {
+
+constexpr const char* the_admin_token = "the-admin-token";
+
+class RoleTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(key.write(folder / "key", folder / "key.pub"));
+    config.terrain = flat_terrain;
+    config.admin_token = the_admin_token;
+    config.access.token_key_path = folder / "key.pub";
+    config.access.anonymous = Role::viewer;
+  }
+  void start() {
+    auto listening = NetServer::listen(config, commands);
+    ASSERT_TRUE(listening) << listening.error().message;
+    server = std::move(*listening);
+  }
+  std::string token(Role role, uint64_t id = 7, uint64_t expires_s = 0) const {
+    return *sign({id, role, 0, expires_s, "", ""}, key);
+  }
+  static HelloMessage hello(const std::string& token) {
+    return {protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F, "Ben", token};
+  }
+  /// A joined client, or null.
+  std::unique_ptr<RawClient> join(const std::string& token, Role granted) {
+    auto client = std::make_unique<RawClient>(server->port());
+    EXPECT_TRUE(client->send(hello(token)));
+    const auto welcome = client->receive_as<WelcomeMessage>();
+    EXPECT_TRUE(welcome && welcome->role == granted);
+    return client;
+  }
+  std::string refusal(const HelloMessage& hello) {
+    RawClient client(server->port());
+    EXPECT_TRUE(client.send(hello));
+    const auto refused = client.receive_as<RefusalMessage>();
+    return refused ? refused->reason : "";
+  }
+  AdminServer admin(const std::string& token) const {
+    AdminServer admin;
+    admin.port = server->port();
+    admin.token = token;
+    admin.within = patience;
+    return admin;
+  }
+  uint64_t refusals(Refusal reason) const { return server->stats().refusals.of(reason); }
+  /// Counts are published with ticks, and when sessions come and go.
+  bool comes_to_refuse(Refusal reason) const {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (refusals(reason) == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    return refusals(reason) > 0;
+  }
+
+  const TestFolder folder;
+  const SigningKey key = SigningKey::generate();
+  NetConfig config;
+  CommandQueue commands{64};
+  std::unique_ptr<NetServer> server;
+};
+
+TEST_F(RoleTest, each_may_do_what_those_before_it_may_and_no_more) {
+  start();
+  for (const Role role : all_kinds<Role>) {
+    const auto client = join(token(role), role);
+    commands.drain();
+    const Shape shape = sphere({}, 1.0F);
+    const ClientMessage requests[] = {CarveMessage{{.shape = shape}, 1}, FillMessage{{shape}, 2},
+                                      PaintMessage{{shape, Material::ice}, 3},
+                                      AdminMessage{4, "", SettingValues{{"dents", "false"}}}};
+    const Role needed[] = {Role::carver, Role::builder, Role::builder, Role::admin};
+    size_t allowed = 0;
+    for (size_t i = 0; i < std::size(requests); ++i) {
+      ASSERT_TRUE(client->send(requests[i]));
+      allowed += may_act_as(role, needed[i]) ? 1 : 0;
+      if (may_act_as(role, needed[i])) continue;
+      const auto reply = client->receive_as<ReplyMessage>();
+      ASSERT_TRUE(reply);
+      EXPECT_EQ(reply->request, i + 1);
+      EXPECT_TRUE(holds(reply->refusal, "takes the role " + std::string(name_of(needed[i]))))
+          << reply->refusal;
+      EXPECT_TRUE(holds(reply->refusal, "this session is a " + std::string(name_of(role)))) << reply->refusal;
+    }
+    // An answer follows all requests before it.
+    ASSERT_TRUE(client->send(AdminMessage{5, role == Role::admin ? "" : the_admin_token, ListBans{}}));
+    ASSERT_TRUE(client->receive_as<AdminListMessage>());
+    EXPECT_EQ(commands.drain().size(), allowed) << name_of(role);
+  }
+}
+
+TEST_F(RoleTest, without_a_token_is_what_the_server_says) {
+  for (const std::optional<Role> anonymous :
+       {std::optional(Role::viewer), std::optional(Role::carver), std::optional<Role>()}) {
+    config.access.anonymous = anonymous;
+    start();
+    if (anonymous) join("", *anonymous);
+    if (!anonymous) {
+      EXPECT_TRUE(holds(refusal(hello("")), "takes nobody without a token (--token)"));
+    }
+  }
+}
+
+TEST_F(RoleTest, a_server_without_configuration_lets_everybody_build) {
+  config = {};
+  config.terrain = flat_terrain;
+  start();
+  join("", Role::builder);
+  join("a token that nobody looks at", Role::builder);
+}
+
+TEST_F(RoleTest, a_token_that_does_not_hold_refuses_the_session_by_its_reason) {
+  config.access.token_revoked_path = folder / "revoked";
+  config.access.world = "mine";
+  std::ofstream(folder / "revoked") << id_text(13) << "\n";
+  start();
+  const auto named = [&](const std::string& token, Refusal reason, const char* words) {
+    EXPECT_TRUE(holds(refusal(hello(token)), words)) << refusal(hello(token));
+    EXPECT_TRUE(comes_to_refuse(reason)) << words;
+  };
+  named("scree1.garbled", Refusal::token_malformed, "the token is damaged");
+  named("a-guess-of-something", Refusal::token_malformed, "no access token");
+  named(*sign({7, Role::admin, 0, 0, "", ""}, SigningKey::generate()), Refusal::token_foreign,
+        "not signed by this server's key");
+  named(token(Role::builder, 7, 1'000'000'000), Refusal::token_expired, "has expired");
+  named(token(Role::builder, 13), Refusal::token_revoked, "000000000000000d was revoked");
+  named(*sign({7, Role::admin, 0, 0, "", "yours"}, key), Refusal::token_world,
+        "for the world 'yours', and this one is 'mine'");
+  const std::vector<uint8_t> fields = encode(ClientMessage(hello(std::string(512, 'x'))));
+  std::vector<uint8_t> longer = fields;
+  longer.push_back('x');
+  ++longer[0];  // one byte more of message, of hello and of token; none of the three lengths overflows its
+                // byte
+  for (size_t i = 4; i + 2 < longer.size(); ++i)
+    if ((longer[i] == 0x0A && i == 4) ||
+        (longer[i] == 0x32 && longer[i + 1] == 0x80 && longer[i + 2] == 0x04))
+      ++longer[i + 1];
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send_bytes(longer));
+  const auto refused = client.receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_TRUE(holds(refused->reason, "token has 513 bytes, over the limit of 512")) << refused->reason;
+}
+
+TEST_F(RoleTest, a_token_revoked_while_its_session_lasts_ends_it_and_no_other) {
+  config.access.token_revoked_path = folder / "revoked";
+  std::ofstream(folder / "revoked") << "";
+  start();
+  const auto lost = join(token(Role::carver, 21), Role::carver);
+  const auto kept = join(token(Role::carver, 22), Role::carver);
+  std::ofstream(folder / "revoked") << id_text(21) << "  # lost\n";
+  ASSERT_TRUE(server->reload());
+  const auto refused = lost->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_TRUE(holds(refused->reason, "was revoked"));
+  std::ofstream(folder / "revoked") << "not an id\n";
+  EXPECT_TRUE(holds(server->reload().error().message, "line 1"));
+  EXPECT_TRUE(holds(refusal(hello(token(Role::carver, 21))), "was revoked"))
+      << "the last good list stays in force";
+  ASSERT_TRUE(kept->send(FillMessage{{sphere({}, 1.0F)}, 9}));
+  EXPECT_TRUE(kept->receive_as<ReplyMessage>());
+}
+
+TEST_F(RoleTest, the_name_in_a_token_is_the_one_that_is_listed) {
+  start();
+  const auto named = join(*sign({9, Role::builder, 0, 0, "Ann", ""}, key), Role::builder);
+  const auto free = join("", Role::viewer);
+  const auto sessions = list_sessions(admin(the_admin_token));
+  ASSERT_TRUE(sessions) << sessions.error().message;
+  ASSERT_EQ(sessions->size(), 3U);
+  EXPECT_EQ((*sessions)[0].name, "Ann");
+  EXPECT_EQ((*sessions)[0].role, Role::builder);
+  EXPECT_EQ((*sessions)[0].token_id, 9U);
+  EXPECT_EQ((*sessions)[0].address, "127.0.0.1");
+  EXPECT_GT((*sessions)[0].sent_bytes, 0U);
+  EXPECT_EQ((*sessions)[1].name, "Ben");
+  EXPECT_EQ((*sessions)[2].program, "scree-admin");
+  EXPECT_EQ((*sessions)[2].role, Role::admin);
+  EXPECT_TRUE(holds(sessions_lines(*sessions), "builder  127.0.0.1"));
+  EXPECT_TRUE(holds(sessions_json(*sessions), "\"token\": \"0000000000000009\""));
+}
+
+TEST_F(RoleTest, only_administrators_administer) {
+  start();
+  for (const std::string& nobody : {std::string(), token(Role::builder)}) {
+    EXPECT_TRUE(holds(list_sessions(admin(nobody)).error().message, "takes the role admin"));
+    EXPECT_TRUE(holds(kick_session(admin(nobody), {1, ""}).error().message, "takes the role admin"));
+    EXPECT_TRUE(
+        holds(ban_address(admin(nobody), {0, "10.0.0.1", 0, ""}).error().message, "takes the role admin"));
+  }
+  EXPECT_TRUE(list_sessions(admin(token(Role::admin))));
+  EXPECT_TRUE(list_sessions(admin(the_admin_token)));
+  // The token in the message goes on to work, and a wrong one to end the connection.
+  const auto client = join("", Role::viewer);
+  ASSERT_TRUE(client->send(AdminMessage{1, the_admin_token, ListSessions{}}));
+  EXPECT_TRUE(client->receive_as<AdminListMessage>());
+  ASSERT_TRUE(client->send(AdminMessage{2, "another-admin-token", ListSessions{}}));
+  const auto refused = client->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, "the admin token is wrong");
+}
+
+TEST_F(RoleTest, who_is_kicked_is_told_why_and_may_come_again) {
+  start();
+  const auto client = join("", Role::viewer);
+  const auto other = join("", Role::viewer);
+  const uint64_t session = list_sessions(admin(the_admin_token))->front().session;
+  ASSERT_TRUE(kick_session(admin(the_admin_token), {session, "too loud"}));
+  const auto refused = client->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, "an administrator ended this session: too loud");
+  EXPECT_TRUE(comes_to_refuse(Refusal::kicked));
+  EXPECT_TRUE(holds(kick_session(admin(the_admin_token), {999, ""}).error().message, "no session 999"));
+  join("", Role::viewer);
+  ASSERT_TRUE(other->send(FillMessage{{sphere({}, 1.0F)}, 9}));
+  EXPECT_TRUE(other->receive_as<ReplyMessage>()) << "no other notices";
+}
+
+TEST_F(RoleTest, who_is_banned_stays_out_over_a_restart_until_it_is_lifted) {
+  config.access.bans_path = folder / "bans";
+  start();
+  const auto client = join(token(Role::builder), Role::builder);
+  const uint64_t session = list_sessions(admin(the_admin_token))->front().session;
+  ASSERT_TRUE(ban_address(admin(the_admin_token), {session, "", 0, "griefing"}));
+  const auto refused = client->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, "this address is banned from the server: griefing");
+  EXPECT_TRUE(holds(refusal(hello(token(Role::builder))), "banned"));
+  ASSERT_TRUE(ban_address(admin(the_admin_token), {0, "2001:db8:1:2:3:4:5:6", 90, ""}));
+  EXPECT_TRUE(
+      holds(ban_address(admin(the_admin_token), {0, "nowhere", 0, ""}).error().message, "no IPv4 or IPv6"));
+  server->stop();
+  start();
+  EXPECT_TRUE(holds(refusal(hello("")), "banned from the server: griefing"));
+  const auto bans = list_bans(admin(the_admin_token));
+  ASSERT_TRUE(bans) << bans.error().message << " (administrators come in all the same)";
+  ASSERT_EQ(bans->size(), 2U);
+  EXPECT_EQ((*bans)[0], (BanRow{"127.0.0.1", 0, "griefing"}));
+  EXPECT_EQ((*bans)[1].address, "2001:db8:1:2::/64");
+  EXPECT_GT((*bans)[1].left_s, 89U * 60U - 60U);
+  EXPECT_TRUE(holds(bans_lines(*bans), "127.0.0.1, until it is lifted: griefing"));
+  ASSERT_TRUE(lift_ban(admin(the_admin_token), {"127.0.0.1"}));
+  ASSERT_TRUE(lift_ban(admin(the_admin_token), {"2001:db8:1:2::/64"}));
+  EXPECT_TRUE(holds(lift_ban(admin(the_admin_token), {"127.0.0.1"}).error().message, "is not banned"));
+  join("", Role::viewer);
+  EXPECT_TRUE(list_bans(admin(the_admin_token))->empty());
+}
+
+TEST(BanList, keeps_time_and_its_limits) {
+  const TestFolder folder;
+  auto bans = Bans::open(folder / "bans");
+  ASSERT_TRUE(bans);
+  ASSERT_TRUE(bans->add(ban_key("10.0.0.1").value(), {100, "two words"}, 50));
+  EXPECT_NE(bans->find("10.0.0.1", 99), nullptr);
+  EXPECT_EQ(bans->find("10.0.0.1", 100), nullptr);
+  EXPECT_EQ(bans->find("10.0.0.2", 99), nullptr);
+  EXPECT_NE(bans->find("::ffff:10.0.0.1", 99), nullptr) << "the same address, written as IPv6";
+  ASSERT_TRUE(bans->add(ban_key("fe80::1:2:3:4").value(), {0, ""}, 50));
+  EXPECT_NE(bans->find("fe80::ffff", 1'000'000), nullptr) << "the same network of 64 bits";
+  const auto again = Bans::open(folder / "bans");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->all().size(), 2U);
+  EXPECT_EQ(again->find("10.0.0.1", 99)->reason, "two words");
+  Bans full = *Bans::open("");
+  for (size_t i = 0; i < limits::bans_max; ++i) ASSERT_TRUE(full.add("key" + std::to_string(i), {0, ""}, 50));
+  EXPECT_TRUE(holds(full.add("one more", {0, ""}, 50).error().message, "limits.bans_max"));
+  EXPECT_TRUE(full.add("key7", {0, "again"}, 50)) << "one that is there may change";
+  std::ofstream(folder / "bad") << "10.0.0.1 0 fine\n10.0.0.2 tomorrow\n";
+  EXPECT_TRUE(holds(Bans::open(folder / "bad").error().message, "bad, line 2"));
+  const auto nowhere = Bans::open(folder / "no/such/folder");
+  ASSERT_TRUE(nowhere);
+  Bans unkept = *nowhere;
+  EXPECT_TRUE(holds(unkept.add("10.0.0.1", {0, ""}, 50).error().message, "cannot be written"));
+  EXPECT_NE(unkept.find("10.0.0.1", 50), nullptr) << "it holds all the same";
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,57 @@
+#include "transport/tcp_transport.h"
+
+#include <asio/buffer.hpp>
+#include <vector>
+
+namespace scree {
+
+namespace {
+
+Moved moved(const asio::error_code& error, size_t bytes) {
+  if (!error) return bytes;
+  return tl::unexpected(StreamEnd{error == asio::error::eof, error.message()});
+}
+
+}  // namespace
+
+TcpTransport::TcpTransport(asio::ip::tcp::socket socket) : socket_(std::move(socket)) {
+  asio::error_code error;
+  socket_.set_option(asio::ip::tcp::no_delay(true), error);  // a socket that takes no options still works
+  const auto endpoint = socket_.remote_endpoint(error);
+  if (error) return;
+  address_ = endpoint.address().to_string();
+  port_ = endpoint.port();
+}
+
+void TcpTransport::read_some(std::span<uint8_t> into, Done done) {
+  socket_.async_read_some(asio::buffer(into.data(), into.size()),
+                          [self = shared_from_this(), done = std::move(done)](
+                              const asio::error_code& error, size_t bytes) { done(moved(error, bytes)); });
+}
+
+void TcpTransport::write_some(Buffers buffers, Done done) {
+  std::vector<asio::const_buffer> gathered;
+  gathered.reserve(buffers.size());
+  for (const std::span<const uint8_t> bytes : buffers) gathered.emplace_back(bytes.data(), bytes.size());
+  socket_.async_write_some(gathered,
+                           [self = shared_from_this(), done = std::move(done)](
+                               const asio::error_code& error, size_t bytes) { done(moved(error, bytes)); });
+}
+
+void TcpTransport::finish_sending() {
+  asio::error_code ignored;
+  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+}
+
+void TcpTransport::close() {
+  asio::error_code ignored;
+  socket_.close(ignored);
+}
+
+void TcpTransport::cut() {
+  asio::error_code ignored;
+  socket_.set_option(asio::socket_base::linger(true, 0), ignored);
+  socket_.close(ignored);
+}
+
+}  // namespace scree

@@ -1,0 +1,159 @@
+#include "transport/tls_transport.h"
+
+#include <algorithm>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+TlsTransport::TlsTransport(std::shared_ptr<Transport> below, TlsEngine engine,
+                           std::span<const uint8_t> arrived)
+    : below_(std::move(below)), engine_(std::move(engine)) {
+  engine_.feed(arrived);
+}
+
+void TlsTransport::read_some(std::span<uint8_t> into, Done done) {
+  CHECK(!read_done_ && !into.empty());
+  into_ = into;
+  read_done_ = std::move(done);
+  go_on();
+}
+
+/// A copy: one record holds what many buffers do, and each record costs 22 bytes.
+void TlsTransport::write_some(Buffers buffers, Done done) {
+  CHECK(!write_done_ && plain_.empty());
+  for (const std::span<const uint8_t> bytes : buffers) {
+    const auto some = bytes.first(std::min(bytes.size(), limits::tls_chunk_bytes - plain_.size()));
+    plain_.insert(plain_.end(), some.begin(), some.end());
+  }
+  taken_bytes_ = plain_.size();
+  write_done_ = std::move(done);
+  go_on();
+}
+
+/// Does all that can be done now. A handler called from here may end the stream.
+void TlsTransport::go_on() {
+  const auto self = shared_from_this();
+  if (closed_) return;
+  if (!broken_)
+    if (const Result<void> shaken = engine_.shake(); !shaken) break_off(shaken.error());
+  encrypt();
+  send();
+  deliver();
+  if (closed_) return;
+  if (end_) return fail_waiting();
+  receive();
+}
+
+void TlsTransport::encrypt() {
+  if (broken_ || plain_.empty() || !engine_.established()) return;
+  const Result<void> written = engine_.write(plain_);
+  plain_.clear();
+  if (!written) break_off(written.error());
+}
+
+/// The engine is of no more use, but for the alert in its output.
+void TlsTransport::break_off(const Error& error) {
+  broken_ = true;
+  end_ = StreamEnd{false, error.message};
+}
+
+void TlsTransport::send() {
+  if (sending_ || closed_) return;
+  if (unsent_from_ == unsent_.size()) {
+    engine_.take_output(unsent_);
+    unsent_from_ = 0;
+  }
+  if (unsent_.empty()) return;
+  sending_ = true;
+  const std::span<const uint8_t> bytes = std::span(unsent_).subspan(unsent_from_);
+  below_->write_some({&bytes, 1}, [self = shared_from_this()](const Moved& moved) { self->sent(moved); });
+}
+
+void TlsTransport::sent(const Moved& moved) {
+  sending_ = false;
+  if (closed_) return;
+  if (!moved) {
+    plain_.clear();
+    if (const Done done = std::exchange(write_done_, nullptr)) done(moved);
+    return;
+  }
+  unsent_from_ += *moved;
+  if (unsent_from_ < unsent_.size() || engine_.output_bytes() > 0) return send();
+  unsent_.clear();
+  unsent_from_ = 0;
+  if (finishing_) below_->finish_sending();
+  if (plain_.empty())
+    if (const Done done = std::exchange(write_done_, nullptr)) done(taken_bytes_);
+  go_on();
+}
+
+void TlsTransport::deliver() {
+  if (!read_done_ || broken_ || !engine_.established()) return;
+  const Result<TlsEngine::Got> got = engine_.read(into_);
+  if (got && got->bytes > 0) return std::exchange(read_done_, nullptr)(got->bytes);
+  if (!got) break_off(got.error());
+  if (got && got->ended) end_ = StreamEnd{true, "the other side ended it"};
+}
+
+void TlsTransport::receive() {
+  const bool wanted = read_done_ || (!engine_.established() && write_done_);
+  const bool blocked =
+      engine_.output_bytes() + (unsent_.size() - unsent_from_) > limits::tls_unsent_bytes_max;
+  if (!wanted || blocked || receiving_ || end_) return;
+  receiving_ = true;
+  below_->read_some(incoming_, [self = shared_from_this()](const Moved& moved) { self->received(moved); });
+}
+
+void TlsTransport::received(const Moved& moved) {
+  receiving_ = false;
+  if (closed_) return;
+  if (moved) {
+    engine_.feed(std::span(incoming_).first(*moved));
+  } else {
+    end_ = moved.error();
+    if (!engine_.established())
+      end_ = StreamEnd{
+          false, "the other side ended the TLS handshake (" + moved.error().why + "): does it speak TLS?"};
+  }
+  go_on();
+}
+
+/// Nothing is read any more; what waits for a handshake that failed is not written either.
+void TlsTransport::fail_waiting() {
+  send();  // the alert that says why
+  const StreamEnd end = *end_;
+  const bool never_written = !plain_.empty();
+  plain_.clear();
+  const Done read = std::exchange(read_done_, nullptr);
+  const Done write = never_written ? std::exchange(write_done_, nullptr) : nullptr;
+  if (read) read(tl::unexpected(end));
+  if (write && !closed_) write(tl::unexpected(end));
+}
+
+void TlsTransport::finish_sending() {
+  finishing_ = true;
+  engine_.finish();
+  send();
+  if (!sending_) below_->finish_sending();
+}
+
+void TlsTransport::drop() {
+  closed_ = true;
+  const Done read = std::exchange(read_done_, nullptr);
+  const Done write = std::exchange(write_done_, nullptr);
+}
+
+void TlsTransport::close() {
+  const auto self = shared_from_this();
+  drop();
+  below_->close();
+}
+
+void TlsTransport::cut() {
+  const auto self = shared_from_this();
+  drop();
+  below_->cut();
+}
+
+}  // namespace scree
