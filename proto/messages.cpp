@@ -64,7 +64,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const RefusalMessage& m) { return m.reason.size(); },
                      [](const FrameMessage& m) {
                        return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
-                              bytes_of(m.removed_pieces) + bytes_of(m.transforms);
+                              bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
                      },
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },

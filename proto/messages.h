@@ -145,7 +145,8 @@ struct FrameMessage {
   std::vector<BrickPatch> patches;         ///< for changes whose operation the client could not apply
   std::vector<ChunkCoord> dropped_chunks;  ///< no longer followed: forget their edits
   std::vector<PieceId> removed_pieces;     ///< gone or out of interest, not named by an operation
-  std::vector<uint8_t> transforms;         ///< packed poses (proto/transforms.h); empty: none in this frame
+  std::vector<uint8_t> transforms;         ///< packed poses (proto/transforms.h), for who does not predict
+  std::vector<uint8_t> motions;            ///< proto/motion_codec.h; empty: nothing moved, or it is not told
   bool has_check = false;
   /// Of the sum of the hashes of all chunks that operations and patches of this frame changed: the high half
   /// xor the low half.

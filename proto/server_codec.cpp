@@ -68,6 +68,7 @@ void write(wire::Frame& to, const FrameMessage& from) {
   to.set_dropped_chunks(pack_chunks(from.dropped_chunks));
   to.set_removed_pieces(pack_ids(from.removed_pieces));
   to.set_transforms(to_string(from.transforms));
+  to.set_motions(to_string(from.motions));
 }
 
 void write(wire::Work& to, const WorkStatus& from) {
@@ -201,6 +202,7 @@ FrameMessage read(const wire::Frame& from, FieldChecker& check) {
   frame.removed_pieces = unpack_ids(from.removed_pieces(), check);
   frame.transforms.assign(from.transforms().begin(), from.transforms().end());
   check.take(unpack_transforms(frame.transforms));
+  frame.motions.assign(from.motions().begin(), from.motions().end());
   return frame;
 }
 

@@ -34,8 +34,9 @@ void tally_operations(const FrameMessage& frame, size_t frame_bytes, BotReport& 
 void tally(const Received& received, BotReport& report) {
   BytesByKind& bytes = report.bytes;
   std::visit(Overloaded{[&](const FrameMessage& frame) {
-                          const size_t transforms =
-                              std::min(field_bytes(frame.transforms.size()), received.bytes);
+                          const size_t transforms = std::min(
+                              field_bytes(frame.transforms.size()) + field_bytes(frame.motions.size()),
+                              received.bytes);
                           bytes.transforms += transforms;
                           bytes.frames += received.bytes - transforms;
                           tally_operations(frame, received.bytes - transforms, report);

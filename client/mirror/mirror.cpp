@@ -41,7 +41,11 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
 }
 
 Mirror::Mirror(const WelcomeMessage& welcome)
-    : field_(welcome.terrain), tick_(welcome.tick), ticks_per_transform_(welcome.ticks_per_transform) {}
+    : field_(welcome.terrain),
+      known_motions_(motion_rules(welcome.tick_rate_hz, welcome.ticks_per_transform),
+                     welcome.terrain.voxel_size_m),
+      tick_(welcome.tick),
+      ticks_per_transform_(welcome.ticks_per_transform) {}
 
 Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
   using Done = Result<void>;
@@ -112,7 +116,8 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
   }
   for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);
   ++counters_.frames;
-  return apply_transforms(frame.transforms, frame.tick);
+  if (Result<void> applied = apply_transforms(frame.transforms, frame.tick); !applied) return applied;
+  return apply_motions(frame.motions, frame.tick);
 }
 
 Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, float& work_us, ChunkSet& changed,
@@ -133,6 +138,7 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, floa
     const std::shared_ptr<const Volume>& volume = table_.at(piece.id);
     const glm::vec3 off_m = (volume->centre_voxels - birthplace.centre_voxels) * field_.source().voxel_size_m;
     const Pose pose{birthplace.pose.position_m + birthplace.pose.rotation * off_m, birthplace.pose.rotation};
+    known_motions_.add_made(piece.id, *volume, parent_of(operation));
     add_piece(piece.id, volume, pose, tick, changes);
   }
   counters_.pieces_made += applied.created.size();
@@ -207,18 +213,29 @@ Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick t
     const auto found = motions_.find(state.id);
     if (found == motions_.end())
       return fail("the pose of piece " + std::to_string(state.id) + ", which is not known here");
-    PieceMotion& motion = found->second;
-    // The server sends no poses of a piece at rest: its motion starts at the last tick, not at its last
-    // pose's.
-    const Tick start = tick > ticks_per_transform_ ? tick - ticks_per_transform_ : 0;
-    motion.from = motion.to;
-    motion.from_tick = std::max(motion.to_tick, start);
-    motion.to = dequantise(state.pose);
-    motion.to_tick = tick;
+    move_piece(found->second, dequantise(state.pose), tick);
   }
   counters_.transforms += states->size();
   counters_.transform_bytes += packed.size();
   return {};
+}
+
+Result<void> Mirror::apply_motions(const std::vector<uint8_t>& motions, Tick tick) {
+  const Result<std::vector<PieceId>> moved = known_motions_.advance(motions);
+  if (!moved) return tl::unexpected(moved.error());
+  for (const PieceId id : *moved) move_piece(motions_.at(id), pose_of(*known_motions_.motion(id)), tick);
+  counters_.transforms += moved->size();
+  counters_.transform_bytes += motions.size();
+  return {};
+}
+
+void Mirror::move_piece(PieceMotion& motion, const Pose& to, Tick tick) const {
+  // The server tells nothing of a piece at rest: its motion starts at the last tick, not at its last pose's.
+  const Tick start = tick > ticks_per_transform_ ? tick - ticks_per_transform_ : 0;
+  motion.from = motion.to;
+  motion.from_tick = std::max(motion.to_tick, start);
+  motion.to = to;
+  motion.to_tick = tick;
 }
 
 Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& changes) {
@@ -242,6 +259,7 @@ Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& cha
   if (motions_.contains(message.id))
     return fail("piece " + std::to_string(message.id) + " is sent a second time");
   auto volume = std::make_shared<const Volume>(message.volume);
+  known_motions_.add(message.id, *volume);
   table_[message.id] = volume;
   add_piece(message.id, std::move(volume), dequantise(message.pose), tick_, changes);
   ++counters_.pieces_sent;
@@ -252,6 +270,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   for (const ChunkCoord chunk : field_.edited_chunks()) forget_chunk(chunk, changes);
   for (const auto& [id, motion] : motions_) changes.pieces_removed.push_back(id);
   motions_.clear();
+  known_motions_.clear();
   table_.clear();
   piece_voxels_ = 0;
   held_.clear();
@@ -277,6 +296,7 @@ void Mirror::add_piece(PieceId id, std::shared_ptr<const Volume> volume, const P
 
 void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
   table_.erase(id);
+  known_motions_.remove(id);
   const auto found = motions_.find(id);
   if (found == motions_.end()) return;
   piece_voxels_ -= found->second.volume->window.codes.size();

@@ -16,6 +16,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "proto/known_motions.h"
 #include "proto/messages.h"
 #include "shared/field/field.h"
 #include "shared/operation/operation.h"
@@ -46,7 +47,7 @@ struct MirrorCounters {
   OperationCounts operations;
   uint64_t operation_bytes = 0;
   uint64_t patched_bricks = 0;
-  uint64_t transforms = 0;  ///< poses
+  uint64_t transforms = 0;  ///< poses, predicted ones too
   uint64_t transform_bytes = 0;
   uint64_t chunks = 0;  ///< received whole
   uint64_t dropped_chunks = 0;
@@ -108,6 +109,8 @@ class Mirror {
                                MirrorChanges& changes);
   void apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed, MirrorChanges& changes);
   Result<void> apply_transforms(const std::vector<uint8_t>& packed, Tick tick);
+  Result<void> apply_motions(const std::vector<uint8_t>& motions, Tick tick);
+  void move_piece(PieceMotion& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   void apply_reset(MirrorChanges& changes);
@@ -123,6 +126,7 @@ class Mirror {
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
+  KnownMotions known_motions_;              ///< by which they are predicted, of the same pieces
   size_t piece_voxels_ = 0;                 ///< of their volumes, together
   ChunkSet held_;
   Tick tick_;

@@ -30,6 +30,10 @@ float distance_between_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) 
   return glm::length(nearest - eye_m);
 }
 
+glm::vec3 place_of(const QuantisedPose& pose) {
+  return glm::vec3(pose.x, pose.y, pose.z) / pose_steps_per_m;
+}
+
 uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
   uint64_t sum = 0;
   for (const ChunkCoord chunk : chunks) {
@@ -42,8 +46,8 @@ uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
 }  // namespace
 
 TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const PublishedState& after,
-                         float size_m)
-    : delta(d), state(after), voxel_size_m(size_m) {
+                         const Motions& m, float size_m)
+    : delta(d), state(after), motions(m), voxel_size_m(size_m) {
   for (const BrickState& brick : d.bricks) bricks[chunk_of(brick.coord)].push_back(&brick);
   for (const auto& [chunk, list] : bricks) {
     if (!before.chunks().contains(chunk)) fresh.insert(chunk);
@@ -75,6 +79,7 @@ void ClientView::reset() {
   stale_.clear();
   wanted_.clear();
   known_.clear();
+  stepped_ = 0;
   rescan_due_ = true;
   rescanned_ = 0;
 }
@@ -92,8 +97,8 @@ bool ClientView::near(ChunkCoord chunk, float voxel_size_m) const {
   return distance_m(chunk, voxel_size_m) <= radius_m_;
 }
 
-bool ClientView::near(const QuantisedPose& pose, float factor) const {
-  return glm::length(dequantise(pose).position_m - eye_m_) <= radius_m_ * factor;
+bool ClientView::near(glm::vec3 place_m, float factor) const {
+  return glm::length(place_m - eye_m_) <= radius_m_ * factor;
 }
 
 /// Whether the client has, bit for bit, every brick that the operation reads: in held chunks, and in chunks
@@ -122,7 +127,7 @@ bool ClientView::concerns(const AppliedOperation& operation, const TickChanges& 
   if (std::ranges::any_of(operation.writes, followed)) return true;
   return std::ranges::any_of(operation.created, [&](PieceId id) {
     const auto piece = changes.state.pieces().find(id);
-    return piece != changes.state.pieces().end() && near(piece->second.pose, 1.0F);
+    return piece != changes.state.pieces().end() && near(place_of(piece->second.pose), 1.0F);
   });
 }
 
@@ -146,7 +151,9 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
       // A written chunk beyond the interest is followed, too, until the next scan drops it.
       if (held_.insert(chunk).second && !near(chunk, changes.voxel_size_m)) rescan_due_ = true;
     }
-    for (const PieceId id : operation.created) known_[id] = {};
+    const std::optional<PieceId> parent = parent_of(operation.operation);
+    const bool has_motion = !parent || (known_.contains(*parent) && known_.at(*parent).has_motion);
+    for (const PieceId id : operation.created) known_[id] = {has_motion};
     for (const PieceId id : ended) known_.erase(id);
   }
 }
@@ -211,21 +218,39 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   wanted_.insert(stale_.begin(), stale_.end());
 }
 
+void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
+                             FrameSelection& frame) const {
+  if (!has_kernels_) {
+    const QuantisedPose& pose = piece.target.pose;
+    if (known.sent != pose) frame.moved.push_back({piece.id, pose});
+    known.sent = pose;
+    return;
+  }
+  // The client's motion is of the step before, or the piece has rested since the last one that it got.
+  const bool follows = stepped_ == changes.motions.stepped_before() || piece.changed <= stepped_;
+  (known.has_motion && follows ? frame.steps : frame.wholes).push_back(piece.id);
+  known.has_motion = true;
+}
+
 void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame) {
-  const auto& alive = changes.state.pieces();
+  CHECK_EQ(changes.motions.stepped(), changes.delta.tick);
+  const std::vector<TrackedMotion>& alive = changes.motions.all();
+  auto piece = alive.begin();
+  bool moves = false;
   for (auto known = known_.begin(); known != known_.end();) {
-    const auto piece = alive.find(known->first);
-    if (piece == alive.end() || !near(piece->second.pose, limits::interest_keep_factor)) {
+    while (piece != alive.end() && piece->id < known->first) ++piece;
+    if (piece == alive.end() || piece->id != known->first ||
+        !near(piece->place_m, limits::interest_keep_factor)) {
       frame.removed.push_back(known->first);
       known = known_.erase(known);
       continue;
     }
-    if (known->second.sent != piece->second.pose) {
-      frame.moved.push_back({known->first, piece->second.pose});
-      known->second.sent = piece->second.pose;
-    }
+    select_pose(*piece, changes, known->second, frame);
+    moves = moves || piece->changed == changes.delta.tick;
     ++known;
   }
+  if (!moves && frame.wholes.empty()) frame.steps.clear();  // all rest where the client has them
+  stepped_ = changes.delta.tick;
 }
 
 bool ClientView::is_sound(const ChunkSet& changed) const {
@@ -273,8 +298,9 @@ std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size
 std::vector<PieceId> ClientView::next_pieces(const PublishedState& state, size_t count) const {
   std::vector<std::pair<float, PieceId>> candidates;
   for (const auto& [id, piece] : state.pieces()) {
-    if (known_.contains(id) || !near(piece.pose, 1.0F)) continue;
-    candidates.emplace_back(glm::length(dequantise(piece.pose).position_m - eye_m_), id);
+    const glm::vec3 place_m = place_of(piece.pose);
+    if (known_.contains(id) || !near(place_m, 1.0F)) continue;
+    candidates.emplace_back(glm::length(place_m - eye_m_), id);
   }
   keep_nearest(candidates, count);
   std::vector<PieceId> pieces;
@@ -289,7 +315,7 @@ void ClientView::sent_chunk(ChunkCoord chunk) {
 }
 
 void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
-  known_[piece] = {pose};
+  known_[piece] = {false, pose};
 }
 
 void ClientView::distrust(ChunkCoord chunk) {

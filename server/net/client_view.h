@@ -17,23 +17,25 @@
 #include <unordered_set>
 #include <vector>
 
+#include "server/net/motions.h"
 #include "server/world/published_state.h"
 
 namespace scree {
 
 using ChunkSet = std::unordered_set<ChunkCoord, CoordHash>;
 
-/// The changes of a tick, prepared once for all clients. `state` is that after the tick.
+/// The changes of a tick, prepared once for all clients. `state` and `motions` are those after the tick.
 struct TickChanges {
   const TickDelta& delta;
   const PublishedState& state;
+  const Motions& motions;
   float voxel_size_m = 0.0F;
   std::unordered_map<ChunkCoord, std::vector<const BrickState*>, CoordHash> bricks;
   ChunkSet fresh;   ///< changed for the first time in this tick
   ChunkSet orphan;  ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
-              float voxel_size_m);
+              const Motions& motions, float voxel_size_m);
 };
 
 /// A frame's content, by reference into the tick. Clients with equal selections get the same bytes.
@@ -42,7 +44,9 @@ struct FrameSelection {
   std::vector<ChunkCoord> patched;   ///< their bricks that changed in this tick are sent
   std::vector<ChunkCoord> dropped;
   std::vector<PieceId> removed;
-  std::vector<PieceState> moved;
+  std::vector<PieceId> steps;     ///< their motions go on from those that the client has
+  std::vector<PieceId> wholes;    ///< their motions come whole
+  std::vector<PieceState> moved;  ///< for a client that does not predict
   bool has_check = false;
   uint32_t check = 0;
 
@@ -70,6 +74,8 @@ class ClientView {
   bool may_see(ChunkCoord chunk, float voxel_size_m) const;
 
   /// Selects the frame of a tick, and notes it as sent. Call once for each tick whose frame is sent.
+  /// `parts.poses`: includes poses, and removes pieces that ended or left the interest; the motions have just
+  /// gone a step.
   FrameSelection select_frame(const TickChanges& changes, FrameScope parts);
 
   /// Up to `count` chunks (pieces) to send whole, nearest first.
@@ -91,11 +97,12 @@ class ClientView {
 
  private:
   struct Known {
-    std::optional<QuantisedPose> sent;  ///< nothing yet: the client has the pose at which it was cut
+    bool has_motion = false;              ///< as of the last frame with poses, or of the piece's birth
+    std::optional<QuantisedPose> sent{};  ///< nothing yet: the client has the pose at which it was cut
   };
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;
-  bool near(const QuantisedPose& pose, float factor) const;
+  bool near(glm::vec3 place_m, float factor) const;
   bool can_apply(const AppliedOperation& operation, const TickChanges& changes,
                  const ChunkSet& tainted) const;
   bool concerns(const AppliedOperation& operation, const TickChanges& changes) const;
@@ -105,6 +112,8 @@ class ClientView {
                       ChunkSet& changed);
   size_t patch_room(bool allowed);
   void select_poses(const TickChanges& changes, FrameSelection& frame);
+  void select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
+                   FrameSelection& frame) const;
   void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
   void forget_piece(PieceId piece, FrameSelection& frame);
   /// Whether the invariants hold, and `changed` chunks are held; for CHECK_DEBUG.
@@ -123,6 +132,7 @@ class ClientView {
       stale_;  ///< not held, but the client has edits there, to be replaced by the whole chunk or dropped
   ChunkSet wanted_;  ///< edited, within interest, not held
   std::map<PieceId, Known> known_;
+  Tick stepped_ = 0;  ///< the last tick whose frame had poses
 };
 
 }  // namespace scree

@@ -1,6 +1,7 @@
 #include "server/net/encode_cache.h"
 
 #include "proto/codec.h"
+#include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
@@ -19,6 +20,24 @@ bool decodes(const SharedBytes& bytes) {
   return body.size() > limits::message_bytes_max || decode_server(body).has_value();
 }
 
+std::vector<uint8_t> motions_of(const FrameSelection& selection, const Motions& motions) {
+  std::vector<WholeMotion> wholes;
+  std::vector<MotionStep> steps;
+  wholes.reserve(selection.wholes.size());
+  steps.reserve(selection.steps.size());
+  auto piece = motions.all().begin();
+  for (const PieceId id : selection.steps) {
+    while (piece->id < id) ++piece;
+    steps.push_back({id, &piece->before, piece->before_check, &piece->correction});
+  }
+  piece = motions.all().begin();
+  for (const PieceId id : selection.wholes) {
+    while (piece->id < id) ++piece;
+    wholes.push_back({id, piece->motion});
+  }
+  return encode_motions(wholes, steps);
+}
+
 FrameMessage frame_of(const FrameSelection& selection, const TickChanges& changes) {
   FrameMessage message;
   message.tick = changes.delta.tick;
@@ -30,6 +49,7 @@ FrameMessage frame_of(const FrameSelection& selection, const TickChanges& change
   message.dropped_chunks = selection.dropped;
   message.removed_pieces = selection.removed;
   message.transforms = pack_transforms(selection.moved);
+  message.motions = motions_of(selection, changes.motions);
   message.has_check = selection.has_check;
   message.check = selection.check;
   return message;
@@ -49,7 +69,7 @@ const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const Tic
   frames_.push_back(std::make_unique<Frame>());
   Frame& frame = *frames_.back();
   frame.selection = std::move(selection);
-  frame.transform_bytes = message.transforms.size();
+  frame.transform_bytes = message.transforms.size() + message.motions.size();
   frame.bytes = share(encode(ServerMessage(message)));
   CHECK_DEBUG(decodes(frame.bytes));
   return frame;

@@ -22,6 +22,10 @@ SharedBytes bytes_of(const ServerMessage& message) {
   return std::make_shared<const std::vector<uint8_t>>(encode(message));
 }
 
+Motions no_motions(const PublisherConfig& config) {
+  return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.voxel_size_m};
+}
+
 int64_t size_of(const SharedBytes& bytes) {
   return static_cast<int64_t>(bytes->size());
 }
@@ -29,7 +33,7 @@ int64_t size_of(const SharedBytes& bytes) {
 }  // namespace
 
 Publisher::Publisher(const PublisherConfig& config)
-    : config_(config), ground_(config.terrain), clock_(config.tick_rate_hz) {}
+    : config_(config), motions_(no_motions(config)), ground_(config.terrain), clock_(config.tick_rate_hz) {}
 
 void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels) {
   leave(session);
@@ -96,12 +100,14 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   const bool restarted = state_.tick() != 0 && delta.tick != state_.tick() + 1;
   if (restarted) {
     state_ = PublishedState();
+    motions_ = no_motions(config_);
     for (auto& [session, client] : clients_) client.reset_due = true;
   }
   // TickChanges must know the chunks edited before this tick: it reads the old state here, and refers to the
   // same object after apply(), so that no copy is needed.
-  const TickChanges changes(delta, state_, state_, config_.terrain.voxel_size_m);
+  const TickChanges changes(delta, state_, state_, motions_, config_.terrain.voxel_size_m);
   state_.apply(delta);
+  motions_.track(delta, state_, has_poses(delta.tick));
   clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
@@ -143,7 +149,7 @@ void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog
   if (!ready(client, backlog_bytes)) return;
   const Tick tick = changes.delta.tick;
   const bool reads_along = backlog_bytes <= limits::outbox_soft_bytes;
-  const bool with_poses = reads_along && tick % config_.ticks_per_transform == 0;
+  const bool with_poses = reads_along && has_poses(tick);
   // What a client without kernels would get as patches is much: while it reads slowly, it gets none, and
   // later the chunks as they are then.
   const bool with_patches = reads_along || client.view.has_kernels();

@@ -45,7 +45,7 @@ struct Outgoing {
 struct PublisherStats {
   uint64_t sent_bytes = 0;
   uint64_t frame_bytes = 0;      ///< including transform_bytes
-  uint64_t transform_bytes = 0;  ///< packed poses within frames
+  uint64_t transform_bytes = 0;  ///< motions and packed poses within frames
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
   uint64_t ground_bytes = 0;
@@ -59,7 +59,8 @@ class Publisher {
  public:
   explicit Publisher(const PublisherConfig& config);
 
-  /// `has_kernels`: whether the client can carry out operations.
+  /// `has_kernels`: whether the client can carry out operations; then it gets motions, else whole poses
+  /// (Frame.motions, Frame.transforms).
   void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
@@ -85,6 +86,7 @@ class Publisher {
   const PublishedState& state() const { return state_; }
   const PublisherStats& stats() const { return stats_; }
   size_t clients() const { return clients_.size(); }
+  const Motions& motions() const { return motions_; }
   /// For tests; null when there is no such client.
   const ClientView* view(uint64_t session) const;
 
@@ -102,6 +104,7 @@ class Publisher {
     bool watches = false;
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
   };
+  bool has_poses(Tick tick) const { return tick % config_.ticks_per_transform == 0; }
   void count_operations(const TickDelta& delta);
   void serve(Client& client, const TickChanges& changes, size_t backlog_bytes);
   bool ready(Client& client, size_t backlog_bytes);
@@ -119,6 +122,7 @@ class Publisher {
 
   PublisherConfig config_;
   PublishedState state_;
+  Motions motions_;
   std::map<uint64_t, Client> clients_;
   std::map<uint64_t, PlayerCursor> cursors_;
   EncodeCache cache_;

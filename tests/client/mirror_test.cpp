@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "client/mirror/limits.h"
+#include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "tests/support/flat_welcome.h"
 #include "tests/support/tick_source.h"
@@ -249,6 +250,31 @@ TEST(Mirror, a_piece_that_lay_still_starts_to_move_one_interval_before_its_next_
   EXPECT_EQ(motion.to_tick - motion.from_tick, flat_welcome().ticks_per_transform);
 }
 
+TEST(Mirror, motions_take_pieces_further_from_where_they_were_born) {
+  Pair pair;
+  ASSERT_TRUE(pair.mirror.apply(pair.frame({pair.carve()})));
+  std::vector<Motion> born;
+  for (const auto& [id, volume] : pair.source.pieces())
+    born.push_back(born_at(volume->centre_voxels * flat_terrain.voxel_size_m));
+  const std::optional<Correction> none, pushed = Correction{MotionMode::slide, {200, 0, 0}, {}};
+  std::vector<MotionStep> steps;
+  for (const auto& [id, volume] : pair.source.pieces()) {
+    const Motion& motion = born[steps.size()];
+    steps.push_back({id, &motion, motion_check(id, motion), steps.empty() ? &pushed : &none});
+  }
+  const PieceMotion before = pair.mirror.pieces().begin()->second;
+  FrameMessage frame = pair.frame({});
+  frame.motions = encode_motions({}, steps);
+  const auto applied = pair.mirror.apply(frame);
+  ASSERT_TRUE(applied) << applied.error().message;
+  const PieceMotion& motion = pair.mirror.pieces().begin()->second;
+  EXPECT_NEAR(motion.to.position_m.x - before.to.position_m.x, 200.0F * 3.0F * 37.0F / 16384.0F, 1e-3F);
+  EXPECT_EQ(motion.to_tick, frame.tick);
+  EXPECT_EQ(pair.mirror.counters().transforms, pair.source.pieces().size());
+  EXPECT_EQ(pair.mirror.counters().transform_bytes, frame.motions.size());
+  EXPECT_FALSE(pair.mirror.apply(frame)) << "the motions have gone on";
+}
+
 TEST(Mirror, a_reset_forgets_everything_and_lets_the_tick_go_back) {
   Pair pair;
   ASSERT_TRUE(pair.mirror.apply(pair.frame({pair.carve()})));
@@ -283,6 +309,12 @@ TEST(Mirror, what_a_hostile_server_sends_is_an_error_and_not_a_crash) {
   frame.transforms = {1, 2};
   EXPECT_TRUE(refuses(frame)) << "poses cut short";
   frame.transforms = {};
+  const WholeMotion of_nobody[] = {{99999, resting_at({})}};
+  frame.motions = encode_motions(of_nobody, {});
+  EXPECT_TRUE(refuses(frame)) << "the motion of an unknown piece";
+  frame.motions = {3, 1, 4, 1, 5};
+  EXPECT_TRUE(refuses(frame)) << "motions of other pieces";
+  frame.motions = {};
   frame.tick = 0;
   EXPECT_TRUE(refuses(frame)) << "a frame of the past";
   EXPECT_TRUE(refuses(WelcomeMessage{})) << "a second welcome";

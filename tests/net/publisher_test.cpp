@@ -154,7 +154,7 @@ TEST_F(PublisherTest, equal_clients_share_the_same_bytes) {
 TEST_F(PublisherTest, only_moved_pieces_have_transforms) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
-  for (int i = 0; i < 3; ++i) tick();
+  for (int i = 0; i < 12; ++i) tick();  // until their motions rest
   TrustingClient& follower = followers.at(session);
   follower.poses.clear();
   source.move(3, {0.0F, 1.0F, 0.0F});

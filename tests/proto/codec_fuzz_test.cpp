@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
+#include "proto/known_motions.h"
 #include "proto/operation_codec.h"
 #include "tests/support/wire_samples.h"
 
@@ -27,6 +28,10 @@ void decode_packed(std::span<const uint8_t> bytes) {
   if (const Result<std::vector<PieceState>> got = unpack_transforms(bytes)) {
     EXPECT_LE(pack_transforms(*got).size(), bytes.size());
   }
+  KnownMotions motions(motion_rules(60, 3), 0.25F);
+  for (const PieceId id : {3U, 900U}) motions.add(id, samples::volume());
+  motions.add_made(77, samples::volume(), std::nullopt);
+  (void)motions.advance(bytes);
   (void)decode_bricks(bytes);
   (void)decode_volume(bytes);
 }
@@ -66,6 +71,7 @@ TEST(CodecFuzz, seeded_noise_is_survived) {
   std::vector<std::vector<uint8_t>> bodies = corpus();
   bodies.push_back(encode_operations(samples::frame().operations));
   bodies.push_back(samples::frame().transforms);
+  bodies.push_back(samples::frame().motions);
   bodies.push_back(encode_volume(samples::volume()));
   bodies.push_back(encode_bricks(samples::frame().patches));
   for (int round = 0; round < 20000; ++round) {

@@ -65,6 +65,7 @@ TEST(Codec, a_frame_keeps_its_operations_patches_and_lists) {
   EXPECT_EQ(got.dropped_chunks, sent.dropped_chunks);
   EXPECT_EQ(got.removed_pieces, sent.removed_pieces);
   EXPECT_EQ(got.transforms, sent.transforms);
+  EXPECT_EQ(got.motions, sent.motions);
   EXPECT_TRUE(got.has_check);
   EXPECT_EQ(got.check, sent.check);
   ASSERT_EQ(got.patches.size(), sent.patches.size());

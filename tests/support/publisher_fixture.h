@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "proto/codec.h"
+#include "proto/known_motions.h"
 #include "proto/transforms.h"
 #include "server/net/limits.h"
 #include "server/net/publisher.h"
@@ -38,7 +39,9 @@ class TrustingClient {
   size_t chunk_bytes = 0;  ///< on the wire
   size_t piece_bytes = 0;
   std::vector<ChunkCoord> chunk_order;
-  std::map<PieceId, QuantisedPose> poses;
+  std::map<PieceId, QuantisedPose> poses;  ///< as told: whole, or by motions
+  KnownMotions motions{motion_rules(60, 3), flat_terrain.voxel_size_m};
+  size_t motion_bytes = 0, transform_bytes = 0;
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
   std::vector<GroundMessage> grounds;
@@ -50,8 +53,11 @@ class TrustingClient {
     for (const Operation& operation : frame.operations) {
       ++operations;
       ASSERT_TRUE(validate(operation, pieces, field.source().voxel_size_m).has_value());
-      for (const BrickCoord brick : scree::apply(operation, field, pieces).changed)
-        changed[chunk_of(brick)] = true;
+      const Applied applied = scree::apply(operation, field, pieces);
+      for (const BrickCoord brick : applied.changed) changed[chunk_of(brick)] = true;
+      for (const CreatedPiece& piece : applied.created)
+        motions.add_made(piece.id, *pieces.at(piece.id), parent_of(operation));
+      for (const PieceId piece : pieces_ended_by(operation)) motions.remove(piece);
     }
     for (const BrickPatch& patch : frame.patches) {
       ++patches;
@@ -63,13 +69,21 @@ class TrustingClient {
       ++drops;
       field.forget_chunk(chunk);
     }
-    for (const PieceId piece : frame.removed_pieces) EXPECT_EQ(pieces.erase(piece), 1U);
+    for (const PieceId piece : frame.removed_pieces) {
+      EXPECT_EQ(pieces.erase(piece), 1U);
+      motions.remove(piece);
+    }
+    transform_bytes += frame.transforms.size();
+    motion_bytes += frame.motions.size();
     const auto moved = unpack_transforms(frame.transforms);
     ASSERT_TRUE(moved.has_value());
     for (const PieceState& piece : *moved) {
       EXPECT_TRUE(pieces.contains(piece.id));
       poses[piece.id] = piece.pose;
     }
+    const auto advanced = motions.advance(frame.motions);
+    ASSERT_TRUE(advanced.has_value()) << advanced.error().message;
+    for (const PieceId piece : *advanced) poses[piece] = quantise(pose_of(*motions.motion(piece)));
     uint64_t sum = 0;
     for (const auto& [chunk, yes] : changed) sum += field.chunk_hash(chunk);
     EXPECT_FALSE(changed.empty() && frame.has_check);
@@ -90,12 +104,14 @@ class TrustingClient {
     ++piece_messages;
     EXPECT_FALSE(pieces.contains(message.id));
     pieces[message.id] = std::make_shared<const Volume>(message.volume);
+    motions.add(message.id, message.volume);
     poses[message.id] = message.pose;
   }
   void apply(const ResetMessage&) {
     ++resets;
     for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
     pieces.clear();
+    motions.clear();
   }
   void apply(const GroundMessage& message) { grounds.push_back(message); }
   void apply(const ReplyMessage& message) { replies.push_back(message); }

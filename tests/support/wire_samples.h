@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "proto/codec.h"
+#include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/random.h"
 
@@ -46,6 +47,18 @@ inline StampOperation stamp_operation() {
   return {77790, {-65000, 21234, 65535, 0x87654321U}, -12};
 }
 
+/// Two whole motions, one of them at rest, and a step of a third.
+inline std::vector<uint8_t> motions() {
+  Motion tumbling = resting_at({5000, -900000, 12, 0xF2345678U});
+  tumbling.mode = MotionMode::fall;
+  tumbling.velocity = {100, -2000, 7};
+  tumbling.spin = {-9000, 12, 300000};
+  const WholeMotion wholes[] = {{3, resting_at({10, -20, 30, 7})}, {900, tumbling}};
+  const std::optional<Correction> correction = Correction{MotionMode::slide, {3, 0, -40}, {0, 1, -1}};
+  const MotionStep steps[] = {{77, &tumbling, motion_check(77, tumbling), &correction}};
+  return encode_motions(wholes, steps);
+}
+
 inline FrameMessage frame() {
   FrameMessage frame;
   frame.tick = 123456;
@@ -68,6 +81,7 @@ inline FrameMessage frame() {
   frame.removed_pieces = {9, 4000000000U, 12};
   frame.transforms = pack_transforms(
       std::vector<PieceState>{{3, {10, -20, 30, 7}}, {900, {5000, -900000, 12, 0xFFFFFFFFU}}});
+  frame.motions = motions();
   frame.has_check = true;
   frame.check = 0x12345678U;
   return frame;
