@@ -107,12 +107,12 @@ MotionRules motion_rules(uint32_t tick_rate_hz, uint32_t ticks_per_transform) {
   CHECK(tick_rate_hz > 0);
   const int64_t rate = tick_rate_hz, ticks = ticks_per_transform;
   const auto most = [](int64_t value, int64_t max) { return static_cast<int32_t>(std::min(value, max)); };
-  const int64_t coarse = std::clamp<int64_t>(60 * ticks / rate, 1, motion_coarse_max);
+  const auto coarse = static_cast<int32_t>(std::clamp<int64_t>(60 * ticks / rate, 1, motion_coarse_max));
   return {.fall = most((2571633 * ticks * ticks + rate * rate / 2) / (rate * rate), motion_velocity_max),
           .drag = most(3277 * ticks / rate, 65536),
           .spin_drag = most(13107 * ticks / rate, 65536),
-          .position_step = static_cast<int32_t>(motion_position_step * coarse),
-          .rotation_step = static_cast<int32_t>(motion_rotation_step * coarse)};
+          .position_step = motion_position_step + motion_position_coarser * (coarse - 1),
+          .rotation_step = motion_rotation_step + motion_rotation_coarser * (coarse - 1)};
 }
 
 int32_t position_step(MotionMode mode, const MotionRules& rules) {

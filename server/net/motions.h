@@ -20,17 +20,17 @@ struct MotionTarget {
 };
 
 /// The correction that the motion needs in this step, if it needs any. After it, a piece that rests or whose
-/// step is a tick of 1/60 s is within 2 mm and 0.5° of its target; in longer steps a piece that moves may be
-/// off by as much more as they are longer. Only turns of more than 150° in a step take several.
+/// step is 1/60 s is within 1.2 mm and 0.26° of its target; in longer steps a piece that moves may be farther
+/// off (motion_position_coarser). Only turns of more than 150° in a step take several.
 std::optional<Correction> correction_of(const Motion& motion, const MotionTarget& target,
                                         const MotionRules& rules);
 
 struct TrackedMotion {
   PieceId id = 0;
   Motion before;                         ///< the last step
-  uint32_t before_check = 0;             ///< motion_check() of it
-  uint32_t check = 0;                    ///< and of that after the step
   Motion motion;                         ///< after it
+  uint32_t before_check = 0;             ///< motion_check() of that before
+  uint32_t check = 0;                    ///< and of that after
   std::optional<Correction> correction;  ///< in it
   MotionTarget target;
   glm::vec3 place_m{0.0F};   ///< as published
