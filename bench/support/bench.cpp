@@ -35,6 +35,8 @@ const std::vector<Bench>& all_benches() {
        run_storm_bench},
       {"support", "beams of three heights and materials against the formula, and the search's time",
        run_support_bench},
+      {"transforms", "900 boxes pushed about, and a blast of 1,000 pieces: bits of a pose, four ways",
+       run_transforms_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
       {"worst", "the dearest ticks there are: model against clock", run_worst_bench},
   };

@@ -22,6 +22,7 @@ BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
 BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_support_bench(const BenchOptions& options);
+BenchReport run_transforms_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
 BenchReport run_worst_bench(const BenchOptions& options);
 
