@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proto/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "server/net/limits.h"
 #include "shared/base/check.h"
@@ -153,7 +154,7 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
     }
     const std::optional<PieceId> parent = parent_of(operation.operation);
     const bool has_motion = !parent || (known_.contains(*parent) && known_.at(*parent).has_motion);
-    for (const PieceId id : operation.created) known_[id] = {has_motion};
+    for (const PieceId id : operation.created) known_[id] = {.has_motion = has_motion};
     for (const PieceId id : ended) known_.erase(id);
   }
 }
@@ -222,8 +223,9 @@ void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& chan
                              FrameSelection& frame) const {
   if (!has_kernels_) {
     const QuantisedPose& pose = piece.target.pose;
-    if (known.sent != pose) frame.moved.push_back({piece.id, pose});
+    if (!known.has_pose || known.sent != pose) frame.moved.push_back({piece.id, pose});
     known.sent = pose;
+    known.has_pose = true;
     return;
   }
   // The client's motion is of the step before, or the piece has rested since the last one that it got.
@@ -237,6 +239,7 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
   const std::vector<TrackedMotion>& alive = changes.motions.all();
   auto piece = alive.begin();
   bool moves = false;
+  if (has_kernels_) frame.steps.reserve(known_.size());
   for (auto known = known_.begin(); known != known_.end();) {
     while (piece != alive.end() && piece->id < known->first) ++piece;
     if (piece == alive.end() || piece->id != known->first ||
@@ -297,9 +300,12 @@ std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size
 
 std::vector<PieceId> ClientView::next_pieces(const PublishedState& state, size_t count) const {
   std::vector<std::pair<float, PieceId>> candidates;
+  auto known = known_.begin();
   for (const auto& [id, piece] : state.pieces()) {
+    while (known != known_.end() && known->first < id) ++known;
+    if (known != known_.end() && known->first == id) continue;
     const glm::vec3 place_m = place_of(piece.pose);
-    if (known_.contains(id) || !near(place_m, 1.0F)) continue;
+    if (!near(place_m, 1.0F)) continue;
     candidates.emplace_back(glm::length(place_m - eye_m_), id);
   }
   keep_nearest(candidates, count);
@@ -315,7 +321,7 @@ void ClientView::sent_chunk(ChunkCoord chunk) {
 }
 
 void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
-  known_[piece] = {false, pose};
+  known_[piece] = {.sent = pose, .has_pose = true};
 }
 
 void ClientView::distrust(ChunkCoord chunk) {

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -96,9 +95,11 @@ class ClientView {
   size_t wanted_chunks() const { return wanted_.size(); }
 
  private:
+  /// Small, for a client's walk over its pieces costs by the memory that it touches.
   struct Known {
-    bool has_motion = false;              ///< as of the last frame with poses, or of the piece's birth
-    std::optional<QuantisedPose> sent{};  ///< nothing yet: the client has the pose at which it was cut
+    QuantisedPose sent{};     ///< last whole pose, if has_pose
+    bool has_pose = false;    ///< else the client has the pose at which it was cut
+    bool has_motion = false;  ///< as of the last frame with poses, or of the piece's birth
   };
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;

@@ -26,17 +26,18 @@ std::optional<Correction> correction_of(const Motion& motion, const MotionTarget
                                         const MotionRules& rules);
 
 struct TrackedMotion {
+  // What every client asks of every piece comes first, on one line of the cache.
   PieceId id = 0;
+  bool alive = true;                     ///< for the walk of track()
+  glm::vec3 place_m{0.0F};               ///< as published
+  Tick changed = 0;                      ///< last tick in which it moved, was corrected or was made
   Motion before;                         ///< the last step
   Motion motion;                         ///< after it
   uint32_t before_check = 0;             ///< motion_check() of that before
   uint32_t check = 0;                    ///< and of that after
   std::optional<Correction> correction;  ///< in it
   MotionTarget target;
-  glm::vec3 place_m{0.0F};   ///< as published
   glm::vec3 centre_m{0.0F};  ///< of the volume, in its own frame
-  Tick changed = 0;          ///< last tick in which it moved, was corrected or was made
-  bool alive = true;         ///< for the walk of track()
 };
 
 class Motions {

@@ -203,7 +203,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
-            request(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
+            ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
             return {};
           },
           [&](const RepairRequest& repair) -> Done {

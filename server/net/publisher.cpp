@@ -23,7 +23,7 @@ SharedBytes bytes_of(const ServerMessage& message) {
 }
 
 Motions no_motions(const PublisherConfig& config) {
-  return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.voxel_size_m};
+  return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.terrain.voxel_size_m};
 }
 
 int64_t size_of(const SharedBytes& bytes) {

@@ -124,9 +124,18 @@ TEST_F(RoleTest, a_server_without_configuration_lets_everybody_build) {
   join("a token that nobody looks at", Role::builder);
 }
 
+TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access_tokens_are_not) {
+  start();
+  EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "the admin token is wrong"));
+  EXPECT_TRUE(holds(refusal(hello(the_admin_token)), "the next is looked at in"));
+  EXPECT_TRUE(comes_to_refuse(Refusal::token_guesses));
+  join(token(Role::builder), Role::builder);
+}
+
 TEST_F(RoleTest, a_token_that_does_not_hold_refuses_the_session_by_its_reason) {
   config.access.token_revoked_path = folder / "revoked";
   config.access.world = "mine";
+  config.admin_token.clear();  // whatever is no access token would be a guess at it
   std::ofstream(folder / "revoked") << id_text(13) << "\n";
   start();
   const auto named = [&](const std::string& token, Refusal reason, const char* words) {

@@ -146,7 +146,6 @@ TEST_F(ForeignClientTest, a_slow_reader_gets_no_patches_but_the_newest_chunks_la
   backlog_bytes = limits::outbox_soft_bytes + 1;
   for (int i = 0; i < 5; ++i) tick({source.carve({0.5F * static_cast<float>(i), 0.0F, 0.0F}, 2.0F, 2)});
   EXPECT_EQ(follower.patches, patches);
-  EXPECT_EQ(follower.ticks.back(), source.tick()) << "frames still say that time goes on";
   backlog_bytes = 0;
   for (int i = 0; i < 30; ++i) tick();
   EXPECT_EQ(follower.resets, 0U);
