@@ -16,7 +16,7 @@
 
 namespace scree {
 
-inline constexpr uint32_t protocol_version = 1;
+inline constexpr uint32_t protocol_version = 2;
 
 /// Default TCP port of a server.
 inline constexpr uint16_t default_port = 4177;

@@ -13,7 +13,7 @@ import { Writer } from './packed.js';
 import { Requests } from './requests.js';
 import { World, bigOf, keyOf } from './world.js';
 
-const PROTOCOL = 1;
+const PROTOCOL = 2;
 const GROUND_WAITING_MAX = 1024;
 const text = (name, fallback) => ({ [name]: { type: 'string', default: fallback } });
 const { values: options } = parseArgs({
@@ -141,8 +141,9 @@ function piece(message) {
   report.largest_piece_voxels = Math.max(report.largest_piece_voxels, world.pieces.get(message.id).volume.codes.length);
 }
 
-/** The server's hash of the whole field, in the tick of the frame before. */
-function status({ pieces, field_hash, pieces_merged }) {
+/** The server's hash of the whole field, in the tick of the frame before. Comes once a second. */
+function status({ tick, pieces, field_hash, pieces_merged }) {
+  connection.send('ack', { tick });
   if (!requests?.done() || pieces !== 0) return void (equalStatuses = 0);
   equalStatuses = world.fieldHash() === bigOf(field_hash) ? equalStatuses + 1 : 0;
   if (equalStatuses < 2) return;

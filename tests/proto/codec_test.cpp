@@ -332,12 +332,12 @@ TEST(Codec, text_is_cut_to_its_limit_and_cleaned_when_written) {
 }
 
 TEST(Codec, text_with_control_characters_or_over_its_limit_is_refused_when_read) {
-  // Hello{protocol 1, client}: field 1 of the envelope, whose field 1 is a varint and field 2 bytes.
-  std::vector<uint8_t> body = {0x0A, 7, 0x08, 1, 0x12, 3, 'a', 0x1B, 'b'};
+  // Hello{protocol, client}: field 1 of the envelope, whose field 1 is a varint and field 2 bytes.
+  std::vector<uint8_t> body = {0x0A, 7, 0x08, protocol_version, 0x12, 3, 'a', 0x1B, 'b'};
   EXPECT_TRUE(holds(decode_client(body).error().message, "client holds control characters"));
   body[7] = '-';
   EXPECT_TRUE(decode_client(body));
-  body = {0x0A, 69, 0x08, 1, 0x12, 65};
+  body = {0x0A, 69, 0x08, protocol_version, 0x12, 65};
   body.insert(body.end(), 65, 'a');
   EXPECT_TRUE(holds(decode_client(body).error().message, "client has 65 bytes, over the limit of 64"));
 }

@@ -1,0 +1,246 @@
+// Messages and packed values in words, line by line, as the examples of docs/protocol.md state them. Hashes
+// and checks that a message holds are compared with those of its bricks.
+#pragma once
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "proto/messages.h"
+#include "proto/transforms.h"
+#include "shared/base/overloaded.h"
+#include "shared/field/field.h"
+
+namespace scree {
+
+using Lines = std::vector<std::string>;
+
+// ---- values in words
+
+template <typename Tag>
+std::string words(const Coord<Tag>& c) {
+  return fmt::format("({}, {}, {})", c.x, c.y, c.z);
+}
+inline std::string words(glm::vec3 v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+inline std::string words(const QuantisedPose& pose) {
+  return fmt::format("({}, {}, {}), rotation 0x{:08x}", pose.x, pose.y, pose.z, pose.rotation);
+}
+inline std::string words(std::span<const Code> codes) {
+  if (std::ranges::count(codes, codes.front()) == static_cast<ptrdiff_t>(codes.size()))
+    return fmt::format("all {} codes {}", codes.size(), codes.front());
+  return fmt::format("codes {} … {}", fmt::join(codes.first(3), " "), codes.back());
+}
+inline std::string words(const Shape& shape) {
+  std::string b = row_of(shape.kind).has_b ? ", b " + words(shape.b) : "";
+  return fmt::format("{}, a {}{}, radius {} m", row_of(shape.kind).name, words(shape.a), b, shape.radius_m);
+}
+
+template <typename Tag>
+std::string words(const std::vector<Coord<Tag>>& coords) {
+  std::string all;
+  for (const Coord<Tag>& coord : coords) all += (all.empty() ? "" : " ") + words(coord);
+  return all.empty() ? "none" : all;
+}
+
+inline Lines words(const std::vector<BrickPatch>& bricks) {
+  Lines lines;
+  for (const BrickPatch& patch : bricks) {
+    const std::string paint =
+        patch.paint ? fmt::format("painted {}", row_of(*patch.paint).name) : "not painted";
+    lines.push_back(fmt::format("brick: {}, {}, {}, hash 0x{:016x}", words(patch.coord), paint,
+                                words(std::span<const Code>(patch.brick.codes)),
+                                brick_hash(patch.coord, patch.brick, patch.paint)));
+  }
+  return lines;
+}
+
+inline Lines words(const Volume& volume) {
+  const VoxelBox& box = volume.window.box;
+  return {
+      fmt::format("volume: first voxel {}, sides {}, mass {}", words(box.lo), words(box.size()), volume.mass),
+      fmt::format("centre of mass: {} voxels, material {}", words(volume.centre_voxels),
+                  row_of(volume.material).name),
+      words(std::span<const Code>(volume.window.codes))};
+}
+
+inline Lines words(const std::vector<PieceState>& pieces) {
+  Lines lines;
+  for (const PieceState& piece : pieces)
+    lines.push_back(fmt::format("pose: piece {} {}", piece.id, words(piece.pose)));
+  return lines;
+}
+
+inline void append(Lines& lines, const Lines& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+// ---- messages in words
+
+inline Lines describe(const HelloMessage& m) {
+  return {fmt::format("hello: protocol {}, client '{}', name '{}', token '{}'", m.protocol, m.client, m.name,
+                      m.token),
+          fmt::format("eye {}, radius {} m, kernels: {}", words(m.eye_m), m.interest_radius_m,
+                      m.lacks_kernels ? "none" : "has them")};
+}
+inline Lines describe(const InterestMessage& m) {
+  return {fmt::format("interest: eye {}, radius {} m", words(m.eye_m), m.interest_radius_m)};
+}
+inline Lines describe(const CarveMessage& m) {
+  return {fmt::format("carve: request {}, {}", m.request, words(m.shape)),
+          fmt::format("pattern {}, {} seeds, random seed 0x{:08x}, impact {}, blast {} m/s",
+                      row_of(m.pattern).name, m.seeds, m.random_seed, words(m.impact_m), m.blast_speed_m_s)};
+}
+inline Lines describe(const FillMessage& m) {
+  return {fmt::format("fill: request {}, {}", m.request, words(m.shape))};
+}
+inline Lines describe(const PaintMessage& m) {
+  return {
+      fmt::format("paint: request {}, {}, material {}", m.request, words(m.shape), row_of(m.material).name)};
+}
+inline Lines describe(const RepairRequest& m) {
+  Lines lines{fmt::format("repair: tick {}", m.tick)};
+  for (size_t i = 0; i < m.chunks.size(); ++i)
+    lines.push_back(fmt::format("chunk: {}, hash 0x{:016x}", words(m.chunks[i]), m.hashes[i]));
+  return lines;
+}
+inline Lines describe(const AckMessage& m) {
+  return {fmt::format("ack: tick {}", m.tick)};
+}
+inline Lines words(const AdminAct& act) {
+  return std::visit(
+      Overloaded{
+          [](const SettingValues& settings) {
+            Lines lines;
+            for (const SettingValue& setting : settings)
+              lines.push_back(fmt::format("setting: {} = {}", setting.name, setting.value));
+            return lines;
+          },
+          [](const ListSessions&) { return Lines{"list sessions"}; },
+          [](const KickSession& kick) {
+            return Lines{fmt::format("kick: session {}, reason '{}'", kick.session, kick.reason)};
+          },
+          [](const BanAddress& ban) {
+            return Lines{fmt::format("ban: session {}, address '{}', {} minutes, reason '{}'", ban.session,
+                                     ban.address, ban.minutes, ban.reason)};
+          },
+          [](const ListBans&) { return Lines{"list bans"}; },
+          [](const LiftBan& lift) { return Lines{fmt::format("lift ban: address '{}'", lift.address)}; }},
+      act);
+}
+inline Lines describe(const AdminMessage& m) {
+  Lines lines{fmt::format("admin: request {}, token '{}'", m.request, m.token)};
+  append(lines, words(m.act));
+  return lines;
+}
+inline Lines describe(const CursorMessage& m) {
+  return {fmt::format("cursor: eye {}, aim {}", words(m.eye_m), words(m.aim_m))};
+}
+inline Lines describe(const WatchMessage& m) {
+  return {fmt::format("watch: physics {}", m.physics)};
+}
+inline Lines describe(const GroundRequest& m) {
+  return {fmt::format("ground: {}", words(m.chunks))};
+}
+inline Lines describe(const WelcomeMessage& m) {
+  return {fmt::format("welcome: protocol {}, session {}, tick {}, role {}", m.protocol, m.session, m.tick,
+                      name_of(m.role)),
+          fmt::format("{} ticks a second, transforms every {} ticks, radius {} m, replay: {}", m.tick_rate_hz,
+                      m.ticks_per_transform, m.interest_radius_m, m.replay),
+          fmt::format("terrain: {}, seed {}, voxels of {} m", row_of(m.terrain.kind).name,
+                      m.terrain.random_seed, m.terrain.voxel_size_m)};
+}
+inline Lines describe(const RefusalMessage& m) {
+  return {fmt::format("refusal: '{}'", m.reason)};
+}
+/// The check is compared with that of the patches, which replace all edits of their chunks here.
+inline Lines describe(const FrameMessage& m) {
+  Lines lines{fmt::format("frame: tick {}, {} operations", m.tick, m.operations.size())};
+  append(lines, words(m.patches));
+  uint64_t sum = 0;
+  for (const BrickPatch& patch : m.patches) sum += brick_hash(patch.coord, patch.brick, patch.paint);
+  const auto folded = static_cast<uint32_t>(sum >> 32U) ^ static_cast<uint32_t>(sum);
+  if (m.has_check) {
+    lines.push_back(fmt::format("check: 0x{:08x}", m.check));
+    EXPECT_EQ(m.check, folded);
+  }
+  if (!m.dropped_chunks.empty()) lines.push_back("dropped: " + words(m.dropped_chunks));
+  if (!m.removed_pieces.empty())
+    lines.push_back(fmt::format("removed: {}", fmt::join(m.removed_pieces, " ")));
+  append(lines, words(*unpack_transforms(m.transforms)));
+  return lines;
+}
+inline Lines describe(const ChunkMessage& m) {
+  Lines lines{fmt::format("chunk: {}, version {}, hash 0x{:016x}", words(m.chunk), m.version, m.hash)};
+  uint64_t sum = 0;
+  for (const BrickPatch& patch : m.bricks) sum += brick_hash(patch.coord, patch.brick, patch.paint);
+  EXPECT_EQ(m.hash, sum);
+  append(lines, words(m.bricks));
+  return lines;
+}
+inline Lines describe(const PieceMessage& m) {
+  Lines lines{fmt::format("piece: {} {}", m.id, words(m.pose))};
+  append(lines, words(m.volume));
+  return lines;
+}
+inline Lines describe(const ResetMessage&) {
+  return {"reset"};
+}
+inline Lines describe(const ReplyMessage& m) {
+  return {fmt::format("reply: request {}, refusal '{}', {} pieces", m.request, m.refusal, m.pieces)};
+}
+inline Lines describe(const StatusMessage& m) {
+  return {fmt::format("status: tick {}, {} clients, {} pieces, field hash 0x{:016x}", m.tick, m.clients,
+                      m.pieces, m.field_hash)};
+}
+inline Lines describe(const CursorsMessage& m) {
+  Lines lines{"cursors:"};
+  for (const PlayerCursor& cursor : m.cursors)
+    lines.push_back(fmt::format("cursor: session {}, name '{}', eye {}, aim {}", cursor.session, cursor.name,
+                                words(cursor.eye_m), words(cursor.aim_m)));
+  return lines;
+}
+inline Lines describe(const PhysicsMessage& m) {
+  Lines lines{fmt::format("physics: tick {}", m.tick)};
+  for (const WatchedBody& body : m.bodies)
+    lines.push_back(fmt::format("body: {}, awake: {}, island: {}, {} corners", body.id, body.awake,
+                                body.island, body.hull_m.size()));
+  for (const WatchedContact& contact : m.contacts)
+    lines.push_back(fmt::format("contact: {}, normal {}, {} N s", words(contact.point_m),
+                                words(contact.normal), contact.impulse_n_s));
+  lines.push_back("searched: " + words(m.searched));
+  return lines;
+}
+inline Lines describe(const GroundMessage& m) {
+  if (m.beyond) return {fmt::format("ground: {} lies beyond the interest", words(m.chunk))};
+  Lines lines{fmt::format("ground: {}, rock 0x{:016x}, hash 0x{:016x}", words(m.chunk), m.rock, m.hash)};
+  append(lines, words(m.bricks));
+  uint64_t sum = 0;
+  for (int i = 0; i < 64; ++i) {
+    const BrickCoord coord = brick_in_chunk(m.chunk, i);
+    const auto listed = std::ranges::find(m.bricks, coord, &BrickPatch::coord);
+    const bool rock = ((m.rock >> i) & 1U) != 0;
+    sum += brick_hash(coord, listed != m.bricks.end() ? listed->brick : (rock ? solid_brick() : air_brick()));
+  }
+  EXPECT_EQ(m.hash, sum);
+  return lines;
+}
+inline Lines describe(const AdminListMessage& m) {
+  Lines lines{fmt::format("admin list: request {}", m.request)};
+  for (const SessionRow& row : m.sessions) {
+    lines.push_back(fmt::format("session: {}, name '{}', program '{}', address '{}', role {}", row.session,
+                                row.name, row.program, row.address, name_of(row.role)));
+    lines.push_back(fmt::format("token 0x{:016x}, joined {} s ago, sent {} bytes, encrypted: {}",
+                                row.token_id, row.joined_s, row.sent_bytes, row.encrypted));
+  }
+  for (const BanRow& row : m.bans)
+    lines.push_back(fmt::format("ban: '{}', {} s left, reason '{}'", row.address, row.left_s, row.reason));
+  return lines;
+}
+
+}  // namespace scree
