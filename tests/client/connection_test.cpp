@@ -105,7 +105,9 @@ TEST(Connection, another_protocol_is_refused_by_the_client) {
     welcome.protocol = protocol_version + 1;
     s.send(welcome);
   });
-  EXPECT_TRUE(holds(failure(server.port()), "the server speaks protocol 2, this client 1"));
+  EXPECT_TRUE(holds(failure(server.port()), "the server speaks protocol " +
+                                                std::to_string(protocol_version + 1) + ", this client " +
+                                                std::to_string(protocol_version)));
 }
 
 TEST(Connection, messages_pass_both_ways_in_order_and_are_counted) {
