@@ -145,7 +145,10 @@ TEST_F(ForeignClientTest, a_slow_reader_gets_no_patches_but_the_newest_chunks_la
   const size_t patches = follower.patches;
   backlog_bytes = limits::outbox_soft_bytes + 1;
   for (int i = 0; i < 5; ++i) tick({source.carve({0.5F * static_cast<float>(i), 0.0F, 0.0F}, 2.0F, 2)});
+  const auto heartbeat_ticks = static_cast<Tick>(limits::heartbeat_s * 60.0);
+  for (Tick i = 0; i < heartbeat_ticks; ++i) tick();
   EXPECT_EQ(follower.patches, patches);
+  EXPECT_GE(follower.ticks.back() + heartbeat_ticks, source.tick()) << "frames still say that time goes on";
   backlog_bytes = 0;
   for (int i = 0; i < 30; ++i) tick();
   EXPECT_EQ(follower.resets, 0U);
