@@ -18,6 +18,8 @@ const std::vector<Bench>& all_benches() {
        run_cutters_bench},
       {"draw", "every way to draw at every resolution: a frame, an edit until it is shown, memory",
        run_draw_bench},
+      {"fanout", "a storm seen by 100 to 3,000 viewers on this machine's cores: the age of what they see",
+       run_fanout_bench},
       {"islands", "what a cut loosened: towers and arches, in 64 m and 1,024 m of edited terrain",
        run_islands_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
