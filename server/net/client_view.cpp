@@ -54,8 +54,11 @@ TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const
     if (!before.chunks().contains(chunk)) fresh.insert(chunk);
     orphan.insert(chunk);
   }
-  for (const AppliedOperation& operation : d.operations)
+  ended.reserve(d.operations.size());
+  for (const AppliedOperation& operation : d.operations) {
+    ended.push_back(pieces_ended_by(operation.operation));
     for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
+  }
 }
 
 ClientView::ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels)
@@ -99,13 +102,15 @@ bool ClientView::near(ChunkCoord chunk, float voxel_size_m) const {
 }
 
 bool ClientView::near(glm::vec3 place_m, float factor) const {
-  return glm::length(place_m - eye_m_) <= radius_m_ * factor;
+  const glm::vec3 off_m = place_m - eye_m_;
+  const float within_m = radius_m_ * factor;
+  return glm::dot(off_m, off_m) <= within_m * within_m;
 }
 
 /// Whether the client has, bit for bit, every brick that the operation reads: in held chunks, and in chunks
 /// that nothing but operations of this frame has ever changed.
-bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges& changes,
-                           const ChunkSet& tainted) const {
+bool ClientView::can_apply(const AppliedOperation& operation, const std::vector<PieceId>& ended,
+                           const TickChanges& changes, const ChunkSet& tainted) const {
   if (!has_kernels_) return false;
   const auto readable = [&](ChunkCoord chunk) {
     if (tainted.contains(chunk)) return false;
@@ -114,14 +119,12 @@ bool ClientView::can_apply(const AppliedOperation& operation, const TickChanges&
   };
   if (!std::ranges::all_of(operation.reads, readable)) return false;
   if (!std::ranges::all_of(operation.writes, readable)) return false;
-  return std::ranges::all_of(pieces_ended_by(operation.operation),
-                             [&](PieceId ended) { return known_.contains(ended); });
+  return std::ranges::all_of(ended, [&](PieceId piece) { return known_.contains(piece); });
 }
 
-bool ClientView::concerns(const AppliedOperation& operation, const TickChanges& changes) const {
-  if (std::ranges::any_of(pieces_ended_by(operation.operation),
-                          [&](PieceId ended) { return known_.contains(ended); }))
-    return true;
+bool ClientView::concerns(const AppliedOperation& operation, const std::vector<PieceId>& ended,
+                          const TickChanges& changes) const {
+  if (std::ranges::any_of(ended, [&](PieceId piece) { return known_.contains(piece); })) return true;
   const auto followed = [&](ChunkCoord chunk) {
     return held_.contains(chunk) || near(chunk, changes.voxel_size_m);
   };
@@ -140,8 +143,8 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
                                    ChunkSet& changed) {
   for (uint32_t i = 0; i < changes.delta.operations.size(); ++i) {
     const AppliedOperation& operation = changes.delta.operations[i];
-    const std::vector<PieceId> ended = pieces_ended_by(operation.operation);
-    if (!can_apply(operation, changes, tainted) || !concerns(operation, changes)) {
+    const std::vector<PieceId>& ended = changes.ended[i];
+    if (!can_apply(operation, ended, changes, tainted) || !concerns(operation, ended, changes)) {
       tainted.insert(operation.writes.begin(), operation.writes.end());
       for (const PieceId id : ended) forget_piece(id, frame);
       continue;
@@ -298,15 +301,13 @@ std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size
   return chunks;
 }
 
-std::vector<PieceId> ClientView::next_pieces(const PublishedState& state, size_t count) const {
+std::vector<PieceId> ClientView::next_pieces(const Motions& motions, size_t count) const {
   std::vector<std::pair<float, PieceId>> candidates;
   auto known = known_.begin();
-  for (const auto& [id, piece] : state.pieces()) {
-    while (known != known_.end() && known->first < id) ++known;
-    if (known != known_.end() && known->first == id) continue;
-    const glm::vec3 place_m = place_of(piece.pose);
-    if (!near(place_m, 1.0F)) continue;
-    candidates.emplace_back(glm::length(place_m - eye_m_), id);
+  for (const TrackedMotion& piece : motions.all()) {
+    while (known != known_.end() && known->first < piece.id) ++known;
+    if (known != known_.end() && known->first == piece.id) continue;
+    if (near(piece.place_m, 1.0F)) candidates.emplace_back(glm::distance(piece.place_m, eye_m_), piece.id);
   }
   keep_nearest(candidates, count);
   std::vector<PieceId> pieces;

@@ -9,9 +9,9 @@
 // within a budget of bricks, or with their whole chunk, and pieces come whole.
 #pragma once
 
+#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <map>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -30,8 +30,9 @@ struct TickChanges {
   const Motions& motions;
   float voxel_size_m = 0.0F;
   std::unordered_map<ChunkCoord, std::vector<const BrickState*>, CoordHash> bricks;
-  ChunkSet fresh;   ///< changed for the first time in this tick
-  ChunkSet orphan;  ///< changed, but by no operation (in a keyframe)
+  std::vector<std::vector<PieceId>> ended;  ///< by each operation
+  ChunkSet fresh;                           ///< changed for the first time in this tick
+  ChunkSet orphan;                          ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
               const Motions& motions, float voxel_size_m);
@@ -79,7 +80,7 @@ class ClientView {
 
   /// Up to `count` chunks (pieces) to send whole, nearest first.
   std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
-  std::vector<PieceId> next_pieces(const PublishedState& state, size_t count) const;
+  std::vector<PieceId> next_pieces(const Motions& motions, size_t count) const;
   /// Notes that a chunk (piece) was sent whole: from now on it is followed.
   void sent_chunk(ChunkCoord chunk);
   void sent_piece(PieceId piece, const QuantisedPose& pose);
@@ -104,9 +105,10 @@ class ClientView {
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;
   bool near(glm::vec3 place_m, float factor) const;
-  bool can_apply(const AppliedOperation& operation, const TickChanges& changes,
-                 const ChunkSet& tainted) const;
-  bool concerns(const AppliedOperation& operation, const TickChanges& changes) const;
+  bool can_apply(const AppliedOperation& operation, const std::vector<PieceId>& ended,
+                 const TickChanges& changes, const ChunkSet& tainted) const;
+  bool concerns(const AppliedOperation& operation, const std::vector<PieceId>& ended,
+                const TickChanges& changes) const;
   void select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
                          ChunkSet& changed);
   void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
@@ -131,9 +133,9 @@ class ClientView {
   ChunkSet held_;
   ChunkSet
       stale_;  ///< not held, but the client has edits there, to be replaced by the whole chunk or dropped
-  ChunkSet wanted_;  ///< edited, within interest, not held
-  std::map<PieceId, Known> known_;
-  Tick stepped_ = 0;  ///< the last tick whose frame had poses
+  ChunkSet wanted_;                                   ///< edited, within interest, not held
+  boost::container::flat_map<PieceId, Known> known_;  ///< walked in every frame with poses, of every client
+  Tick stepped_ = 0;                                  ///< the last tick whose frame had poses
 };
 
 }  // namespace scree

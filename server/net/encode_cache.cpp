@@ -20,6 +20,21 @@ bool decodes(const SharedBytes& bytes) {
   return body.size() > limits::message_bytes_max || decode_server(body).has_value();
 }
 
+/// Equal for equal selections, and hardly ever for others.
+uint64_t key_of(const FrameSelection& selection) {
+  uint64_t key = selection.check;
+  const auto mix = [&key](uint64_t value) { key = (key ^ value) * 0x9E3779B97F4A7C15ULL; };
+  for (const uint32_t operation : selection.operations) mix(operation);
+  mix(selection.patched.size());
+  mix(selection.dropped.size());
+  for (const std::vector<PieceId>* ids : {&selection.removed, &selection.steps, &selection.wholes}) {
+    mix(ids->size());
+    for (const PieceId id : *ids) mix(id);
+  }
+  mix(selection.moved.size());
+  return key;
+}
+
 std::vector<uint8_t> motions_of(const FrameSelection& selection, const Motions& motions) {
   std::vector<WholeMotion> wholes;
   std::vector<MotionStep> steps;
@@ -63,11 +78,12 @@ void EncodeCache::start_tick() {
 }
 
 const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const TickChanges& changes) {
-  for (const auto& frame : frames_)
-    if (frame->selection == selection) return *frame;
+  const uint64_t key = key_of(selection);
+  const auto [first, last] = frames_.equal_range(key);
+  for (auto it = first; it != last; ++it)
+    if (it->second->selection == selection) return *it->second;
   const FrameMessage message = frame_of(selection, changes);
-  frames_.push_back(std::make_unique<Frame>());
-  Frame& frame = *frames_.back();
+  Frame& frame = *frames_.emplace(key, std::make_unique<Frame>())->second;
   frame.selection = std::move(selection);
   frame.transform_bytes = message.transforms.size() + message.motions.size();
   frame.bytes = share(encode(ServerMessage(message)));

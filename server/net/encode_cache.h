@@ -37,7 +37,7 @@ class EncodeCache {
     uint64_t hash = 0;
     SharedBytes bytes;
   };
-  std::vector<std::unique_ptr<Frame>> frames_;
+  std::unordered_multimap<uint64_t, std::unique_ptr<Frame>> frames_;  ///< by a hash of the selection
   std::unordered_map<ChunkCoord, EncodedChunk, CoordHash> chunks_;
   std::map<PieceId, SharedBytes> pieces_;
 };

@@ -204,7 +204,7 @@ void Publisher::stream_pieces(Client& client) {
   const int64_t budget = limits::piece_bytes_per_tick * config_.ticks_per_transform;
   client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
   if (client.piece_credit_bytes <= 0) return;
-  for (const PieceId id : client.view.next_pieces(state_, stream_batch)) {
+  for (const PieceId id : client.view.next_pieces(motions_, stream_batch)) {
     if (client.piece_credit_bytes <= 0) return;
     const PublishedPiece& piece = state_.pieces().at(id);
     const SharedBytes bytes = cache_.piece(id, piece);
