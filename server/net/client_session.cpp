@@ -117,6 +117,11 @@ void ClientSession::send(const ServerMessage& message) {
 }
 
 void ClientSession::send(SharedBytes bytes) {
+  queue(std::move(bytes));
+  write();
+}
+
+void ClientSession::queue(SharedBytes bytes) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
   CHECK(bytes != nullptr && bytes->size() >= length_prefix_bytes);
   if (backlog_bytes_ == 0) progress_s_ = steady_now_s();
@@ -127,7 +132,6 @@ void ClientSession::send(SharedBytes bytes) {
     return cut_off(Refusal::outbox_full, "read too little: more than " +
                                              std::to_string(limits::outbox_hard_bytes) +
                                              " bytes waited for it (limits.outbox_hard_bytes)");
-  write();
 }
 
 void ClientSession::write() {

@@ -52,6 +52,9 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   void start();
   void send(SharedBytes bytes);
+  /// As send(), but what is queued goes with the next send() or flush().
+  void queue(SharedBytes bytes);
+  void flush() { write(); }
   void send(const ServerMessage& message);
   /// Closes at once, and is counted by this reason.
   void cut_off(Refusal reason, const std::string& words);

@@ -132,6 +132,10 @@ inline constexpr size_t bans_max = 2048;
 /// Commands that wait for the next tick; above: each gets a reply that refuses it.
 inline constexpr size_t commands_waiting_max = 1024;
 
+/// Ticks whose messages go out together when the network thread lags: a write for each costs it more than all
+/// else.
+inline constexpr uint32_t ticks_per_flush_max = 4;
+
 /// Ticks published that the network thread has not taken yet; above: the simulation waits for it, and the
 /// wait is counted.
 inline constexpr size_t deltas_in_flight_max = 128;

@@ -329,7 +329,7 @@ void NetHost::grant(const ServiceLimits& service) {
   for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
 }
 
-void NetHost::publish(const TickDelta& delta) {
+void NetHost::publish(const TickDelta& delta, bool more) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), joined_count());
   if (delta.service && *delta.service != service_) grant(*delta.service);
@@ -343,8 +343,14 @@ void NetHost::publish(const TickDelta& delta) {
   for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
     const auto entry = sessions_.find(outgoing.session);
     if (entry == sessions_.end()) continue;
-    const auto session = entry->second.session;  // sending may end it
-    session->send(std::move(outgoing.bytes));
+    const auto session = entry->second.session;  // queuing may end it
+    session->queue(std::move(outgoing.bytes));
+    if (unflushed_.empty() || unflushed_.back() != session) unflushed_.push_back(session);
+  }
+  if (!more || ++ticks_unflushed_ >= limits::ticks_per_flush_max) {
+    for (const auto& session : unflushed_) session->flush();
+    unflushed_.clear();
+    ticks_unflushed_ = 0;
   }
   update_stats();
 }

@@ -33,7 +33,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void run();
 
   // ---- on the network thread
-  void publish(const TickDelta& delta);
+  /// `more`: the next tick waits already; then this one's messages may go together with that one's.
+  void publish(const TickDelta& delta, bool more);
   /// From now on; sessions whose token was revoked end.
   void take_access(std::shared_ptr<const Access> access);
   void shut_down();
@@ -101,6 +102,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   double stop_deadline_s_ = 0.0;
   uint64_t next_session_ = 1;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
+  std::vector<std::shared_ptr<ClientSession>> unflushed_;  ///< have messages that are only queued
+  uint32_t ticks_unflushed_ = 0;
   std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused
   size_t outsiders_max_ = limits::outsiders_max;
   size_t descriptors_ = 0;  ///< for connections

@@ -52,7 +52,12 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
     ++impl_->in_flight;
   }
   asio::post(impl_->host.context(), [impl = impl_.get(), delta = std::move(delta)] {
-    impl->host.publish(*delta);
+    size_t in_flight = 0;
+    {
+      const std::scoped_lock lock(impl->mutex);
+      in_flight = impl->in_flight;
+    }
+    impl->host.publish(*delta, in_flight > 1);
     {
       const std::scoped_lock lock(impl->mutex);
       CHECK(impl->in_flight > 0 && impl->in_flight <= limits::deltas_in_flight_max);
