@@ -118,21 +118,6 @@ void NetHost::close_oldest_outsider(const std::string& why) {
   session->cut_off(Refusal::outsiders_max, why);
 }
 
-/// Ends the session that has been idle for the longest time; false when none has been for long enough.
-bool NetHost::make_room() {
-  const double now_s = steady_now_s();
-  std::shared_ptr<ClientSession> idlest;
-  for (const auto& [id, entry] : sessions_) {
-    if (!entry.session->may_make_room(now_s)) continue;
-    if (!idlest || entry.session->idle_s(now_s) > idlest->idle_s(now_s)) idlest = entry.session;
-  }
-  if (!idlest) return false;
-  idlest->refuse({Refusal::idle_made_room,
-                  fmt::format("the server is full, and you did nothing for {:.0f} s: another has your place",
-                              idlest->idle_s(now_s))});
-  return true;
-}
-
 void NetHost::tick_timer() {
   timer_.expires_after(stopping_ ? timer_period_stopping : timer_period);
   timer_.async_wait([this](asio::error_code error) {
@@ -165,7 +150,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   const auto grant = grant_to(session, hello);
   if (!grant) return tl::unexpected(grant.error());
   const size_t sessions_max = std::min<size_t>(service_.sessions_max, descriptors_ - outsiders_max_);
-  if (joined_count() >= sessions_max && !make_room())
+  if (joined_count() >= sessions_max && !make_room(session, *grant))
     return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(sessions_max) +
                                              " sessions (sessions-max); try again later");
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);

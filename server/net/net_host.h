@@ -45,6 +45,15 @@ class NetHost final : public SessionHost, public EntranceHost {
   bool is_watched() const { return watched_; }
 
  private:
+  struct Entry {
+    std::shared_ptr<ClientSession> session;
+    RateLimit requests;
+    std::string name{};  ///< the person's
+    Grant grant{};       ///< of a joined session
+    std::string program{};
+    double joined_s = 0.0;
+  };
+
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override;
   tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) override;
   void refused(ClientSession& session, const Refused& refused) override;
@@ -54,7 +63,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void accepting_failed(const std::string& why) override;
 
   void close_oldest_outsider(const std::string& why);
-  bool make_room();
+  bool make_room(const ClientSession& newcomer, const Grant& grant);
+  bool may_displace(const Entry& entry, bool by_token, double now_s) const;
   /// A line of the log, of a kind of which there are few a second.
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
   void tick_timer();
@@ -83,14 +93,6 @@ class NetHost final : public SessionHost, public EntranceHost {
   uint32_t joined_count() const;
   void update_stats();
 
-  struct Entry {
-    std::shared_ptr<ClientSession> session;
-    RateLimit requests;
-    std::string name{};  ///< the person's
-    Grant grant{};       ///< of a joined session
-    std::string program{};
-    double joined_s = 0.0;
-  };
   const NetConfig config_;
   ServiceLimits service_;  ///< as they stand
   CommandQueue& commands_;

@@ -41,6 +41,10 @@ inline constexpr float cut_at_once_us = 5000.0F;
 /// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
 inline constexpr float cut_rest_s = 0.1F;
 
+/// Islands fall while the tick's budget has room and bodies are no crowd; where that never is so, one every
+/// so many seconds.
+inline constexpr float island_rest_s = 0.2F;
+
 /// Pieces that a volume is cut into at once, however large it is.
 inline constexpr uint32_t cut_at_once_min = 8;
 

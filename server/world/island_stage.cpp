@@ -133,12 +133,14 @@ void drop_islands(World::State& state, TickDelta& delta) {
   }
   delta.work.islands_too_large += look.too_large;
   state.work.spend(limits::island_brick_cost_us * static_cast<float>(look.read));
-  bool first = true;
+  const auto rest = static_cast<Tick>(limits::island_rest_s * static_cast<float>(state.config.tick_rate_hz));
   while (const Island* next = state.islands.next()) {
     const Island island = *next;
     const float cost = lift_price_us(island.box);
-    if (state.pieces.size() >= state.config.pieces_max || (!first && !state.work.affords(cost))) break;
-    first = false;
+    const bool fits = state.work.affords(cost) && !state.work.crowded();
+    if (state.pieces.size() >= state.config.pieces_max) break;
+    if (!fits && state.tick - state.island_at < rest) break;
+    state.island_at = state.tick;
     state.islands.pop();
     drop(state, island, delta);
     state.work.spend(cost);

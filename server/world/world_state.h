@@ -79,6 +79,7 @@ struct World::State {
   IslandQueue islands;
   std::deque<PendingCut> cuts;  ///< in order
   Tick cut_at = 0;              ///< tick in which one of them, or what they are parts of, was cut last
+  Tick island_at = 0;           ///< tick in which an island fell last
   WorkBudget work;
   TerrainMemory memory;
   RequestQueue requests;         ///< that wait for a tick with room for them

@@ -2,11 +2,13 @@
 // token, tokens revoked while their session lasts, kicking and banning, and bans that outlive the server.
 #include <fstream>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "auth/access_token.h"
 #include "client/admin/admin.h"
 #include "client/connection/connection.h"
 #include "server/net/bans.h"
+#include "server/net/limits.h"
 #include "server/net/net_server.h"
 #include "tests/support/certificates.h"
 #include "tests/support/flat_terrain.h"
@@ -122,6 +124,30 @@ TEST_F(RoleTest, a_server_without_configuration_lets_everybody_build) {
   start();
   join("", Role::builder);
   join("a token that nobody looks at", Role::builder);
+}
+
+TEST_F(RoleTest, a_full_server_has_room_for_tokens_and_keeps_those_who_hold_one) {
+  config.service.sessions_max = 2;
+  start();
+  const auto acts = [](RawClient& client) {
+    EXPECT_TRUE(client.send(InterestMessage{{1.0F, 2.0F, 3.0F}, 64.0F}));
+    EXPECT_TRUE(client.send(AdminMessage{1, "", ListBans{}}));
+    EXPECT_TRUE(client.receive_as<ReplyMessage>()) << "it was carried out";
+  };
+  const auto first = join("", Role::viewer), second = join("", Role::viewer);
+  acts(*first);
+  acts(*second);
+  EXPECT_TRUE(holds(refusal(hello("")), "the server is full"));
+  const auto builder = join(token(Role::builder), Role::builder);
+  const auto displaced = first->receive_as<RefusalMessage>();
+  ASSERT_TRUE(displaced);
+  EXPECT_TRUE(holds(displaced->reason, "another has your place"));
+  const auto administrator = join(the_admin_token, Role::admin);
+  EXPECT_TRUE(second->receive_as<RefusalMessage>());
+  std::this_thread::sleep_for(std::chrono::duration<double>(limits::inert_seconds_max));
+  EXPECT_TRUE(holds(refusal(hello("")), "the server is full")) << "nobody without a token displaces them";
+  join(token(Role::carver), Role::carver);
+  EXPECT_TRUE(builder->receive_as<RefusalMessage>()) << "it has done nothing since it came";
 }
 
 TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access_tokens_are_not) {

@@ -123,11 +123,11 @@ TEST(falling, blocks_over_the_budget_wait_and_fall_in_later_ticks) {
   std::vector<Command> cuts = {cut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
                                cut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))};
   size_t islands = 0, waited = 0;
-  for (int tick = 0; tick < 60; ++tick) {
+  for (int tick = 0; tick < 800; ++tick) {
     const auto delta = step(world, std::exchange(cuts, {}));
     islands += islands_of(*delta);
     waited += delta->work.islands_put_off > 0 ? 1 : 0;
-    EXPECT_LE(islands_of(*delta), 1U) << "one a tick at least, and no more in so short a tick";
+    EXPECT_LE(islands_of(*delta), 1U) << "no more in so short a tick";
     ASSERT_EQ(delta->ledger.error(), 0);
   }
   EXPECT_GE(islands, 2U);

@@ -119,7 +119,8 @@ TEST_F(BadInputTest, carve_far_away) {
 
 TEST_F(BadInputTest, wrong_protocol_version) {
   expect_closed(encode(ClientMessage(HelloMessage{protocol_version + 76, "old", {}, 8.0F})),
-                "protocol version " + std::to_string(protocol_version) + ", the client version " + std::to_string(protocol_version + 76));
+                "protocol version " + std::to_string(protocol_version) + ", the client version " +
+                    std::to_string(protocol_version + 76));
 }
 
 TEST_F(BadInputTest, garbage) {

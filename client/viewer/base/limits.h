@@ -25,8 +25,11 @@ inline constexpr double playback_jump_s = 1.0;
 /// Delayed messages. Above: all are applied at once.
 inline constexpr size_t playback_messages_max = 4096;
 
-/// Seconds between attempts to reach a server that is gone.
-inline constexpr double reconnect_interval_s = 1.0;
+/// Seconds until the next attempt to reach a server that is gone; twice as many after each that led to
+/// nothing, at most the second number. A connection that lasted for the third one was worth something.
+inline constexpr double reconnect_min_s = 1.0;
+inline constexpr double reconnect_max_s = 60.0;
+inline constexpr double reconnect_worth_s = 10.0;
 
 /// Seconds between two acknowledgements, and between two reports of the camera's place.
 inline constexpr double report_interval_s = 0.25;

@@ -28,13 +28,16 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 }  // namespace
 
 ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name)
-    : server_(std::move(server)), interest_radius_m_(interest_radius_m), name_(std::move(name)) {}
+    : server_(std::move(server)),
+      interest_radius_m_(interest_radius_m),
+      name_(std::move(name)),
+      retry_s_(limits::reconnect_min_s) {}
 
 SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
   SessionStep step;
   if (!connection_) {
-    if (!connecting_.valid() && now_s >= next_try_s_) begin_connecting(now_s, eye_m);
+    if (!connecting_.valid() && now_s >= next_try_s_) begin_connecting(eye_m);
     step.new_world = finish_connecting(now_s);
   }
   if (connection_) receive(now_s, step);
@@ -43,8 +46,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   return step;
 }
 
-void ViewerSession::begin_connecting(double now_s, glm::vec3 eye_m) {
-  next_try_s_ = now_s + limits::reconnect_interval_s;
+void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   reported_eye_m_ = eye_m;
   HelloMessage hello;
   hello.client = "scree-viewer";
@@ -72,6 +74,7 @@ bool ViewerSession::finish_connecting(double now_s) {
     return false;
   }
   connection_ = std::move(attempt.connection);
+  connected_since_s_ = now_s;
   mirror_ = std::make_unique<Mirror>(connection_->welcome());
   playback_.start(connection_->welcome());
   pieces_.clear();
@@ -91,7 +94,11 @@ void ViewerSession::lose(double now_s, const std::string& reason) {
   cursors_.clear();
   physics_.reset();
   trouble_ = reason;
-  next_try_s_ = now_s + limits::reconnect_interval_s;
+  if (connected_since_s_ && now_s - *connected_since_s_ >= limits::reconnect_worth_s)
+    retry_s_ = limits::reconnect_min_s;
+  connected_since_s_.reset();
+  next_try_s_ = now_s + retry_s_;
+  retry_s_ = std::min(2.0 * retry_s_, limits::reconnect_max_s);
   bytes_per_s_ = 0.0;
 }
 

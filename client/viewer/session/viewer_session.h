@@ -69,7 +69,7 @@ class ViewerSession {
     std::string error;
   };
 
-  void begin_connecting(double now_s, glm::vec3 eye_m);
+  void begin_connecting(glm::vec3 eye_m);
   bool finish_connecting(double now_s);
   void receive(double now_s, SessionStep& step);
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
@@ -87,6 +87,8 @@ class ViewerSession {
   ScenePieces pieces_;
   std::string trouble_;  ///< the reason for the missing connection
   double next_try_s_ = 0.0;
+  double retry_s_;  ///< from the next loss to the attempt after it
+  std::optional<double> connected_since_s_;
   double next_report_s_ = 0.0;
   glm::vec3 reported_eye_m_{0.0F};
   Tick acknowledged_ = 0;
