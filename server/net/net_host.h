@@ -64,7 +64,6 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   void close_oldest_outsider(const std::string& why);
   bool make_room(const ClientSession& newcomer, const Grant& grant);
-  bool may_displace(const Entry& entry, bool by_token, double now_s) const;
   /// A line of the log, of a kind of which there are few a second.
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
   void tick_timer();

@@ -62,42 +62,37 @@ std::shared_ptr<Transport> NetHost::transport_over(asio::ip::tcp::socket socket)
   return std::make_shared<SniffingTransport>(std::move(plain), access_->tls());
 }
 
-/// Who holds a token gives way to holders of tokens alone, and administrators to nobody. Without a token one
-/// gives way when one is idle, and to a holder of a token always.
-bool NetHost::may_displace(const Entry& entry, bool by_token, double now_s) const {
-  if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin) return false;
-  const bool holds_token = entry.grant.token_id != 0;
-  if (holds_token) return by_token && entry.session->may_make_room(now_s);
-  return by_token || entry.session->may_make_room(now_s);
-}
-
 /// Ends one session for the newcomer: one without a token if there is any, of the address with the most, the
 /// idlest of these. False when all stay.
 bool NetHost::make_room(const ClientSession& newcomer, const Grant& grant) {
   const double now_s = steady_now_s();
-  const bool by_token = grant.token_id != 0 || grant.role == Role::admin;
+  const auto holds_token = [](const Grant& held) { return held.token_id != 0 || held.role == Role::admin; };
   std::map<std::string, size_t> held;
   for (const auto& [id, entry] : sessions_)
     if (entry.session->phase() == ClientSession::Phase::joined) ++held[entry.session->address()];
-  // An address that holds much gives way to one that holds little, idle or not.
   const size_t few = held[newcomer.address()] + joined_count() / 4;
+  // Why a session gives way; null: it stays. Administrators give way to nobody, holders of tokens to such
+  // alone.
+  const auto why = [&](const Entry& entry) -> const char* {
+    if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
+      return nullptr;
+    const bool idle = entry.session->may_make_room(now_s);
+    if (holds_token(entry.grant)) return idle && holds_token(grant) ? "you did nothing for long" : nullptr;
+    if (idle) return "you did nothing for long";
+    if (holds_token(grant)) return "those who hold a token go first";
+    return held[entry.session->address()] > few ? "your address holds many places" : nullptr;
+  };
   const auto rank = [&](const Entry& entry) {
-    return std::tuple(entry.grant.token_id == 0, held[entry.session->address()],
+    return std::tuple(!holds_token(entry.grant), held[entry.session->address()],
                       entry.session->idle_s(now_s));
   };
   const Entry* least = nullptr;
-  for (const auto& [id, entry] : sessions_) {
-    const bool greedy = entry.grant.token_id == 0 && entry.grant.role != Role::admin &&
-                        held[entry.session->address()] > few &&
-                        entry.session->phase() == ClientSession::Phase::joined;
-    if (!greedy && !may_displace(entry, by_token, now_s)) continue;
-    if (least == nullptr || rank(entry) > rank(*least)) least = &entry;
-  }
+  for (const auto& [id, entry] : sessions_)
+    if (why(entry) != nullptr && (least == nullptr || rank(entry) > rank(*least))) least = &entry;
   if (least == nullptr) return false;
+  const std::string words = why(*least);
   const auto session = least->session;
-  session->refuse({Refusal::idle_made_room,
-                   fmt::format("the server is full, and you did nothing for {:.0f} s: another has your place",
-                               session->idle_s(now_s))});
+  session->refuse({Refusal::idle_made_room, "the server is full, and " + words + ": another has your place"});
   return true;
 }
 

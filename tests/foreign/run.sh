@@ -10,7 +10,7 @@ if ! cmp -s "$here/package-lock.json" "$folder/node_modules/.installed"; then
   exit 1
 fi
 # Node looks for modules beside and above a program, so the programs lie beside them.
-copy=$(mktemp -d "$folder/run.XXXXXX")
+copy=$(mktemp --directory --tmpdir="$folder")
 trap 'rm -rf "$copy"' EXIT
 cp "$here"/*.js "$here/package.json" "$copy"
 cd "$copy"
