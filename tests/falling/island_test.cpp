@@ -11,6 +11,7 @@
 #include "shared/falling/island_search.h"
 #include "shared/field/edit.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -123,7 +124,8 @@ void print(std::ostream& out, const std::vector<Island>& islands) {
 TEST(island, the_search_finds_what_brute_force_finds_in_random_fields) {
   size_t found = 0;
   MapField field(flat_terrain);
-  for (uint64_t round = 0; round < SCREE_ISLAND_ROUNDS; ++round) {
+  constexpr uint64_t fields = rounds(1000, 50);
+  for (uint64_t round = 0; round < fields; ++round) {
     Random random(round);
     for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
     scatter(field, random_window(field, random, round % 2 == 1));
@@ -139,7 +141,7 @@ TEST(island, the_search_finds_what_brute_force_finds_in_random_fields) {
     print(std::cerr << "wanted:\n", want);
     FAIL() << "round " << round;
   }
-  EXPECT_GT(found, 10U * SCREE_ISLAND_ROUNDS);
+  EXPECT_GT(found, 10 * fields);
 }
 
 /// A slab of rock over flat ground on a post, in voxels.

@@ -13,6 +13,7 @@
 #include "shared/falling/support_search.h"
 #include "shared/field/edit.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/rounds.h"
 #include "tests/support/verify_recording.h"
 #include "tests/support/world_steps.h"
 
@@ -265,10 +266,11 @@ size_t overloads_of(TerrainSource source, float half_m, float step_m) {
 }
 
 TEST(support, generated_terrain_holds_itself) {
-  EXPECT_EQ(overloads_of({TerrainKind::flat, 3, 0.25F}, 32.0F, 8.0F), 0U);
-  EXPECT_EQ(overloads_of({TerrainKind::canyon, 1, 0.25F}, 48.0F, 8.0F), 0U);
+  const float half_m = rounds(48.0F, 16.0F);
+  EXPECT_EQ(overloads_of({TerrainKind::flat, 3, 0.25F}, half_m, 8.0F), 0U);
+  EXPECT_EQ(overloads_of({TerrainKind::canyon, 1, 0.25F}, half_m, 8.0F), 0U);
   // Noise makes a few rocks that hang by less than they weigh.
-  EXPECT_LE(overloads_of({TerrainKind::noise, 1, 0.25F}, 48.0F, 8.0F), 2U);
+  EXPECT_LE(overloads_of({TerrainKind::noise, 1, 0.25F}, half_m, 8.0F), 2U);
 }
 
 TEST(support, cutting_legs_ends_and_leaves_no_search_behind) {

@@ -12,6 +12,7 @@
 #include "shared/fracture/polygon_codes.h"
 #include "shared/fracture/polygon_cut.h"
 #include "shared/fracture/voronoi_cells.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -134,7 +135,7 @@ TEST(Cutters, parts_add_up_to_the_whole) {
     const glm::vec3 c = on_the_ground(kind);
     const Scene scene(kind, sphere(c, 8.0F));
     for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial})
-      for (const uint32_t count : {1U, 2U, 64U, 300U})
+      for (const uint32_t count : {1U, 2U, 64U, rounds(300U, 65U)})
         for (const Cutter cutter : polygon_cutters) {
           const auto seeds = scatter_seeds(scene.volume, pattern, count, 5, c);
           expect_conserved(cut_polygons(cutter, scene.volume, seeds),

@@ -9,6 +9,7 @@
 #include "shared/operation/operation.h"
 #include "shared/recombine/stamp_method.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -91,7 +92,7 @@ TEST_F(LargestPiece, becomes_terrain_again_by_stamp_and_slices_however_it_is_tur
   ASSERT_EQ(pieces.size(), 1U);
   Random random(338);
   for (const StampMethod method : {StampMethod::stamp, StampMethod::slices}) {
-    for (int round = 0; round < 50; ++round) {
+    for (int round = 0; round < rounds(50, 5); ++round) {
       const QuantisedPose pose{0, 0, 0, round == 0 ? quantise({{}, widest}).rotation : random.next()};
       const Result<void> valid =
           validate(StampOperation{1, pose, 0, method}, pieces, field.source().voxel_size_m);

@@ -13,6 +13,7 @@
 #include "shared/field/edit.h"
 #include "shared/operation/operation.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/rounds.h"
 #include "tests/support/world_steps.h"
 
 namespace scree {
@@ -57,11 +58,12 @@ std::vector<Island> specks_by_brute_force(Field& field, const VoxelBox& box) {
 }
 
 TEST(specks, the_search_finds_what_brute_force_finds_in_random_fields) {
+  constexpr uint64_t fields = rounds(10, 3);
   size_t found = 0;
   MapField field(flat_terrain);
   std::vector<BrickCoord> bricks;
   for_each_brick(air, [&](BrickCoord brick) { bricks.push_back(brick); });
-  for (uint64_t round = 0; round < 10; ++round) {
+  for (uint64_t round = 0; round < fields; ++round) {
     Random random(round);
     Window window(air);
     const float share = 0.01F + 0.1F * random.unit();
@@ -72,7 +74,7 @@ TEST(specks, the_search_finds_what_brute_force_finds_in_random_fields) {
     EXPECT_EQ(find_specks(field, bricks), want) << "round " << round;
     found += want.size();
   }
-  EXPECT_GT(found, 500U);
+  EXPECT_GT(found, 50 * fields);
 }
 
 /// A ball, and a crumb of one voxel beside it.
@@ -135,7 +137,7 @@ size_t swept_by_merges(const TickDelta& delta) {
 class SpecksAfterMerges : public ::testing::TestWithParam<Recombination> {};
 
 TEST_P(SpecksAfterMerges, none_are_left_over_random_cycles_of_blows_and_merges) {
-  constexpr int cycles = 25;
+  constexpr int cycles = rounds(25, 6);
   WorldConfig config;
   config.methods.recombine = GetParam();
   World world(config);

@@ -9,6 +9,7 @@
 #include "client/render/methods.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -178,11 +179,11 @@ TEST_P(Flight, no_frame_shows_a_hole) {
 
 TEST_P(Flight, nothing_is_left_of_many_edits) {
   constexpr int edits_a_round = 3;  // carve, discard, fill
-  constexpr int rounds = SCREE_FLIGHT_EDITS / edits_a_round + 1, warm_up = rounds / 8, places_a_side = 7;
+  constexpr int times = rounds(10'000, 1000) / edits_a_round + 1, warm_up = times / 8, places_a_side = 7;
   camera_ = {{0.0F, ground_m(0.0F, 0.0F) + 5.0F, 6.0F}, 0.0F, -0.5F};
   finish();
   size_t warm_heap_bytes = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < times; ++round) {
     const auto along = [](int place) {
       return 1.5F * static_cast<float>(place % places_a_side - places_a_side / 2);
     };

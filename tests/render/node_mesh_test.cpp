@@ -7,6 +7,7 @@
 #include "client/render/scene/mesh_place.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -122,11 +123,11 @@ void expect_watertight(Polygoniser polygoniser, int edits, int every, float voxe
 }
 
 TEST(NodeMesh, nets_are_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::nets, 200, 100, 0.25F);
+  expect_watertight(Polygoniser::nets, rounds(200, 50), rounds(100, 50), 0.25F);
 }
 
 TEST(NodeMesh, dual_is_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::dual, 200, 200, 0.25F);
+  expect_watertight(Polygoniser::dual, rounds(200, 50), rounds(200, 50), 0.25F);
 }
 
 /// Sizes that no float holds exactly.
@@ -137,7 +138,7 @@ TEST(NodeMesh, all_are_watertight_whatever_a_voxel_measures) {
 }
 
 TEST(NodeMesh, cubes_are_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::cubes, 200, 100, 0.25F);
+  expect_watertight(Polygoniser::cubes, rounds(200, 50), rounds(100, 50), 0.25F);
 }
 
 }  // namespace

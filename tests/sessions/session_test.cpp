@@ -9,6 +9,7 @@
 
 #include "bench/support/scenes.h"
 #include "server/replay/verify.h"
+#include "tests/support/rounds.h"
 #include "tests/support/session_support.h"
 
 namespace scree {
@@ -16,9 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int carves = SCREE_SESSION_CARVES;
+constexpr int carves = rounds(50, 12);
 constexpr int ticks_per_carve = 30;
-/// The issue asks for 2,000; a sanitizer's build plays the same session with fewer carves.
 constexpr Tick ticks_min = 40 * carves;
 
 constexpr float half_width_m = 40.0F;

@@ -15,6 +15,7 @@
 #include "server/world/spawn.h"
 #include "server/world/world.h"
 #include "tests/support/flat_world.h"
+#include "tests/support/rounds.h"
 #include "tests/support/world_steps.h"
 
 namespace scree {
@@ -183,12 +184,14 @@ void expect_a_share_for_each(const std::map<uint64_t, Outcome>& outcomes) {
   EXPECT_LT(outcomes.at(2).done, outcomes.at(2).asked);
 }
 
+constexpr int crowd_seconds = rounds(6, 2);
+
 TEST(work, a_client_that_asks_for_much_does_not_keep_another_from_carving) {
-  expect_a_share_for_each(crowd(1, SCREE_CROWD_SECONDS, 2.0F, 64));
+  expect_a_share_for_each(crowd(1, crowd_seconds, 2.0F, 64));
 }
 
 TEST(work, a_carve_beside_many_others_gets_fewer_pieces_rather_than_none) {
-  const auto outcomes = crowd(6, SCREE_CROWD_SECONDS, 2.0F, 64);
+  const auto outcomes = crowd(6, crowd_seconds, 2.0F, 64);
   expect_a_share_for_each(outcomes);
   EXPECT_LT(outcomes.at(1).pieces, static_cast<uint32_t>(outcomes.at(1).done) * 32U);
   EXPECT_GE(outcomes.at(1).pieces, static_cast<uint32_t>(outcomes.at(1).done));

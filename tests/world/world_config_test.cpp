@@ -7,6 +7,7 @@
 #include "server/world/limits.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"
+#include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
@@ -86,7 +87,7 @@ TEST_P(WorldAtItsEnds, carves_throws_and_merges) {
     alive = std::max(alive, delta->pieces.size());
   }
   EXPECT_GE(alive, 32U);
-  for (uint32_t tick = 0; tick < 12 * config.tick_rate_hz && !delta->pieces.empty(); ++tick)
+  for (uint32_t tick = 0; tick < rounds(12U, 4U) * config.tick_rate_hz && !delta->pieces.empty(); ++tick)
     delta = (*world)->step({});
   EXPECT_LT(delta->pieces.size(), alive) << "nothing came to rest";
   EXPECT_EQ((*world)->measure_terrain(), delta->ledger.terrain);
