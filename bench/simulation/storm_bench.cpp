@@ -11,7 +11,7 @@ namespace scree {
 namespace {
 
 constexpr uint32_t blows_a_side = 4;
-constexpr uint32_t seeds_per_blow = 70;  ///< 16 of them: more than 1,000 pieces, some seeds lie in thin rock
+constexpr uint32_t seeds_per_blow = 80;  ///< 16 of them: more than 1,000 pieces, some seeds lie in thin rock
 constexpr size_t alive_wanted = 1000;
 constexpr int blasts = 5;
 constexpr Tick blast_ticks_max = 1200;

@@ -8,7 +8,6 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
@@ -18,6 +17,7 @@
 
 #include "server/bodies/bodies.h"
 #include "server/bodies/hull_algorithm.h"
+#include "server/bodies/piece_solver.h"
 #include "server/bodies/terrain_collider.h"
 #include "server/bodies/to_bullet.h"
 
@@ -103,7 +103,7 @@ struct Bodies::State {
   btDefaultCollisionConfiguration collision_configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
+  PieceSolver solver;
   btDiscreteDynamicsWorld dynamics;
   btEmptyShape terrain_shape;
   btBroadphaseProxy terrain_proxy;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "server/bodies/lanes.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/sound_values.h"
+#include "server/bodies/to_bullet.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -48,18 +50,39 @@ void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::
 /// many others.
 class TightHull final : public btConvexHullShape {
  public:
-  void getAabb(const btTransform& at, btVector3& lo, btVector3& hi) const override {
-    const btMatrix3x3& turn = at.getBasis();
-    lo = hi = turn * getUnscaledPoints()[0];
-    for (int i = 1; i < getNumPoints(); ++i) {
-      const btVector3 p = turn * getUnscaledPoints()[i];
-      lo.setMin(p);
-      hi.setMax(p);
+  explicit TightHull(const std::vector<glm::vec3>& corners) {
+    for (const glm::vec3& p : corners) addPoint(to_bullet(p), false);
+    for (size_t i = 0; i < corners.size() || i % 4 != 0; ++i) {
+      const glm::vec3& p = corners[i < corners.size() ? i : 0];
+      x_.push_back(p.x);
+      y_.push_back(p.y);
+      z_.push_back(p.z);
     }
-    const btVector3 margin(getMargin(), getMargin(), getMargin());
-    lo += at.getOrigin() - margin;
-    hi += at.getOrigin() + margin;
   }
+
+  void getAabb(const btTransform& at, btVector3& lo, btVector3& hi) const override {
+    for (int axis = 0; axis < 3; ++axis) {
+      const btVector3& along = at.getBasis()[axis];
+      const auto [least, most] = extent(along);
+      lo[axis] = at.getOrigin()[axis] + (least - getMargin());
+      hi[axis] = at.getOrigin()[axis] + (most + getMargin());
+    }
+  }
+
+ private:
+  std::pair<float, float> extent(const btVector3& along) const {
+    const Floats ax = all(along.x()), ay = all(along.y()), az = all(along.z());
+    Floats least = all(1e30F), most = all(-1e30F);
+    for (size_t i = 0; i < x_.size(); i += 4) {
+      const Floats r = load(&x_[i]) * ax + load(&y_[i]) * ay + load(&z_[i]) * az;
+      least = r < least ? r : least;
+      most = r > most ? r : most;
+    }
+    return {std::min({least[0], least[1], least[2], least[3]}),
+            std::max({most[0], most[1], most[2], most[3]})};
+  }
+
+  std::vector<float> x_, y_, z_;  ///< the corners, padded with copies to a multiple of four
 };
 
 bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance) {
@@ -75,11 +98,9 @@ std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3
   const float thickness = std::max(thickness_of(hull_m, middle_m), 0.01F);
   const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
   const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
-  auto shape = std::make_unique<TightHull>();
-  for (const glm::vec3& corner : hull_m) {
-    const glm::vec3 p = middle_m + (corner - middle_m) * scale;
-    shape->addPoint(btVector3(p.x, p.y, p.z), false);
-  }
+  std::vector<glm::vec3> corners = hull_m;
+  for (glm::vec3& corner : corners) corner = middle_m + (corner - middle_m) * scale;
+  auto shape = std::make_unique<TightHull>(corners);
   shape->setMargin(margin);
   shape->recalcLocalAabb();  // setMargin leaves the cached bounds stale
   return shape;

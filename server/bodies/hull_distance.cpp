@@ -2,28 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 
+#include "server/bodies/lanes.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
-
-/// Four lanes in a form that g++ and clang both compile to vector instructions at any level of optimisation.
-using Floats = float __attribute__((vector_size(16)));
-using Ints = int __attribute__((vector_size(16)));
-
-Floats load(const float* from) {
-  Floats out;
-  std::memcpy(&out, from, sizeof(out));
-  return out;
-}
-
-Floats all(float x) {
-  return Floats{x, x, x, x};
-}
 
 /// A search ends when a step can shorten the distance by no more than this share of it.
 constexpr float tolerance = 1e-3F;

@@ -82,13 +82,13 @@ TEST(Bodies, the_axes_in_which_a_body_is_described_make_no_difference) {
   state.pose.rotation = lean * glm::conjugate(turn);
   across.add(turned(rod, turn), state);
   EXPECT_NEAR(std::abs(glm::dot(across.state(1).pose.rotation, state.pose.rotation)), 1.0F, 1e-6F);
-  step(along, 50);
-  step(across, 50);
+  step(along, 36);  // its end has struck; what it does after its second blow depends on the last bits
+  step(across, 36);
   ASSERT_FALSE(along.contacts().on_terrain.empty()) << "its end has struck the ground";
   const BodyState a = along.state(1), b = across.state(1);
-  EXPECT_LT(glm::distance(a.pose.position_m, b.pose.position_m), 0.05F);
-  EXPECT_GT(std::abs(glm::dot(a.pose.rotation, b.pose.rotation * turn)), 0.999F);
-  EXPECT_LT(glm::distance(a.spin_rad_s, b.spin_rad_s), 0.6F);
+  EXPECT_LT(glm::distance(a.pose.position_m, b.pose.position_m), 1e-4F);
+  EXPECT_GT(std::abs(glm::dot(a.pose.rotation, b.pose.rotation * turn)), 0.99999F);
+  EXPECT_LT(glm::distance(a.spin_rad_s, b.spin_rad_s), 0.01F);
 }
 
 TEST(Bodies, a_stack_says_who_carries_whom) {
