@@ -203,8 +203,10 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
 
 std::vector<uint8_t> encode(std::span<const RecordedCommand> commands) {
   recorded::Commands to;
+  const bool parties = std::ranges::any_of(commands, [](const auto& command) { return command.party != 0; });
   for (const RecordedCommand& command : commands) {
     to.add_sessions(command.session);
+    if (parties) to.add_parties(command.party);
     to.add_requests(without_length(encode(message_of(command))));
   }
   return bytes_of(to);
@@ -215,9 +217,13 @@ Result<std::vector<RecordedCommand>> decode_recorded_commands(std::span<const ui
   if (!from) return tl::unexpected(from.error());
   FieldChecker check("commands of the recording");
   if (from->sessions_size() != from->requests_size()) check.refuse("sessions and requests differ in number");
+  if (from->parties_size() != 0 && from->parties_size() != from->requests_size())
+    check.refuse("parties and requests differ in number");
   std::vector<RecordedCommand> commands;
-  for (int i = 0; i < from->requests_size() && !check.failed(); ++i)
+  for (int i = 0; i < from->requests_size() && !check.failed(); ++i) {
     commands.push_back(read_command(from->sessions(i), from->requests(i), check));
+    if (from->parties_size() != 0) commands.back().party = from->parties(i);
+  }
   return checked(std::move(commands), check);
 }
 

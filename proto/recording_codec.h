@@ -59,6 +59,7 @@ struct RecordedCommand {
   uint64_t session = 0;
   uint32_t request = 0;  ///< the client's number for it
   Request body;
+  uint64_t party = 0;  ///< who shares the server with others as one; 0: the session for itself
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

@@ -42,6 +42,8 @@ class Door {
   /// further one, at most limits::guess_wait_max_s.
   void guessed_wrong(const std::string& address, double now_s);
 
+  /// Whether the address is this machine's own, and the rules except it.
+  bool is_free(const std::string& address) const;
   size_t addresses() const { return visitors_.size(); }
 
  private:
@@ -54,7 +56,6 @@ class Door {
   };
   Visitor& visitor(const std::string& address, double now_s);
   void forget_the_gone(double now_s);
-  bool is_free(const std::string& address) const;
 
   Rules rules_;
   std::unordered_map<std::string, Visitor> visitors_;

@@ -162,6 +162,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   entry.name = grant->name;
   entry.program = hello.client;
   entry.joined_s = steady_now_s();
+  entry.in_common = in_common(session, *grant);
+  if (!entry.in_common.empty()) entry.party = parties_.join(entry.in_common, session.id());
   ++counts_.sessions_joined;
   update_stats();
   say(spdlog::level::info, "joined",
@@ -188,7 +190,8 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
-            ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked)});
+            ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
+                          sessions_.at(session.id()).party});
             return {};
           },
           [&](const RepairRequest& repair) -> Done {
@@ -301,6 +304,8 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
   outsiders_.erase(session.id());
+  if (const Entry& entry = sessions_.at(session.id()); !entry.in_common.empty())
+    parties_.leave(entry.in_common);
   sessions_.erase(session.id());
   update_stats();
 }

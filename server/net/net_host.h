@@ -17,6 +17,7 @@
 #include "server/net/entrance.h"
 #include "server/net/log_limit.h"
 #include "server/net/net_server.h"
+#include "server/net/parties.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
@@ -52,6 +53,8 @@ class NetHost final : public SessionHost, public EntranceHost {
     Grant grant{};       ///< of a joined session
     std::string program{};
     double joined_s = 0.0;
+    std::string in_common{};  ///< with the sessions of its party (Parties); empty: it shares with none
+    uint64_t party = 0;       ///< as of Command
   };
 
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override;
@@ -80,6 +83,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   tl::expected<void, Refused> check_admin_token(const ClientSession& session, const std::string& token);
   tl::expected<Grant, Refused> grant_to(const ClientSession& session, const HelloMessage& hello);
   void end_lapsed_grants();
+  std::string in_common(const ClientSession& session, const Grant& grant);
   tl::expected<void, Refused> may(const ClientSession& session, Role needed) const;
   void ask(ClientSession& session, const Command& command);
   void administer_sessions(ClientSession& session, const AdminMessage& message);
@@ -110,6 +114,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   size_t descriptors_ = 0;  ///< for connections
   std::shared_ptr<const Access> access_;
   Bans bans_;
+  Parties parties_;
   Publisher publisher_;
   std::atomic<bool> watched_{false};
   ThreadCheck network_thread_;

@@ -127,6 +127,13 @@ tl::expected<Grant, Refused> NetHost::grant_to(const ClientSession& session, con
   return grant;
 }
 
+/// Who has no token shares with its address. Programs on this machine, and administrators, share with nobody.
+std::string NetHost::in_common(const ClientSession& session, const Grant& grant) {
+  if (grant.token_id != 0) return "token " + std::to_string(grant.token_id);
+  if (grant.role == Role::admin || entrance_.door().is_free(session.address())) return {};
+  return session.address();
+}
+
 /// Tokens expire and are revoked while their sessions last.
 void NetHost::end_lapsed_grants() {
   const uint64_t now_s = unix_now_s();

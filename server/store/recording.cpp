@@ -36,13 +36,13 @@ Ledger from_recorded(const RecordedLedger& ledger) {
 
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
   std::vector<RecordedCommand> out;
-  for (const auto& [session, request, body] : commands) out.push_back({session, request, body});
+  for (const auto& [session, request, body, party] : commands) out.push_back({session, request, body, party});
   return out;
 }
 
 std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
   std::vector<Command> out;
-  for (const auto& [session, request, body] : commands) out.push_back({session, request, body});
+  for (const auto& [session, request, body, party] : commands) out.push_back({session, request, body, party});
   return out;
 }
 

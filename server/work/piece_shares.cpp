@@ -9,7 +9,7 @@ namespace scree {
 
 namespace {
 
-/// Pieces that several clients together may still add: by number, and by the time that bodies take.
+/// Pieces that several parties together may still add: by number, and by the time that bodies take.
 size_t free_pieces(const PieceRoom& room) {
   const size_t left = room.pieces_max - std::min<size_t>(room.alive, room.pieces_max);
   if (!(room.bodies_load > 0.0F)) return left;
@@ -19,29 +19,29 @@ size_t free_pieces(const PieceRoom& room) {
 
 }  // namespace
 
-void PieceShares::add(uint64_t session) {
-  ++pieces_[session];
+void PieceShares::add(uint64_t party) {
+  ++pieces_[party];
 }
 
-void PieceShares::remove(uint64_t session) {
-  const auto found = pieces_.find(session);
+void PieceShares::remove(uint64_t party) {
+  const auto found = pieces_.find(party);
   CHECK(found != pieces_.end() && found->second > 0);
   if (--found->second == 0) pieces_.erase(found);
 }
 
-uint32_t PieceShares::of(uint64_t session) const {
-  const auto found = pieces_.find(session);
+uint32_t PieceShares::of(uint64_t party) const {
+  const auto found = pieces_.find(party);
   return found == pieces_.end() ? 0 : found->second;
 }
 
-PieceGrant PieceShares::grant(uint64_t session, uint32_t wanted, const PieceRoom& room) const {
+PieceGrant PieceShares::grant(uint64_t party, uint32_t wanted, const PieceRoom& room) const {
   CHECK(wanted > 0);
   const size_t left = room.pieces_max - std::min<size_t>(room.alive, room.pieces_max);
-  const uint32_t own = of(session);
+  const uint32_t own = of(party);
   const bool others_have = std::ranges::any_of(
-      pieces_, [&](const auto& entry) { return entry.first != session && entry.first != 0; });
+      pieces_, [&](const auto& entry) { return entry.first != party && entry.first != 0; });
   PieceGrant grant;
-  grant.contested = session != 0 && (others_have || room.others_wait);
+  grant.contested = party != 0 && (others_have || room.others_wait);
   if (!grant.contested) {
     grant.pieces_most = static_cast<uint32_t>(left);
     if (wanted <= left) grant.pieces = wanted;
@@ -55,8 +55,8 @@ PieceGrant PieceShares::grant(uint64_t session, uint32_t wanted, const PieceRoom
     grant.pieces = std::min(wanted, part);
     return grant;
   }
-  const size_t clients = pieces_.size() + (own == 0 ? 1 : 0);
-  grant.may_wait = wanted <= room.pieces_max && own * clients <= room.alive;
+  const size_t parties = pieces_.size() + (own == 0 ? 1 : 0);
+  grant.may_wait = wanted <= room.pieces_max && own * parties <= room.alive;
   return grant;
 }
 

@@ -1,7 +1,7 @@
-// Whose pieces are alive, and how many a carve may add. A client that is alone may have all that there is
-// room for. Where several have pieces, or ask, each may hold as many as are still free (dynamic thresholds:
-// Choudhury and Hahne 1998): n clients that take all they get hold 1/(n + 1) each, and as much stays free for
-// one more. Part of the simulation: deterministic. Not thread-safe.
+// Whose pieces are alive, and how many a carve may add. A party (command.h) that is alone may have all that
+// there is room for. Where several have pieces, or ask, each may hold as many as are still free (dynamic
+// thresholds: Choudhury and Hahne 1998): n parties that take all they get hold 1/(n + 1) each, and as much
+// stays free for one more. Part of the simulation: deterministic. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -15,31 +15,31 @@ struct PieceRoom {
   size_t alive = 0;
   uint32_t pieces_max = 0;
   float bodies_load = 0.0F;  ///< WorkBudget::bodies_load()
-  bool others_wait = false;  ///< another client has requests waiting
+  bool others_wait = false;  ///< another party has requests waiting
 };
 
 /// How many of the pieces that a carve asks for it may make.
 struct PieceGrant {
   uint32_t pieces = 0;       ///< 0: none
-  bool contested = false;    ///< other clients have pieces, or ask for some
-  bool may_wait = false;     ///< none, but others hold more than this client: room is coming
-  uint32_t pieces_most = 0;  ///< where none: the most that the client would have been granted a part of
+  bool contested = false;    ///< other parties have pieces, or ask for some
+  bool may_wait = false;     ///< none, but others hold more than this party: room is coming
+  uint32_t pieces_most = 0;  ///< where none: the most that the party would have been granted a part of
 };
 
 class PieceShares {
  public:
-  /// A piece of the client's begins to be alive; session 0 is the world itself.
-  void add(uint64_t session);
-  /// The client must have one.
-  void remove(uint64_t session);
-  /// Number of the client's pieces.
-  uint32_t of(uint64_t session) const;
+  /// A piece of the party's begins to be alive; party 0 is the world itself.
+  void add(uint64_t party);
+  /// The party must have one.
+  void remove(uint64_t party);
+  /// Number of the party's pieces.
+  uint32_t of(uint64_t party) const;
 
   /// `wanted` is positive. The world itself is granted what there is room for.
-  PieceGrant grant(uint64_t session, uint32_t wanted, const PieceRoom& room) const;
+  PieceGrant grant(uint64_t party, uint32_t wanted, const PieceRoom& room) const;
 
  private:
-  std::map<uint64_t, uint32_t> pieces_;  ///< by session; none is 0
+  std::map<uint64_t, uint32_t> pieces_;  ///< by party; none is 0
 };
 
 }  // namespace scree

@@ -1,6 +1,5 @@
 #include "server/work/request_queue.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -23,80 +22,86 @@ RequestQueue::RequestQueue(float client_us_per_s) : client_us_per_s_(client_us_p
 
 Result<void> RequestQueue::push(WaitingRequest request) {
   CHECK(request.cost_us >= 0.0F);
-  const uint64_t session = request.command.session;
-  const auto found = clients_.find(session);
-  const size_t own = found == clients_.end() ? 0 : found->second.requests.size();
-  if (own >= limits::requests_waiting_max - size_)
-    return fail(
-        std::to_string(own) + " requests of this client are waiting, as many as there are places left of " +
-        std::to_string(limits::requests_waiting_max) + " (limits.requests_waiting_max): ask again later");
-  if (own > 0) {
-    const size_t busy = turns_.size() + passed_over_.size();
-    const float share_us = client_us_per_s_ / static_cast<float>(busy) * limits::waiting_work_max_s;
-    const float waiting_us = found->second.waiting_us;
-    if (waiting_us + request.cost_us > share_us)
-      return fail("work of about " + in_ms(waiting_us) + " waits for this client already, and each of " +
-                  std::to_string(busy) + " busy clients gets about " + in_ms(share_us) +
-                  " a second (limits.waiting_work_max_s): ask for less, or less often");
-  }
-  Client& client = found == clients_.end() ? clients_[session] : found->second;
-  if (own == 0) {
-    client.charged_ns = std::max(client.charged_ns, served_ns_);
-    turns_.insert({client.charged_ns, session});
-  }
-  client.waiting_us += request.cost_us;
-  client.requests.push_back(std::move(request));
+  if (Result<void> may = may_wait(request); !may) return may;
+  const uint64_t party_id = party_of(request.command), session_id = request.command.session;
+  Party& party = parties_[party_id];
+  if (party.requests == 0) turns_.wait(party_id);
+  Session& session = party.sessions[session_id];
+  if (session.requests.empty()) party.turns.wait(session_id);
+  session.waiting_us += request.cost_us;
+  session.requests.push_back(std::move(request));
+  ++party.requests;
   ++size_;
   return {};
 }
 
+Result<void> RequestQueue::may_wait(const WaitingRequest& request) const {
+  const auto party = parties_.find(party_of(request.command));
+  if (party == parties_.end()) return {};
+  const size_t own = party->second.requests;
+  if (own >= limits::requests_waiting_max - size_)
+    return fail(
+        std::to_string(own) +
+        " requests of this client, or of those who share with it, are waiting, as many as there are places "
+        "left of " +
+        std::to_string(limits::requests_waiting_max) + " (limits.requests_waiting_max): ask again later");
+  const auto session = party->second.sessions.find(request.command.session);
+  if (session == party->second.sessions.end()) return {};
+  const size_t busy = turns_.waiting() * party->second.sessions.size();
+  const float share_us = client_us_per_s_ / static_cast<float>(busy) * limits::waiting_work_max_s;
+  const float waiting_us = session->second.waiting_us;
+  if (waiting_us + request.cost_us <= share_us) return {};
+  return fail("work of about " + in_ms(waiting_us) + " waits for this client already, and each of " +
+              std::to_string(busy) + " busy clients gets about " + in_ms(share_us) +
+              " a second (limits.waiting_work_max_s): ask for less, or less often");
+}
+
 const WaitingRequest* RequestQueue::next() const {
-  return turns_.empty() ? nullptr : &clients_.at(turns_.begin()->second).requests.front();
+  if (turns_.empty()) return nullptr;
+  const Party& party = parties_.at(turns_.next());
+  return &party.sessions.at(party.turns.next()).requests.front();
 }
 
 void RequestQueue::pop(float charged_us) {
   CHECK(!turns_.empty() && charged_us >= 0.0F);
-  const Turn turn = *turns_.begin();
-  turns_.erase(turns_.begin());
-  Client& client = clients_.at(turn.second);
-  CHECK(!client.requests.empty() && client.charged_ns == turn.first);
-  served_ns_ = std::max(served_ns_, client.charged_ns);
-  client.charged_ns += static_cast<uint64_t>(charged_us * 1000.0F);
-  client.waiting_us -= client.requests.front().cost_us;
-  client.requests.pop_front();
-  if (client.requests.empty()) client.waiting_us = 0.0F;  // no rounding is carried over
+  using Then = FairTurns::Then;
+  Party& party = parties_.at(turns_.next());
+  const auto session = party.sessions.find(party.turns.next());
+  CHECK(session != party.sessions.end() && !session->second.requests.empty());
+  session->second.waiting_us -= session->second.requests.front().cost_us;
+  session->second.requests.pop_front();
+  --party.requests;
   --size_;
-  if (!client.requests.empty()) turns_.insert({client.charged_ns, turn.second});
+  const auto charged_ns = static_cast<uint64_t>(charged_us * 1000.0F);
+  const bool more = !session->second.requests.empty();
+  party.turns.charge(charged_ns, more ? Then::waits : Then::leaves);
+  if (!more) party.sessions.erase(session);  // no rounding of waiting_us is carried over
+  turns_.charge(charged_ns, party.requests == 0   ? Then::leaves
+                            : party.turns.empty() ? Then::is_passed_over
+                                                  : Then::waits);
 }
 
 void RequestQueue::pass_over() {
   CHECK(!turns_.empty());
-  passed_over_.insert(*turns_.begin());
-  turns_.erase(turns_.begin());
+  FairTurns& sessions = parties_.at(turns_.next()).turns;
+  sessions.pass_over();
+  if (sessions.empty()) turns_.pass_over();
 }
 
 void RequestQueue::begin_tick() {
-  turns_.merge(passed_over_);
-  CHECK(passed_over_.empty());
-  forget_the_idle();
+  turns_.bring_back();
+  turns_.forget_the_idle();
+  for (auto& [id, party] : parties_) party.turns.bring_back();
+  std::erase_if(parties_, [](const auto& entry) { return entry.second.requests == 0; });
 }
 
-bool RequestQueue::others_wait(uint64_t session) const {
-  const size_t waiting = turns_.size() + passed_over_.size();
-  const auto found = clients_.find(session);
-  const bool itself = found != clients_.end() && !found->second.requests.empty();
-  return waiting > (itself ? 1U : 0U);
+bool RequestQueue::waits(uint64_t party) const {
+  const auto found = parties_.find(party);
+  return found != parties_.end() && found->second.requests > 0;
 }
 
-void RequestQueue::forget_the_idle() {
-  if (size_ == 0) {
-    for (const auto& [session, client] : clients_) served_ns_ = std::max(served_ns_, client.charged_ns);
-    clients_.clear();
-    return;
-  }
-  std::erase_if(clients_, [&](const auto& entry) {
-    return entry.second.requests.empty() && entry.second.charged_ns <= served_ns_;
-  });
+bool RequestQueue::others_wait(uint64_t party) const {
+  return turns_.waiting() > (waits(party) ? 1U : 0U);
 }
 
 }  // namespace scree

@@ -1,17 +1,15 @@
-// Requests that wait for a tick with room for them. Each client has a queue of its own; the clients are
-// served by start-time fair queueing (Goyal, Vin, Cheng 1996): next is the one that has been charged least,
-// where a client that asks after a pause starts level with the others. So a client that asks for much waits
-// for itself alone. Part of the simulation: deterministic, no clock. Not thread-safe.
+// Requests that wait for a tick with room for them. Parties take turns (command.h), and within a party its
+// sessions do (fair_turns.h): who asks for much waits for himself alone, and by more sessions nobody gets
+// more. Part of the simulation: deterministic, no clock. Not thread-safe.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <set>
-#include <utility>
 
 #include "server/work/command.h"
+#include "server/work/fair_turns.h"
 #include "shared/base/ids.h"
 #include "shared/base/result.h"
 
@@ -29,38 +27,41 @@ class RequestQueue {
   /// `client_us_per_s`: estimated work that all clients together get a second.
   explicit RequestQueue(float client_us_per_s);
 
-  /// Refuses, by name, what would make a client wait too long or take the others' places
+  /// Refuses, by name, what would make a session wait too long or take the other parties' places
   /// (limits::waiting_work_max_s, requests_waiting_max).
   Result<void> push(WaitingRequest request);
-  /// The next request by the clients' turns, valid until another call; null when none waits, or all that wait
-  /// belong to clients that were passed over.
+  /// The next request by the turns, valid until another call; null when none waits, or all that wait belong
+  /// to sessions that were passed over.
   const WaitingRequest* next() const;
-  /// Removes the next request and charges its client.
+  /// Removes the next request and charges its session and party.
   void pop(float charged_us);
-  /// Leaves the next request's client out until the next begin_tick().
+  /// Leaves the next request's session out until the next begin_tick().
   void pass_over();
   void begin_tick();
 
   /// Number of requests that wait.
   size_t size() const { return size_; }
-  /// Whether another client than this has requests waiting.
-  bool others_wait(uint64_t session) const;
+  /// Whether another party than this has requests waiting.
+  bool others_wait(uint64_t party) const;
 
  private:
-  struct Client {
+  struct Session {
     std::deque<WaitingRequest> requests;
     float waiting_us = 0.0F;
-    uint64_t charged_ns = 0;  ///< start tag of its next request
   };
-  using Turn = std::pair<uint64_t, uint64_t>;  ///< charged_ns, session
+  struct Party {
+    std::map<uint64_t, Session> sessions;  ///< those with requests
+    FairTurns turns;                       ///< of the sessions
+    size_t requests = 0;                   ///< of all sessions
+  };
 
-  void forget_the_idle();
+  /// By name, if no more of this party's requests, or this session's, may wait.
+  Result<void> may_wait(const WaitingRequest& request) const;
+  bool waits(uint64_t party) const;
 
   float client_us_per_s_;
-  std::map<uint64_t, Client> clients_;  ///< by session: those with requests, or ahead of the others
-  std::set<Turn> turns_;                ///< of the clients with requests that were not passed over
-  std::set<Turn> passed_over_;
-  uint64_t served_ns_ = 0;  ///< start tag of the request that was served last
+  std::map<uint64_t, Party> parties_;  ///< those with requests, or with sessions ahead of the others
+  FairTurns turns_;                    ///< of the parties
   size_t size_ = 0;
 };
 

@@ -25,18 +25,18 @@ namespace {
 using Outcome = tl::expected<uint32_t, Refused>;
 using Checked = tl::expected<void, Refused>;
 
-void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t session,
+void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t party,
                TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto born = [&](PieceId id, const Volume& volume) {
-    return Newborn{thrown(id, volume.centre_voxels * dx, request), {.owner = session}};
+    return Newborn{thrown(id, volume.centre_voxels * dx, request), {.owner = party}};
   };
   spawn(state, applied, born, delta);
 }
 
 /// The refusal of a carve without room, which says what would help: fewer seeds, more room, or time, if the
 /// carve ever fits.
-Refused no_room(const World::State& state, uint32_t seeds, uint64_t session, const PieceGrant& grant) {
+Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const PieceGrant& grant) {
   const uint32_t pieces_max = state.config.pieces_max;
   const size_t alive = state.pieces.size(), wanted = alive + seeds;
   const std::string limit = std::to_string(pieces_max), all = std::to_string(wanted);
@@ -50,7 +50,7 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t session, con
     return {
         Refusal::pieces_share,
         "other clients share this server's room for pieces (pieces_max): of " + std::to_string(alive) +
-            " alive " + std::to_string(state.shares.of(session)) + " are this client's: " +
+            " alive " + std::to_string(state.shares.of(party)) + " are this client's: " +
             (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
   return {Refusal::pieces_max,
           std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
@@ -150,10 +150,10 @@ CarveRequest at_rest(CarveRequest request) {
   return request;
 }
 
-Outcome carve(World::State& state, const CarveRequest& request, uint64_t session, const PieceGrant& grant,
+Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, const PieceGrant& grant,
               TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
-  if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, session, grant));
+  if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, party, grant));
   CHECK(grant.pieces <= request.seeds);
   const Cutter cutter =
       cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
@@ -163,7 +163,7 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t session
   const Applied applied = state.apply_and_record(operation, delta);
   state.enter_taken(applied);
   const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
-  throw_out(state, applied, whole ? at_rest(request) : request, session, delta);
+  throw_out(state, applied, whole ? at_rest(request) : request, party, delta);
   if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces, whole);
   return static_cast<uint32_t>(applied.created.size());
 }
@@ -208,13 +208,11 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
 
 struct Executing {
   World::State& state;
-  uint64_t session;
+  uint64_t party;
   const PieceGrant& grant;
   TickDelta& delta;
 
-  Outcome operator()(const CarveRequest& request) const {
-    return carve(state, request, session, grant, delta);
-  }
+  Outcome operator()(const CarveRequest& request) const { return carve(state, request, party, grant, delta); }
   Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
@@ -227,8 +225,8 @@ PieceGrant grant_for(const World::State& state, const Command& command) {
   const PieceRoom room{.alive = state.pieces.size(),
                        .pieces_max = state.config.pieces_max,
                        .bodies_load = state.work.bodies_load(),
-                       .others_wait = state.requests.others_wait(command.session)};
-  return state.shares.grant(command.session, carve->seeds, room);
+                       .others_wait = state.requests.others_wait(party_of(command))};
+  return state.shares.grant(party_of(command), carve->seeds, room);
 }
 
 /// Price of the request with the pieces that it was granted. Pieces that are cut later are in it, so that
@@ -314,7 +312,7 @@ Checked check_memory(const World::State& state, const Command& command) {
 Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
   if (Checked room = check_memory(state, command); !room) return tl::unexpected(room.error());
-  return std::visit(Executing{state, command.session, grant, delta}, command.body);
+  return std::visit(Executing{state, party_of(command), grant, delta}, command.body);
 }
 
 Checked enqueue(World::State& state, const Command& command) {

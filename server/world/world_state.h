@@ -31,7 +31,7 @@ namespace scree {
 struct PieceTraits {
   uint8_t generation = 0;  ///< number of breaks among its ancestors
   bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
-  uint64_t owner = 0;      ///< session of the client whose carve it comes from; 0: of none
+  uint64_t owner = 0;      ///< party of the client whose carve it comes from (command.h); 0: of none
 };
 
 /// A piece that is still to be cut into so many (cut_stage.h).

@@ -1,9 +1,11 @@
 // Crowds, floods and guesses on loopback: whoever behaves comes in and stays.
 #include <gtest/gtest.h>
+#include <set>
 #include <string>
 #include <thread>
 
 #include "tests/support/net_server_fixture.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 namespace {
@@ -63,6 +65,27 @@ TEST_F(NetServerTest, an_address_opens_and_holds_so_many_connections_and_no_more
   EXPECT_EQ(stats.refusals.of(Refusal::connects_per_second), 1U);
   ASSERT_TRUE(third.send(hello()));
   EXPECT_TRUE(third.receive_as<WelcomeMessage>().has_value());
+}
+
+TEST_F(NetServerTest, sessions_of_one_address_are_one_party_and_this_machines_own_are_not) {
+  const auto parties_of_two = [&] {
+    RawClient second(server->port());
+    EXPECT_TRUE(second.send(hello()));
+    const auto welcome = second.receive_as<WelcomeMessage>();
+    EXPECT_TRUE(welcome.has_value());
+    EXPECT_TRUE(witness->send(carve(1)) && second.send(carve(2)));
+    std::vector<Command> asked;
+    for (const auto deadline = std::chrono::steady_clock::now() + patience;
+         asked.size() < 2 && std::chrono::steady_clock::now() < deadline;)
+      for (Command& command : commands.drain()) asked.push_back(std::move(command));
+    std::set<uint64_t> parties;
+    for (const Command& command : asked) parties.insert(party_of(command));
+    return parties;
+  };
+  start();
+  EXPECT_EQ(parties_of_two().size(), 2U);
+  start([](NetConfig& config) { config.door.loopback_is_free = false; });
+  EXPECT_EQ(parties_of_two().size(), 1U);
 }
 
 TEST_F(NetServerTest, messages_are_short_and_shorter_before_the_hello) {

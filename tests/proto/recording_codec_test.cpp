@@ -30,5 +30,29 @@ TEST(RecordingCodec, a_keyframe_of_pieces_of_air_cannot_fill_the_memory) {
   EXPECT_NE(many.error().message.find("limits.piece_voxels_max"), std::string::npos) << many.error().message;
 }
 
+TEST(RecordingCodec, commands_keep_their_parties) {
+  std::vector<RecordedCommand> commands(3);
+  for (uint32_t i = 0; i < 3; ++i) commands[i] = {i + 1, i, PaintRequest{sphere({}, 1.0F), Material::ice}, 0};
+  EXPECT_EQ(decode_recorded_commands(encode(commands))->at(1).party, 0U);
+  const size_t plain = encode(commands).size();
+  commands[2].party = 2;
+  const std::vector<uint8_t> blob = encode(commands);
+  EXPECT_GT(blob.size(), plain) << "where all share with none, nothing is kept";
+  const auto read = decode_recorded_commands(blob);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->at(1).party, 0U);
+  EXPECT_EQ(read->at(2).party, 2U);
+  EXPECT_EQ(read->at(2).session, 3U);
+}
+
+TEST(RecordingCodec, parties_without_their_commands_are_refused) {
+  const std::vector<RecordedCommand> commands = {{1, 1, PaintRequest{sphere({}, 1.0F), Material::ice}, 1}};
+  std::vector<uint8_t> blob = encode(commands);
+  blob.insert(blob.end(), {0x1A, 1, 5});  // field 3, packed: one party more
+  const auto read = decode_recorded_commands(blob);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("parties and requests differ in number"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scree

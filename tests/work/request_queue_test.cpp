@@ -98,6 +98,58 @@ TEST(request_queue, no_client_takes_all_places) {
   EXPECT_TRUE(queue.push(from(99, 1, 0.0F))) << "one more client finds a place";
 }
 
+WaitingRequest from_party(uint64_t party, uint64_t session, uint32_t number, float cost_us) {
+  return {.command = {session, number, PaintRequest{}, party}, .cost_us = cost_us};
+}
+
+TEST(request_queue, by_more_sessions_a_party_gets_no_more) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 4; ++number)
+    for (const uint64_t session : {11U, 12U, 13U})
+      ASSERT_TRUE(queue.push(from_party(11, session, number, 100.0F)));
+  for (uint32_t number = 0; number < 4; ++number) ASSERT_TRUE(queue.push(from(20, number, 100.0F)));
+  EXPECT_EQ(serve_all(queue),
+            (std::vector<uint64_t>{11, 20, 12, 20, 13, 20, 11, 20, 12, 13, 11, 12, 13, 11, 12, 13}));
+}
+
+TEST(request_queue, a_party_that_asks_by_ever_new_sessions_keeps_nobody_waiting) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 20; ++number) ASSERT_TRUE(queue.push(from(20, number, 100.0F)));
+  size_t of_other = 0;
+  for (uint64_t session = 100; session < 120; ++session) {
+    ASSERT_TRUE(queue.push(from_party(100, session, 0, 100.0F)));
+    of_other += queue.next()->command.session == 20 ? 1 : 0;
+    queue.pop(100.0F);
+  }
+  EXPECT_EQ(of_other, 10U);
+}
+
+TEST(request_queue, a_session_that_is_passed_over_leaves_its_party_the_turn) {
+  RequestQueue queue(us_per_s);
+  for (const uint64_t session : {11U, 12U}) ASSERT_TRUE(queue.push(from_party(11, session, 0, 100.0F)));
+  queue.pass_over();
+  ASSERT_NE(queue.next(), nullptr);
+  EXPECT_EQ(queue.next()->command.session, 12U);
+  queue.pop(100.0F);
+  EXPECT_EQ(queue.next(), nullptr);
+  EXPECT_EQ(queue.size(), 1U);
+  queue.begin_tick();
+  EXPECT_EQ(serve_all(queue), std::vector<uint64_t>{11});
+}
+
+TEST(request_queue, a_partys_sessions_together_hold_no_more_places_or_work_than_one) {
+  RequestQueue queue(us_per_s);
+  uint32_t taken = 0;
+  for (uint64_t session = 1; session < 100; ++session)
+    while (queue.push(from_party(1, session, taken, 0.0F))) ++taken;
+  EXPECT_EQ(taken, limits::requests_waiting_max / 2);
+  RequestQueue second(us_per_s);
+  for (const uint64_t session : {1U, 2U, 3U})
+    ASSERT_TRUE(second.push(from_party(1, session, 0, 0.1F * us_per_s)));
+  EXPECT_TRUE(second.push(from(9, 0, 0.3F * us_per_s)));
+  EXPECT_FALSE(second.push(from_party(1, 1, 1, 0.1F * us_per_s))) << "a sixth of a second is its share";
+}
+
 TEST(request_queue, others_wait_counts_others_alone) {
   RequestQueue queue(us_per_s);
   EXPECT_FALSE(queue.others_wait(1));
