@@ -61,7 +61,7 @@ size_t memory_bytes(const ServerMessage& message) {
   const size_t held =
       std::visit(Overloaded{
                      [](const WelcomeMessage&) { return size_t{0}; },
-                     [](const RefusalMessage& m) { return m.reason.size(); },
+                     [](const RefusalMessage& m) { return m.reason.size() + m.name.size(); },
                      [](const FrameMessage& m) {
                        return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
                               bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
@@ -70,7 +70,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const ResetMessage&) { return size_t{0}; },
-                     [](const ReplyMessage& m) { return m.refusal.size(); },
+                     [](const ReplyMessage& m) { return m.refusal.size() + m.refusal_name.size(); },
                      [](const StatusMessage& m) {
                        return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages);
                      },

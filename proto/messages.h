@@ -128,7 +128,8 @@ struct WelcomeMessage {
 
 /// The reason for which the server closes the connection.
 struct RefusalMessage {
-  std::string reason;
+  std::string reason;  ///< in words for people
+  std::string name{};  ///< for programs: the same in every release (docs/protocol.md)
 };
 
 /// A brick's new codes and paint.
@@ -184,6 +185,7 @@ struct ReplyMessage {
   uint32_t request = 0;
   std::string refusal;  ///< empty: carried out
   uint32_t pieces = 0;
+  std::string refusal_name{};  ///< for programs, as of RefusalMessage
 };
 
 /// How long a stage of the tick took.

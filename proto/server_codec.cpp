@@ -135,6 +135,7 @@ struct Writing {
   void operator()(const AdminListMessage& from) const { write(*to.mutable_admin_list(), from); }
   void operator()(const RefusalMessage& from) const {
     to.mutable_refusal()->set_reason(showable(from.reason, limits::reason_bytes_max));
+    to.mutable_refusal()->set_name(showable(from.name, limits::refusal_name_bytes_max));
   }
   void operator()(const FrameMessage& from) const { write(*to.mutable_frame(), from); }
   void operator()(const ChunkMessage& from) const {
@@ -167,6 +168,7 @@ struct Writing {
     reply.set_request(from.request);
     reply.set_refusal(showable(from.refusal, limits::reason_bytes_max));
     reply.set_pieces(from.pieces);
+    reply.set_refusal_name(showable(from.refusal_name, limits::refusal_name_bytes_max));
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
@@ -320,11 +322,14 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
   const auto reason = [&](const std::string& text) {
     return check.text(text, limits::reason_bytes_max, "reason");
   };
+  const auto name = [&](const std::string& text) {
+    return check.text(text, limits::refusal_name_bytes_max, "name of a reason");
+  };
   switch (from.kind_case()) {
     case wire::ServerMessage::kWelcome:
       return checked(read(from.welcome(), check));
     case wire::ServerMessage::kRefusal:
-      return checked(RefusalMessage{reason(from.refusal().reason())});
+      return checked(RefusalMessage{reason(from.refusal().reason()), name(from.refusal().name())});
     case wire::ServerMessage::kFrame:
       return checked(read(from.frame(), check));
     case wire::ServerMessage::kChunk:
@@ -336,8 +341,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:
-      return checked(
-          ReplyMessage{from.reply().request(), reason(from.reply().refusal()), from.reply().pieces()});
+      return checked(ReplyMessage{from.reply().request(), reason(from.reply().refusal()),
+                                  from.reply().pieces(), name(from.reply().refusal_name())});
     case wire::ServerMessage::kCursors:
       return checked(read(from.cursors(), check));
     case wire::ServerMessage::kPhysics:

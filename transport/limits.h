@@ -13,4 +13,19 @@ inline constexpr size_t tls_chunk_bytes = size_t{16} << 10;
 /// (key updates), until these are gone.
 inline constexpr size_t tls_unsent_bytes_max = size_t{64} << 10;
 
+/// Of a simulated link: bytes that are delayed together; and what waits at the bottleneck if not said
+/// otherwise, in seconds of its rate, within the bounds that may be said. Above: nothing more is taken.
+inline constexpr size_t link_packet_bytes = 1200;
+inline constexpr double link_buffer_s = 0.1;
+inline constexpr double link_buffer_min_bytes = 2e3;
+inline constexpr double link_buffer_max_bytes = 1e6;
+
+/// Bytes under way in one direction, so that a link without a rate has a bound of memory, too.
+inline constexpr size_t link_flight_max_bytes = size_t{4} << 20;
+
+/// What may be said of a simulated link; beyond: refused by name.
+inline constexpr double link_delay_max_s = 10.0;
+inline constexpr double link_rate_min_bytes_per_s = 125.0;
+inline constexpr double link_bytes_max = 1e12;
+
 }  // namespace scree::limits

@@ -5,6 +5,7 @@
 
 #include "client/bot/limits.h"
 #include "client/bot/tally.h"
+#include "client/connection/come_again.h"
 #include "shared/base/overloaded.h"
 
 namespace scree {
@@ -35,12 +36,14 @@ void Bot::log(const std::string& line) const {
 
 Result<void> Bot::join() {
   started_ = Clock::now();
-  Result<void> joined = connect();
-  if (!joined) report_.failure = joined.error().message;
-  return joined;
+  const auto joined = connect();
+  if (joined) return {};
+  report_.failure = joined.error().message;
+  report_.refusal = joined.error().refusal;
+  return tl::unexpected(joined.error());
 }
 
-Result<void> Bot::connect() {
+tl::expected<void, ConnectionEnd> Bot::connect() {
   const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
   auto connected = Connection::connect(config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
   if (!connected) return tl::unexpected(connected.error());
@@ -69,26 +72,28 @@ void Bot::leave() {
   connection_.reset();
 }
 
-Result<void> Bot::reconnect(const std::string& why) {
+Result<void> Bot::reconnect(const ConnectionEnd& end) {
   leave();
-  std::string last = why;
+  ConnectionEnd last = end;
   for (uint32_t tries = 1; report_.connections + tries - 1 <= config_.reconnects_max; ++tries) {
-    log("connection lost (" + last + "): trying again");
+    if (!may_come_again(last.refusal)) break;
+    log("connection lost (" + last.message + "): trying again");
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::bot_retry_ms * tries));
-    const Result<void> connected = connect();
+    const auto connected = connect();
     if (connected) return {};
-    last = connected.error().message;
+    last = connected.error();
   }
-  report_.failure = "gave up after " + std::to_string(report_.connections) + " connections: " + last;
+  report_.failure = "gave up after " + std::to_string(report_.connections) + " connections: " + last.message;
+  report_.refusal = last.refusal;
   return fail(report_.failure);
 }
 
 Result<void> Bot::step(std::chrono::milliseconds wait) {
   if (!connection_) return fail("the bot has not joined, or has given up");
   for (const Received& received : connection_->wait(wait))
-    if (Result<void> applied = receive(received); !applied) return reconnect(applied.error().message);
+    if (Result<void> applied = receive(received); !applied) return reconnect({applied.error()});
   if (!connection_->connected() && connection_->counters().waiting_messages == 0)
-    return reconnect(connection_->close_reason());
+    return reconnect(connection_->end());
   const Clock::time_point now = Clock::now();
   ask(now);
   acknowledge(now);
@@ -136,9 +141,10 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
     ++report_.carves_accepted;
   } else {
     ++report_.carves_refused;
-    ++report_.refusals[reply.refusal];
+    ++report_.refusals[reply.refusal_name];
     unseen_.erase(request->second.random_seed);
-    log("carve " + std::to_string(reply.request) + " was refused: " + reply.refusal);
+    log("carve " + std::to_string(reply.request) + " was refused (" + reply.refusal_name +
+        "): " + reply.refusal);
   }
   requests_.erase(request);
   if (report_.carves_asked == config_.carves && requests_.empty()) log("all carves are answered");

@@ -1,7 +1,8 @@
 // A client without a window: carves by script, follows the results, and reports.
 //
 // step() does all work on the caller's thread; only the socket has another thread. After a lost connection
-// the bot connects again, a bounded number of times, with a new mirror. Not thread-safe.
+// the bot connects again, a bounded number of times, with a new mirror, unless the server refused it for a
+// reason that stays (come_again.h). Not thread-safe.
 #pragma once
 
 #include <chrono>
@@ -65,8 +66,8 @@ class Bot {
     uint32_t random_seed = 0;
   };
 
-  Result<void> connect();
-  Result<void> reconnect(const std::string& why);
+  tl::expected<void, ConnectionEnd> connect();
+  Result<void> reconnect(const ConnectionEnd& end);
   void leave();
   Result<void> receive(const Received& received);
   void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);

@@ -69,6 +69,7 @@ std::string to_json(const BotReport& report) {
   Json json;
   json["ok"] = report.failure.empty();
   json["failure"] = report.failure;
+  json["refusal"] = report.refusal;
   json["server"] = report.server;
   json["protocol"] = report.welcome.protocol;
   json["replay"] = report.welcome.replay;

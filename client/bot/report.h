@@ -52,6 +52,7 @@ struct BotReport {
   std::string server;
   WelcomeMessage welcome;
   std::string failure;  ///< empty: no failure
+  std::string refusal;  ///< the name of the server's reason, if it refused the session in the end
   bool settled = false;
   double duration_s = 0.0;
   uint32_t connections = 0;
@@ -59,8 +60,8 @@ struct BotReport {
   uint32_t carves_asked = 0;
   uint32_t carves_accepted = 0;
   uint32_t carves_refused = 0;
-  uint32_t carves_lost = 0;  ///< the connection was lost before the reply
-  std::map<std::string, uint32_t> refusals;
+  uint32_t carves_lost = 0;                  ///< the connection was lost before the reply
+  std::map<std::string, uint32_t> refusals;  ///< by the name of the reason
 
   MirrorCounters seen;  ///< over all connections
   uint64_t pieces_alive = 0;

@@ -1,6 +1,5 @@
 #include "client/connection/connection.h"
 
-#include <asio/connect.hpp>
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
@@ -14,6 +13,8 @@
 #include "client/connection/limits.h"
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
+#include "transport/asio_link_clock.h"
+#include "transport/link_transport.h"
 #include "transport/tcp_transport.h"
 #include "transport/tls_transport.h"
 
@@ -38,6 +39,8 @@ struct Connection::Impl {
   std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work;
   std::thread thread;
   tcp::resolver resolver{context};
+  tcp::resolver::results_type found;  ///< addresses of the server's name
+  tcp::resolver::results_type::iterator untried;
   tcp::socket socket{context};           ///< until it is connected
   std::shared_ptr<Transport> transport;  ///< from then on
   FrameReader reader;
@@ -56,11 +59,13 @@ struct Connection::Impl {
   size_t queue_memory = 0;
   bool starved = false;  ///< reading stopped because the queue is full
   bool open = false;
-  std::string reason;
+  ConnectionEnd reason;
   ConnectionCounters counters;
 
   Result<void> start(const ServerEndpoint& server, const HelloMessage& hello);
-  void end(const std::string& why);
+  void try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
+                const HelloMessage& hello, const asio::error_code& before);
+  void end(const std::string& why, const std::string& refusal = {});
   void read();
   void take_messages();
   void enqueue(ServerMessage message, size_t bytes);
@@ -78,23 +83,43 @@ Result<void> Connection::Impl::start(const ServerEndpoint& server, const HelloMe
     if (!made) return tl::unexpected(made.error());
     tls = std::move(*made);
   }
-  const auto connected = [this, hello, tls, host = server.host](const asio::error_code& refused,
-                                                                const tcp::endpoint&) {
-    if (refused) return end("cannot connect: " + refused.message() + "; is a server running there?");
-    transport = std::make_shared<TcpTransport>(std::move(socket));
-    if (tls) transport = std::make_shared<TlsTransport>(std::move(transport), TlsEngine(tls, host));
-    push(encode(ClientMessage{hello}));
-    read();
-  };
   resolver.async_resolve(server.host, std::to_string(server.port),
-                         [this, connected](const asio::error_code& error, const auto& found) {
+                         [this, server, tls, hello](const asio::error_code& error, const auto& results) {
                            if (error) return end("cannot find the host: " + error.message());
-                           asio::async_connect(socket, found, connected);
+                           found = results;
+                           untried = found.begin();
+                           try_next(server, tls, hello, asio::error::host_not_found);
                          });
   return {};
 }
 
-void Connection::Impl::end(const std::string& why) {
+/// Connects to the next of the server's addresses, and says hello.
+void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
+                                const HelloMessage& hello, const asio::error_code& before) {
+  if (ended) return;
+  if (untried == found.end())
+    return end("cannot connect: " + before.message() + "; is a server running there?");
+  const tcp::endpoint to = *untried++;
+  asio::error_code failed;
+  socket.close(failed);
+  socket.open(to.protocol(), failed);
+  if (failed) return try_next(server, std::move(tls), hello, failed);
+  // What the link does not take is to wait at the server, as it would there, and not in this socket.
+  asio::error_code ignored;
+  if (server.link) socket.set_option(tcp::socket::receive_buffer_size(limits::link_receive_bytes), ignored);
+  socket.async_connect(to, [this, server, tls, hello](const asio::error_code& refused) {
+    if (refused) return try_next(server, tls, hello, refused);
+    transport = std::make_shared<TcpTransport>(std::move(socket));
+    if (server.link)
+      transport = std::make_shared<LinkTransport>(std::move(transport), *server.link,
+                                                  std::make_unique<AsioLinkClock>(context));
+    if (tls) transport = std::make_shared<TlsTransport>(std::move(transport), TlsEngine(tls, server.host));
+    push(encode(ClientMessage{hello}));
+    read();
+  });
+}
+
+void Connection::Impl::end(const std::string& why, const std::string& refusal) {
   if (ended) return;
   ended = true;
   asio::error_code ignored;
@@ -104,7 +129,7 @@ void Connection::Impl::end(const std::string& why) {
   {
     const std::scoped_lock lock(mutex);
     open = false;
-    reason = why;
+    reason = {{why}, refusal};
   }
   changed.notify_all();
   if (!welcome) context.stop();
@@ -153,7 +178,7 @@ void Connection::Impl::take_messages() {
 
 void Connection::Impl::handle(ServerMessage message, size_t bytes) {
   if (const auto* refusal = std::get_if<RefusalMessage>(&message))
-    return end("the server refused: " + refusal->reason);
+    return end("the server refused: " + refusal->reason, refusal->name);
   if (welcome) {
     if (std::holds_alternative<WelcomeMessage>(message)) return end("the server sent a second welcome");
     enqueue(std::move(message), bytes);
@@ -225,25 +250,27 @@ std::vector<Received> Connection::Impl::take_all() {
 
 Connection::Connection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
-Result<std::unique_ptr<Connection>> Connection::connect(const ServerEndpoint& server, HelloMessage hello,
-                                                        std::chrono::milliseconds within) {
-  const std::string address = server.host + ":" + std::to_string(server.port) + ": ";
+tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
+    const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within) {
+  const auto failed = [&server](const std::string& why, const std::string& refusal = {}) {
+    return tl::unexpected(
+        ConnectionEnd{{server.host + ":" + std::to_string(server.port) + ": " + why}, refusal});
+  };
   hello.token = server.token;
   try {
     auto impl = std::make_unique<Impl>();
-    if (Result<void> started = impl->start(server, hello); !started)
-      return fail(address + started.error().message);
+    if (Result<void> started = impl->start(server, hello); !started) return failed(started.error().message);
     impl->context.run_for(within);
     if (!impl->welcome) {
       impl->end("no answer within " + std::to_string(within.count()) + " ms");
-      return fail(address + impl->reason);
+      return failed(impl->reason.message, impl->reason.refusal);
     }
     if (!impl->ended) impl->work.emplace(impl->context.get_executor());
     impl->context.restart();
     impl->thread = std::thread([context = &impl->context] { context->run(); });
     return std::unique_ptr<Connection>(new Connection(std::move(impl)));
   } catch (const std::exception& error) {
-    return fail(address + error.what());
+    return failed(error.what());
   }
 }
 
@@ -284,7 +311,7 @@ bool Connection::connected() const {
   return impl_->open;
 }
 
-std::string Connection::close_reason() const {
+ConnectionEnd Connection::end() const {
   const std::scoped_lock lock(impl_->mutex);
   return impl_->reason;
 }

@@ -16,6 +16,11 @@
 
 namespace scree {
 
+/// Why there is no connection, or no more.
+struct ConnectionEnd : Error {
+  std::string refusal{};  ///< the name of the server's reason, if it refused (RefusalMessage); else empty
+};
+
 struct Received {
   ServerMessage message;
   size_t bytes = 0;  ///< on the wire, length prefix included
@@ -36,8 +41,9 @@ class Connection {
  public:
   /// Connects, sends a hello, with the endpoint's token, and waits for the welcome. The error names the
   /// address and the failure; a refusal has the server's reason.
-  static Result<std::unique_ptr<Connection>> connect(const ServerEndpoint& server, HelloMessage hello,
-                                                     std::chrono::milliseconds within);
+  static tl::expected<std::unique_ptr<Connection>, ConnectionEnd> connect(const ServerEndpoint& server,
+                                                                          HelloMessage hello,
+                                                                          std::chrono::milliseconds within);
   /// Closes.
   ~Connection();
   Connection(const Connection&) = delete;
@@ -56,7 +62,8 @@ class Connection {
 
   bool connected() const;
   /// The reason for which the connection closed; empty while it is open.
-  std::string close_reason() const;
+  ConnectionEnd end() const;
+  std::string close_reason() const { return end().message; }
   ConnectionCounters counters() const;
 
   void close();

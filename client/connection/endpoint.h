@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "crypto/tls_context.h"
 #include "proto/messages.h"
+#include "transport/link_config.h"
 
 namespace scree {
 
@@ -13,7 +15,8 @@ struct ServerEndpoint {
   std::string host = "127.0.0.1";
   uint16_t port = default_port;
   bool tls = false;
-  TlsTrust trust{};     ///< with TLS: whose certificate is taken
+  TlsTrust trust{};                  ///< with TLS: whose certificate is taken
+  std::optional<LinkConfig> link{};  ///< as if each connection went by such a link
   std::string token{};  ///< goes with the hello: an access token, or the server's admin token; empty: none
 };
 

@@ -35,10 +35,21 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
   app.add_option("--token-file", token_path_, "its first line is the token")
       ->envname(token_environment + "_FILE")
       ->excludes(token);
+  app.add_option(
+         "--link", link_,
+         "simulate a link, each way: delay=50ms,jitter=20ms,rate=1Mbit, buffer=16kB of the bottleneck, "
+         "cut=100000 or half-open=50kB after so many bytes of each connection, seed=1; one way: "
+         "down.rate=100kbit, up.cut=2000")
+      ->envname("SCREE_LINK");
 }
 
 Result<void> EndpointOptions::complete() {
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
+  if (!link_.empty()) {
+    const auto link = read_link(link_);
+    if (!link) return fail("--link: " + link.error().message);
+    endpoint_.link = *link;
+  }
   if (!token_path_.empty()) {
     auto token = read_secret(token_path_, limits::access_token_bytes_max);
     if (!token) return tl::unexpected(token.error());

@@ -21,12 +21,13 @@ class EndpointOptions {
   EndpointOptions(const EndpointOptions&) = delete;
   EndpointOptions& operator=(const EndpointOptions&) = delete;
 
-  /// After the parsing: reads the token's file, and understands what to trust as a wish for TLS.
+  /// After the parsing: reads the token's file and the link, and understands what to trust as a wish for TLS.
   Result<void> complete();
 
  private:
   ServerEndpoint& endpoint_;
   std::string token_path_;
+  std::string link_;
 };
 
 }  // namespace scree

@@ -18,4 +18,8 @@ inline constexpr size_t unsent_bytes_max = size_t{1} << 20;
 /// Bytes read from the socket at once.
 inline constexpr size_t read_bytes = size_t{64} << 10;
 
+/// Bytes of the kernel's receive buffer of a connection by a simulated link. Above: the server's kernel holds
+/// them back.
+inline constexpr int link_receive_bytes = 4096;
+
 }  // namespace scree::limits

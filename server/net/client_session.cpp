@@ -167,7 +167,7 @@ void ClientSession::write_done(size_t bytes) {
 
 void ClientSession::refuse(const Refused& refused) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
-  send(ServerMessage(RefusalMessage{refused.message}));
+  send(ServerMessage(RefusalMessage{refused.message, std::string(name_of(refused.reason))}));
   if (phase_ == Phase::closed) return;
   phase_ = Phase::refused;
   phase_since_s_ = steady_now_s();

@@ -97,7 +97,8 @@ void Entrance::turn_away(asio::ip::tcp::socket socket, const std::string& peer, 
   const Refused refused = words_for(reason);
   asio::error_code ignored;
   socket.non_blocking(true, ignored);
-  socket.write_some(asio::buffer(encode(ServerMessage(RefusalMessage{refused.message}))), ignored);
+  const RefusalMessage told{refused.message, std::string(name_of(refused.reason))};
+  socket.write_some(asio::buffer(encode(ServerMessage(told))), ignored);
   host_.turned_away(peer, refused);
 }
 

@@ -250,7 +250,8 @@ void NetHost::request(ClientSession& session, const Command& command) {
 void NetHost::refuse_request(ClientSession& session, uint32_t request, const Refused& refused) {
   ++counts_.requests_refused;
   counts_.refusals.add(refused.reason);
-  session.send(ServerMessage(ReplyMessage{request, refused.message, 0}));
+  session.send(
+      ServerMessage(ReplyMessage{request, refused.message, 0, std::string(name_of(refused.reason))}));
 }
 
 /// A wrong token ends the connection, so that each connection has one attempt.

@@ -246,7 +246,8 @@ void Publisher::send_replies(const TickDelta& delta) {
   for (const Reply& reply : delta.replies) {
     const auto client = clients_.find(reply.session);
     if (client == clients_.end()) continue;
-    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces}));
+    const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
+    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name}));
   }
 }
 

@@ -156,7 +156,7 @@ inline Lines describe(const WelcomeMessage& m) {
                       m.terrain.random_seed, m.terrain.voxel_size_m)};
 }
 inline Lines describe(const RefusalMessage& m) {
-  return {fmt::format("refusal: '{}'", m.reason)};
+  return {fmt::format("refusal: '{}', name '{}'", m.reason, m.name)};
 }
 /// The check is compared with that of the patches, which replace all edits of their chunks here.
 inline Lines describe(const FrameMessage& m) {
@@ -192,7 +192,8 @@ inline Lines describe(const ResetMessage&) {
   return {"reset"};
 }
 inline Lines describe(const ReplyMessage& m) {
-  return {fmt::format("reply: request {}, refusal '{}', {} pieces", m.request, m.refusal, m.pieces)};
+  return {fmt::format("reply: request {}, refusal '{}', name '{}', {} pieces", m.request, m.refusal,
+                      m.refusal_name, m.pieces)};
 }
 inline Lines describe(const StatusMessage& m) {
   return {fmt::format("status: tick {}, {} clients, {} pieces, field hash 0x{:016x}", m.tick, m.clients,

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "client/connection/come_again.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
@@ -186,7 +187,7 @@ TEST(ProtocolDocument, its_limits_are_the_programs) {
   EXPECT_EQ(found, limits_by_name.size());
 }
 
-/// The document's table of refusals: rows "| `name`, `name`* | …".
+/// The document's table of refusals: rows "| `name`, `name`* | … | again |", which says what clients do.
 TEST(ProtocolDocument, its_refusals_are_all_that_end_a_session) {
   std::set<std::string> stated, given;
   const std::string text = document(), heading = "| refusals |";
@@ -194,8 +195,10 @@ TEST(ProtocolDocument, its_refusals_are_all_that_end_a_session) {
   static const std::regex quoted("`([a-z_]+)`");
   for (std::string line; std::getline(table, line) && !line.empty();) {
     const std::string first = line.substr(0, line.find('|', 1));
-    for (std::sregex_iterator it(first.begin(), first.end(), quoted), end; it != end; ++it)
+    for (std::sregex_iterator it(first.begin(), first.end(), quoted), end; it != end; ++it) {
       stated.insert((*it)[1]);
+      EXPECT_EQ(may_come_again((*it)[1].str()), line.ends_with("| later |")) << line;
+    }
   }
   for (auto i = static_cast<size_t>(Refusal::connects_per_second); i < refusal_reasons; ++i)
     given.emplace(name_of(static_cast<Refusal>(i)));

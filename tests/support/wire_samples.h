@@ -125,13 +125,13 @@ inline std::vector<ServerMessage> server_messages() {
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {
       welcome,
-      RefusalMessage{"protocol 9 is not 1"},
+      RefusalMessage{"protocol 9 is not 1", "protocol_version"},
       frame(),
       FrameMessage{},
       chunk,
       PieceMessage{31, volume(), {1, -2, 3, 4}},
       ResetMessage{},
-      ReplyMessage{7, "radius 12 m is over 8 m", 0},
+      ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid"},
       status,
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       physics(),

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "client/connection/come_again.h"
 #include "client/viewer/base/limits.h"
 #include "shared/base/overloaded.h"
 
@@ -37,7 +38,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
   SessionStep step;
   if (!connection_) {
-    if (!connecting_.valid() && now_s >= next_try_s_) begin_connecting(eye_m);
+    if (!connecting_.valid() && !gave_up_ && now_s >= next_try_s_) begin_connecting(eye_m);
     step.new_world = finish_connecting(now_s);
   }
   if (connection_) receive(now_s, step);
@@ -54,12 +55,12 @@ void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   hello.interest_radius_m = interest_radius_m_;
   hello.name = name_;
   connecting_ = std::async(std::launch::async, [server = server_, hello] {
-    Result<std::unique_ptr<Connection>> made = Connection::connect(server, hello, connect_within);
+    auto made = Connection::connect(server, hello, connect_within);
     Attempt attempt;
     if (made) {
       attempt.connection = std::move(*made);
     } else {
-      attempt.error = std::move(made.error().message);
+      attempt.end = std::move(made.error());
     }
     return attempt;
   });
@@ -70,7 +71,7 @@ bool ViewerSession::finish_connecting(double now_s) {
     return false;
   Attempt attempt = connecting_.get();
   if (!attempt.connection) {
-    lose(now_s, attempt.error);
+    lose(now_s, attempt.end);
     return false;
   }
   connection_ = std::move(attempt.connection);
@@ -89,11 +90,12 @@ bool ViewerSession::finish_connecting(double now_s) {
   return true;
 }
 
-void ViewerSession::lose(double now_s, const std::string& reason) {
+void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
   connection_.reset();
   cursors_.clear();
   physics_.reset();
-  trouble_ = reason;
+  trouble_ = end.message;
+  gave_up_ = !may_come_again(end.refusal);
   if (connected_since_s_ && now_s - *connected_since_s_ >= limits::reconnect_worth_s)
     retry_s_ = limits::reconnect_min_s;
   connected_since_s_.reset();
@@ -121,7 +123,7 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
     rate_since_s_ = now_s;
     rate_bytes_ = 0;
   }
-  if (last) lose(now_s, connection_->close_reason());
+  if (last) lose(now_s, connection_->end());
 }
 
 void ViewerSession::apply(const ServerMessage& message, double now_s, SessionStep& step) {
@@ -137,7 +139,7 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
              message);
   const Result<MirrorChanges> changes = mirror_->apply(message);
   if (!changes) {
-    lose(now_s, "what the server sent cannot be applied: " + changes.error().message);
+    lose(now_s, {{"what the server sent cannot be applied: " + changes.error().message}});
     return;
   }
   saw_pieces_ = saw_pieces_ || !changes->pieces_added.empty();
@@ -213,7 +215,7 @@ std::string ViewerSession::description() const {
     return where + (welcome.replay ? " (a recording)" : ", as " + std::string(name_of(welcome.role)));
   }
   if (trouble_.empty()) return "connecting to " + where + " ...";
-  return trouble_ + " - trying again";
+  return gave_up_ ? trouble_ : trouble_ + " - trying again";
 }
 
 std::string ViewerSession::notice(double now_s) const {

@@ -1,5 +1,6 @@
 // The viewer's session with a server: connects, and again after a lost connection; plays messages back into a
-// mirror; reports the camera's place. Without a connection, the last world stays visible.
+// mirror; reports the camera's place. Without a connection, the last world stays visible. A refusal that
+// cannot change by itself (come_again.h) is shown, and not tried against.
 //
 // Main thread only (connecting runs on another). Time comes in as seconds of std::chrono::steady_clock.
 #pragma once
@@ -66,7 +67,7 @@ class ViewerSession {
   /// One of the two.
   struct Attempt {
     std::unique_ptr<Connection> connection;
-    std::string error;
+    ConnectionEnd end;
   };
 
   void begin_connecting(glm::vec3 eye_m);
@@ -75,7 +76,7 @@ class ViewerSession {
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);
-  void lose(double now_s, const std::string& reason);
+  void lose(double now_s, const ConnectionEnd& end);
 
   ServerEndpoint server_;
   float interest_radius_m_;
@@ -85,7 +86,8 @@ class ViewerSession {
   std::unique_ptr<Mirror> mirror_;
   Playback playback_;
   ScenePieces pieces_;
-  std::string trouble_;  ///< the reason for the missing connection
+  std::string trouble_;   ///< the reason for the missing connection
+  bool gave_up_ = false;  ///< the server refused for a reason that stays (may_come_again)
   double next_try_s_ = 0.0;
   double retry_s_;  ///< from the next loss to the attempt after it
   std::optional<double> connected_since_s_;
