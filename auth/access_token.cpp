@@ -8,6 +8,7 @@
 #include "auth/limits.h"
 #include "proto/byte_stream.h"
 #include "proto/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -24,8 +25,7 @@ Result<void> check_text(const std::string& text, size_t bytes_max, const char* w
   if (text.size() > bytes_max)
     return fail(std::string(what) + " has " + std::to_string(text.size()) + " bytes, over the limit of " +
                 std::to_string(bytes_max));
-  const auto is_control = [](char c) { return static_cast<uint8_t>(c) < 0x20 || c == 0x7F; };
-  if (std::ranges::any_of(text, is_control)) return fail(std::string(what) + " holds control characters");
+  if (const auto fault = fault_of_text(text)) return fail(std::string(what) + " " + std::string(*fault));
   return {};
 }
 

@@ -86,7 +86,7 @@ void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reade
     if (const ClientView* const view = reader(session)) turns.push_back({session, &queue, view});
   }
   const auto after = [this](const Turn& turn) { return turn.session > served_last_; };
-  std::ranges::stable_partition(turns, after);
+  std::stable_partition(turns.begin(), turns.end(), after);  // clang 14 does not compile that of std::ranges
   int work_left = limits::ground_work_per_tick;
   while (!turns.empty()) {
     std::erase_if(turns, [&](Turn& turn) {

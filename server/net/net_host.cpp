@@ -96,10 +96,24 @@ void NetHost::turned_away(const std::string& peer, const Refused& refused) {
 }
 
 void NetHost::entered(asio::ip::tcp::socket socket, const std::string& address) {
+  begin(transport_over(std::move(socket)), address);
+}
+
+bool NetHost::enter(std::shared_ptr<Transport> transport) {
+  const std::string address = door_address(transport->address());
+  if (const auto no = entrance_.door().enter(address, steady_now_s())) {
+    turned_away(transport->address(), {*no, "by the door"});
+    return false;
+  }
+  begin(std::move(transport), address);
+  return true;
+}
+
+void NetHost::begin(std::shared_ptr<Transport> transport, const std::string& address) {
   const uint64_t id = next_session_++;
   const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
-  const auto session = std::make_shared<ClientSession>(transport_over(std::move(socket)), address, id, *this,
-                                                       times, steady_now_s());
+  const auto session =
+      std::make_shared<ClientSession>(std::move(transport), address, id, *this, times, steady_now_s());
   const double rate = service_.requests_per_second;
   CHECK(!sessions_.contains(id));
   sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate))});

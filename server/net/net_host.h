@@ -29,6 +29,9 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   /// Call before the thread runs.
   Result<void> listen();
+  /// A connection that something else than a socket carries, as if it had come in by the entrance. False: it
+  /// was turned away.
+  bool enter(std::shared_ptr<Transport> transport);
   uint16_t port() const { return entrance_.port(); }
   /// The network thread: returns after shut_down().
   void run();
@@ -65,6 +68,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   void turned_away(const std::string& peer, const Refused& refused) override;
   void accepting_failed(const std::string& why) override;
 
+  void begin(std::shared_ptr<Transport> transport, const std::string& address);
   void close_oldest_outsider(const std::string& why);
   bool make_room(const ClientSession& newcomer, const Grant& grant);
   /// A line of the log, of a kind of which there are few a second.

@@ -52,6 +52,10 @@ TEST(AccessTokens, the_longest_fits_and_a_longer_name_is_refused) {
   EXPECT_TRUE(holds(sign(token, key).error().message, "over the limit of 32"));
   token.name = "two\nlines";
   EXPECT_TRUE(holds(sign(token, key).error().message, "control characters"));
+  token.name = "Ann\xE2\x80\xAE";
+  EXPECT_TRUE(holds(sign(token, key).error().message, "set its direction"));
+  token.name = "Ann\xFF";
+  EXPECT_TRUE(holds(sign(token, key).error().message, "is not UTF-8"));
   token.name = "";
   token.id = 0;
   EXPECT_FALSE(sign(token, key));

@@ -1,0 +1,130 @@
+#!/usr/bin/env bash
+# The fuzzers of tests/fuzz. `./scree fuzz` builds a target before it calls this with its name, and what to do.
+# What is found lies in build/fuzz: found/NAME has the inputs with new coverage, failed/NAME those on which the
+# target fails, log/NAME.log libFuzzer's output.
+set -euo pipefail
+
+root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+readonly root targets="$root/tests/fuzz/targets" corpora="$root/tests/fuzz/corpus" built="$root/build/fuzz"
+# Seconds for one input, and megabytes: above, the input is a finding. An input takes milliseconds, as a rule.
+readonly input_s_max=60 memory_mb_max=4096
+# Bytes of found inputs that go into the tree for one target, beside the seeds and the findings, and of one of them.
+readonly kept_bytes_max=65536 kept_input_bytes_max=4096
+
+say() { printf 'fuzz: %s\n' "$*"; }
+die() {
+  printf 'fuzz: error: %s\n' "$*" >&2
+  exit 1
+}
+
+usage() {
+  cat <<'TEXT'
+usage: ./scree fuzz --list                 names the targets
+       ./scree fuzz NAME [--minutes N]     fuzzes a target for N minutes (5), on one core, from the corpus in the tree
+                                           and what was found before; ends at the first input on which it fails
+       ./scree fuzz NAME FILE…             runs these inputs
+       ./scree fuzz NAME --merge           adds the smallest of what was found, as far as it has coverage of its own,
+                                           to the corpus in the tree
+       ./scree fuzz --seeds                writes the first inputs of all corpora anew
+
+What is found is kept in build/fuzz (found, failed, log). docs/fuzzing.md says how to add a target.
+TEXT
+}
+
+# The name and the first sentence of each target's comment.
+list() {
+  local file name
+  for file in "$targets"/*.cpp; do
+    name=$(basename "$file" .cpp)
+    printf '%-16s %s\n' "$name" "$(sed -n '/^\/\//!q; s/^\/\/ \?//p' "$file" | tr '\n' ' ' | sed 's/\([:.]\) .*/\1/; s/[:.]$//')"
+  done
+}
+
+# number NAME LOG: a number of libFuzzer's final statistics.
+number() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
+
+# report NAME LOG STARTED SECONDS: in a line; and inputs that failed since the file STARTED, with what to do next.
+report() {
+  local name=$1 log=$2 started=$3 seconds=$4 executions coverage found failed
+  executions=$(number number_of_executed_units "$log")
+  coverage=$(grep -o 'cov: [0-9]* ft: [0-9]*' "$log" | tail -n 1 || true)
+  found=$(find "$built/found/$name" -type f | wc -l)
+  say "$name: ${executions:-no} executions in $seconds s of processor time; coverage ${coverage:-unknown};" \
+    "$found inputs found so far"
+  mapfile -t failed < <(find "$built/failed/$name" -type f -newer "$started" ! -name 'slow-unit-*')
+  ((${#failed[@]})) || return 0
+  grep -E -m 3 'CHECK failed|ERROR: (Address|Leak|lib)|runtime error' "$log" || true
+  for file in "${failed[@]}"; do
+    say "it fails on $file ($(stat -c %s "$file") bytes); to run it again:"
+    printf '  ./scree fuzz %s %s\n' "$name" "${file#"$root"/}"
+    xxd -l 256 "$file" 2>/dev/null || true
+  done
+  say "fix the cause, and keep the input: cp … tests/fuzz/corpus/$name/finding-…"
+  return 1
+}
+
+# options: what every run has.
+set_options() {
+  options=(-timeout=$input_s_max -rss_limit_mb=$memory_mb_max -max_len=16384)
+  export ASAN_OPTIONS=${ASAN_OPTIONS:-allocator_may_return_null=1:detect_stack_use_after_return=0}
+  export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+  [[ -d /dev/shm && -w /dev/shm ]] && export TMPDIR=/dev/shm # targets that read files write them first
+}
+
+fuzz() {
+  local name=$1 minutes=$2 log="$built/log/$1.log" started seconds TIMEFORMAT=%U
+  mkdir -p "$built/found/$name" "$built/failed/$name" "$built/log"
+  started=$(mktemp)
+  local dictionary="$root/tests/fuzz/dictionaries/$name.dict"
+  [[ -e $dictionary ]] && options+=(-dict="$dictionary")
+  options+=(-print_final_stats=1 -artifact_prefix="$built/failed/$name/"
+    -max_total_time="$(awk -v m="$minutes" 'BEGIN { printf "%d", m * 60 }')")
+  { time { "$built/bin/fuzz_$name" "${options[@]}" "$built/found/$name" "$corpora/$name" 2>&1 | tee "$log" |
+    grep --line-buffered -E 'INITED|pulse|ERROR|CHECK' >&3 || true; }; } 3>&1 2>"$started.seconds"
+  seconds=$(<"$started.seconds")
+  report "$name" "$log" "$started" "$seconds"
+}
+
+# Seeds and findings stay; of the rest of the corpus, and of what was found, those that add coverage.
+merge() {
+  local name=$1 corpus="$corpora/$1" fresh="$built/merged/$1" kept=0 file bytes
+  rm -rf "$fresh"
+  mkdir -p "$fresh" "$built/found/$name"
+  find "$corpus" -type f \( -name 'seed-*' -o -name 'finding-*' \) -exec cp {} "$fresh" \;
+  "$built/bin/fuzz_$name" "${options[@]}" -merge=1 "$fresh" "$corpus" "$built/found/$name" 2>&1 | grep 'MERGE-OUTER' || true
+  find "$corpus" -type f ! -name 'seed-*' ! -name 'finding-*' -delete
+  while read -r bytes file; do
+    ((bytes <= kept_input_bytes_max && kept + bytes <= kept_bytes_max)) || break
+    kept=$((kept + bytes))
+    cp "$fresh/$file" "$corpus"
+  done < <(find "$fresh" -type f ! -name 'seed-*' ! -name 'finding-*' -printf '%s %f\n' | sort -n)
+  say "$corpus: $(find "$corpus" -type f | wc -l) inputs, $(du -bs "$corpus" | cut -f1) bytes"
+}
+
+main() {
+  local name=${1:-}
+  case $name in
+    --list) list && return ;;
+    --seeds) "$built/bin/fuzz_seeds" "$corpora" && return ;;
+    --help | -h) usage && return ;;
+    '')
+      usage >&2
+      exit 2
+      ;;
+  esac
+  shift
+  local options=()
+  set_options
+  case ${1:-} in
+    --merge) merge "$name" ;;
+    --minutes)
+      [[ ${2:-} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--minutes needs a number"
+      fuzz "$name" "$2"
+      ;;
+    '') fuzz "$name" 5 ;;
+    -*) die "there is no option '$1'; ./scree fuzz --help lists them" ;;
+    *) "$built/bin/fuzz_$name" "${options[@]}" "$@" ;;
+  esac
+}
+
+main "$@"

@@ -1,0 +1,108 @@
+// Requests derived from a fuzzer's bytes: mostly of the sizes that people ask for, so that they are carried
+// out, and now and then of any numbers. Lengths in metres.
+#pragma once
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+#include <vector>
+
+#include "server/world/settings.h"
+#include "shared/base/limits.h"
+#include "shared/operation/request.h"
+#include "tests/fuzz/support/fuzz_input.h"
+
+namespace scree {
+
+/// Edits lie so near the origin that they meet.
+inline constexpr float fuzz_place_m = 12.0F;
+
+template <HasRows Kind>
+Kind any_kind(FuzzInput& input) {
+  return static_cast<Kind>(input.byte() % kind_count<Kind>);
+}
+/// Or sometimes one that is not known.
+template <HasRows Kind>
+Kind any_number_as(FuzzInput& input) {
+  return input.below(32) == 31 ? static_cast<Kind>(input.byte()) : any_kind<Kind>(input);
+}
+
+inline Shape any_shape(FuzzInput& input) {
+  Shape shape;
+  shape.kind = any_number_as<ShapeKind>(input);
+  shape.a = input.place(fuzz_place_m);
+  shape.b = shape.kind == ShapeKind::box ? input.place(4.0F) : shape.a + input.place(3.0F);
+  shape.radius_m = input.coordinate(4.0F);
+  if (shape.kind == ShapeKind::box && input.flag()) shape.b = glm::abs(shape.b);
+  if (input.below(8) != 0) shape.radius_m = std::abs(shape.radius_m);
+  return shape;
+}
+
+/// Few, or sometimes as many as any number says.
+inline uint32_t any_seeds(FuzzInput& input) {
+  return input.below(64) == 63 ? input.number<uint32_t>() : input.below(24);
+}
+
+inline std::vector<glm::vec3> any_points(FuzzInput& input, uint32_t count) {
+  std::vector<glm::vec3> points;
+  for (uint32_t i = 0; i < count; ++i) points.push_back(input.place(fuzz_place_m));
+  return points;
+}
+
+inline CarveRequest any_carve(FuzzInput& input) {
+  CarveRequest carve;
+  carve.shape = any_shape(input);
+  carve.pattern = any_number_as<SeedPattern>(input);
+  carve.seeds = any_seeds(input);
+  carve.random_seed = input.byte();
+  carve.impact_m = input.place(fuzz_place_m);
+  carve.blast_speed_m_s = std::abs(input.coordinate(12.0F));
+  const bool given = carve.pattern == SeedPattern::authored;
+  carve.authored_m = any_points(input, given ? std::min(carve.seeds, 16U) : input.below(32) / 31);
+  return carve;
+}
+
+/// Encoders trust the kinds of what they encode.
+inline Shape known(Shape shape) {
+  if (!is_known(shape.kind)) shape.kind = ShapeKind::sphere;
+  return shape;
+}
+inline CarveRequest known(CarveRequest carve) {
+  carve.shape = known(carve.shape);
+  if (!is_known(carve.pattern)) carve.pattern = SeedPattern::uniform;
+  return carve;
+}
+
+/// A value of the row, or a number near its bounds, or any text.
+inline std::string any_value(FuzzInput& input, const Setting& row) {
+  if (input.below(8) == 7) return input.text(limits::setting_value_bytes_max);
+  if (!row.choices.empty()) return std::string(row.choices[input.below(256) % row.choices.size()]);
+  const double near = input.flag() ? row.bounds.min : row.bounds.max;
+  return std::to_string(near + input.coordinate(100.0F));
+}
+
+inline SettingValues any_settings(FuzzInput& input) {
+  SettingValues values;
+  for (uint32_t count = 1 + input.below(3); count > 0; --count) {
+    const Setting& row = settings()[input.byte() % settings().size()];
+    std::string name(row.name);
+    if (input.below(16) == 15) name = input.text(limits::setting_name_bytes_max);
+    values.push_back({std::move(name), any_value(input, row)});
+  }
+  return values;
+}
+
+inline Request any_request(FuzzInput& input) {
+  switch (input.below(6)) {
+    case 0:
+      return FillRequest{any_shape(input)};
+    case 1:
+      return PaintRequest{any_shape(input), any_number_as<Material>(input)};
+    case 2:
+      return SettingsRequest{any_settings(input)};
+    default:
+      return any_carve(input);
+  }
+}
+
+}  // namespace scree

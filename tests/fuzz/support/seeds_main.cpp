@@ -1,0 +1,246 @@
+// Writes the first inputs of each target's corpus, from messages of every kind, a session of a real server
+// with two clients, and a recording of it: fuzz_seeds FOLDER. What fuzzing adds to them is found by the
+// fuzzer.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "auth/access_token.h"
+#include "auth/base64url.h"
+#include "proto/operation_codec.h"
+#include "server/store/recording.h"
+#include "server/store/recording_writer.h"
+#include "tests/fuzz/support/any_request.h"
+#include "tests/fuzz/support/fuzz_server.h"
+#include "tests/fuzz/support/scratch_file.h"
+#include "tests/support/wire_samples.h"
+
+namespace scree {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
+constexpr size_t seed_bytes_max = 12'000;
+constexpr int session_ticks = 150;
+
+/// The other way round than FuzzInput.
+class Seed {
+ public:
+  Seed& byte(uint8_t value) {
+    bytes.push_back(value);
+    return *this;
+  }
+  Seed& raw(std::span<const uint8_t> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    return *this;
+  }
+  Seed& packet(std::span<const uint8_t> body) {
+    byte(static_cast<uint8_t>(body.size())).byte(static_cast<uint8_t>(body.size() >> 8U));
+    return raw(body);
+  }
+  Seed& text(const std::string& more) {
+    return raw({reinterpret_cast<const uint8_t*>(more.data()), more.size()});
+  }
+
+  Bytes bytes;
+};
+
+class Corpora {
+ public:
+  explicit Corpora(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(const std::string& target, const Bytes& bytes) {
+    if (bytes.size() > seed_bytes_max) return;
+    std::filesystem::create_directories(folder_ / target);
+    const std::string name = "seed-" + std::to_string(++written_[target]);
+    std::ofstream(folder_ / target / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  void print() const {
+    for (const auto& [target, count] : written_) std::printf("%s: %d inputs\n", target.c_str(), count);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, int> written_;
+};
+
+Bytes body_of(const ServerMessage& message) {
+  const Bytes framed = encode(message);
+  return {framed.begin() + length_prefix_bytes, framed.end()};
+}
+Bytes body_of(const ClientMessage& message) {
+  const Bytes framed = encode(message);
+  return {framed.begin() + length_prefix_bytes, framed.end()};
+}
+
+HelloMessage hello(bool lacks_kernels) {
+  return {.client = "seeds",
+          .eye_m = {0.0F, 2.0F, 0.0F},
+          .interest_radius_m = 64.0F,
+          .lacks_kernels = lacks_kernels};
+}
+
+CarveMessage carve(float x_m, uint32_t number) {
+  CarveRequest carve;
+  carve.shape = sphere({x_m, 0.0F, 0.0F}, 2.5F);
+  carve.seeds = 5;
+  carve.random_seed = number;
+  carve.impact_m = {x_m, 2.0F, 0.0F};
+  return {carve, number};
+}
+
+/// What the clients of a session say, by tick.
+std::vector<std::vector<ClientMessage>> conversation() {
+  std::vector<std::vector<ClientMessage>> said(session_ticks);
+  said[1] = {carve(0.0F, 1), WatchMessage{true}};
+  said[4] = {FillMessage{{box({5.0F, 1.0F, 0.0F}, {1.0F, 2.0F, 1.0F})}, 2}, AckMessage{3}};
+  said[8] = {PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 3.0F), Material::ice}, 3},
+             CursorMessage{{0.0F, 2.0F, 0.0F}, {1.0F, 0.0F, 0.0F}}};
+  said[12] = {carve(5.0F, 4), GroundRequest{{{0, 0, 0}, {1, -1, 0}}}};
+  said[20] = {InterestMessage{{80.0F, 2.0F, 0.0F}, 40.0F}};
+  said[30] = {InterestMessage{{0.0F, 2.0F, 0.0F}, 64.0F}, RepairRequest{3, {{0, 0, 0}}, {7}}};
+  said[40] = {AdminMessage{5, FuzzServer::admin_token, SettingValues{{"recombine", "slices"}}}};
+  said[60] = {AdminMessage{6, FuzzServer::admin_token, ListSessions{}}};
+  return said;
+}
+
+void write_messages(Corpora& corpora) {
+  const Bytes greeting = encode(ClientMessage(hello(false)));
+  for (const ClientMessage& message : samples::client_messages())
+    corpora.add("client_messages", Seed().byte(40).raw(greeting).raw(encode(message)).bytes);
+  for (const ServerMessage& message : samples::server_messages())
+    corpora.add("server_messages", body_of(message));
+}
+
+void write_packed(Corpora& corpora) {
+  const FrameMessage frame = samples::frame();
+  const Bytes parts[] = {encode_operations(frame.operations), encode_operation(frame.operations.front()),
+                         encode_bricks(frame.patches), encode_volume(samples::volume()), frame.transforms};
+  for (uint8_t i = 0; i < std::size(parts); ++i) corpora.add("packed", Seed().byte(i).raw(parts[i]).bytes);
+  for (const Operation& operation : frame.operations)
+    corpora.add("packed", Seed().byte(1).raw(encode_operation(operation)).bytes);
+}
+
+/// A session as the actions of the target `server`, and what its clients received as those of `mirror`.
+void write_session(Corpora& corpora) {
+  FuzzServer server(terrain);
+  Seed actions;
+  for (uint8_t i = 0; i < 2; ++i) {
+    FuzzClient* client = server.connect(i);
+    client->keeps = true;
+    client->send(hello(i == 1));
+    actions.byte(0).byte(i).byte(0).byte(1).byte(i).packet(body_of(ClientMessage(hello(i == 1))));
+  }
+  for (const auto& said : conversation()) {
+    for (const ClientMessage& message : said) {
+      server.clients()[0]->send(message);
+      actions.byte(1).byte(0).packet(body_of(message));
+    }
+    server.pump();
+    server.tick();
+    actions.byte(6).byte(0).byte(0);
+  }
+  corpora.add("server", actions.bytes);
+  for (const auto& client : server.clients()) {
+    Seed mirror;  // flat, its seed, 1 m, 60 Hz, poses every third tick
+    mirror.byte(0).byte(1).byte(1).byte(50).byte(2);
+    for (const Bytes& body : client->received) {
+      corpora.add("server_messages",
+                  body.size() < 600 && body.size() > 40 ? body : Bytes(seed_bytes_max + 1));
+      const auto message = decode_server(body);
+      if (message && std::holds_alternative<WelcomeMessage>(*message)) continue;
+      if (mirror.bytes.size() + body.size() + 3 < seed_bytes_max) mirror.byte(1).packet(body);
+    }
+    corpora.add("mirror", mirror.bytes);
+  }
+}
+
+void write_recording(Corpora& corpora) {
+  WorldConfig config;
+  config.terrain = terrain;
+  World world(config);
+  const ScratchFile file("seeds");
+  const RecordingHeader header{"seeds", config};
+  auto writer = RecordingWriter::create(file.path(), header);
+  Seed rows;
+  const auto row = [&](uint8_t table, Tick tick, const Bytes& data) {
+    rows.byte(table).byte(static_cast<uint8_t>(tick)).packet(data);
+    corpora.add("packed", Seed().byte(static_cast<uint8_t>(5 + table)).raw(data).bytes);
+  };
+  rows.byte(1).byte(3);
+  row(0, 0, encode(to_recorded(header)));
+  PublishedState state;
+  for (Tick tick = 1; tick <= 6; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 2) commands = {{1, 1, carve(0.0F, 1)}, {2, 1, FillRequest{sphere({4.0F, 1.0F, 0.0F}, 1.0F)}}};
+    const auto delta = world.step(commands);
+    row(1, tick, encode(to_recorded(*delta, state)));
+    if (!commands.empty()) row(3, tick, encode(std::span<const RecordedCommand>(to_recorded(commands))));
+    state.apply(*delta);
+    if (tick == 3) row(2, tick, encode(to_recorded_keyframe(state.as_delta())));
+    (void)(*writer)->add(*delta, commands);
+  }
+  (void)(*writer)->finish();
+  corpora.add("recording", rows.bytes);
+}
+
+void write_texts(Corpora& corpora) {
+  const SigningKey key = SigningKey::generate();
+  const AccessToken token{77, Role::builder, 1'600'000'000, 1'700'000'000, "Ann", "canyon"};
+  const std::string texts[] = {"Ann \xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80 \xE2\x80\xAE",
+                               "c2NyZWU",
+                               *sign(token, key),
+                               id_text(77),
+                               "30d",
+                               "2001:db8::1",
+                               "10.0.0.1 0 too loud\n2001:db8::/64 1700000000 bot\n",
+                               "# revoked\n00000000000000ff\n4d00000000000000 # Ann\n"};
+  for (uint8_t i = 0; i < std::size(texts); ++i) corpora.add("texts", Seed().byte(i).text(texts[i]).bytes);
+  for (const char* address : {"::ffff:10.0.0.1", "127.0.0.1", "::1", "2001:db8:1:2::/64", "fe80::1%2"})
+    corpora.add("texts", Seed().byte(5).text(address).bytes);
+}
+
+void write_config(Corpora& corpora) {
+  const WorldConfig defaults;
+  std::string file;
+  for (const Setting& row : settings())
+    file += std::string(row.name) + " = \"" + row.print(defaults) + "\"\n";
+  corpora.add("config", Seed().text("\n" + file).bytes);
+  for (const Setting& row : settings())
+    corpora.add("config",
+                Seed().text("--" + std::string(row.name) + "=" + row.print(defaults) + "\n\n").bytes);
+  corpora.add("config", Seed()
+                            .text("--port=0\n--bind\n0.0.0.0\n--anonymous=viewer\n--ticks=5\n\n"
+                                  "terrain = 'noise'\nseed = 7\nvoxel-size = 0.25\ntick-rate = 60\n"
+                                  "admin-token = \"a-long-token\"\nlog = \"off\"\nduration = 1.5\n")
+                            .bytes);
+  corpora.add("config", Seed()
+                            .text("--host\nlocalhost\n--port\n4177\n--tls\n--token\nabcdefgh\n\n"
+                                  "[server]\nloop = true\nspeed = [1, 2]\n")
+                            .bytes);
+}
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  using namespace scree;
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  Corpora corpora(argv[1]);
+  write_messages(corpora);
+  write_packed(corpora);
+  write_session(corpora);
+  write_recording(corpora);
+  write_texts(corpora);
+  write_config(corpora);
+  corpora.print();
+  return 0;
+}

@@ -1,0 +1,179 @@
+// A client's mirror and a server of any intent: messages in any order after a valid welcome, recorded ones
+// and those made of the input.
+//
+// Holds: a message is applied or refused with a reason; after a refusal nothing follows. What the mirror asks
+// for and shows is within its limits.
+#include "client/mirror/mirror.h"
+
+#include <cmath>
+
+#include "client/mirror/limits.h"
+#include "proto/codec.h"
+#include "proto/transforms.h"
+#include "shared/base/check.h"
+#include "tests/fuzz/support/any_operation.h"
+#include "tests/fuzz/support/target.h"
+
+namespace scree {
+namespace {
+
+constexpr int messages_max = 48;
+constexpr int operations_max = 48;
+
+WelcomeMessage any_welcome(FuzzInput& input) {
+  WelcomeMessage welcome;
+  welcome.terrain = {static_cast<TerrainKind>(input.below(kind_count<TerrainKind>)), input.byte(),
+                     input.flag() ? 1.0F : 0.5F};
+  welcome.tick_rate_hz = 10 + input.byte();
+  welcome.ticks_per_transform = 1 + input.below(8);
+  welcome.interest_radius_m = 64.0F;
+  return welcome;
+}
+
+BrickCoord any_brick_coord(FuzzInput& input) {
+  const VoxelCoord at = any_voxel(input);
+  return {at.x / 4, at.y / 4, at.z / 4};
+}
+
+/// Uniform, but for a few voxels.
+Brick any_brick(FuzzInput& input) {
+  Brick brick = input.flag() ? solid_brick() : air_brick();
+  for (const uint8_t byte : input.bytes(input.below(8)))
+    brick.codes[(size_t{byte} * 2) % brick.codes.size()] = static_cast<Code>(byte % 255 - 127);
+  return brick;
+}
+
+std::vector<BrickPatch> any_bricks(FuzzInput& input) {
+  std::vector<BrickPatch> bricks;
+  for (uint32_t count = input.below(6); count > 0; --count) {
+    const BrickCoord coord = any_brick_coord(input);
+    const bool twice = std::ranges::any_of(bricks, [&](const BrickPatch& b) { return b.coord == coord; });
+    if (twice) continue;
+    BrickPatch patch{coord, any_brick(input)};
+    if (input.flag()) patch.paint = any_kind<Material>(input);
+    bricks.push_back(patch);
+  }
+  return bricks;
+}
+
+/// Poses of pieces, ordered.
+std::vector<uint8_t> any_transforms(FuzzInput& input) {
+  std::vector<PieceState> states;
+  PieceId id = 0;
+  for (uint32_t count = input.below(4); count > 0; --count)
+    states.push_back({id += 1 + input.below(8), any_pose(input)});
+  return pack_transforms(states);
+}
+
+FrameMessage any_frame(FuzzInput& input, Tick tick) {
+  FrameMessage frame;
+  frame.tick = tick + input.below(8);
+  for (uint32_t count = input.below(5); count > 0; --count) frame.operations.push_back(any_operation(input));
+  if (input.flag()) frame.patches = any_bricks(input);
+  for (uint32_t count = input.below(8) / 6; count > 0; --count)
+    frame.dropped_chunks.push_back(chunk_of(any_brick_coord(input)));
+  for (uint32_t count = input.below(8) / 5; count > 0; --count)
+    frame.removed_pieces.push_back(any_piece(input));
+  if (input.below(4) == 3) frame.transforms = any_transforms(input);
+  if (input.below(4) == 3) {
+    const auto motions = input.packet();
+    frame.motions.assign(motions.begin(), motions.end());
+  }
+  frame.has_check = input.flag();
+  if (frame.has_check) frame.check = input.byte();
+  return frame;
+}
+
+/// Mostly with the hash of its bricks.
+ChunkMessage any_chunk(FuzzInput& input) {
+  ChunkMessage chunk;
+  chunk.chunk = chunk_of(any_brick_coord(input));
+  chunk.bricks = any_bricks(input);
+  for (size_t i = 0; i < chunk.bricks.size(); ++i) {
+    BrickPatch& patch = chunk.bricks[i];
+    if (input.below(16) != 15)
+      patch.coord =
+          first_brick(chunk.chunk) + BrickCoord{static_cast<int>(i % 4), static_cast<int>(i / 4), 0};
+    chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+  }
+  if (input.below(16) == 15) ++chunk.hash;
+  return chunk;
+}
+
+ServerMessage any_message(FuzzInput& input, Tick tick) {
+  switch (input.below(8)) {
+    case 0:
+      return any_chunk(input);
+    case 1:
+    case 2: {
+      PieceMessage piece;
+      piece.id = any_piece(input);
+      piece.volume = any_volume(input);
+      piece.pose = any_pose(input);
+      return piece;
+    }
+    case 3:
+      return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, tick));
+    default:
+      return any_frame(input, tick);
+  }
+}
+
+class Session {
+ public:
+  explicit Session(const WelcomeMessage& welcome) : mirror_(welcome) {}
+
+  /// False when the session is over.
+  bool take(std::span<const uint8_t> body) {
+    const auto message = decode_server(body);
+    if (!message) return true;  // a connection would end; go on with what follows
+    if (const auto* frame = std::get_if<FrameMessage>(&*message))
+      operations_ += static_cast<int>(frame->operations.size());
+    if (operations_ > operations_max) return false;
+    const auto applied = mirror_.apply(*message);
+    if (!applied) {
+      CHECK(!applied.error().message.empty());
+      return false;
+    }
+    check_limits();
+    return true;
+  }
+  Tick tick() const { return mirror_.tick(); }
+
+ private:
+  void check_limits() {
+    while (const auto repair = mirror_.take_repair_request()) {
+      CHECK(!repair->chunks.empty() && repair->chunks.size() <= limits::repair_chunks_max);
+      CHECK_EQ(repair->chunks.size(), repair->hashes.size());
+    }
+    CHECK(mirror_.held_chunks().size() <= limits::mirror_chunks_max);
+    CHECK(mirror_.pieces().size() <= limits::mirror_pieces_max);
+    for (const auto& [id, piece] : mirror_.pieces()) {
+      CHECK(piece.volume != nullptr && piece.from_tick <= piece.to_tick);
+      const Pose pose = mirror_.pose_at(piece, static_cast<double>(mirror_.tick()) - 0.5);
+      CHECK(std::isfinite(pose.position_m.x + pose.position_m.y + pose.position_m.z));
+    }
+  }
+
+  Mirror mirror_;
+  int operations_ = 0;
+};
+
+}  // namespace
+}  // namespace scree
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace scree;
+  FuzzInput input(data, size);
+  Session session(any_welcome(input));
+  bool goes_on = true;
+  for (int i = 0; i < messages_max && goes_on && !input.at_end(); ++i) {
+    if (input.flag()) {
+      goes_on = session.take(input.packet());
+      continue;
+    }
+    const std::vector<uint8_t> bytes = encode(any_message(input, session.tick()));
+    goes_on = session.take(std::span(bytes).subspan(length_prefix_bytes));
+  }
+  return 0;
+}

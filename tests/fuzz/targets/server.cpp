@@ -1,0 +1,157 @@
+// Clients of a whole server: messages of every kind in any order, whole, cut and damaged, connections that
+// come, stall, leave and break, and ticks of the world between them.
+//
+// Holds: what the server sends can be decoded and applied, at every client; the mirrors' checks agree, and in
+// the end the mirrors are the world as far as they hold it; the ledger balances.
+#include <array>
+
+#include "proto/codec.h"
+#include "shared/base/check.h"
+#include "tests/fuzz/support/any_request.h"
+#include "tests/fuzz/support/fuzz_server.h"
+#include "tests/fuzz/support/target.h"
+
+namespace scree {
+namespace {
+
+constexpr Tick ticks_max = 64;
+constexpr uint64_t work_max_us = 30'000;
+constexpr TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
+
+ChunkCoord any_chunk(FuzzInput& input) {
+  const auto axis = [&] {
+    return input.below(16) == 15 ? input.number<int32_t>() / 4096 : input.byte() % 7 - 3;
+  };
+  const int32_t x = axis();
+  const int32_t y = axis();
+  return {x, y, axis()};
+}
+
+std::vector<ChunkCoord> any_chunks(FuzzInput& input) {
+  std::vector<ChunkCoord> chunks;
+  for (uint32_t count = input.below(12); count > 0; --count) chunks.push_back(any_chunk(input));
+  return chunks;
+}
+
+/// Its length in front, whatever the body is.
+void send_body(FuzzClient& client, std::span<const uint8_t> body) {
+  const auto length = static_cast<uint32_t>(body.size());
+  const std::array<uint8_t, length_prefix_bytes> prefix = {
+      static_cast<uint8_t>(length), static_cast<uint8_t>(length >> 8U), static_cast<uint8_t>(length >> 16U),
+      static_cast<uint8_t>(length >> 24U)};
+  client.link->send(prefix);
+  client.link->send(body);
+}
+
+HelloMessage any_hello(FuzzInput& input) {
+  HelloMessage hello;
+  hello.client = "fuzz";
+  hello.lacks_kernels = input.flag();
+  hello.eye_m = input.place(40.0F);
+  hello.interest_radius_m = input.coordinate(100.0F);
+  const uint32_t token = input.below(8);
+  if (token == 0) hello.token = input.text(limits::access_token_bytes_max);
+  if (token == 1) hello.token = FuzzServer::admin_token;
+  return hello;
+}
+
+AdminMessage any_admin(FuzzInput& input) {
+  AdminMessage admin;
+  admin.request = input.byte();
+  if (input.below(4) != 0) admin.token = FuzzServer::admin_token;
+  const std::string address = "10.0.0." + std::to_string(input.below(4));
+  const uint64_t session = input.below(12);
+  switch (input.below(6)) {
+    case 0:
+      admin.act = ListSessions{};
+      break;
+    case 1:
+      admin.act = KickSession{session, input.text(limits::admin_reason_bytes_max)};
+      break;
+    case 2:
+      admin.act = BanAddress{session, session == 0 ? address : "", input.byte(), "fuzz"};
+      break;
+    case 3:
+      admin.act = ListBans{};
+      break;
+    case 4:
+      admin.act = LiftBan{input.flag() ? address : input.text(limits::address_bytes_max)};
+      break;
+    default:
+      admin.act = any_settings(input);
+  }
+  return admin;
+}
+
+ClientMessage any_message(FuzzInput& input) {
+  switch (input.below(10)) {
+    case 0:
+      return any_hello(input);
+    case 1:
+      return InterestMessage{input.place(80.0F), input.coordinate(100.0F)};
+    case 2: {
+      RepairRequest repair{input.byte(), any_chunks(input), {}};
+      for (size_t i = 0; i < repair.chunks.size(); ++i) repair.hashes.push_back(input.byte());
+      return repair;
+    }
+    case 3:
+      return AckMessage{input.number<uint64_t>()};
+    case 4:
+      return CursorMessage{input.place(40.0F), input.place(40.0F)};
+    case 5:
+      return WatchMessage{input.flag()};
+    case 6:
+      return GroundRequest{any_chunks(input)};
+    case 7:
+      return any_admin(input);
+    default: {
+      const uint32_t kind = input.below(8);
+      const uint32_t number = input.byte();
+      if (kind == 0) return FillMessage{{known(any_shape(input))}, number};
+      if (kind == 1) return PaintMessage{{known(any_shape(input)), any_kind<Material>(input)}, number};
+      return CarveMessage{known(any_carve(input)), number};
+    }
+  }
+}
+
+void act(FuzzInput& input, FuzzServer& server) {
+  const uint32_t kind = input.below(16);
+  if (kind == 0 || server.clients().empty()) {
+    FuzzClient* client = server.connect(input.below(4));
+    if (client != nullptr && input.below(4) != 0) client->send(any_hello(input));
+    return;
+  }
+  FuzzClient& client = *server.clients()[input.byte() % server.clients().size()];
+  switch (kind) {
+    case 1:
+      return send_body(client, input.packet());
+    case 2:
+      return client.link->send(input.packet());
+    case 3:
+      return client.link->end(input.flag());
+    case 4:
+      client.reads = !client.reads;
+      return client.link->read_on(client.reads);
+    case 5:
+      return server.pump(1 + input.byte());
+    case 6:
+    case 7:
+    case 8:
+      return server.tick(input.below(4) == 3);
+    default:
+      return client.send(any_message(input));
+  }
+}
+
+}  // namespace
+}  // namespace scree
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace scree;
+  FuzzInput input(data, size);
+  FuzzServer server(terrain);
+  while (!input.at_end() && server.ticks() < ticks_max && server.work_us() < work_max_us) act(input, server);
+  server.tick();
+  server.check_mirrors();
+  return 0;
+}
