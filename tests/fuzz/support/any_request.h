@@ -14,8 +14,14 @@
 
 namespace scree {
 
-/// Edits lie so near the origin that they meet.
-inline constexpr float fuzz_place_m = 12.0F;
+/// Edits lie so near each other that they meet, and mostly within one column of chunks of 32 m, or four of
+/// 16 m: to generate chunks is most of what an input costs.
+inline constexpr glm::vec3 fuzz_centre_m{16.0F, 0.0F, 16.0F};
+inline constexpr float fuzz_reach_m = 11.0F;
+
+inline glm::vec3 any_place(FuzzInput& input) {
+  return fuzz_centre_m + input.place(fuzz_reach_m);
+}
 
 template <HasRows Kind>
 Kind any_kind(FuzzInput& input) {
@@ -30,7 +36,7 @@ Kind any_number_as(FuzzInput& input) {
 inline Shape any_shape(FuzzInput& input) {
   Shape shape;
   shape.kind = any_number_as<ShapeKind>(input);
-  shape.a = input.place(fuzz_place_m);
+  shape.a = any_place(input);
   shape.b = shape.kind == ShapeKind::box ? input.place(4.0F) : shape.a + input.place(3.0F);
   shape.radius_m = input.coordinate(4.0F);
   if (shape.kind == ShapeKind::box && input.flag()) shape.b = glm::abs(shape.b);
@@ -45,7 +51,7 @@ inline uint32_t any_seeds(FuzzInput& input) {
 
 inline std::vector<glm::vec3> any_points(FuzzInput& input, uint32_t count) {
   std::vector<glm::vec3> points;
-  for (uint32_t i = 0; i < count; ++i) points.push_back(input.place(fuzz_place_m));
+  for (uint32_t i = 0; i < count; ++i) points.push_back(any_place(input));
   return points;
 }
 
@@ -55,7 +61,7 @@ inline CarveRequest any_carve(FuzzInput& input) {
   carve.pattern = any_number_as<SeedPattern>(input);
   carve.seeds = any_seeds(input);
   carve.random_seed = input.byte();
-  carve.impact_m = input.place(fuzz_place_m);
+  carve.impact_m = any_place(input);
   carve.blast_speed_m_s = std::abs(input.coordinate(12.0F));
   const bool given = carve.pattern == SeedPattern::authored;
   carve.authored_m = any_points(input, given ? std::min(carve.seeds, 16U) : input.below(32) / 31);

@@ -13,6 +13,7 @@
 #include "proto/operation_codec.h"
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
+#include "shared/base/random.h"
 #include "tests/fuzz/support/any_request.h"
 #include "tests/fuzz/support/fuzz_server.h"
 #include "tests/fuzz/support/scratch_file.h"
@@ -87,21 +88,21 @@ HelloMessage hello(bool lacks_kernels) {
 
 CarveMessage carve(float x_m, uint32_t number) {
   CarveRequest carve;
-  carve.shape = sphere({x_m, 0.0F, 0.0F}, 2.5F);
+  carve.shape = sphere({x_m, 0.0F, 16.0F}, 2.5F);
   carve.seeds = 5;
   carve.random_seed = number;
-  carve.impact_m = {x_m, 2.0F, 0.0F};
+  carve.impact_m = {x_m, 2.0F, 16.0F};
   return {carve, number};
 }
 
 /// What the clients of a session say, by tick.
 std::vector<std::vector<ClientMessage>> conversation() {
   std::vector<std::vector<ClientMessage>> said(session_ticks);
-  said[1] = {carve(0.0F, 1), WatchMessage{true}};
-  said[4] = {FillMessage{{box({5.0F, 1.0F, 0.0F}, {1.0F, 2.0F, 1.0F})}, 2}, AckMessage{3}};
-  said[8] = {PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 3.0F), Material::ice}, 3},
+  said[1] = {carve(16.0F, 1), WatchMessage{true}};
+  said[4] = {FillMessage{{box({21.0F, 1.0F, 16.0F}, {1.0F, 2.0F, 1.0F})}, 2}, AckMessage{3}};
+  said[8] = {PaintMessage{{sphere({16.0F, 0.0F, 16.0F}, 3.0F), Material::ice}, 3},
              CursorMessage{{0.0F, 2.0F, 0.0F}, {1.0F, 0.0F, 0.0F}}};
-  said[12] = {carve(5.0F, 4), GroundRequest{{{0, 0, 0}, {1, -1, 0}}}};
+  said[12] = {carve(21.0F, 4), GroundRequest{{{0, 0, 0}, {1, -1, 0}}}};
   said[20] = {InterestMessage{{80.0F, 2.0F, 0.0F}, 40.0F}};
   said[30] = {InterestMessage{{0.0F, 2.0F, 0.0F}, 64.0F}, RepairRequest{3, {{0, 0, 0}}, {7}}};
   said[40] = {AdminMessage{5, FuzzServer::admin_token, SettingValues{{"recombine", "slices"}}}};
@@ -177,7 +178,8 @@ void write_recording(Corpora& corpora) {
   PublishedState state;
   for (Tick tick = 1; tick <= 6; ++tick) {
     std::vector<Command> commands;
-    if (tick == 2) commands = {{1, 1, carve(0.0F, 1)}, {2, 1, FillRequest{sphere({4.0F, 1.0F, 0.0F}, 1.0F)}}};
+    if (tick == 2)
+      commands = {{1, 1, carve(16.0F, 1)}, {2, 1, FillRequest{sphere({20.0F, 1.0F, 16.0F}, 1.0F)}}};
     const auto delta = world.step(commands);
     row(1, tick, encode(to_recorded(*delta, state)));
     if (!commands.empty()) row(3, tick, encode(std::span<const RecordedCommand>(to_recorded(commands))));
@@ -225,6 +227,17 @@ void write_config(Corpora& corpora) {
                             .bytes);
 }
 
+/// Targets that take bytes for choices alone: any bytes are a beginning.
+void write_choices(Corpora& corpora) {
+  Random random(20261122);
+  for (const char* target : {"world", "motions", "server", "mirror"})
+    for (size_t bytes = 64; bytes <= 512; bytes *= 2) {
+      Seed seed;
+      while (seed.bytes.size() < bytes) seed.byte(static_cast<uint8_t>(random.next()));
+      corpora.add(target, seed.bytes);
+    }
+}
+
 }  // namespace
 }  // namespace scree
 
@@ -241,6 +254,7 @@ int main(int argc, char** argv) {
   write_recording(corpora);
   write_texts(corpora);
   write_config(corpora);
+  write_choices(corpora);
   corpora.print();
   return 0;
 }
