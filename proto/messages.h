@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shared/base/ids.h"
+#include "shared/base/latency.h"
 #include "shared/base/role.h"
 #include "shared/base/setting_value.h"
 #include "shared/operation/operation.h"
@@ -186,6 +187,7 @@ struct ReplyMessage {
   std::string refusal;  ///< empty: carried out
   uint32_t pieces = 0;
   std::string refusal_name{};  ///< for programs, as of RefusalMessage
+  ServerLatency latency{};  ///< zeroes: no tick answered it
 };
 
 /// How long a stage of the tick took.
@@ -242,6 +244,7 @@ struct StatusMessage {
   std::vector<StageTime> stages;  ///< every one in order; mean over the last second
   WorkStatus work;
   std::vector<RefusalCount> refusals;  ///< since the start; reasons that were never given are left out
+  LatencyStatus latency;
 };
 
 struct PlayerCursor {

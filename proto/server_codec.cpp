@@ -85,6 +85,11 @@ void write(wire::Work& to, const WorkStatus& from) {
   to.set_islands_too_large(from.islands_too_large);
 }
 
+void write(wire::Latency& to, const LatencyStatus& from, uint32_t ServerLatency::*stage) {
+  to.set_median_us(from.median.*stage);
+  to.set_worst_us(from.worst.*stage);
+}
+
 void write(wire::Status& to, const StatusMessage& from) {
   to.set_tick(from.tick);
   to.set_clients(from.clients);
@@ -108,6 +113,9 @@ void write(wire::Status& to, const StatusMessage& from) {
     one.set_ms(stage.ms);
   }
   write(*to.mutable_work(), from.work);
+  write(*to.mutable_waiting(), from.latency, &ServerLatency::waiting_us);
+  write(*to.mutable_ticking(), from.latency, &ServerLatency::tick_us);
+  write(*to.mutable_sending(), from.latency, &ServerLatency::sending_us);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
     added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
@@ -169,6 +177,9 @@ struct Writing {
     reply.set_refusal(showable(from.refusal, limits::reason_bytes_max));
     reply.set_pieces(from.pieces);
     reply.set_refusal_name(showable(from.refusal_name, limits::refusal_name_bytes_max));
+    reply.set_waiting_us(from.latency.waiting_us);
+    reply.set_tick_us(from.latency.tick_us);
+    reply.set_sending_us(from.latency.sending_us);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
@@ -276,6 +287,29 @@ WorkStatus read(const wire::Work& from, FieldChecker& check) {
   return work;
 }
 
+uint32_t read_latency(uint32_t us, FieldChecker& check) {
+  return check.within(us, 0, limits::latency_max_us, "microseconds of a stage");
+}
+
+void read(const wire::Latency& from, uint32_t ServerLatency::*stage, LatencyStatus& to, FieldChecker& check) {
+  to.median.*stage = read_latency(from.median_us(), check);
+  to.worst.*stage = read_latency(from.worst_us(), check);
+}
+
+RefusalMessage read(const wire::Refusal& from, FieldChecker& check) {
+  return {check.text(from.reason(), limits::reason_bytes_max, "reason"),
+          check.text(from.name(), limits::refusal_name_bytes_max, "name of a reason")};
+}
+
+ReplyMessage read(const wire::Reply& from, FieldChecker& check) {
+  return {from.request(),
+          check.text(from.refusal(), limits::reason_bytes_max, "reason"),
+          from.pieces(),
+          check.text(from.refusal_name(), limits::refusal_name_bytes_max, "name of a reason"),
+          {read_latency(from.waiting_us(), check), read_latency(from.tick_us(), check),
+           read_latency(from.sending_us(), check)}};
+}
+
 StatusMessage read(const wire::Status& from, FieldChecker& check) {
   StatusMessage status;
   status.tick = from.tick();
@@ -303,6 +337,9 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
                              check.not_negative(stage.ms(), "ms of a stage")});
   }
   status.work = read(from.work(), check);
+  read(from.waiting(), &ServerLatency::waiting_us, status.latency, check);
+  read(from.ticking(), &ServerLatency::tick_us, status.latency, check);
+  read(from.sending(), &ServerLatency::sending_us, status.latency, check);
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
   else
@@ -319,17 +356,11 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     if (check.failed()) return tl::unexpected(check.error());
     return value;
   };
-  const auto reason = [&](const std::string& text) {
-    return check.text(text, limits::reason_bytes_max, "reason");
-  };
-  const auto name = [&](const std::string& text) {
-    return check.text(text, limits::refusal_name_bytes_max, "name of a reason");
-  };
   switch (from.kind_case()) {
     case wire::ServerMessage::kWelcome:
       return checked(read(from.welcome(), check));
     case wire::ServerMessage::kRefusal:
-      return checked(RefusalMessage{reason(from.refusal().reason()), name(from.refusal().name())});
+      return checked(read(from.refusal(), check));
     case wire::ServerMessage::kFrame:
       return checked(read(from.frame(), check));
     case wire::ServerMessage::kChunk:
@@ -341,8 +372,7 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:
-      return checked(ReplyMessage{from.reply().request(), reason(from.reply().refusal()),
-                                  from.reply().pieces(), name(from.reply().refusal_name())});
+      return checked(read(from.reply(), check));
     case wire::ServerMessage::kCursors:
       return checked(read(from.cursors(), check));
     case wire::ServerMessage::kPhysics:

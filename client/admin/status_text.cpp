@@ -23,6 +23,16 @@ Json json_of(const WorkStatus& work) {
           {"islands_too_large", work.islands_too_large}};
 }
 
+Json json_of(const LatencyStatus& latency) {
+  const auto ms = [](uint32_t us) { return static_cast<double>(us) / 1000.0; };
+  Json json;
+  for (const LatencyStageRow& stage : latency_stages) {
+    json[std::string(stage.name) + "_median"] = ms(latency.median.*stage.us);
+    json[std::string(stage.name) + "_worst"] = ms(latency.worst.*stage.us);
+  }
+  return json;
+}
+
 Json json_of(const StatusMessage& status) {
   Json refusals = Json::object();
   uint64_t refused = 0;
@@ -43,6 +53,7 @@ Json json_of(const StatusMessage& status) {
         {"moved", status.ledger_moved}}},
       {"tick_ms", {{"median", status.tick_median_ms}, {"worst", status.tick_worst_ms}}},
       {"stage_ms", std::move(stages)},
+      {"request_ms", json_of(status.latency)},
       {"work", json_of(status.work)},
       {"refusals", std::move(refusals)}};
 }

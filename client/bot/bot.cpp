@@ -136,7 +136,12 @@ void Bot::receive_frame(const FrameMessage& frame, Clock::time_point arrived) {
 void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
   const auto request = requests_.find(reply.request);
   if (request == requests_.end()) return;
-  report_.reply_latencies_ms.push_back(ms_between(request->second.sent, arrived));
+  const RequestLatency latency{ms_between(request->second.sent, arrived), reply.latency};
+  report_.reply_latencies_ms.push_back(latency.total_ms);
+  report_.network_latencies_ms.push_back(latency.network_ms());
+  for (size_t i = 0; i < latency_stages.size(); ++i)
+    report_.server_latencies_ms[i].push_back(static_cast<double>(latency.server.*latency_stages[i].us) /
+                                             1000.0);
   if (reply.refusal.empty()) {
     ++report_.carves_accepted;
   } else {

@@ -26,6 +26,13 @@ Json latency(const std::vector<double>& values) {
           {"worst", quantile(values, 1.0)}};
 }
 
+Json stages(const BotReport& report) {
+  Json json{{"network", latency(report.network_latencies_ms)}};
+  for (size_t i = 0; i < latency_stages.size(); ++i)
+    json[std::string(latency_stages[i].name)] = latency(report.server_latencies_ms[i]);
+  return json;
+}
+
 Json carves(const BotReport& report) {
   Json refusals = Json::object();
   for (const auto& [reason, count] : report.refusals) refusals[reason] = count;
@@ -108,6 +115,7 @@ std::string to_json(const BotReport& report) {
                   {"server", hex(report.hash.server)}};
   json["edit_latency_ms"] = latency(report.edit_latencies_ms);
   json["reply_latency_ms"] = latency(report.reply_latencies_ms);
+  json["reply_stages_ms"] = stages(report);
   json["tick"] = {{"last", status.tick},
                   {"per_s", report.ticks_per_s},
                   {"median_ms", quantile(report.tick_medians_ms, 0.5)},

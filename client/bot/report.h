@@ -1,6 +1,7 @@
 // The measurements of a bot, and their JSON form for programs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -74,8 +75,11 @@ struct BotReport {
   std::vector<double> tick_medians_ms;
   double tick_worst_ms = 0.0;
   double ticks_per_s = 0.0;
-  std::vector<double> edit_latencies_ms;   ///< request sent to frame with its operation received
-  std::vector<double> reply_latencies_ms;  ///< request sent to reply received
+  std::vector<double> edit_latencies_ms;     ///< request sent to frame with its operation received
+  std::vector<double> reply_latencies_ms;    ///< request sent to reply received
+  std::vector<double> network_latencies_ms;  ///< the same, without what the server says of itself
+  /// What it says, by stage (latency_stages).
+  std::array<std::vector<double>, latency_stages.size()> server_latencies_ms;
 };
 
 std::string to_json(const BotReport& report);

@@ -10,6 +10,7 @@
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -121,7 +122,9 @@ bool LiveServer::State::step() {
     ahead->serve(world->field(), net->eyes_m());
   }
   std::vector<Command> waiting = commands.drain();
+  TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(waiting);
+  ran.done_s = steady_now_s();
   if (!next) {
     end(next.error().message);
     return false;
@@ -135,7 +138,7 @@ bool LiveServer::State::step() {
   if (trace) trace_tick(*trace, begin, *delta);
   {
     const TraceSpan span(trace.get(), "simulation", "hand over");
-    net->publish(delta);
+    net->publish(delta, ran);
   }
   if (recorder) record(delta, std::move(waiting));
   const std::scoped_lock lock(mutex);

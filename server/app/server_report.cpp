@@ -70,6 +70,13 @@ Json json_of(const RefusalCounts& refusals) {
   return {{"total", refusals.total()}, {"by_reason", std::move(by_reason)}};
 }
 
+Json json_of(const LatencyCounts& latency) {
+  Json json = Json::object();
+  for (size_t i = 0; i < latency_stages.size(); ++i)
+    json[std::string(latency_stages[i].name)] = json_of(latency[i]);
+  return json;
+}
+
 Json json_of(const NetStats& net) {
   const PublisherStats& sent = net.published;
   return {{"now", net.sessions},
@@ -152,7 +159,8 @@ std::string to_json(const ServerReport& report) {
                {"bytes_per_carve", mean<CarveOperation>(sent)},
                {"bytes_per_merge", mean<StampOperation>(sent)},
                {"sessions", json_of(report.net)},
-               {"refusals", json_of(report.net.refusals)}});
+               {"refusals", json_of(report.net.refusals)},
+               {"request_latency_ms", json_of(report.net.latency)}});
   Json stages = Json::object();
   for (const TickStageRow& row : tick_stages)
     stages[std::string(row.name)] = json_of(report.stages[index_of(row.stage)]);

@@ -132,6 +132,10 @@ inline constexpr size_t bans_max = 2048;
 /// Commands that wait for the next tick; above: each gets a reply that refuses it.
 inline constexpr size_t commands_waiting_max = 1024;
 
+/// Requests whose stages are measured at once, and whose stages the status sums up: more than may wait.
+/// Above: their replies say nothing of stages, and the oldest answers are forgotten.
+inline constexpr size_t requests_timed_max = 4096;
+
 /// Ticks whose messages go out together when the network thread lags: a write for each costs it more than all
 /// else.
 inline constexpr uint32_t ticks_per_flush_max = 4;

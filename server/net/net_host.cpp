@@ -252,13 +252,16 @@ void NetHost::request(ClientSession& session, const Command& command) {
   };
   if (config_.replay)
     return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
-  if (!sessions_.at(session.id()).requests.take(steady_now_s()))
+  const double now_s = steady_now_s();
+  if (!sessions_.at(session.id()).requests.take(now_s))
     return refused(Refusal::requests_per_second,
                    fmt::format("more than {} requests a second (requests-per-second); ask again more slowly",
                                service_.requests_per_second));
   if (!commands_.push(command))
-    refused(Refusal::commands_waiting, "the server is busy: " + std::to_string(commands_.commands_max()) +
-                                           " commands wait already (limits.commands_waiting_max); try again");
+    return refused(Refusal::commands_waiting,
+                   "the server is busy: " + std::to_string(commands_.commands_max()) +
+                       " commands wait already (limits.commands_waiting_max); try again");
+  request_times_.received(session.id(), command.request, now_s);
 }
 
 void NetHost::refuse_request(ClientSession& session, uint32_t request, const Refused& refused) {
@@ -302,6 +305,7 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
       fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
                   refused.message));
   publisher_.leave(session.id());
+  request_times_.forget(session.id());
   outsiders_.insert(session.id());
   update_stats();
 }
@@ -318,6 +322,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   }
   entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
+  request_times_.forget(session.id());
   outsiders_.erase(session.id());
   if (const Entry& entry = sessions_.at(session.id()); !entry.in_common.empty())
     parties_.leave(entry.in_common);
@@ -334,7 +339,7 @@ void NetHost::grant(const ServiceLimits& service) {
   for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
 }
 
-void NetHost::publish(const TickDelta& delta, bool more) {
+void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), joined_count());
   if (delta.service && *delta.service != service_) grant(*delta.service);
@@ -345,13 +350,11 @@ void NetHost::publish(const TickDelta& delta, bool more) {
     const auto entry = sessions_.find(id);
     return entry == sessions_.end() ? size_t{0} : entry->second.session->backlog_bytes();
   };
-  for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
-    const auto entry = sessions_.find(outgoing.session);
-    if (entry == sessions_.end()) continue;
-    const auto session = entry->second.session;  // queuing may end it
-    session->queue(std::move(outgoing.bytes));
-    if (unflushed_.empty() || unflushed_.back() != session) unflushed_.push_back(session);
-  }
+  if (publisher_.status_due(delta.tick)) publisher_.set_latency(request_times_.last_second(steady_now_s()));
+  for (Outgoing& outgoing : publisher_.publish(delta, backlog))
+    if (const auto session = queue(std::move(outgoing)))
+      if (unflushed_.empty() || unflushed_.back() != session) unflushed_.push_back(session);
+  answer(delta, span);
   if (!more || ++ticks_unflushed_ >= limits::ticks_per_flush_max) {
     for (const auto& session : unflushed_) session->flush();
     unflushed_.clear();
@@ -375,6 +378,7 @@ void NetHost::shut_down() {
 void NetHost::update_stats() {
   watched_ = publisher_.is_watched();
   counts_.published = publisher_.stats();
+  counts_.latency = request_times_.counts();
   counts_.sessions = joined_count();
   const std::scoped_lock lock(stats_mutex_);
   stats_ = counts_;

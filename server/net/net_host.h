@@ -18,6 +18,7 @@
 #include "server/net/log_limit.h"
 #include "server/net/net_server.h"
 #include "server/net/parties.h"
+#include "server/net/request_times.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
@@ -38,7 +39,7 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   // ---- on the network thread
   /// `more`: the next tick waits already; then this one's messages may go together with that one's.
-  void publish(const TickDelta& delta, bool more);
+  void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.
   void take_access(std::shared_ptr<const Access> access);
   void shut_down();
@@ -76,6 +77,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void tick_timer();
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   void request(ClientSession& session, const Command& command);
+  std::shared_ptr<ClientSession> queue(Outgoing&& outgoing);
+  void answer(const TickDelta& delta, const TickSpan& span);
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
@@ -120,6 +123,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   Bans bans_;
   Parties parties_;
   Publisher publisher_;
+  RequestTimes request_times_;
   std::atomic<bool> watched_{false};
   ThreadCheck network_thread_;
   NetStats counts_;

@@ -41,7 +41,7 @@ uint16_t NetServer::port() const {
   return impl_->host.port();
 }
 
-void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
+void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span) {
   CHECK(delta != nullptr);
   {
     std::unique_lock lock(impl_->mutex);
@@ -51,13 +51,13 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta) {
     if (impl_->stopped) return;
     ++impl_->in_flight;
   }
-  asio::post(impl_->host.context(), [impl = impl_.get(), delta = std::move(delta)] {
+  asio::post(impl_->host.context(), [impl = impl_.get(), delta = std::move(delta), span] {
     size_t in_flight = 0;
     {
       const std::scoped_lock lock(impl->mutex);
       in_flight = impl->in_flight;
     }
-    impl->host.publish(*delta, in_flight > 1);
+    impl->host.publish(*delta, span, in_flight > 1);
     {
       const std::scoped_lock lock(impl->mutex);
       CHECK(impl->in_flight > 0 && impl->in_flight <= limits::deltas_in_flight_max);

@@ -16,8 +16,10 @@
 #include "server/net/door.h"
 #include "server/net/limits.h"
 #include "server/net/publisher.h"
+#include "server/net/request_times.h"
 #include "server/world/service_limits.h"
 #include "shared/base/result.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -50,6 +52,7 @@ struct NetStats {
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
   uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
+  LatencyCounts latency;       ///< of requests that a tick answered
 };
 
 class NetServer {
@@ -64,8 +67,8 @@ class NetServer {
   uint16_t port() const;
 
   /// Hands a tick to the network thread; waits while limits::deltas_in_flight_max ticks wait there. From one
-  /// thread only.
-  void publish(std::shared_ptr<const TickDelta> delta);
+  /// thread only. `span`: when the tick took its commands, and was done; unless told, it took no time.
+  void publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span = instant(steady_now_s()));
 
   /// Reads the files of NetConfig::access again: certificate, keys, revoked tokens. Sessions go on, but those
   /// whose token is revoked end. The error says what is wrong with the files; all old ones stay in force

@@ -113,7 +113,6 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   cache_.start_tick();
   for (auto& [session, client] : clients_) serve(client, changes, backlog_bytes(session));
   stream_ground(backlog_bytes);
-  send_replies(delta);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes + stats_.ground_bytes <=
         stats_.sent_bytes);
@@ -242,13 +241,16 @@ void Publisher::send_physics(Client& client, const PhysicsMessage& physics) {
   send(client, bytes_of(part));
 }
 
-void Publisher::send_replies(const TickDelta& delta) {
+std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
+                                        const std::function<ServerLatency(const Reply&)>& latency) {
+  out_.clear();
   for (const Reply& reply : delta.replies) {
     const auto client = clients_.find(reply.session);
     if (client == clients_.end()) continue;
     const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
-    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name}));
+    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}));
   }
+  return std::exchange(out_, {});
 }
 
 void Publisher::send_status(Client& client) {
@@ -271,6 +273,7 @@ void Publisher::send_status(Client& client) {
   status.field_hash = state_.field_hash();
   status.repairs = client.repairs;
   status.settings = state_.settings();
+  status.latency = latency_;
   for (size_t i = 0; i < refusal_reasons; ++i) {
     const auto reason = static_cast<Refusal>(i);
     if (refusals_.of(reason) > 0)

@@ -71,6 +71,10 @@ class Publisher {
 
   /// Sets how often the server has refused requests and sessions, for the status.
   void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
+  /// Sets the stages of the last second's requests, for the status.
+  void set_latency(const LatencyStatus& latency) { latency_ = latency; }
+  /// Whether the clients get a status with this tick.
+  bool status_due(Tick tick) const { return tick % config_.tick_rate_hz == 0; }
   /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
@@ -82,6 +86,11 @@ class Publisher {
   /// Takes the next tick and returns the messages for each client. `backlog_bytes(session)`: bytes that still
   /// wait for it. A tick out of sequence is a keyframe: it replaces the state, and resets every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<size_t(uint64_t)>& backlog_bytes);
+
+  /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
+  /// that the reply states.
+  std::vector<Outgoing> answer(const TickDelta& delta,
+                               const std::function<ServerLatency(const Reply&)>& latency);
 
   const PublishedState& state() const { return state_; }
   const PublisherStats& stats() const { return stats_; }
@@ -110,13 +119,11 @@ class Publisher {
   bool ready(Client& client, size_t backlog_bytes);
   bool send_frame(Client& client, const TickChanges& changes, FrameScope parts);
   bool frame_due(const Client& client, Tick tick) const;
-  bool status_due(Tick tick) const { return tick % config_.tick_rate_hz == 0; }
   void stream_chunks(Client& client, const TickChanges& changes);
   void stream_pieces(Client& client);
   void stream_ground(const std::function<size_t(uint64_t)>& backlog_bytes);
   void send_cursors(Client& client);
   void send_physics(Client& client, const PhysicsMessage& physics);
-  void send_replies(const TickDelta& delta);
   void send_status(Client& client);
   void send(Client& client, SharedBytes bytes);
 
@@ -130,6 +137,7 @@ class Publisher {
   TickClock clock_;
   PublisherStats stats_;
   RefusalCounts refusals_;
+  LatencyStatus latency_;
   std::vector<Outgoing> out_;
 };
 

@@ -44,6 +44,15 @@ TEST(ServerReport, stages_that_seldom_act_are_judged_by_the_ticks_in_which_they_
   for (const TickStageRow& row : tick_stages) EXPECT_TRUE(stages.contains(row.name)) << row.name;
 }
 
+TEST(ServerReport, requests_are_measured_by_stage) {
+  ServerReport report;
+  report.net.latency[1].add(12.5);
+  const auto stages = nlohmann::json::parse(to_json(report)).at("request_latency_ms");
+  for (const LatencyStageRow& stage : latency_stages) EXPECT_TRUE(stages.contains(stage.name)) << stage.name;
+  EXPECT_EQ(stages.at("tick").at("worst"), 12.5);
+  EXPECT_EQ(stages.at("waiting").at("count"), 0);
+}
+
 TEST(ServerReport, a_trace_has_a_span_for_each_stage_that_took_time) {
   TickDelta delta;
   for (const TickStageRow& row : tick_stages) delta.times[row.stage] = 1.0;

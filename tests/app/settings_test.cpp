@@ -335,6 +335,9 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
   EXPECT_EQ(status->work.budget_us, budget_us);
   EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": " + std::to_string(budget_us)));
   EXPECT_TRUE(holds(status_lines(*status), "work.budget_us             " + std::to_string(budget_us) + "\n"));
+  StatusMessage told = *status;
+  told.latency.worst.sending_us = 1234;
+  EXPECT_TRUE(holds(status_lines(told), "request_ms.sending_worst   1.234\n"));
 }
 
 TEST_F(AdminSession, whoever_does_not_is_refused) {

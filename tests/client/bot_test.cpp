@@ -160,6 +160,12 @@ TEST_F(BotTest, the_report_is_json_that_programs_can_read) {
   EXPECT_EQ(json.at("carves").at("accepted"), 1);
   EXPECT_EQ(json.at("hash").at("equal"), true);
   EXPECT_EQ(json.at("ledger").at("error"), 0);
+  const auto& stages = json.at("reply_stages_ms");
+  EXPECT_EQ(stages.at("network").at("count"), 1);
+  double sum_ms = stages.at("network").at("worst").get<double>();
+  for (const LatencyStageRow& stage : latency_stages)
+    sum_ms += stages.at(stage.name).at("worst").get<double>();
+  EXPECT_NEAR(sum_ms, json.at("reply_latency_ms").at("worst").get<double>(), 0.5) << "nothing is left over";
   EXPECT_EQ(json.at("terrain").at("kind"), "flat");
   EXPECT_GT(json.at("bytes").at("received").get<uint64_t>(), 0U);
 }

@@ -255,14 +255,19 @@ TEST_F(PublisherTest, replies_go_to_who_asked_and_status_comes_once_a_second) {
   delta.work = {.budget_us = 12500, .estimate_us = 13000, .requests_waiting = 2};
   delta.replies.push_back({2, 77, "too large", 0});
   delta.replies.push_back({9, 1, "", 0});  // left meanwhile
+  const ServerLatency told{1, 2, 3};
+  latency = told;
+  publisher.set_latency({told, {4, 5, 6}});
   deliver(delta);
   for (int i = 0; i < 120; ++i) tick();
   EXPECT_TRUE(followers.at(1).replies.empty());
   ASSERT_EQ(followers.at(2).replies.size(), 1U);
   EXPECT_EQ(followers.at(2).replies[0].request, 77U);
   EXPECT_EQ(followers.at(2).replies[0].refusal, "too large");
+  EXPECT_EQ(followers.at(2).replies[0].latency, told);
   ASSERT_EQ(followers.at(1).statuses.size(), 2U);
   EXPECT_EQ(followers.at(1).statuses[0].clients, 2U);
+  EXPECT_EQ(followers.at(1).statuses[0].latency, (LatencyStatus{told, {4, 5, 6}}));
   EXPECT_EQ(followers.at(1).statuses[0].work.requests_waiting, 2U);
   EXPECT_EQ(followers.at(1).statuses[0].work.ticks_cut_short, 1U);
   EXPECT_EQ(followers.at(1).statuses[1].work.ticks_cut_short, 0U) << "that was a second before";

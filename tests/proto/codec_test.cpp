@@ -204,6 +204,20 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   EXPECT_TRUE(holds(server_refusal(frame), "piece ids"));
 }
 
+TEST(Codec, stages_of_a_request_are_bounded) {
+  for (const LatencyStageRow& stage : latency_stages) {
+    ReplyMessage reply{1, "", 2};
+    StatusMessage status;
+    reply.latency.*stage.us = status.latency.median.*stage.us = limits::latency_max_us;
+    status.latency.worst.*stage.us = limits::latency_max_us;
+    EXPECT_EQ(server_refusal(reply), "");
+    EXPECT_EQ(server_refusal(status), "");
+    reply.latency.*stage.us = status.latency.worst.*stage.us = limits::latency_max_us + 1;
+    EXPECT_TRUE(holds(server_refusal(reply), "microseconds of a stage"));
+    EXPECT_TRUE(holds(server_refusal(status), "microseconds of a stage"));
+  }
+}
+
 TEST(Codec, cutters_and_authored_seeds_beyond_the_known_are_refused_by_name) {
   const auto refusal = [](const Operation& operation) {
     FrameMessage frame;

@@ -130,10 +130,14 @@ class PublisherTest : public ::testing::Test {
   void tick(const std::vector<Operation>& operations = {}) { deliver(*source.step(operations)); }
   void deliver(const TickDelta& delta) {
     const auto backlog = [this](uint64_t id) { return id == session ? backlog_bytes : 0; };
-    for (const Outgoing& outgoing : publisher.publish(delta, backlog)) {
-      bytes[outgoing.session] += outgoing.bytes->size();
-      last[outgoing.session] = outgoing.bytes;
-      followers[outgoing.session].take(outgoing);
+    take(publisher.publish(delta, backlog));
+    take(publisher.answer(delta, [this](const Reply&) { return latency; }));
+  }
+  void take(const std::vector<Outgoing>& outgoing) {
+    for (const Outgoing& each : outgoing) {
+      bytes[each.session] += each.bytes->size();
+      last[each.session] = each.bytes;
+      followers[each.session].take(each);
     }
   }
   void join(uint64_t id, glm::vec3 eye_m, float radius_m, bool has_kernels = true) {
@@ -189,6 +193,7 @@ class PublisherTest : public ::testing::Test {
   std::map<uint64_t, size_t> bytes;
   std::map<uint64_t, SharedBytes> last;
   size_t backlog_bytes = 0;
+  ServerLatency latency;  ///< that replies state
 };
 
 }  // namespace scree

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "proto/codec.h"
+#include "proto/limits.h"
 #include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/random.h"
@@ -122,6 +123,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.repairs = 2;
   status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
+  status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   return {
       welcome,
@@ -131,7 +133,7 @@ inline std::vector<ServerMessage> server_messages() {
       chunk,
       PieceMessage{31, volume(), {1, -2, 3, 4}},
       ResetMessage{},
-      ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid"},
+      ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
       status,
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       physics(),

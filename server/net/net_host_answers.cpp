@@ -1,0 +1,28 @@
+// NetHost: a tick's messages and replies on their way to the sessions.
+#include "server/net/net_host.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+/// Null when there is no such session.
+std::shared_ptr<ClientSession> NetHost::queue(Outgoing&& outgoing) {
+  const auto entry = sessions_.find(outgoing.session);
+  if (entry == sessions_.end()) return nullptr;
+  auto session = entry->second.session;  // queuing may end it
+  session->queue(std::move(outgoing.bytes));
+  return session;
+}
+
+/// Who asked gets the tick first, and at once, however far this thread lags.
+void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
+  if (delta.replies.empty()) return;
+  const auto latency = [&](const Reply& reply) {
+    return request_times_.answered(reply.session, reply.request, span, steady_now_s());
+  };
+  std::vector<std::shared_ptr<ClientSession>> answered;
+  for (Outgoing& outgoing : publisher_.answer(delta, latency))
+    if (auto session = queue(std::move(outgoing))) answered.push_back(std::move(session));
+  for (const auto& session : answered) session->flush();
+}
+
+}  // namespace scree
