@@ -85,7 +85,17 @@ Field::Field(const TerrainSource& source)
   CHECK(source.voxel_size_m > 0.0F);
 }
 
+Field::Field(Field* below)
+    : source_(below->source_), below_(below), generated_chunks_max_(limits::generated_chunks_max) {}
+
+uint64_t Field::edited_bits(ChunkCoord chunk) const {
+  const auto found = edited_.find(chunk);
+  const uint64_t own = found == edited_.end() ? 0 : found->second.bricks;
+  return below_ == nullptr ? own : own | below_->edited_bits(chunk);
+}
+
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
+  if (below_ != nullptr) return below_->generated_chunk(chunk);
   const auto found = generated_.find(chunk);
   if (found != generated_.end()) return found->second;
   if (generated_.size() >= generated_chunks_max_) forget_generated();
@@ -93,7 +103,7 @@ const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
 }
 
 void Field::bound_generated(size_t chunks) {
-  CHECK(chunks > 0 && chunks <= limits::generated_chunks_max);
+  CHECK(below_ == nullptr && chunks > 0 && chunks <= limits::generated_chunks_max);
   generated_chunks_max_ = chunks;
   if (generated_.size() > chunks) forget_generated();
 }
@@ -104,14 +114,12 @@ void Field::forget_generated() {
 }
 
 Field::LastChunk& Field::last_chunk(ChunkCoord chunk) {
-  if (!last_ || last_->coord != chunk) {
-    const auto edited = edited_.find(chunk);
-    last_ = {chunk, edited == edited_.end() ? 0 : edited->second.bricks, nullptr};
-  }
+  if (!last_ || last_->coord != chunk || below_ != nullptr) last_ = {chunk, edited_bits(chunk), nullptr};
   return *last_;
 }
 
 const Brick& Field::generated_brick(BrickCoord coord) {
+  if (below_ != nullptr) return below_->generated_brick(coord);
   const ChunkCoord chunk = chunk_of(coord);
   LastChunk last = last_chunk(chunk);
   if (last.generated == nullptr) {
@@ -122,8 +130,7 @@ const Brick& Field::generated_brick(BrickCoord coord) {
 }
 
 Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
-  const auto edited = edited_.find(chunk);
-  return {generated_chunk(chunk), edited == edited_.end() ? 0 : edited->second.bricks};
+  return {generated_chunk(chunk), edited_bits(chunk)};
 }
 
 const Brick& Field::brick(BrickCoord coord) {
@@ -138,11 +145,13 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
   CHECK_DEBUG(((chunk.bricks & bit) != 0) == is_edited(coord));
   const std::optional<Material> paint = painted(coord);
+  const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
   uint64_t change = brick_hash(coord, brick, paint);
-  if ((chunk.bricks & bit) != 0) change -= brick_hash(coord, *find_edited(coord), paint);
+  if (edited) change -= brick_hash(coord, *find_edited(coord), paint);
   store_edited(coord, brick);
-  edited_bricks_ += (chunk.bricks & bit) == 0 ? 1 : 0;
+  edited_bricks_ += edited ? 0 : 1;
   chunk.bricks |= bit;
+  if (paint) chunk.paint[index_in_chunk(coord)] = *paint;  // a layer's own from now on
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
   hash_ += change;
@@ -150,7 +159,8 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
 
 std::optional<Material> Field::painted(BrickCoord coord) const {
   const auto chunk = edited_.find(chunk_of(coord));
-  if (chunk == edited_.end()) return std::nullopt;
+  const bool own = chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0;
+  if (!own) return below_ == nullptr ? std::nullopt : below_->painted(coord);
   const auto paint = chunk->second.paint.find(index_in_chunk(coord));
   if (paint == chunk->second.paint.end()) return std::nullopt;
   return paint->second;
@@ -159,7 +169,8 @@ std::optional<Material> Field::painted(BrickCoord coord) const {
 void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
   const std::optional<Material> before = painted(coord);
   if (before == paint) return;
-  if (!is_edited(coord)) set_brick(coord, Brick(generated_brick(coord)));
+  const bool own = below_ == nullptr && is_edited(coord);
+  if (!own) set_brick(coord, Brick(brick(coord)));
   EditedChunk& chunk = edited_[chunk_of(coord)];
   const Brick& codes = *find_edited(coord);
   const uint64_t change = brick_hash(coord, codes, paint) - brick_hash(coord, codes, before);
@@ -172,6 +183,7 @@ void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
 }
 
 void Field::forget_chunk(ChunkCoord chunk) {
+  CHECK(below_ == nullptr);
   const auto found = edited_.find(chunk);
   if (found == edited_.end()) return;
   last_.reset();
@@ -191,27 +203,29 @@ void Field::forget_chunk(ChunkCoord chunk) {
 
 uint64_t Field::chunk_hash(ChunkCoord chunk) const {
   const auto found = edited_.find(chunk);
-  return found == edited_.end() ? 0 : found->second.hash;
+  const uint64_t own = found == edited_.end() ? 0 : found->second.hash;
+  return below_ == nullptr ? own : own + below_->chunk_hash(chunk);
 }
 
 std::vector<ChunkCoord> Field::edited_chunks() const {
   std::vector<ChunkCoord> chunks;
-  chunks.reserve(edited_.size());
+  if (below_ != nullptr) chunks = below_->edited_chunks();
+  chunks.reserve(chunks.size() + edited_.size());
   for (const auto& [coord, chunk] : edited_) chunks.push_back(coord);
   std::ranges::sort(chunks);
+  chunks.erase(std::ranges::unique(chunks).begin(), chunks.end());
   return chunks;
 }
 
 std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
   std::vector<BrickCoord> bricks;
-  const auto found = edited_.find(chunk);
-  if (found == edited_.end()) return bricks;
-  for (uint64_t left = found->second.bricks; left != 0; left &= left - 1)
+  for (uint64_t left = edited_bits(chunk); left != 0; left &= left - 1)
     bricks.push_back(brick_in_chunk(chunk, std::countr_zero(left)));
   return bricks;
 }
 
 void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
+  if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (generated_.size() >= generated_chunks_max_) forget_generated();
   generated_.try_emplace(chunk, std::move(generated));
@@ -219,7 +233,7 @@ void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
 
 const Brick* MapField::find_edited(BrickCoord coord) const {
   const auto found = slots_.find(coord);
-  return found == slots_.end() ? nullptr : found->second.brick;
+  return found == slots_.end() ? find_below(coord) : found->second.brick;
 }
 
 void MapField::store_edited(BrickCoord coord, const Brick& brick) {

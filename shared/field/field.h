@@ -1,6 +1,8 @@
 // The field: every voxel of the world, of which only the edited bricks are stored.
 //
-// Any brick can be read: edited ones come from the store, others are generated and cached. Not thread-safe.
+// Any brick can be read: edited ones come from the store, others are generated and cached. A field may be a
+// layer over another one: what was edited in the layer is the layer's, all else reads as the one below does,
+// as that stands at the time. Not thread-safe.
 // Invariants: hash() is the sum of brick_hash over the edited bricks with their paint, chunk_hash() the same
 // sum over one chunk; painted bricks are edited ones.
 #pragma once
@@ -25,6 +27,8 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material
 class Field {
  public:
   explicit Field(const TerrainSource& source);
+  /// A layer over that field, which must outlive it; not null. Chunks are generated, and kept, below.
+  explicit Field(Field* below);
   virtual ~Field() = default;
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
@@ -43,17 +47,18 @@ class Field {
   ChunkBricks chunk_bricks(ChunkCoord chunk);
   bool is_edited(BrickCoord coord) const { return find_edited(coord) != nullptr; }
   /// Whether any brick of the chunk is edited.
-  bool has_edits(ChunkCoord chunk) const { return edited_.contains(chunk); }
+  bool has_edits(ChunkCoord chunk) const { return edited_bits(chunk) != 0; }
   /// Marks the brick as edited, even when the codes are those generated.
   void set_brick(BrickCoord coord, const Brick& brick);
   /// The material that the brick is painted with, if any.
   std::optional<Material> painted(BrickCoord coord) const;
   /// Paints the brick, or removes its paint; marks it as edited. Its codes stay.
   void paint_brick(BrickCoord coord, std::optional<Material> paint);
-  /// Forgets the edits of a chunk: it reads as generated again.
+  /// Forgets the edits of a chunk: it reads as generated again. Not of a layer.
   void forget_chunk(ChunkCoord chunk);
 
-  uint64_t hash() const { return hash_; }
+  /// A layer's are right as long as the bricks beneath its own stand as they were.
+  uint64_t hash() const { return below_ == nullptr ? hash_ : below_->hash() + hash_; }
   uint64_t chunk_hash(ChunkCoord chunk) const;
   /// The chunks with edited bricks, and the edited bricks of one chunk, both in order.
   std::vector<ChunkCoord> edited_chunks() const;
@@ -61,15 +66,21 @@ class Field {
 
   /// Takes a chunk that another thread generated, so that brick() need not generate it.
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
-  bool has_generated(ChunkCoord chunk) const { return generated_.contains(chunk); }
+  bool has_generated(ChunkCoord chunk) const { return keeper().generated_.contains(chunk); }
   /// Number of generated chunks kept; at generated_chunks_max() all are dropped.
-  size_t generated_chunks() const { return generated_.size(); }
-  size_t generated_chunks_max() const { return generated_chunks_max_; }
+  size_t generated_chunks() const { return keeper().generated_.size(); }
+  size_t generated_chunks_max() const { return keeper().generated_chunks_max_; }
   /// `chunks` is positive, and at most limits::generated_chunks_max, which holds at first.
   void bound_generated(size_t chunks);
-  size_t edited_brick_count() const { return edited_bricks_; }
+  size_t edited_brick_count() const {
+    return below_ == nullptr ? edited_bricks_ : below_->edited_brick_count() + edited_bricks_;
+  }
 
  protected:
+  /// As find_edited() of the field below; null when there is none.
+  const Brick* find_below(BrickCoord coord) const {
+    return below_ == nullptr ? nullptr : below_->find_edited(coord);
+  }
   virtual const Brick* find_edited(BrickCoord coord) const = 0;
   virtual void store_edited(BrickCoord coord, const Brick& brick) = 0;
   virtual void erase_edited(BrickCoord coord) = 0;
@@ -86,14 +97,18 @@ class Field {
     uint64_t edited;  ///< as EditedChunk::bricks
     const GeneratedChunk* generated;
   };
+  /// The field that keeps the generated chunks.
+  const Field& keeper() const { return below_ == nullptr ? *this : below_->keeper(); }
+  uint64_t edited_bits(ChunkCoord chunk) const;
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
   void forget_generated();
   LastChunk& last_chunk(ChunkCoord chunk);
 
   TerrainSource source_;
+  Field* below_ = nullptr;  ///< of a layer
   std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> generated_;
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
-  std::optional<LastChunk> last_;
+  std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
   size_t generated_chunks_max_;
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
