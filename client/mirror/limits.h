@@ -21,4 +21,14 @@ inline constexpr float mirror_frame_work_max_us = 2.0e6F;
 /// mismatches of the chunk are expected.
 inline constexpr uint64_t repair_patience_ticks = 120;
 
+/// Requests of one's own that are shown before the server answers; the work of carrying them out again, by
+/// the model (shared/operation/price.h), microseconds, which a frame may have to do: ten strikes of usual
+/// size, or two of the largest. Above: a request is shown when the server has carried it out.
+inline constexpr size_t predictions_max = 8;
+inline constexpr float predictions_work_max_us = 5.0e4F;
+
+/// Seconds for which the server's answer is awaited: longer than any request waits on a server that keeps up.
+/// Above: what was shown is taken back.
+inline constexpr double prediction_seconds_max = 2.0;
+
 }  // namespace scree::limits

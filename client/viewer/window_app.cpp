@@ -20,7 +20,8 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
       choice_(kept.hud),
       overlay_(kept.overlay),
       tool_(kept.tool),
-      grid_(viewing.options.grid) {
+      grid_(viewing.options.grid),
+      predict_(viewing.options.predict) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
 }
 
@@ -36,7 +37,7 @@ Result<void> WindowApp::choose(const MethodEntry& method) {
   return viewing_.view->methods().choose(method);
 }
 
-Result<void> WindowApp::act(const AppInput& input) {
+Result<void> WindowApp::act(const AppInput& input, double now_s) {
   const MethodSwitch& methods = viewing_.view->methods();
   for (const Action action : input.actions) {
     change(tool_, action);
@@ -48,7 +49,7 @@ Result<void> WindowApp::act(const AppInput& input) {
       if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
   }
   grow(tool_, input.wheel);
-  if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward());
+  if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward(), now_s);
   return {};
 }
 
@@ -70,7 +71,9 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   hud_.figures(facts);
   if (choice_.graphs) hud_.graphs(facts);
   const MethodEntry* picked =
-      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_, grid_) : nullptr;
+      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_, grid_, predict_)
+                    : nullptr;
+  viewing_.session.predict(predict_);
   viewing_.view->renderer().set_grid(grid_);
   if (choice_.help) hud_.help();
   const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
@@ -87,7 +90,7 @@ Result<void> WindowApp::frame() {
   const double now_s = steady_now_s();
   fly(viewing_.camera, input.fly, input.elapsed_s);
   if (viewing_.options.path) follow_path(now_s);
-  if (Result<void> acted = act(input); !acted) return acted;
+  if (Result<void> acted = act(input, now_s); !acted) return acted;
   FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
   Stopwatch watch;
   if (Result<void> stepped = viewing_.step(now_s); !stepped) return stepped;
@@ -112,6 +115,7 @@ Settings WindowApp::settings() const {
   settings.hud = choice_;
   settings.overlay = overlay_;
   settings.tool = tool_;
+  settings.predict = predict_;
   return settings;
 }
 

@@ -22,7 +22,7 @@ class WindowApp {
 
  private:
   void follow_path(double now_s);
-  Result<void> act(const AppInput& input);
+  Result<void> act(const AppInput& input, double now_s);
   Result<void> choose(const MethodEntry& method);
   /// Lines over the world: the shape of the next strike, other persons, the overlay.
   LineList lines(double now_s);
@@ -35,6 +35,7 @@ class WindowApp {
   OverlayChoice overlay_;
   Tool tool_;
   GridShape grid_;
+  bool predict_;
   FactFinder facts_;
   std::optional<double> path_begun_s_;
 };

@@ -132,13 +132,15 @@ TEST(Screenshots, each_waits_for_its_own_moment) {
 TEST(Options, are_understood) {
   const auto parsed = parse(std::array{"scree-viewer", "--port", "4000", "--size", "320x200", "--camera",
                                        "1,2,3,90,-10", "--method", "mesh", "--offscreen", "--screenshot",
-                                       "a.png", "--screenshot", "b.png@settled"});
+                                       "a.png", "--screenshot", "b.png@settled", "--predict", "false"});
   ASSERT_TRUE(std::holds_alternative<ViewerOptions>(parsed));
   const auto& options = std::get<ViewerOptions>(parsed);
   EXPECT_EQ(options.port, 4000);
   EXPECT_EQ(options.method->name, "mesh");
   EXPECT_EQ(options.width, 320);
   EXPECT_EQ(options.screenshots.size(), 2U);
+  EXPECT_FALSE(options.predict);
+  EXPECT_TRUE(options.given.predict);
   EXPECT_NEAR(options.camera.forward().x, -0.985F, 0.01F);
 }
 
@@ -150,6 +152,7 @@ TEST(Options, nonsense_is_refused) {
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--view-radius", "100000"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--offscreen"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--method", "crayon"})).status, 2);
+  EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--predict", "maybe"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--help"})).status, 0);
 }
 

@@ -60,6 +60,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   end.hud.graphs = true;
   end.tool.kind = ToolKind::tunnel;
   end.view_radius_m = 64.0F;
+  end.predict = false;
   first.keep(start, end);
 
   const KeptSettings second(settings_file());
@@ -67,6 +68,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   EXPECT_TRUE(second.loaded().hud.graphs);
   EXPECT_EQ(second.loaded().tool.kind, ToolKind::tunnel);
   EXPECT_EQ(second.loaded().view_radius_m, 64.0F);
+  EXPECT_FALSE(second.loaded().predict);
 }
 
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
@@ -94,6 +96,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {false, true, false};
   settings.overlay = {true, false, true, false, true};
+  settings.predict = false;
   const Result<Settings> again = parse_settings(to_text(settings));
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(*again, settings);
@@ -121,6 +124,13 @@ TEST_F(SettingsTest, flags_win) {
   EXPECT_EQ(options.width, 100);
   EXPECT_EQ(options.view_radius_m, 48.0F);
   EXPECT_EQ(options.grid, (GridShape{64, GridShape().scale, GridSpacing::growing}));
+  EXPECT_TRUE(options.predict);
+  settings.predict = false;
+  apply_settings(settings, options);
+  EXPECT_FALSE(options.predict);
+  options.predict = options.given.predict = true;
+  apply_settings(settings, options);
+  EXPECT_TRUE(options.predict);
 }
 
 TEST(Tool, every_shape_is_within_the_servers_limits) {

@@ -121,7 +121,7 @@ TEST_F(ViewerWindow, draws_with_all_of_the_hud_and_goes_on_without_a_server) {
 TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
   open(320, 200);
   run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
-  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward());
+  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward(), steady_now_s());
   run_until(
       [&] {
         const PhysicsMessage* physics = viewing_->session.physics();

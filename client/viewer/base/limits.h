@@ -68,6 +68,9 @@ inline constexpr double path_step_min_s = 5e-4;
 inline constexpr size_t path_keys_max = 10000;
 inline constexpr double path_duration_max_s = 3600.0;
 
+/// Requests whose time to the answer is measured; above: the oldest is forgotten.
+inline constexpr size_t own_requests_timed_max = 64;
+
 /// Seconds between two updates of the HUD's costly counts.
 inline constexpr double count_interval_s = 0.5;
 

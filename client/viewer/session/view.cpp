@@ -26,7 +26,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
     renderer_->set_terrain(session.mirror()->terrain());
   }
   if (session.mirror() == nullptr) return {};
-  return methods_.follow(step.changes, Scene{session.mirror()->field(), session.pieces(now_s)}, camera);
+  return methods_.follow(step.changes, Scene{session.field(), session.pieces(now_s)}, camera);
 }
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -42,6 +43,8 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
     step.new_world = finish_connecting(now_s);
   }
   if (connection_) receive(now_s, step);
+  if (predictions_ && !(connection_ && predict_)) predictions_->take_back();
+  if (predictions_) predictions_->settle(now_s, step.changes);
   if (connection_) report(now_s, eye_m);
   if (connection_) report_cursor(now_s, camera);
   return step;
@@ -76,7 +79,10 @@ bool ViewerSession::finish_connecting(double now_s) {
   }
   connection_ = std::move(attempt.connection);
   connected_since_s_ = now_s;
+  predictions_.reset();
   mirror_ = std::make_unique<Mirror>(connection_->welcome());
+  predictions_ = std::make_unique<Predictions>(*mirror_);
+  asked_s_.clear();
   playback_.start(connection_->welcome());
   pieces_.clear();
   trouble_.clear();
@@ -110,6 +116,8 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
   const bool last = !open && arrived.empty();
   for (Received& received : arrived) {
     rate_bytes_ += received.bytes;
+    if (const auto* reply = std::get_if<ReplyMessage>(&received.message))
+      measure(*reply, seconds_of(received.arrived));
     playback_.push(std::move(received.message), seconds_of(received.arrived));
   }
   for (const ServerMessage& message : playback_.take_due(now_s)) {
@@ -126,8 +134,16 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
   if (last) lose(now_s, connection_->end());
 }
 
+void ViewerSession::measure(const ReplyMessage& reply, double arrived_s) {
+  const auto asked = asked_s_.find(reply.request);
+  if (asked == asked_s_.end()) return;
+  latency_ = {(arrived_s - asked->second) * 1000.0, reply.latency};
+  asked_s_.erase(asked);
+}
+
 void ViewerSession::apply(const ServerMessage& message, double now_s, SessionStep& step) {
   std::visit(Overloaded{[&](const ChunkMessage&) { last_chunk_s_ = now_s; },
+                        [&](const ResetMessage&) { last_chunk_s_ = now_s; },
                         [&](const ReplyMessage& reply) {
                           if (reply.refusal.empty()) return;
                           notice_ = reply.refusal;
@@ -142,6 +158,7 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
     lose(now_s, {{"what the server sent cannot be applied: " + changes.error().message}});
     return;
   }
+  predictions_->notice(message);
   saw_pieces_ = saw_pieces_ || !changes->pieces_added.empty();
   append(step.changes, *changes);
 }
@@ -181,6 +198,9 @@ const ScenePieces& ViewerSession::pieces(double now_s) {
   const double tick = playback_.draw_tick(now_s);
   for (const auto& [id, motion] : mirror_->pieces())
     pieces_.emplace_hint(pieces_.end(), id, ScenePiece{motion.volume, mirror_->pose_at(motion, tick)});
+  const float voxel_m = mirror_->terrain().voxel_size_m;
+  for (const auto& [id, volume] : predictions_->pieces())
+    pieces_.emplace(id, ScenePiece{volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}});
   return pieces_;
 }
 
@@ -197,15 +217,36 @@ std::optional<glm::vec3> ViewerSession::aim(glm::vec3 from_m, glm::vec3 directio
   if (!mirror_) return std::nullopt;
   const float voxel_m = mirror_->terrain().voxel_size_m;
   const std::optional<float> hit =
-      trace(mirror_->field(), from_m / voxel_m, direction, limits::carve_reach_m / voxel_m);
+      trace(field(), from_m / voxel_m, direction, limits::carve_reach_m / voxel_m);
   if (!hit) return std::nullopt;
   return from_m + direction * (*hit * voxel_m);
 }
 
-void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction) {
+void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s) {
   if (!connection_) return;
-  if (const std::optional<glm::vec3> hit_m = aim(from_m, direction))
-    connection_->send(strike_with(tool, *hit_m, direction, ++requests_));
+  const std::optional<glm::vec3> hit_m = aim(from_m, direction);
+  if (!hit_m) return;
+  const CarveMessage carve = strike_with(tool, *hit_m, direction, ++requests_);
+  connection_->send(carve);
+  if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
+  asked_s_[carve.request] = steady_now_s();
+  if (predict_) foresee(carve, now_s);
+}
+
+/// Where everything that the carve reads has arrived, and where it can be hoped to be carried out.
+void ViewerSession::foresee(const CarveMessage& carve, double now_s) {
+  const WelcomeMessage& welcome = connection_->welcome();
+  if (welcome.replay || !may_act_as(welcome.role, Role::carver)) return;
+  const float radius_m = std::min(interest_radius_m_, welcome.interest_radius_m);
+  const float side_m = static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m;
+  const auto known = [&](ChunkCoord chunk) {
+    if (mirror_->held_chunks().contains(chunk)) return true;
+    if (!joined(now_s)) return false;  // it may be on its way
+    const glm::vec3 lo_m = glm::vec3(chunk.x, chunk.y, chunk.z) * side_m;
+    const glm::vec3 nearest_m = glm::clamp(reported_eye_m_, lo_m, lo_m + side_m);
+    return glm::distance(reported_eye_m_, nearest_m) <= radius_m;
+  };
+  predictions_->foresee(carve.request, Request(static_cast<const CarveRequest&>(carve)), now_s, known);
 }
 
 std::string ViewerSession::description() const {

@@ -7,12 +7,14 @@
 
 #include <cstdint>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
+#include "client/mirror/predictions.h"
 #include "client/render/scene/draw_method.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/playback.h"
@@ -34,8 +36,15 @@ class ViewerSession {
 
   /// Null until the first welcome.
   Mirror* mirror() { return mirror_.get(); }
-  /// The pieces at the poses to draw now.
+  /// The field to draw and to aim at: the mirror's, with this client's own carves that the server has not
+  /// answered yet laid over it. After the first welcome; valid until the next step() or strike().
+  Field& field() { return predictions_->field(); }
+  /// The pieces at the poses to draw now; those of predicted carves where they are cut.
   const ScenePieces& pieces(double now_s);
+  /// Whether carves are shown before the server has answered.
+  void predict(bool on) { predict_ = on; }
+  /// Carves that are shown so now.
+  size_t predictions() const { return predictions_ ? predictions_->outstanding() : 0; }
   bool connected() const { return connection_ != nullptr; }
   /// Whether the edits around the camera have arrived: no chunk came for a while.
   bool joined(double now_s) const;
@@ -45,7 +54,9 @@ class ViewerSession {
   /// The point at which a ray (unit direction) meets rock within reach, metres.
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
   /// Requests a carve by the tool at the point where the ray meets rock; does nothing if it meets none.
-  void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction);
+  void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s);
+  /// The way of the last request that was answered, by stages; none before the first.
+  const std::optional<RequestLatency>& latency() const { return latency_; }
 
   /// The other persons within interest.
   const std::vector<PlayerCursor>& cursors() const { return cursors_; }
@@ -73,6 +84,8 @@ class ViewerSession {
   void begin_connecting(glm::vec3 eye_m);
   bool finish_connecting(double now_s);
   void receive(double now_s, SessionStep& step);
+  void measure(const ReplyMessage& reply, double arrived_s);
+  void foresee(const CarveMessage& carve, double now_s);
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);
@@ -84,6 +97,8 @@ class ViewerSession {
   std::future<Attempt> connecting_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;
+  std::unique_ptr<Predictions> predictions_;  ///< over the mirror
+  bool predict_ = true;
   Playback playback_;
   ScenePieces pieces_;
   std::string trouble_;   ///< the reason for the missing connection
@@ -103,6 +118,8 @@ class ViewerSession {
   double last_chunk_s_ = 0.0;
   bool saw_pieces_ = false;
   uint32_t requests_ = 0;
+  std::map<uint32_t, double> asked_s_;  ///< when, by request that is not answered
+  std::optional<RequestLatency> latency_;
   std::string notice_;
   double notice_until_s_ = 0.0;
   double rate_since_s_ = 0.0;

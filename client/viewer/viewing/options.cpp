@@ -81,6 +81,12 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_GRID_SPACING");
 }
 
+void declare_input(CLI::App& app, ViewerOptions& options) {
+  app.add_option("--predict", options.predict,
+                 "Show your own carves at once, before the server answers: true or false")
+      ->envname("SCREE_PREDICT");
+}
+
 void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
@@ -113,6 +119,7 @@ void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
 
 void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   declare_view(app, options, texts);
+  declare_input(app, options);
   declare_pictures(app, options, texts);
   app.add_flag("--overlay", options.overlay.shown,
                "Show borders, interest, bodies, contacts and other persons' cursors over the picture")
@@ -186,9 +193,9 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   try {
     app.parse(argc, argv);
     const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
-    options.given = {given("--size"),        given("--method"),
-                     given("--view-radius"), given("--grid-resolution"),
-                     given("--grid-scale"),  given("--grid-spacing")};
+    options.given = {
+        given("--size"),       given("--method"),       given("--view-radius"), given("--grid-resolution"),
+        given("--grid-scale"), given("--grid-spacing"), given("--predict")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

@@ -29,12 +29,14 @@ struct ViewerOptions : ServerEndpoint {
     bool grid_resolution = false;
     bool grid_scale = false;
     bool grid_spacing = false;
+    bool predict = false;
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed
   float view_radius_m = 0.0F;
   float render_scale = 1.0F;  ///< of methods that draw pixel by pixel
   GridShape grid;             ///< of the method grid
+  bool predict = true;        ///< carves are shown before the server answers
   bool offscreen = false;
   bool gl_debug = false;
   double timeout_s = 0.0;

@@ -27,6 +27,7 @@ struct Settings {
   HudChoice hud;
   OverlayChoice overlay;
   Tool tool;
+  bool predict = true;
 
   bool operator==(const Settings&) const = default;
 };

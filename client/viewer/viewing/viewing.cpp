@@ -26,6 +26,7 @@ Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
   view->renderer().set_render_scale(options.render_scale);
   view->renderer().set_grid(options.grid);
   session.watch(given.overlay.shown && given.overlay.physics);
+  session.predict(given.predict);
 }
 
 Result<void> Viewing::step(double now_s) {
@@ -59,7 +60,7 @@ Moment Viewing::moment(double now_s) {
   moment.joined = joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
-    const Scene scene{mirror->field(), session.pieces(now_s)};
+    const Scene scene{session.field(), session.pieces(now_s)};
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     moment.pieces = pieces_in_sight(scene, camera, aspect, options.view_radius_m);
     const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;

@@ -29,8 +29,9 @@ class Hud {
   void note(const HudFacts& facts, const FrameParts& parts);
   void figures(const HudFacts& facts);
   void graphs(const HudFacts& facts);
-  /// The chosen method; null if none was chosen. Sliders change `tool`.
-  const MethodEntry* panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid);
+  /// The chosen method; null if none was chosen. Sliders and boxes change the others.
+  const MethodEntry* panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid,
+                           bool& predict);
   /// The persons' names, where their cursors are in the picture.
   void names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection);
   void help();

@@ -16,6 +16,8 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
   facts.lost = !session.connected();
   facts.bytes_per_s = session.received_bytes_per_s();
   facts.notice = session.notice(now_s);
+  facts.latency = session.latency();
+  facts.predictions = session.predictions();
   facts.driver = viewing.view->renderer().description();
   if (mirror != nullptr) {
     facts.tick = mirror->tick();

@@ -42,6 +42,27 @@ void show_work(const WorkStatus& work) {
     ImGui::Text("left out: %u breaks, %u dents", work.breaks_left_out, work.dents_left_out);
 }
 
+double as_ms(uint32_t us) {
+  return static_cast<double>(us) / 1000.0;
+}
+
+/// The way of one's own last request, and of all clients' in the last second, by stages.
+void show_latency(const HudFacts& facts) {
+  if (facts.latency) {
+    ImGui::Text("your request: %.1f ms, network %.1f", facts.latency->total_ms, facts.latency->network_ms());
+    for (const LatencyStageRow& stage : latency_stages) {
+      ImGui::SameLine(0.0F, 0.0F);
+      ImGui::Text(", %s %.1f", stage.name.data(), as_ms(facts.latency->server.*stage.us));
+    }
+  }
+  if (facts.status && facts.status->latency != LatencyStatus{})
+    for (const LatencyStageRow& stage : latency_stages)
+      ImGui::Text("all: %-8s median %6.1f, worst %6.1f ms", stage.name.data(),
+                  as_ms(facts.status->latency.median.*stage.us),
+                  as_ms(facts.status->latency.worst.*stage.us));
+  if (facts.predictions > 0) ImGui::Text("%zu carves not answered yet", facts.predictions);
+}
+
 void show_memory(const MemoryCounts& counts) {
   ImGui::TextUnformatted("MiB              CPU     GPU");
   for (const MemoryCount& count : counts)
@@ -85,6 +106,7 @@ void Hud::figures(const HudFacts& facts) {
     show_ledger(*facts.status);
     show_work(facts.status->work);
   }
+  show_latency(facts);
   ImGui::Separator();
   ImGui::Text("chunks: %zu followed, %zu edited, %zu bricks", facts.held_chunks, facts.edited_chunks,
               facts.edited_bricks);

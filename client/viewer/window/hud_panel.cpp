@@ -52,8 +52,8 @@ void choose_grid(GridShape& grid) {
 
 }  // namespace
 
-const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay,
-                              GridShape& grid) {
+const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid,
+                              bool& predict) {
   begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
                 mouse_is_free_);
   ImGui::PushItemWidth(150.0F);
@@ -69,6 +69,7 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoi
   if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
   ImGui::PopItemWidth();
+  ImGui::Checkbox("shown before the server answers", &predict);
   ImGui::Separator();
   ImGui::Checkbox("overlay", &overlay.shown);
   ImGui::BeginDisabled(!overlay.shown);

@@ -1,0 +1,142 @@
+// A viewer's session that shows its own carves before the server answers, against a whole server that ticks
+// only when the test says so.
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "client/viewer/session/viewer_session.h"
+#include "server/app/live_server.h"
+#include "tests/support/patience.h"
+
+namespace scree {
+namespace {
+
+class PredictingViewer : public testing::Test {
+ protected:
+  using Session = scree::ViewerSession;
+
+  /// A server, and a session that has joined it.
+  void start(const std::function<void(LiveConfig&)>& change = {}) {
+    LiveConfig config;
+    config.pacing = Pacing::by_hand;
+    config.world.terrain.kind = TerrainKind::flat;
+    if (change) change(config);
+    auto server = LiveServer::start(config);
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+    ServerEndpoint endpoint;
+    endpoint.host = "127.0.0.1";
+    endpoint.port = server_->port();
+    session_ = std::make_unique<Session>(endpoint, 24.0F, "");
+    camera_.eye_m = {0.0F, 3.0F, 0.0F};
+    until("the world", true, [&] { return session_->joined(steady_now_s()); });
+  }
+  SessionStep step() { return session_->step(steady_now_s(), camera_); }
+  /// Steps the session, and the server if it `ticks`.
+  template <typename Condition>
+  void until(const char* what, bool ticks, const Condition& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << what << " does not come";
+      if (ticks && server_) server_->step_once();
+      step();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  void strike() { session_->strike(Tool{}, camera_.eye_m, glm::vec3(0.0F, -1.0F, 0.0F), steady_now_s()); }
+  /// Depth of what is shown, and of what the server has told, under the camera; metres from it.
+  float shown_m() { return session_->aim(camera_.eye_m, {0.0F, -1.0F, 0.0F}).value_or(glm::vec3(-99.0F)).y; }
+  uint64_t exact_hash() { return session_->mirror()->field().hash(); }
+
+  std::unique_ptr<LiveServer> server_;
+  std::unique_ptr<Session> session_;
+  Camera camera_;
+};
+
+TEST_F(PredictingViewer, a_strike_is_in_the_next_frame_and_then_as_the_server_says) {
+  start();
+  if (HasFatalFailure()) return;
+  EXPECT_FALSE(session_->latency());
+  strike();
+  EXPECT_EQ(session_->predictions(), 1U);
+  const SessionStep next = step();
+  EXPECT_FALSE(next.changes.bricks.empty());
+  EXPECT_GT(next.changes.pieces_added.size(), 1U);
+  EXPECT_EQ(session_->pieces(steady_now_s()).size(), next.changes.pieces_added.size());
+  EXPECT_LT(shown_m(), -0.5F) << "the next strike aims into the hole";
+  EXPECT_EQ(exact_hash(), 0U);
+
+  until("the answer", true, [&] { return session_->latency().has_value(); });
+  until("the server's carve", true, [&] { return session_->predictions() == 0; });
+  EXPECT_NE(exact_hash(), 0U);
+  EXPECT_EQ(&session_->field(), &session_->mirror()->field());
+  EXPECT_EQ(session_->pieces(steady_now_s()).size(), session_->mirror()->pieces().size());
+  EXPECT_LE(session_->latency()->server.total_ms(), session_->latency()->total_ms + 1.0);
+}
+
+TEST_F(PredictingViewer, what_the_server_refuses_is_taken_back) {
+  start([](LiveConfig& config) { config.world.pieces_max = 1; });
+  if (HasFatalFailure()) return;
+  strike();
+  step();
+  EXPECT_LT(shown_m(), -0.5F);
+  until("the refusal", true, [&] { return session_->predictions() == 0; });
+  EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
+  EXPECT_EQ(exact_hash(), 0U);
+  EXPECT_NE(session_->notice(steady_now_s()).find("pieces_max"), std::string::npos);
+}
+
+TEST_F(PredictingViewer, a_lost_server_takes_it_back_and_another_world_knows_nothing_of_it) {
+  start();
+  if (HasFatalFailure()) return;
+  strike();
+  step();
+  EXPECT_EQ(session_->predictions(), 1U);
+  const uint16_t port = server_->port();
+  server_.reset();
+  until("the loss", false, [&] { return !session_->connected(); });
+  EXPECT_EQ(session_->predictions(), 0U);
+  EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
+  strike();
+  EXPECT_EQ(session_->predictions(), 0U);
+  LiveConfig config;
+  config.pacing = Pacing::by_hand;
+  config.world.terrain.kind = TerrainKind::flat;
+  config.net.port = port;
+  auto again = LiveServer::start(config);
+  ASSERT_TRUE(again) << again.error().message;
+  server_ = std::move(*again);
+  until("the new world", true, [&] { return session_->joined(steady_now_s()); });
+  strike();
+  EXPECT_EQ(session_->predictions(), 1U);
+}
+
+TEST_F(PredictingViewer, switched_off_it_waits_for_the_server) {
+  start();
+  if (HasFatalFailure()) return;
+  strike();
+  session_->predict(false);
+  step();
+  EXPECT_EQ(session_->predictions(), 0U) << "what was shown is taken back";
+  EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
+  strike();
+  EXPECT_EQ(session_->predictions(), 0U);
+  until("the server's carve", true, [&] { return exact_hash() != 0; });
+}
+
+TEST_F(PredictingViewer, who_may_not_carve_predicts_nothing) {
+  start([](LiveConfig& config) { config.net.access.anonymous = Role::viewer; });
+  if (HasFatalFailure()) return;
+  strike();
+  EXPECT_EQ(session_->predictions(), 0U);
+}
+
+TEST_F(PredictingViewer, ground_that_may_not_have_arrived_is_not_predicted) {
+  start();
+  if (HasFatalFailure()) return;
+  camera_.eye_m = {300.0F, 3.0F, 0.0F};  // not reported yet: the server sends nothing from there
+  strike();
+  EXPECT_EQ(session_->predictions(), 0U);
+}
+
+}  // namespace
+}  // namespace scree
