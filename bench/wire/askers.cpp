@@ -1,0 +1,166 @@
+#include "bench/wire/askers.h"
+
+#include <cstring>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <optional>
+#include <sys/epoll.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "bench/support/scenes.h"
+#include "proto/codec.h"
+#include "proto/frame_reader.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+/// Tags of ServerMessage's kinds (proto/scree.proto).
+constexpr uint8_t frame_tag = 0x1A, reply_tag = 0x3A;
+
+template <typename Message>
+bool send_all(int socket, const Message& message) {
+  const std::vector<uint8_t> bytes = encode(ClientMessage(message));
+  return ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
+
+}  // namespace
+
+struct Askers::Viewer {
+  int socket = -1;
+  glm::vec3 place_m{0.0F};
+  double next_s = 0.0;  ///< when it asks again
+  FrameReader reader;
+  uint32_t requests = 0;
+  uint32_t random_seed = 0;  ///< of its last carve
+  double sent_s = 0.0;
+  bool unseen = false;  ///< the last carve's operation has not come
+  bool unanswered = false;
+  bool counted = false;
+};
+
+Askers::Askers(const AskersConfig& config) : config_(config), epoll_(epoll_create1(0)) {}
+
+Askers::~Askers() {
+  stop();
+  for (const auto& viewer : viewers_)
+    if (viewer->socket >= 0) close(viewer->socket);
+  close(epoll_);
+}
+
+Result<std::unique_ptr<Askers>> Askers::connect(const AskersConfig& config) {
+  std::unique_ptr<Askers> askers(new Askers(config));
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(config.port);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const double now_s = steady_now_s();
+  for (size_t i = 0; i < config.viewers; ++i) {
+    const auto around = [&] { return (askers->random_.unit() * 2.0F - 1.0F) * config.spread_m; };
+    auto viewer = std::make_unique<Viewer>();
+    viewer->place_m = {around(), 0.0F, around()};
+    viewer->place_m.y = ground_height_m(config.terrain, viewer->place_m.x, viewer->place_m.z);
+    viewer->next_s = now_s + config.seconds_per_carve * static_cast<double>(askers->random_.unit());
+    viewer->socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const int on = 1;
+    setsockopt(viewer->socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    const HelloMessage hello{protocol_version, "asker", viewer->place_m, config.interest_m};
+    if (viewer->socket < 0 ||
+        ::connect(viewer->socket, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0 ||
+        !send_all(viewer->socket, hello))
+      return fail(std::string("a viewer cannot connect: ") + std::strerror(errno));
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = i;
+    epoll_ctl(askers->epoll_, EPOLL_CTL_ADD, viewer->socket, &event);
+    askers->viewers_.push_back(std::move(viewer));
+  }
+  return askers;
+}
+
+void Askers::start() {
+  CHECK(!thread_.joinable());
+  thread_ = std::thread([this] { run(); });
+}
+
+void Askers::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Askers::ask(Viewer& viewer, double now_s) {
+  viewer.next_s = now_s + config_.seconds_per_carve * (0.5 + static_cast<double>(random_.unit()));
+  if (viewer.unanswered) return;  // an honest person waits
+  const auto near = [&](float at_m) { return at_m + (random_.unit() * 2.0F - 1.0F) * 6.0F; };
+  viewer.random_seed = random_.next();
+  const CarveRequest blow = blow_at(config_.terrain, near(viewer.place_m.x), near(viewer.place_m.z),
+                                    config_.radius_m, config_.seeds, viewer.random_seed);
+  viewer.counted = counting_;
+  viewer.unseen = viewer.unanswered = true;
+  viewer.sent_s = steady_now_s();
+  if (!send_all(viewer.socket, CarveMessage{blow, ++viewer.requests})) return lose(viewer);
+  if (viewer.counted) ++times_.asked;
+}
+
+/// False when it cannot be decoded. Decodes what tells of the viewer's own carve, and nothing else.
+bool Askers::take(Viewer& viewer, std::span<const uint8_t> body, double now_s) {
+  const bool wanted = !body.empty() && (body[0] == reply_tag || (body[0] == frame_tag && viewer.unseen));
+  if (!wanted) return true;
+  const auto message = decode_server(body);
+  if (!message) return false;
+  const double ms = (now_s - viewer.sent_s) * 1000.0;
+  if (const auto* reply = std::get_if<ReplyMessage>(&*message)) {
+    viewer.unanswered = false;
+    if (!reply->refusal.empty()) viewer.unseen = false;
+    if (!viewer.counted) return true;
+    times_.reply.push_back({ms, reply->latency});
+    times_.refused += reply->refusal.empty() ? 0 : 1;
+    return true;
+  }
+  for (const Operation& operation : std::get<FrameMessage>(*message).operations) {
+    const auto* carve = std::get_if<CarveOperation>(&operation);
+    if (carve == nullptr || !viewer.unseen || carve->random_seed != viewer.random_seed) continue;
+    viewer.unseen = false;
+    if (viewer.counted) times_.applied.push_back(ms);
+  }
+  return true;
+}
+
+void Askers::lose(Viewer& viewer) {
+  ++lost_;
+  epoll_ctl(epoll_, EPOLL_CTL_DEL, viewer.socket, nullptr);
+  close(viewer.socket);
+  viewer.socket = -1;
+}
+
+void Askers::run() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);  // they stand for machines of their own
+  std::vector<epoll_event> events(256);
+  std::vector<uint8_t> buffer(size_t{64} << 10U);
+  while (!stopping_) {
+    const int ready = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 1);
+    for (int i = 0; i < ready; ++i) {
+      Viewer& viewer = *viewers_[events[static_cast<size_t>(i)].data.u64];
+      const ssize_t got = recv(viewer.socket, buffer.data(), buffer.size(), MSG_DONTWAIT);
+      const double now_s = steady_now_s();
+      if (got < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+      bool sound = got > 0;
+      if (sound) viewer.reader.push(std::span<const uint8_t>(buffer.data(), static_cast<size_t>(got)));
+      while (sound) {
+        const auto body = viewer.reader.next();
+        sound = body.has_value() && (!body->has_value() || take(viewer, **body, now_s));
+        if (!sound || !body->has_value()) break;
+      }
+      if (!sound) lose(viewer);
+    }
+    const double now_s = steady_now_s();
+    for (const auto& viewer : viewers_)
+      if (viewer->socket >= 0 && now_s >= viewer->next_s) ask(*viewer, now_s);
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,72 @@
+// Many viewers on loopback that carve at their times, and look at one thing: how long it takes until their
+// own carve is there, and what its reply says of the way.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "proto/messages.h"
+#include "shared/base/random.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+struct AskersConfig {
+  uint16_t port = 0;
+  TerrainSource terrain;
+  size_t viewers = 100;
+  float spread_m = 24.0F;  ///< they look, and carve, within this of the origin
+  float interest_m = 48.0F;
+  double seconds_per_carve = 4.0;  ///< of each viewer, on average
+  float radius_m = 1.0F;
+  uint32_t seeds = 8;
+};
+
+/// By request, milliseconds.
+struct AskedTimes {
+  std::vector<double> applied;        ///< until the frame with its operation had come
+  std::vector<RequestLatency> reply;  ///< until the reply had come
+  size_t asked = 0;
+  size_t refused = 0;
+};
+
+class Askers {
+ public:
+  /// Connects all; they are served by one thread, which begins with start().
+  static Result<std::unique_ptr<Askers>> connect(const AskersConfig& config);
+  ~Askers();
+  Askers(const Askers&) = delete;
+  Askers& operator=(const Askers&) = delete;
+
+  void start();
+  /// Requests made from now on are counted.
+  void count(bool on) { counting_ = on; }
+  /// Ends the thread; after this the times can be read.
+  void stop();
+
+  const AskedTimes& times() const { return times_; }
+  size_t lost() const { return lost_; }  ///< connections that ended, or brought what cannot be decoded
+
+ private:
+  struct Viewer;
+  explicit Askers(const AskersConfig& config);
+  void run();
+  void ask(Viewer& viewer, double now_s);
+  bool take(Viewer& viewer, std::span<const uint8_t> body, double now_s);
+  void lose(Viewer& viewer);
+
+  AskersConfig config_;
+  int epoll_ = -1;
+  std::vector<std::unique_ptr<Viewer>> viewers_;
+  Random random_{77};
+  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> counting_{false};
+  AskedTimes times_;
+  size_t lost_ = 0;
+};
+
+}  // namespace scree
