@@ -27,6 +27,8 @@ const std::vector<Bench>& all_benches() {
        run_latency_bench},
       {"ledger", "mass over many carves and merges: the ledger against the field measured afresh",
        run_ledger_bench},
+      {"link", "a session by links of 0 to 200 ms and 10 Mbit/s to 100 kbit/s, and cut ones: age, hashes",
+       run_link_bench},
       {"memory", "edits all over 4 km under a limit of memory", run_memory_bench},
       {"mesh", "surface nets of a changed block, beside OpenVDB's volumeToMesh; from a change to its picture",
        run_mesh_bench},

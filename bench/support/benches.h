@@ -16,6 +16,7 @@ BenchReport run_fanout_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_latency_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
+BenchReport run_link_bench(const BenchOptions& options);
 BenchReport run_memory_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);
 BenchReport run_rates_bench(const BenchOptions& options);

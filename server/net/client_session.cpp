@@ -8,7 +8,6 @@
 #include "proto/codec.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
-#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -63,7 +62,7 @@ void ClientSession::read_failed(bool orderly, const std::string& why) {
 }
 
 void ClientSession::read_done(size_t bytes) {
-  now_s_ = steady_now_s();
+  now_s_ = times_.now_s();
   if (phase_ != Phase::refused && !bytes_.take(now_s_, static_cast<double>(bytes)))
     refuse({Refusal::bytes_per_second,
             fmt::format("more than {} bytes a second (limits.client_bytes_per_second_max)",
@@ -124,7 +123,7 @@ void ClientSession::send(SharedBytes bytes) {
 void ClientSession::queue(SharedBytes bytes) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
   CHECK(bytes != nullptr && bytes->size() >= length_prefix_bytes);
-  if (backlog_bytes_ == 0) progress_s_ = steady_now_s();
+  if (backlog_bytes_ == 0) progress_s_ = times_.now_s();
   backlog_bytes_ += bytes->size();
   outbox_.push_back(std::move(bytes));
   CHECK_DEBUG(backlog_adds_up());
@@ -137,10 +136,16 @@ void ClientSession::queue(SharedBytes bytes) {
 void ClientSession::write() {
   if (writing_ || outbox_.empty() || phase_ == Phase::closed) return;
   writing_ = true;
+  offered_bytes_ = 0;
   std::array<std::span<const uint8_t>, gather_max> buffers;
-  const size_t count = std::min(outbox_.size(), gather_max);
-  for (size_t i = 0; i < count; ++i)
-    buffers[i] = std::span<const uint8_t>(*outbox_[i]).subspan(i == 0 ? front_sent_bytes_ : 0);
+  size_t count = 0;
+  for (size_t left = pace_.bytes_max(); left > 0 && count < std::min(outbox_.size(), gather_max); ++count) {
+    const auto bytes = std::span<const uint8_t>(*outbox_[count]).subspan(count == 0 ? front_sent_bytes_ : 0);
+    buffers[count] = bytes.first(std::min(left, bytes.size()));
+    left -= buffers[count].size();
+    offered_bytes_ += buffers[count].size();
+  }
+  offered_s_ = times_.now_s();
   transport_->write_some(std::span(buffers).first(count), [self = shared_from_this()](const Moved& moved) {
     self->writing_ = false;
     if (self->phase_ == Phase::closed) return;
@@ -150,7 +155,8 @@ void ClientSession::write() {
 }
 
 void ClientSession::write_done(size_t bytes) {
-  progress_s_ = steady_now_s();
+  progress_s_ = times_.now_s();
+  pace_.took(bytes, offered_bytes_, progress_s_ - offered_s_);
   CHECK(bytes <= backlog_bytes_);
   backlog_bytes_ -= bytes;
   sent_bytes_ += bytes;
@@ -170,7 +176,7 @@ void ClientSession::refuse(const Refused& refused) {
   send(ServerMessage(RefusalMessage{refused.message, std::string(name_of(refused.reason))}));
   if (phase_ == Phase::closed) return;
   phase_ = Phase::refused;
-  phase_since_s_ = steady_now_s();
+  phase_since_s_ = times_.now_s();
   host_.refused(*this, refused);
   if (!transport_->established()) close("refused before");  // nobody could read it
 }

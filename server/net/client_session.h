@@ -7,6 +7,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,8 +17,11 @@
 #include "proto/limits.h"
 #include "proto/messages.h"
 #include "server/net/encode_cache.h"
+#include "server/net/publisher.h"
 #include "server/net/rate_limit.h"
+#include "server/net/reading_pace.h"
 #include "server/work/refusal.h"
+#include "shared/base/timing.h"
 #include "transport/transport.h"
 
 namespace scree {
@@ -41,6 +45,7 @@ struct SessionTimes {
   double hello_s = 0.0;
   double stall_s = 0.0;
   double linger_s = 0.0;
+  std::function<double()> now_s = steady_now_s;
 };
 
 class ClientSession : public std::enable_shared_from_this<ClientSession> {
@@ -81,6 +86,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Handed to the transport.
   uint64_t sent_bytes() const { return sent_bytes_; }
   size_t backlog_bytes() const { return backlog_bytes_; }
+  Backlog backlog() const { return {backlog_bytes_, pace_.bytes_max()}; }
   /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
 
@@ -116,6 +122,9 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   size_t front_sent_bytes_ = 0;  ///< sent bytes of the first message in the outbox
   size_t backlog_bytes_ = 0;     ///< bytes in the outbox that are not sent
   uint64_t sent_bytes_ = 0;
+  ReadingPace pace_;
+  size_t offered_bytes_ = 0;  ///< by the write under way
+  double offered_s_ = 0.0;
   bool writing_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
 };

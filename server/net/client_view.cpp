@@ -163,11 +163,11 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
 }
 
 /// Bricks that the frame may patch.
-size_t ClientView::patch_room(bool allowed) {
-  if (has_kernels_) return allowed ? limits::patch_bricks_max : 0;
+size_t ClientView::patch_room(size_t most) {
+  if (has_kernels_) return most;
   patch_credit_bricks_ =
       std::min(patch_credit_bricks_ + limits::patch_bricks_per_tick, limits::patch_bricks_max);
-  return allowed ? patch_credit_bricks_ : 0;
+  return std::min(most, patch_credit_bricks_);
 }
 
 void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room,
@@ -277,7 +277,7 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope p
   ChunkSet half_told;
   for (const ChunkCoord chunk : tainted)
     if (changed.erase(chunk) != 0) half_told.insert(chunk);
-  select_patches(changes, tainted, patch_room(parts.patches), frame, changed);
+  select_patches(changes, tainted, patch_room(parts.patch_bricks), frame, changed);
   if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
     rescan(changes, changed, frame);
   if (parts.poses) select_poses(changes, frame);

@@ -16,6 +16,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "server/net/limits.h"
 #include "server/net/motions.h"
 #include "server/world/published_state.h"
 
@@ -56,8 +57,8 @@ struct FrameSelection {
 
 /// What a frame may have besides the tick's operations.
 struct FrameScope {
-  bool poses = true;    ///< poses, and removals of pieces that ended or left the interest
-  bool patches = true;  ///< false: chunks that would be patched are wanted whole, later
+  bool poses = true;  ///< poses, and removals of pieces that ended or left the interest
+  size_t patch_bricks = limits::patch_bricks_max;  ///< beyond, chunks are wanted whole, later
 };
 
 class ClientView {
@@ -113,7 +114,7 @@ class ClientView {
                          ChunkSet& changed);
   void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
                       ChunkSet& changed);
-  size_t patch_room(bool allowed);
+  size_t patch_room(size_t most);
   void select_poses(const TickChanges& changes, FrameSelection& frame);
   void select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
                    FrameSelection& frame) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <asio/ip/address.hpp>
 #include <cmath>
+#include <functional>
 
 #include "server/net/limits.h"
 
@@ -36,8 +37,8 @@ Door::Visitor& Door::visitor(const std::string& address, double now_s) {
   if (known == visitors_.end() && visitors_.size() >= limits::door_addresses_max) forget_the_gone(now_s);
   Visitor& found =
       visitors_
-          .try_emplace(address, Visitor{0, RateLimit(rules_.connects_per_second, rules_.connects_burst), 0,
-                                        0.0, now_s})
+          .try_emplace(address,
+                       Visitor{.connects = RateLimit(rules_.connects_per_second, rules_.connects_burst)})
           .first->second;
   found.seen_s = now_s;
   return found;
@@ -75,8 +76,17 @@ double Door::wait_for_guess_s(const std::string& address, double now_s) const {
   return known == visitors_.end() ? 0.0 : std::max(0.0, known->second.guess_after_s - now_s);
 }
 
-void Door::guessed_wrong(const std::string& address, double now_s) {
+bool Door::knows_as_wrong(const std::string& address, const std::string& token) const {
+  const auto known = visitors_.find(address);
+  return known != visitors_.end() &&
+         std::ranges::count(known->second.wrong_tokens, std::hash<std::string>()(token)) != 0;
+}
+
+void Door::guessed_wrong(const std::string& address, const std::string& token, double now_s) {
   Visitor& from = visitor(address, now_s);
+  from.wrong_tokens.push_back(std::hash<std::string>()(token));
+  if (from.wrong_tokens.size() > limits::wrong_tokens_known)
+    from.wrong_tokens.erase(from.wrong_tokens.begin());
   if (now_s - from.guess_after_s > limits::door_memory_s) from.wrong_guesses = 0;
   const double wait_s = limits::guess_wait_min_s * std::exp2(std::min(from.wrong_guesses, 30U));
   from.guess_after_s = now_s + std::min(wait_s, limits::guess_wait_max_s);

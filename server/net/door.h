@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "server/net/rate_limit.h"
 #include "server/work/refusal.h"
@@ -38,9 +39,14 @@ class Door {
 
   /// Seconds until this address may present a token again; 0: now.
   double wait_for_guess_s(const std::string& address, double now_s) const;
-  /// The address has presented a wrong token: it waits for limits::guess_wait_min_s, twice as long after each
-  /// further one, at most limits::guess_wait_max_s.
-  void guessed_wrong(const std::string& address, double now_s);
+  /// The address has presented this wrong token: it waits for limits::guess_wait_min_s, twice as long after
+  /// each further one, at most limits::guess_wait_max_s.
+  void guessed_wrong(const std::string& address, const std::string& token, double now_s);
+
+  /// Whether this token is one of the last wrong ones from there (limits::wrong_tokens_known). To present it
+  /// again teaches nobody anything, so it costs no wait: a program that comes with an old token over and over
+  /// does not keep out the person beside it who has the right one.
+  bool knows_as_wrong(const std::string& address, const std::string& token) const;
 
   /// Whether the address is this machine's own, and the rules except it.
   bool is_free(const std::string& address) const;
@@ -51,6 +57,7 @@ class Door {
     size_t connections = 0;
     RateLimit connects;
     uint32_t wrong_guesses = 0;
+    std::vector<size_t> wrong_tokens{};  ///< hashes
     double guess_after_s = 0.0;
     double seen_s = 0.0;
   };

@@ -21,6 +21,9 @@ inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
 /// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
 inline constexpr size_t patch_bricks_max = 1024;
 
+/// Bytes that a patched brick takes, about; by these a slow link's room for them is reckoned.
+inline constexpr size_t patch_brick_bytes = 128;
+
 /// Bricks sent as patches to a client without kernels, in a tick on average; what is saved up, up to
 /// patch_bricks_max, may go at once. 32 KiB of codes compress to less than chunk_bytes_per_tick. Above: whole
 /// chunks are streamed instead, within their budget, so that a chunk that changes in every tick is sent as
@@ -29,6 +32,10 @@ inline constexpr size_t patch_bricks_per_tick = 64;
 
 /// Bytes of ground sent to one client in a tick. Above: the rest waits.
 inline constexpr int64_t ground_bytes_per_tick = 16 * 1024;
+
+/// Bytes of the bodies' state (PhysicsMessage) sent to one client in a tick on average: 240 KB/s at 60 Hz.
+/// Above: it gets the next message later, with the state as it is then.
+inline constexpr int64_t physics_bytes_per_tick = 4 * 1024;
 
 /// Ground that the network thread generates in a tick for all clients together: a chunk with a surface counts
 /// 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last one may go
@@ -47,8 +54,13 @@ inline constexpr uint32_t rescan_ticks_min = 6;
 inline constexpr double heartbeat_s = 0.5;
 
 /// Bytes waiting for one client above which it gets no transforms and no streaming: what it reads must not be
-/// old.
+/// old. By a slow link they are fewer: what it takes in outbox_wait_s, but enough for a few frames.
 inline constexpr size_t outbox_soft_bytes = 16 * 1024;
+inline constexpr size_t outbox_soft_min_bytes = 1024;
+inline constexpr double outbox_wait_s = 0.1;
+
+/// Seconds of a full socket after which its pace is known.
+inline constexpr double pace_sample_s = 0.05;
 
 /// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
@@ -62,7 +74,7 @@ inline constexpr int socket_send_buffer_bytes = 256 * 1024;
 
 /// Bytes in that buffer that are not on their way yet. Above: the socket takes no more, and what waits is
 /// held back where newer state can replace it.
-inline constexpr int socket_unsent_bytes = 16 * 1024;
+inline constexpr int socket_unsent_bytes = 4 * 1024;
 
 /// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
 inline constexpr size_t encoded_chunks_max = 1024;
@@ -102,6 +114,9 @@ inline constexpr double door_memory_s = 600.0;
 /// Seconds that an address waits after its first wrong token, and at most.
 inline constexpr double guess_wait_min_s = 1.0;
 inline constexpr double guess_wait_max_s = 60.0;
+
+/// Wrong tokens of one address that are known again; above: the oldest is forgotten, and counts as a guess.
+inline constexpr size_t wrong_tokens_known = 4;
 
 /// Milliseconds for which no connection is accepted after accepting has failed.
 inline constexpr int accept_pause_ms = 100;

@@ -348,7 +348,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   publisher_.set_refusals(counts_.refusals);
   const auto backlog = [this](uint64_t id) {
     const auto entry = sessions_.find(id);
-    return entry == sessions_.end() ? size_t{0} : entry->second.session->backlog_bytes();
+    return entry == sessions_.end() ? Backlog() : entry->second.session->backlog();
   };
   if (publisher_.status_due(delta.tick)) publisher_.set_latency(request_times_.last_second(steady_now_s()));
   for (Outgoing& outgoing : publisher_.publish(delta, backlog))

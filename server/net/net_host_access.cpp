@@ -96,17 +96,20 @@ bool NetHost::make_room(const ClientSession& newcomer, const Grant& grant) {
   return true;
 }
 
-/// A wrong token ends the connection, and costs its address a wait (Door).
+/// A wrong token ends the connection, and costs its address a wait (Door). The right one waits, too: if it
+/// were taken at once, any answer would tell who guesses what he wants to know, as fast as he likes.
 tl::expected<void, Refused> NetHost::check_admin_token(const ClientSession& session,
                                                        const std::string& token) {
   Door& door = entrance_.door();
   const double now_s = steady_now_s();
+  if (door.knows_as_wrong(session.address(), token))
+    return refuse(Refusal::admin_token_wrong, "the admin token is wrong, as it was before");
   if (const double wait_s = door.wait_for_guess_s(session.address(), now_s); wait_s > 0.0)
     return refuse(Refusal::token_guesses,
                   fmt::format("wrong tokens came from your address: the next is looked at in {:.0f} s",
                               std::ceil(wait_s)));
   if (same_token(token, config_.admin_token)) return {};
-  door.guessed_wrong(session.address(), now_s);
+  door.guessed_wrong(session.address(), token, now_s);
   return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
 }
 

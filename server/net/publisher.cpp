@@ -26,6 +26,14 @@ Motions no_motions(const PublisherConfig& config) {
   return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.terrain.voxel_size_m};
 }
 
+/// Patches are much: who reads slowly gets none, and later the chunks as they are then. By a slow link they
+/// have the room that is left.
+size_t patches_for(const Backlog& backlog) {
+  if (!backlog.reads_along()) return 0;
+  if (backlog.soft_bytes >= limits::outbox_soft_bytes) return limits::patch_bricks_max;
+  return (backlog.soft_bytes - backlog.bytes) / limits::patch_brick_bytes;
+}
+
 int64_t size_of(const SharedBytes& bytes) {
   return static_cast<int64_t>(bytes->size());
 }
@@ -95,7 +103,7 @@ const ClientView* Publisher::view(uint64_t session) const {
 }
 
 std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
-                                         const std::function<size_t(uint64_t)>& backlog_bytes) {
+                                         const std::function<Backlog(uint64_t)>& backlog) {
   out_.clear();
   const bool restarted = state_.tick() != 0 && delta.tick != state_.tick() + 1;
   if (restarted) {
@@ -111,8 +119,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
-  for (auto& [session, client] : clients_) serve(client, changes, backlog_bytes(session));
-  stream_ground(backlog_bytes);
+  for (auto& [session, client] : clients_) serve(client, changes, backlog(session));
+  stream_ground(backlog);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes + stats_.ground_bytes <=
         stats_.sent_bytes);
@@ -144,15 +152,13 @@ bool Publisher::ready(Client& client, size_t backlog_bytes) {
   return true;
 }
 
-void Publisher::serve(Client& client, const TickChanges& changes, size_t backlog_bytes) {
-  if (!ready(client, backlog_bytes)) return;
+void Publisher::serve(Client& client, const TickChanges& changes, const Backlog& backlog) {
+  if (!ready(client, backlog.bytes)) return;
   const Tick tick = changes.delta.tick;
-  const bool reads_along = backlog_bytes <= limits::outbox_soft_bytes;
+  const bool reads_along = backlog.reads_along();
+  client.room_bytes = static_cast<int64_t>(backlog.soft_bytes) - static_cast<int64_t>(backlog.bytes);
   const bool with_poses = reads_along && has_poses(tick);
-  // What a client without kernels would get as patches is much: while it reads slowly, it gets none, and
-  // later the chunks as they are then.
-  const bool with_patches = reads_along || client.view.has_kernels();
-  if (!send_frame(client, changes, {with_poses, with_patches})) return;
+  if (!send_frame(client, changes, {with_poses, patches_for(backlog)})) return;
   if (reads_along) stream_chunks(client, changes);
   if (with_poses) stream_pieces(client);
   if (status_due(tick)) send_status(client);
@@ -190,7 +196,7 @@ void Publisher::stream_chunks(Client& client, const TickChanges& changes) {
       std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
   for (const ChunkCoord coord : client.view.next_chunks(changes, stream_batch)) {
-    if (client.chunk_credit_bytes <= 0) return;
+    if (client.chunk_credit_bytes <= 0 || client.room_bytes <= 0) return;
     const SharedBytes bytes = cache_.chunk(coord, state_.chunks().at(coord));
     client.chunk_credit_bytes -= size_of(bytes);
     stats_.chunk_bytes += bytes->size();
@@ -204,7 +210,7 @@ void Publisher::stream_pieces(Client& client) {
   client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
   if (client.piece_credit_bytes <= 0) return;
   for (const PieceId id : client.view.next_pieces(motions_, stream_batch)) {
-    if (client.piece_credit_bytes <= 0) return;
+    if (client.piece_credit_bytes <= 0 || client.room_bytes <= 0) return;
     const PublishedPiece& piece = state_.pieces().at(id);
     const SharedBytes bytes = cache_.piece(id, piece);
     if (bytes->size() > limits::message_bytes_max) continue;  // the client gets its merge as bricks
@@ -215,10 +221,10 @@ void Publisher::stream_pieces(Client& client) {
   }
 }
 
-void Publisher::stream_ground(const std::function<size_t(uint64_t)>& backlog_bytes) {
+void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog) {
   const auto reader = [&](uint64_t session) -> const ClientView* {
     const Client& client = clients_.at(session);
-    const bool reads_along = !client.stopped && backlog_bytes(session) <= limits::outbox_soft_bytes;
+    const bool reads_along = !client.stopped && backlog(session).reads_along();
     return reads_along ? &client.view : nullptr;
   };
   ground_.serve(reader, [this](uint64_t session, const SharedBytes& bytes) {
@@ -236,9 +242,14 @@ void Publisher::send_cursors(Client& client) {
 }
 
 void Publisher::send_physics(Client& client, const PhysicsMessage& physics) {
+  constexpr int64_t budget = limits::physics_bytes_per_tick * int64_t{ticks_per_watch};
+  client.physics_credit_bytes = std::min(client.physics_credit_bytes + budget, budget);
+  if (client.physics_credit_bytes <= 0 || client.room_bytes <= 0) return;
   const PhysicsMessage part =
       physics_for(physics, state_, config_.terrain.voxel_size_m, client.view.eye_m(), client.view.radius_m());
-  send(client, bytes_of(part));
+  const SharedBytes bytes = bytes_of(part);
+  client.physics_credit_bytes -= size_of(bytes);
+  send(client, bytes);
 }
 
 std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
@@ -284,6 +295,7 @@ void Publisher::send_status(Client& client) {
 
 void Publisher::send(Client& client, SharedBytes bytes) {
   client.sent_bytes += bytes->size();
+  client.room_bytes -= size_of(bytes);
   stats_.sent_bytes += bytes->size();
   out_.push_back({client.session, std::move(bytes)});
 }

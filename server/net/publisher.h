@@ -5,8 +5,8 @@
 // anyway, by which it sees that time goes on. The frame of its tick comes
 // before a status.
 //
-// A slow client gets newer state, not a longer queue: while more than limits::outbox_soft_bytes wait for it,
-// it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
+// A slow client gets newer state, not a longer queue: while more waits for it than its link takes soon
+// (Backlog), it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
 // everything, a ResetMessage tells it to forget its edits and pieces, and it joins anew.
 //
 // No sockets and no clock: the owner delivers the bytes in order. Not thread-safe.
@@ -55,6 +55,14 @@ struct PublisherStats {
   uint64_t resets = 0;              ///< clients that fell behind and were reset
 };
 
+/// What waits for a client.
+struct Backlog {
+  size_t bytes = 0;
+  size_t soft_bytes = limits::outbox_soft_bytes;  ///< above, it does not read along
+
+  bool reads_along() const { return bytes <= soft_bytes; }
+};
+
 class Publisher {
  public:
   explicit Publisher(const PublisherConfig& config);
@@ -83,9 +91,9 @@ class Publisher {
   /// Eyes of all clients, by session.
   std::vector<glm::vec3> eyes_m() const;
 
-  /// Takes the next tick and returns the messages for each client. `backlog_bytes(session)`: bytes that still
-  /// wait for it. A tick out of sequence is a keyframe: it replaces the state, and resets every client.
-  std::vector<Outgoing> publish(const TickDelta& delta, const std::function<size_t(uint64_t)>& backlog_bytes);
+  /// Takes the next tick and returns the messages for each client. `backlog(session)`: what still waits for
+  /// it. A tick out of sequence is a keyframe: it replaces the state, and resets every client.
+  std::vector<Outgoing> publish(const TickDelta& delta, const std::function<Backlog(uint64_t)>& backlog);
 
   /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
   /// that the reply states.
@@ -105,23 +113,25 @@ class Publisher {
     ClientView view;
     int64_t chunk_credit_bytes = 0;
     int64_t piece_credit_bytes = 0;
-    bool stopped = false;  ///< gets no frames until it has read all that waits
+    int64_t room_bytes = 0;  ///< that may still be streamed to it in this tick
+    bool stopped = false;    ///< gets no frames until it has read all that waits
     bool reset_due = false;
     Tick last_frame = 0;  ///< tick of the last frame that it got; 0: none
     uint64_t sent_bytes = 0;
     uint32_t repairs = 0;
     bool watches = false;
+    int64_t physics_credit_bytes = 0;
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
   };
   bool has_poses(Tick tick) const { return tick % config_.ticks_per_transform == 0; }
   void count_operations(const TickDelta& delta);
-  void serve(Client& client, const TickChanges& changes, size_t backlog_bytes);
+  void serve(Client& client, const TickChanges& changes, const Backlog& backlog);
   bool ready(Client& client, size_t backlog_bytes);
   bool send_frame(Client& client, const TickChanges& changes, FrameScope parts);
   bool frame_due(const Client& client, Tick tick) const;
   void stream_chunks(Client& client, const TickChanges& changes);
   void stream_pieces(Client& client);
-  void stream_ground(const std::function<size_t(uint64_t)>& backlog_bytes);
+  void stream_ground(const std::function<Backlog(uint64_t)>& backlog);
   void send_cursors(Client& client);
   void send_physics(Client& client, const PhysicsMessage& physics);
   void send_status(Client& client);

@@ -155,7 +155,29 @@ TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access
   EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "the admin token is wrong"));
   EXPECT_TRUE(holds(refusal(hello(the_admin_token)), "the next is looked at in"));
   EXPECT_TRUE(comes_to_refuse(Refusal::token_guesses));
+  for (int i = 0; i < 20; ++i)
+    EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "wrong, as it was before")) << "which is no guess";
   join(token(Role::builder), Role::builder);
+}
+
+TEST_F(RoleTest, a_token_used_twice_holds_for_both_until_it_is_revoked_for_both) {
+  config.access.token_revoked_path = folder / "revoked";
+  std::ofstream(folder / "revoked") << "";
+  start();
+  const auto honest = join(token(Role::carver, 22), Role::carver);
+  const auto one = join(token(Role::carver, 21), Role::carver);
+  const auto other = join(token(Role::carver, 21), Role::carver);
+  std::ofstream(folder / "revoked") << id_text(21) << "\n";
+  ASSERT_TRUE(server->reload());
+  for (const auto& client : {one.get(), other.get()}) {
+    const auto refused = client->receive_as<RefusalMessage>();
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->name, "token_revoked");
+  }
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(holds(refusal(hello(token(Role::carver, 21))), "was revoked"));
+  ASSERT_TRUE(honest->send(FillMessage{{sphere({}, 1.0F)}, 9}));
+  EXPECT_TRUE(honest->receive_as<ReplyMessage>()) << "no other notices";
+  join(token(Role::carver, 22), Role::carver);
 }
 
 TEST_F(RoleTest, a_token_that_does_not_hold_refuses_the_session_by_its_reason) {

@@ -30,6 +30,15 @@ TEST(Text, what_steers_a_terminal_or_turns_the_text_round_is_named) {
     EXPECT_EQ(fault_of_text(text), "holds characters that set its direction");
 }
 
+TEST(Text, what_nobody_sees_is_named_but_what_shapes_another_character_may_follow_it) {
+  for (const char* text :
+       {"a\u200Bb", "\uFEFF", "a\u2060", "\u00AD", "\u3164", "\U000E0041", "\u200D", "\uFE0F", "a \u200D"})
+    EXPECT_EQ(fault_of_text(text), "holds invisible characters") << text;
+  for (const char* text : {"می\u200Cخواهم", "\u2764\uFE0F\u200D\U0001F525"})
+    EXPECT_FALSE(fault_of_text(text).has_value()) << text;
+  EXPECT_EQ(showable("\u200B\u200Da\uFE0F", 64), "  a\uFE0F");
+}
+
 TEST(Text, anything_becomes_showable_within_its_limit) {
   EXPECT_EQ(showable("a\nb\xE2\x80\xAE"
                      "c\xFF",

@@ -43,7 +43,7 @@ TEST(Door, each_wrong_guess_makes_the_next_wait_longer_up_to_a_bound_and_only_th
   Door door(rules);
   double now_s = 100.0, wait_s = 0.0;
   for (int i = 0; i < 10; ++i) {
-    door.guessed_wrong("a", now_s);
+    door.guessed_wrong("a", "guess " + std::to_string(i), now_s);
     EXPECT_GE(door.wait_for_guess_s("a", now_s), wait_s);
     wait_s = door.wait_for_guess_s("a", now_s);
     if (i < 2) {
@@ -54,9 +54,17 @@ TEST(Door, each_wrong_guess_makes_the_next_wait_longer_up_to_a_bound_and_only_th
   }
   EXPECT_EQ(wait_s, limits::guess_wait_max_s);
   EXPECT_EQ(door.wait_for_guess_s("b", now_s), 0.0);
-  door.guessed_wrong("a", now_s + 2.0 * limits::door_memory_s);
+  door.guessed_wrong("a", "guess", now_s + 2.0 * limits::door_memory_s);
   EXPECT_EQ(door.wait_for_guess_s("a", now_s + 2.0 * limits::door_memory_s), limits::guess_wait_min_s)
       << "it is forgiven in the end";
+}
+
+TEST(Door, the_last_wrong_tokens_of_an_address_are_known_again_there) {
+  Door door(rules);
+  for (size_t i = 0; i <= limits::wrong_tokens_known; ++i) door.guessed_wrong("a", std::to_string(i), 0.0);
+  EXPECT_FALSE(door.knows_as_wrong("a", "0")) << "the oldest is forgotten";
+  EXPECT_TRUE(door.knows_as_wrong("a", "1"));
+  EXPECT_FALSE(door.knows_as_wrong("b", "1"));
 }
 
 TEST(Door, addresses_are_bounded_and_those_with_connections_are_kept) {

@@ -170,6 +170,8 @@ TEST(ProtocolDocument, its_limits_are_the_programs) {
       {"patch_bricks_per_tick", limits::patch_bricks_per_tick},
       {"patch_bricks_max", limits::patch_bricks_max},
       {"outbox_soft_bytes", limits::outbox_soft_bytes},
+      {"outbox_soft_min_bytes", limits::outbox_soft_min_bytes},
+      {"outbox_wait_s", limits::outbox_wait_s},
       {"outbox_resync_bytes", limits::outbox_resync_bytes},
       {"admin_rows_max", limits::admin_rows_max},
       {"ban_minutes_max", limits::ban_minutes_max},

@@ -129,7 +129,7 @@ class PublisherTest : public ::testing::Test {
 
   void tick(const std::vector<Operation>& operations = {}) { deliver(*source.step(operations)); }
   void deliver(const TickDelta& delta) {
-    const auto backlog = [this](uint64_t id) { return id == session ? backlog_bytes : 0; };
+    const auto backlog = [this](uint64_t id) { return Backlog{id == session ? backlog_bytes : 0}; };
     take(publisher.publish(delta, backlog));
     take(publisher.answer(delta, [this](const Reply&) { return latency; }));
   }

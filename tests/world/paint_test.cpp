@@ -196,7 +196,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   Publisher publisher({flat_terrain, 60, 3});
   const auto tick = [&](const std::vector<Command>& commands, std::initializer_list<Client*> clients) {
     const auto delta = world.step(commands);
-    const auto outgoing = publisher.publish(*delta, [](uint64_t) { return size_t{0}; });
+    const auto outgoing = publisher.publish(*delta, [](uint64_t) { return Backlog{}; });
     for (Client* client : clients) client->take(outgoing);
   };
   Client live(publisher, 1, {0.0F, 0.0F, 0.0F}, 64.0F);

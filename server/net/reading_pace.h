@@ -1,0 +1,47 @@
+// How many bytes may wait for a client so that it sees the present: as many as its link takes in
+// limits::outbox_wait_s, seen from what the socket takes. A socket that takes all it is offered says nothing
+// but that there may be more; one that is full says by its pace how fast the link is. Time is an argument
+// (seconds). Not thread-safe.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "server/net/limits.h"
+
+namespace scree {
+
+class ReadingPace {
+ public:
+  /// limits::outbox_soft_min_bytes to outbox_soft_bytes.
+  size_t bytes_max() const { return bytes_max_; }
+
+  /// The socket took some of the bytes that it was offered `waited_s` ago.
+  void took(size_t bytes, size_t offered, double waited_s) {
+    if (full_) {
+      taken_bytes_ += static_cast<double>(bytes);
+      taken_s_ += waited_s;
+      if (taken_s_ >= limits::pace_sample_s) {
+        set(taken_bytes_ / taken_s_ * limits::outbox_wait_s);
+        taken_bytes_ = taken_s_ = 0.0;
+      }
+    } else if (bytes == offered) {
+      set(static_cast<double>(bytes_max_ + bytes));
+    }
+    full_ = bytes < offered;
+    if (!full_) taken_bytes_ = taken_s_ = 0.0;
+  }
+
+ private:
+  void set(double bytes) {
+    bytes_max_ = static_cast<size_t>(std::clamp(bytes, static_cast<double>(limits::outbox_soft_min_bytes),
+                                                static_cast<double>(limits::outbox_soft_bytes)));
+  }
+
+  size_t bytes_max_ = limits::outbox_soft_bytes;
+  bool full_ = false;  ///< it took less than offered, the last time
+  double taken_bytes_ = 0.0;
+  double taken_s_ = 0.0;  ///< while it was full
+};
+
+}  // namespace scree

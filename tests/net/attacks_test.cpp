@@ -1,0 +1,291 @@
+// Attacks on loopback, with honest clients beside each: one stays all the time, others come. All are served,
+// their copies have the server's hash, each attack is counted under its name, and the log stays short.
+#include <csignal>
+#include <deque>
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+#include <sstream>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "client/connection/connection.h"
+#include "client/mirror/mirror.h"
+#include "shared/base/random.h"
+#include "tests/support/net_server_fixture.h"
+#include "tests/support/patience.h"
+#include "tests/support/wire_samples.h"
+
+namespace scree {
+namespace {
+
+/// A client as people have it.
+class HonestClient {
+ public:
+  explicit HonestClient(uint16_t port) {
+    auto connected = Connection::connect({.port = port}, hello(), patience);
+    if (!connected) return;
+    connection_ = std::move(*connected);
+    mirror_ = std::make_unique<Mirror>(connection_->welcome());
+  }
+  bool joined() const { return connection_ != nullptr; }
+  /// Applies all up to the tick; the hash then.
+  std::optional<uint64_t> hash_at(Tick tick) {
+    while (mirror_->tick() < tick) {
+      const auto received = connection_->wait(std::chrono::duration_cast<milliseconds>(patience));
+      if (received.empty()) return std::nullopt;
+      for (const Received& one : received)
+        if (!mirror_->apply(one.message)) return std::nullopt;
+    }
+    return mirror_->field().hash();
+  }
+
+ private:
+  std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Mirror> mirror_;
+};
+
+class AttackTest : public NetServerTest {
+ protected:
+  void SetUp() override {
+    before_ = spdlog::default_logger();
+    const auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(log_);
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("attack", sink));
+  }
+  void TearDown() override {
+    if (server) server->stop();
+    spdlog::set_default_logger(before_);
+    const std::string text = log_.str();
+    EXPECT_LE(std::ranges::count(text, '\n'), lines_max) << text.substr(0, 4000);
+  }
+
+  void open(const std::function<void(NetConfig&)>& change = {}) {
+    start([&](NetConfig& config) {
+      config.service.sessions_max = 64;
+      if (change) change(config);
+    });
+    resident_ = std::make_unique<HonestClient>(server->port());
+    ASSERT_TRUE(resident_->joined());
+  }
+  /// A newcomer comes in, and what is carved then reaches both.
+  void expect_honest_served() {
+    HonestClient newcomer(server->port());
+    ASSERT_TRUE(newcomer.joined());
+    tick({source.carve({static_cast<float>(carves_++ % 8), 0.0F, 0.0F}, 1.0F, 2)});
+    for (int i = 0; i < 3; ++i) tick();
+    const std::optional<uint64_t> hash = source.field().hash();
+    EXPECT_EQ(resident_->hash_at(source.tick()), hash);
+    EXPECT_EQ(newcomer.hash_at(source.tick()), hash);
+  }
+  void expect_refused_as(Refusal reason, uint64_t at_least) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto count = [&] { return server->stats().refusals.of(reason); };
+    while (count() < at_least && std::chrono::steady_clock::now() < end) {
+      tick();
+      std::this_thread::yield();
+    }
+    EXPECT_GE(count(), at_least) << name_of(reason);
+  }
+
+ private:
+  static constexpr ptrdiff_t lines_max = 150;  // whatever is done to the server in a test of a second
+  std::shared_ptr<spdlog::logger> before_;
+  std::ostringstream log_;
+  std::unique_ptr<HonestClient> resident_;
+  int carves_ = 0;
+};
+
+/// Connections from another process, which has descriptors of its own.
+class SilentCrowd {
+ public:
+  /// Before any thread is started.
+  SilentCrowd() {
+    EXPECT_EQ(::pipe(to_child_), 0);
+    EXPECT_EQ(::pipe(from_child_), 0);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    rlimit limit{};
+    ::getrlimit(RLIMIT_NOFILE, &limit);
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+    std::vector<std::unique_ptr<RawClient>> silent;
+    for (uint16_t port = 0; ::read(to_child_[0], &port, sizeof port) == sizeof port;) {
+      silent.push_back(std::make_unique<RawClient>(port));
+      const char connected = silent.back()->connected() ? 1 : 0;
+      if (::write(from_child_[1], &connected, 1) != 1) break;
+    }
+    ::_exit(0);
+  }
+  ~SilentCrowd() {
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+    for (const int end : {to_child_[0], to_child_[1], from_child_[0], from_child_[1]}) ::close(end);
+  }
+  /// One more connection; false when there can be none.
+  bool grow(uint16_t port) {
+    char connected = 0;
+    return ::write(to_child_[1], &port, sizeof port) == sizeof port &&
+           ::read(from_child_[0], &connected, 1) == 1 && connected != 0;
+  }
+
+ private:
+  int to_child_[2]{}, from_child_[2]{};
+  pid_t child_ = 0;
+};
+
+/// For its time, this process may open so many files.
+class Descriptors {
+ public:
+  explicit Descriptors(rlim_t count) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit few = before_;
+    few.rlim_cur = count;
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~Descriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(AttackTest, silent_connections_in_greater_number_than_descriptors) {
+  SilentCrowd crowd;
+  const Descriptors descriptors(1024);
+  open([](NetConfig& config) { config.hello_seconds = 1000.0; });
+  for (int i = 1; i <= 1600; ++i) {
+    ASSERT_TRUE(crowd.grow(server->port())) << i;
+    if (i % 200 == 0) expect_honest_served();
+  }
+  expect_refused_as(Refusal::outsiders_max, 1000);
+}
+
+TEST_F(AttackTest, as_many_silent_connections_as_sessions_renewed_again_and_again) {
+  open();
+  std::deque<std::unique_ptr<RawClient>> silent;
+  for (int i = 0; i < 640; ++i) {
+    silent.push_back(std::make_unique<RawClient>(server->port()));
+    if (silent.size() > 64) silent.pop_front();
+    if (i % 80 == 79) expect_honest_served();
+  }
+}
+
+TEST_F(AttackTest, half_a_hello_from_each_of_many) {
+  open();
+  const std::vector<uint8_t> whole = encode(ClientMessage(hello()));
+  std::vector<std::unique_ptr<RawClient>> halves;
+  for (size_t i = 0; i < 200; ++i) {
+    halves.push_back(std::make_unique<RawClient>(server->port()));
+    ASSERT_TRUE(halves.back()->send_bytes(std::span(whole).first(i % whole.size())));
+  }
+  expect_honest_served();
+  for (const auto& half : halves) half->finish_sending();
+  expect_refused_as(Refusal::message_cut_short, 190);
+  expect_honest_served();
+}
+
+TEST_F(AttackTest, floods_of_every_kind_of_message) {
+  open([](NetConfig& config) { config.admin_token = "a token of some length"; });
+  for (const ClientMessage& message : samples::client_messages()) {
+    if (std::holds_alternative<HelloMessage>(message)) continue;
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send(hello()));
+    const std::vector<uint8_t> one = encode(message);
+    std::vector<uint8_t> flood;
+    for (int i = 0; i < 3000; ++i) flood.insert(flood.end(), one.begin(), one.end());
+    client.send_bytes(flood);
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal) << message.index();
+    const bool admin = std::holds_alternative<AdminMessage>(message);
+    const bool ground = std::holds_alternative<GroundRequest>(message);
+    EXPECT_TRUE(admin || ground || refusal->name == "messages_per_second") << refusal->name;
+    commands.drain();
+    expect_honest_served();
+  }
+  expect_refused_as(Refusal::messages_per_second, 6);
+}
+
+/// A message of a field that nobody knows, of so many bytes in all.
+std::vector<uint8_t> filled(const ClientMessage& message, size_t body_bytes) {
+  std::vector<uint8_t> bytes = encode(message);
+  const size_t filling = body_bytes - (bytes.size() - length_prefix_bytes) - 4;
+  bytes.insert(bytes.end(),
+               {0x7a, static_cast<uint8_t>((filling & 0x7f) | 0x80),
+                static_cast<uint8_t>((filling >> 7 & 0x7f) | 0x80), static_cast<uint8_t>(filling >> 14)});
+  bytes.resize(bytes.size() + filling);
+  for (size_t i = 0; i < length_prefix_bytes; ++i)
+    bytes[i] = static_cast<uint8_t>((bytes.size() - length_prefix_bytes) >> (8 * i));
+  return bytes;
+}
+
+TEST_F(AttackTest, the_largest_messages_before_and_after_the_hello) {
+  open();
+  for (int i = 0; i < 20; ++i) {
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send_bytes(filled(hello(), limits::hello_bytes_max)));
+    ASSERT_TRUE(client.receive_as<WelcomeMessage>()) << "as large as it may be";
+    const std::vector<uint8_t> largest = filled(AckMessage{1}, limits::client_message_bytes_max);
+    for (int sent = 0; sent < 12; ++sent) client.send_bytes(largest);
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->name, "bytes_per_second");
+  }
+  for (const size_t bytes : {limits::hello_bytes_max + 1, size_t{1} << 20U, size_t{0xFFFFFFFF}}) {
+    RawClient client(server->port());
+    std::vector<uint8_t> announced(length_prefix_bytes);
+    for (size_t i = 0; i < announced.size(); ++i) announced[i] = static_cast<uint8_t>(bytes >> (8 * i));
+    client.send_bytes(announced);
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->name, "message_malformed");
+  }
+  expect_honest_served();
+  expect_refused_as(Refusal::bytes_per_second, 20);
+}
+
+TEST_F(AttackTest, valid_messages_in_every_wrong_order) {
+  open([](NetConfig& config) { config.service.requests_per_second = 100000.0; });
+  const std::vector<ClientMessage> messages = samples::client_messages();
+  for (const ClientMessage& first : messages) {
+    if (std::holds_alternative<HelloMessage>(first)) continue;
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send(first));
+    client.send(hello());
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->name, "hello_missing");
+  }
+  Random random(99);
+  for (int i = 0; i < 60; ++i) {
+    RawClient client(server->port());
+    ASSERT_TRUE(client.send(hello()));
+    for (int sent = 0; sent < 30; ++sent)
+      client.send(messages[1 + random.below(static_cast<uint32_t>(messages.size() - 1))]);
+    client.send(hello());
+    const auto refusal = client.receive_as<RefusalMessage>();
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->name, "hello_repeated") << "all before it are right in any order";
+    commands.drain();
+  }
+  expect_honest_served();
+  expect_refused_as(Refusal::hello_repeated, 60);
+  expect_refused_as(Refusal::hello_missing, 16);
+}
+
+TEST_F(AttackTest, readers_so_slow_that_nothing_new_reaches_them) {
+  open([](NetConfig& config) { config.stall_seconds = 0.2; });
+  std::vector<std::unique_ptr<RawClient>> deaf;
+  for (int i = 0; i < 30; ++i) {
+    deaf.push_back(std::make_unique<RawClient>(server->port(), 4096));
+    ASSERT_TRUE(deaf.back()->send(hello()));
+    ASSERT_TRUE(deaf.back()->receive_as<WelcomeMessage>());
+  }
+  auto loud = std::make_shared<TickDelta>(*source.step());
+  for (uint64_t session = 3; session < 33; ++session)  // after the witness and the resident
+    loud->replies.resize(loud->replies.size() + 2048, Reply{session, 1, std::string(1024, 'x'), 0});
+  server->publish(loud);
+  expect_refused_as(Refusal::reading_stalled, 30);
+  expect_honest_served();
+}
+
+}  // namespace
+}  // namespace scree
