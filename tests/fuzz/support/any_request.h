@@ -39,8 +39,9 @@ inline Shape any_shape(FuzzInput& input) {
   shape.a = any_place(input);
   shape.b = shape.kind == ShapeKind::box ? input.place(4.0F) : shape.a + input.place(3.0F);
   shape.radius_m = input.coordinate(4.0F);
-  if (shape.kind == ShapeKind::box && input.flag()) shape.b = glm::abs(shape.b);
-  if (input.below(8) != 0) shape.radius_m = std::abs(shape.radius_m);
+  if (input.below(16) == 15) return shape;
+  shape.radius_m = std::abs(shape.radius_m);
+  if (shape.kind == ShapeKind::box) shape.b = glm::abs(shape.b);
   return shape;
 }
 

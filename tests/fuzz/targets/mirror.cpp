@@ -11,13 +11,14 @@
 #include "proto/codec.h"
 #include "proto/transforms.h"
 #include "shared/base/check.h"
+#include "shared/base/overloaded.h"
 #include "tests/fuzz/support/any_operation.h"
 #include "tests/fuzz/support/target.h"
 
 namespace scree {
 namespace {
 
-constexpr int messages_max = 48;
+constexpr int messages_max = 96;
 constexpr int operations_max = 48;
 
 WelcomeMessage any_welcome(FuzzInput& input) {
@@ -65,10 +66,52 @@ std::vector<uint8_t> any_transforms(FuzzInput& input) {
   return pack_transforms(states);
 }
 
-FrameMessage any_frame(FuzzInput& input, Tick tick) {
+/// Ids by which operations are mostly carried out: pieces that the mirror has, and for new ones such as it
+/// never had.
+class Ids {
+ public:
+  explicit Ids(const Mirror& mirror) : mirror_(mirror) {}
+
+  void settle(Operation& operation, FuzzInput& input) {
+    if (input.below(8) == 7) return;
+    std::visit(Overloaded{[&](CarveOperation& carve) { carve.first_piece = fresh(carve.seeds); },
+                          [](FillOperation&) {},
+                          [&](StampOperation& stamp) {
+                            stamp.piece = known(stamp.piece);
+                            for (StampedPiece& other : stamp.others) other.piece = known(other.piece);
+                          },
+                          [&](DiscardOperation& discard) { discard.piece = known(discard.piece); },
+                          [&](ShatterOperation& shatter) {
+                            shatter.piece = known(shatter.piece);
+                            shatter.first_piece = fresh(shatter.seeds);
+                          },
+                          [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {}},
+               operation);
+  }
+
+ private:
+  PieceId fresh(uint32_t count) {
+    const PieceId first = next_;
+    next_ += std::min(count, limits::seeds_max);
+    return first;
+  }
+  PieceId known(PieceId id) const {
+    const auto& pieces = mirror_.pieces();
+    if (pieces.empty()) return id;
+    return std::next(pieces.begin(), static_cast<ptrdiff_t>(id % pieces.size()))->first;
+  }
+
+  const Mirror& mirror_;
+  PieceId next_ = 100;
+};
+
+FrameMessage any_frame(FuzzInput& input, Ids& ids, Tick tick) {
   FrameMessage frame;
   frame.tick = tick + input.below(8);
-  for (uint32_t count = input.below(5); count > 0; --count) frame.operations.push_back(any_operation(input));
+  for (uint32_t count = input.below(5); count > 0; --count) {
+    frame.operations.push_back(any_operation(input));
+    ids.settle(frame.operations.back(), input);
+  }
   if (input.flag()) frame.patches = any_bricks(input);
   for (uint32_t count = input.below(8) / 6; count > 0; --count)
     frame.dropped_chunks.push_back(chunk_of(any_brick_coord(input)));
@@ -100,7 +143,7 @@ ChunkMessage any_chunk(FuzzInput& input) {
   return chunk;
 }
 
-ServerMessage any_message(FuzzInput& input, Tick tick) {
+ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
   switch (input.below(8)) {
     case 0:
       return any_chunk(input);
@@ -113,9 +156,9 @@ ServerMessage any_message(FuzzInput& input, Tick tick) {
       return piece;
     }
     case 3:
-      return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, tick));
+      return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, ids, tick));
     default:
-      return any_frame(input, tick);
+      return any_frame(input, ids, tick);
   }
 }
 
@@ -138,7 +181,7 @@ class Session {
     check_limits();
     return true;
   }
-  Tick tick() const { return mirror_.tick(); }
+  ServerMessage next(FuzzInput& input) { return any_message(input, ids_, mirror_.tick()); }
 
  private:
   void check_limits() {
@@ -156,6 +199,7 @@ class Session {
   }
 
   Mirror mirror_;
+  Ids ids_{mirror_};
   int operations_ = 0;
 };
 
@@ -172,7 +216,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       goes_on = session.take(input.packet());
       continue;
     }
-    const std::vector<uint8_t> bytes = encode(any_message(input, session.tick()));
+    const std::vector<uint8_t> bytes = encode(session.next(input));
     goes_on = session.take(std::span(bytes).subspan(length_prefix_bytes));
   }
   return 0;

@@ -14,8 +14,8 @@
 namespace scree {
 namespace {
 
-constexpr Tick ticks_max = 64;
-constexpr uint64_t work_max_us = 30'000;
+constexpr Tick ticks_max = 48;
+constexpr uint64_t work_max_us = 15'000;
 constexpr TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
 
 ChunkCoord any_chunk(FuzzInput& input) {

@@ -6,6 +6,8 @@
 // the model.
 #include "server/world/world.h"
 
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "shared/base/check.h"
@@ -15,15 +17,16 @@
 namespace scree {
 namespace {
 
-constexpr Tick ticks_max = 160;
-constexpr uint64_t work_max_us = 40'000;
+constexpr Tick ticks_max = 64;
+constexpr size_t commands_max = 16;
+constexpr uint64_t work_max_us = 15'000;
 
 WorldConfig any_config(FuzzInput& input) {
-  constexpr float voxel_sizes_m[] = {0.5F, 1.0F, 2.0F, limits::voxel_size_min_m};
-  constexpr uint32_t tick_rates_hz[] = {60, 20, limits::tick_rate_min_hz, 240};
+  constexpr float voxel_sizes_m[] = {1.0F, 1.0F, 1.0F, 2.0F, 2.0F, 2.0F, 0.5F, limits::voxel_size_min_m};
+  constexpr uint32_t tick_rates_hz[] = {limits::tick_rate_min_hz, 20, 60, 240};
   WorldConfig config;
   config.terrain = {static_cast<TerrainKind>(input.below(kind_count<TerrainKind>)), input.byte(),
-                    voxel_sizes_m[input.below(16) % (input.flag() ? 4 : 2)]};
+                    voxel_sizes_m[input.below(std::size(voxel_sizes_m))]};
   config.tick_rate_hz = tick_rates_hz[input.below(4)];
   config.pieces_max = input.flag() ? 2000 : 1 + input.byte();
   config.merges_per_tick_max = input.below(4) == 3 ? input.byte() : 1000;
@@ -72,16 +75,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   while (!input.at_end() && twins.may_go_on()) {
     const uint64_t session = 1 + input.below(3);
     commands.push_back({session, ++request, any_request(input)});
-    uint32_t ticks = input.below(24);  // 0: with the next one
-    if (ticks == 0 && commands.size() < 16) continue;
-    do {
-      twins.step(commands);
-      commands.clear();
-    } while (--ticks > 0 && ticks < 24 && twins.may_go_on());
+    const uint32_t ticks = input.below(8);  // 0: with the next one
+    if (commands.size() == commands_max) twins.step(std::exchange(commands, {}));
+    for (uint32_t i = 0; i < ticks && twins.may_go_on(); ++i) twins.step(std::exchange(commands, {}));
   }
   do {
-    twins.step(commands);
-    commands.clear();
+    twins.step(std::exchange(commands, {}));
   } while (twins.pieces_live() && twins.may_go_on());
   twins.check_ledger();
   return 0;
