@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "server/net/durations.h"
 #include "server/net/net_server.h"
 #include "server/world/tick_delta.h"
-#include "shared/base/durations.h"
 
 namespace scree {
 

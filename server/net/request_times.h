@@ -8,7 +8,7 @@
 #include <deque>
 #include <map>
 
-#include "shared/base/durations.h"
+#include "server/net/durations.h"
 #include "shared/base/latency.h"
 
 namespace scree {
