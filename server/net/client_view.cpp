@@ -6,6 +6,7 @@
 
 #include "server/net/limits.h"
 #include "shared/base/check.h"
+#include "shared/field/chunk_distance.h"
 
 namespace scree {
 
@@ -21,14 +22,6 @@ void keep_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
 
 uint32_t fold(uint64_t hash) {
   return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
-}
-
-float distance_between_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) {
-  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
-  const glm::vec3 lo(static_cast<float>(chunk.x) * side_m, static_cast<float>(chunk.y) * side_m,
-                     static_cast<float>(chunk.z) * side_m);
-  const glm::vec3 nearest = glm::clamp(eye_m, lo, lo + side_m);
-  return glm::length(nearest - eye_m);
 }
 
 glm::vec3 place_of(const QuantisedPose& pose) {
@@ -89,11 +82,11 @@ void ClientView::reset() {
 }
 
 float ClientView::distance_m(ChunkCoord chunk, float voxel_size_m) const {
-  return distance_between_m(eye_m_, chunk, voxel_size_m);
+  return distance_to_chunk_m(eye_m_, chunk, voxel_size_m);
 }
 
 bool ClientView::may_see(ChunkCoord chunk, float voxel_size_m) const {
-  return distance_between_m(next_eye_m_, chunk, voxel_size_m) <=
+  return distance_to_chunk_m(next_eye_m_, chunk, voxel_size_m) <=
          next_radius_m_ * limits::interest_keep_factor;
 }
 

@@ -28,12 +28,6 @@ CarveMessage carve_message(const CarveRequest& carve, uint32_t request) {
   return {carve, request};
 }
 
-float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m) {
-  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
-  const glm::vec3 lo = glm::vec3(chunk.x, chunk.y, chunk.z) * side_m;
-  return glm::length(glm::clamp(eye_m, lo, lo + side_m) - eye_m);
-}
-
 SessionClient::SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m)
     : eye_m_(eye_m), radius_m_(radius_m) {
   const HelloMessage hello{protocol_version, "session test", eye_m, radius_m};

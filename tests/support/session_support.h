@@ -10,14 +10,12 @@
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "server/app/live_server.h"
+#include "shared/field/chunk_distance.h"
 
 namespace scree {
 
 /// The request as a client sends it.
 CarveMessage carve_message(const CarveRequest& carve, uint32_t request);
-
-/// Distance from the eye to the nearest point of a chunk, metres: the measure of interest.
-float distance_to_chunk_m(glm::vec3 eye_m, ChunkCoord chunk, float voxel_size_m);
 
 class SessionClient {
  public:

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "client/viewer/base/files.h"
 #include "client/viewer/base/json_depth.h"
 #include "client/viewer/base/limits.h"
+#include "shared/base/xdg_folder.h"
 
 namespace scree {
 namespace {
@@ -74,15 +73,8 @@ T merged(const T& loaded, const T& start, const T& end) {
 }  // namespace
 
 std::string settings_file() {
-  const auto folder = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  // The XDG base directory specification: a path that is not absolute is to be ignored.
-  const std::filesystem::path config = folder("XDG_CONFIG_HOME");
-  if (config.is_absolute()) return (config / "scree" / "viewer.json").string();
-  const std::filesystem::path home = folder("HOME");
-  return home.is_absolute() ? (home / ".config" / "scree" / "viewer.json").string() : std::string();
+  const std::string folder = xdg_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? folder : folder + "/viewer.json";
 }
 
 Result<Settings> parse_settings(const std::string& text) {
