@@ -1,5 +1,5 @@
-// Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/ and
-// auth/.
+// Writing and reading of packed bytes; the notation is that of proto/scree.proto. Internal to proto/,
+// auth/ and client/cache/.
 //
 // After the first error, a reader keeps its reason and returns zeros, so that expressions of several reads
 // stay simple. The caller tests failed() before it uses a value, allocates memory or loops.

@@ -1,9 +1,9 @@
 // ClientMessage to bytes and back.
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
+#include "proto/join_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
-#include "shared/base/text.h"
 
 namespace scree {
 
@@ -12,16 +12,8 @@ namespace {
 struct Writing {
   wire::ClientMessage& to;
 
-  void operator()(const HelloMessage& from) const {
-    wire::Hello& hello = *to.mutable_hello();
-    hello.set_protocol(from.protocol);
-    hello.set_client(showable(from.client, limits::client_name_bytes_max));
-    write(*hello.mutable_eye(), from.eye_m);
-    hello.set_interest_radius_m(from.interest_radius_m);
-    hello.set_name(showable(from.name, limits::person_name_bytes_max));
-    hello.set_token(showable(from.token, limits::access_token_bytes_max));
-    hello.set_lacks_kernels(from.lacks_kernels);
-  }
+  void operator()(const HelloMessage& from) const { write(*to.mutable_hello(), from); }
+  void operator()(const OfferMessage& from) const { write(*to.mutable_offer(), from); }
   void operator()(const InterestMessage& from) const {
     wire::Interest& interest = *to.mutable_interest();
     write(*interest.mutable_eye(), from.eye_m);
@@ -66,20 +58,6 @@ struct Writing {
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
 };
-
-HelloMessage read(const wire::Hello& from, FieldChecker& check) {
-  HelloMessage hello;
-  hello.protocol = from.protocol();
-  // In another version the fields may have another meaning: only its number is read, for the refusal.
-  if (hello.protocol != protocol_version) return hello;
-  hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
-  hello.eye_m = check.vec3(from.eye(), "eye");
-  hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
-  hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
-  hello.lacks_kernels = from.lacks_kernels();
-  hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
-  return hello;
-}
 
 InterestMessage read(const wire::Interest& from, FieldChecker& check) {
   return {check.vec3(from.eye(), "eye"), check.not_negative(from.radius_m(), "radius_m")};
@@ -133,7 +111,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
   };
   switch (from.kind_case()) {
     case wire::ClientMessage::kHello:
-      return checked(read(from.hello(), check));
+      return checked(read_hello(from.hello(), check));
     case wire::ClientMessage::kInterest:
       return checked(read(from.interest(), check));
     case wire::ClientMessage::kCarve:
@@ -152,6 +130,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kGround:
       return checked(GroundRequest{
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});
+    case wire::ClientMessage::kOffer:
+      return checked(read_offer(from.offer(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

@@ -27,6 +27,16 @@ inline constexpr size_t entries_per_frame_max = 65536;
 /// Chunks in one repair request; more mismatches wait for the next request.
 inline constexpr size_t repair_chunks_max = 1024;
 
+/// Chunks in one offer: with 16 bits of hash, and coordinates that are close to each other, these take 7
+/// bytes at most, and all of them less than client_message_bytes_max. A client offers the nearest ones.
+inline constexpr size_t offer_chunks_max = 8192;
+
+/// Chunks in one Kept message.
+inline constexpr size_t kept_chunks_max = 1024;
+
+/// Length of a ticket, bytes: twice what servers give. Above: refused.
+inline constexpr size_t ticket_bytes_max = 48;
+
 /// Chunks of ground in one request, and asked for by one client and not answered yet. Above: refused, and the
 /// connection ends.
 inline constexpr size_t ground_chunks_max = 1024;

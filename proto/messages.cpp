@@ -60,13 +60,14 @@ size_t bytes_of(const std::vector<WatchedBody>& bodies) {
 size_t memory_bytes(const ServerMessage& message) {
   const size_t held =
       std::visit(Overloaded{
-                     [](const WelcomeMessage&) { return size_t{0}; },
+                     [](const WelcomeMessage& m) { return m.ticket.size(); },
                      [](const RefusalMessage& m) { return m.reason.size() + m.name.size(); },
                      [](const FrameMessage& m) {
                        return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
                               bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
                      },
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
+                     [](const KeptMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const ResetMessage&) { return size_t{0}; },

@@ -33,7 +33,22 @@ struct HelloMessage {
   /// An access token, or the server's admin token; at most limits::access_token_bytes_max. Empty: none.
   std::string token{};
   bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
+  std::string ticket{};        ///< of the session that goes on, as its welcome gave it; empty: none
+  uint64_t world = 0;          ///< of the OfferMessage that comes next; 0: none comes
 };
+
+/// Chunks that the client has kept from earlier, in ascending order, none twice.
+struct OfferMessage {
+  uint64_t world = 0;
+  std::vector<ChunkCoord> chunks;
+  std::vector<uint16_t> hashes;  ///< one per chunk: short_hash()
+};
+
+/// The part of a chunk's hash that an offer has. That it agrees by chance is possible, and found out by the
+/// whole hash in the KeptMessage.
+constexpr uint16_t short_hash(uint64_t hash) {
+  return static_cast<uint16_t>(hash);
+}
 
 /// The client's eye; the client follows the chunks and pieces within the radius.
 struct InterestMessage {
@@ -111,7 +126,7 @@ struct GroundRequest {
 
 using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairRequest,
-                 AckMessage, AdminMessage, CursorMessage, WatchMessage, GroundRequest>;
+                 AckMessage, AdminMessage, CursorMessage, WatchMessage, GroundRequest, OfferMessage>;
 
 // ---- server to client
 
@@ -125,6 +140,9 @@ struct WelcomeMessage {
   float interest_radius_m = 0.0F;  ///< as granted
   bool replay = false;             ///< a recording: requests to carve are refused
   Role role = Role::viewer;        ///< what this session may do
+  uint64_t world = 0;              ///< tells worlds apart; never 0 on the wire
+  std::string ticket{};            ///< for HelloMessage::ticket, once
+  bool resumed = false;            ///< the session of the hello's ticket goes on
 };
 
 /// The reason for which the server closes the connection.
@@ -161,6 +179,12 @@ struct ChunkMessage {
   Tick version = 0;
   std::vector<BrickPatch> bricks;
   uint64_t hash = 0;  ///< Σ brick_hash
+};
+
+/// In place of as many ChunkMessages: chunks that the client offered, and has as they are.
+struct KeptMessage {
+  std::vector<ChunkCoord> chunks;
+  std::vector<uint64_t> hashes;  ///< one per chunk, whole
 };
 
 /// The ground of a chunk as generated: bricks that are neither wholly rock nor in the list are wholly air.
@@ -315,7 +339,7 @@ struct PhysicsMessage {
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
                                    ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
-                                   GroundMessage, AdminListMessage>;
+                                   GroundMessage, AdminListMessage, KeptMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -4,6 +4,7 @@
 #include "proto/admin_codec.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
+#include "proto/join_codec.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "proto/watch_codec.h"
@@ -126,20 +127,8 @@ void write(wire::Status& to, const StatusMessage& from) {
 struct Writing {
   wire::ServerMessage& to;
 
-  void operator()(const WelcomeMessage& from) const {
-    wire::Welcome& welcome = *to.mutable_welcome();
-    welcome.set_protocol(from.protocol);
-    welcome.set_session(from.session);
-    welcome.set_tick(from.tick);
-    welcome.set_tick_rate_hz(from.tick_rate_hz);
-    welcome.set_ticks_per_transform(from.ticks_per_transform);
-    welcome.mutable_terrain()->set_kind(static_cast<wire::TerrainKind>(from.terrain.kind));
-    welcome.mutable_terrain()->set_random_seed(from.terrain.random_seed);
-    welcome.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
-    welcome.set_interest_radius_m(from.interest_radius_m);
-    welcome.set_replay(from.replay);
-    welcome.set_role(static_cast<wire::Role>(from.role));
-  }
+  void operator()(const WelcomeMessage& from) const { write(*to.mutable_welcome(), from); }
+  void operator()(const KeptMessage& from) const { write(*to.mutable_kept(), from); }
   void operator()(const AdminListMessage& from) const { write(*to.mutable_admin_list(), from); }
   void operator()(const RefusalMessage& from) const {
     to.mutable_refusal()->set_reason(showable(from.reason, limits::reason_bytes_max));
@@ -185,27 +174,6 @@ struct Writing {
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
   void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
 };
-
-WelcomeMessage read(const wire::Welcome& from, FieldChecker& check) {
-  WelcomeMessage welcome;
-  welcome.protocol = from.protocol();
-  welcome.session = from.session();
-  welcome.tick = from.tick();
-  welcome.tick_rate_hz =
-      check.within(from.tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
-  welcome.ticks_per_transform =
-      check.within(from.ticks_per_transform(), 1, limits::tick_rate_max_hz, "ticks_per_transform");
-  welcome.terrain.kind = check.kind<TerrainKind>(from.terrain().kind(), "kind of terrain");
-  welcome.terrain.random_seed = from.terrain().random_seed();
-  const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
-  if (voxel_size_m < limits::voxel_size_min_m || voxel_size_m > limits::voxel_size_max_m)
-    check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
-  welcome.terrain.voxel_size_m = voxel_size_m;
-  welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
-  welcome.replay = from.replay();
-  welcome.role = check.kind<Role>(from.role(), "role");
-  return welcome;
-}
 
 FrameMessage read(const wire::Frame& from, FieldChecker& check) {
   FrameMessage frame;
@@ -358,13 +326,15 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
   };
   switch (from.kind_case()) {
     case wire::ServerMessage::kWelcome:
-      return checked(read(from.welcome(), check));
+      return checked(read_welcome(from.welcome(), check));
     case wire::ServerMessage::kRefusal:
       return checked(read(from.refusal(), check));
     case wire::ServerMessage::kFrame:
       return checked(read(from.frame(), check));
     case wire::ServerMessage::kChunk:
       return checked(read(from.chunk(), check));
+    case wire::ServerMessage::kKept:
+      return checked(read_kept(from.kept(), check));
     case wire::ServerMessage::kGround:
       return checked(read(from.ground(), check));
     case wire::ServerMessage::kPiece:

@@ -47,14 +47,17 @@ glm::vec3 FieldChecker::vec3(const wire::Vec3& value, const char* what) {
   return {finite(value.x(), what), finite(value.y(), what), finite(value.z(), what)};
 }
 
+std::string FieldChecker::bytes(const std::string& value, size_t bytes_max, const char* what) {
+  if (value.size() <= bytes_max) return value;
+  refuse(std::string(what) + " has " + std::to_string(value.size()) + " bytes, over the limit of " +
+         std::to_string(bytes_max));
+  return {};
+}
+
 std::string FieldChecker::text(const std::string& value, size_t bytes_max, const char* what) {
-  if (value.size() > bytes_max) {
-    refuse(std::string(what) + " has " + std::to_string(value.size()) + " bytes, over the limit of " +
-           std::to_string(bytes_max));
-    return {};
-  }
-  if (const auto fault = fault_of_text(value)) refuse(std::string(what) + " " + std::string(*fault));
-  return failed() ? std::string() : value;
+  std::string text = bytes(value, bytes_max, what);
+  if (const auto fault = fault_of_text(text)) refuse(std::string(what) + " " + std::string(*fault));
+  return failed() ? std::string() : text;
 }
 
 Shape FieldChecker::shape(const wire::Shape& value) {

@@ -25,6 +25,8 @@ class FieldChecker {
   uint32_t within(uint32_t value, uint32_t min, uint32_t max, const char* what);
   glm::vec3 vec3(const wire::Vec3& value, const char* what);
   std::string text(const std::string& value, size_t bytes_max, const char* what);
+  /// Bytes that are passed on as they are.
+  std::string bytes(const std::string& value, size_t bytes_max, const char* what);
   /// A known kind by its number.
   template <HasRows Kind>
   Kind kind(int64_t number, const char* what) {

@@ -24,11 +24,14 @@ Bot::Bot(BotConfig config, Log log)
     : config_(std::move(config)),
       log_(std::move(log)),
       carver_(config_.carver, config_.random_seed),
-      eye_m_(config_.carver.centre_m) {
+      eye_m_(config_.carver.centre_m),
+      rejoin_(config_.cache) {
   report_.server = config_.host + ":" + std::to_string(config_.port);
 }
 
-Bot::~Bot() = default;
+Bot::~Bot() {
+  rejoin_.finish(mirror_.get());
+}
 
 void Bot::log(const std::string& line) const {
   if (log_) log_(line);
@@ -45,11 +48,11 @@ Result<void> Bot::join() {
 
 tl::expected<void, ConnectionEnd> Bot::connect() {
   const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
-  auto connected = Connection::connect(config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
+  auto connected = rejoin_.connect(config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
   if (!connected) return tl::unexpected(connected.error());
   connection_ = std::move(*connected);
   report_.welcome = connection_->welcome();
-  mirror_ = std::make_unique<Mirror>(report_.welcome);
+  mirror_ = rejoin_.begin(*connection_);
   if (report_.connections++ == 0) {
     // The ground is known from the welcome on.
     const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
@@ -68,6 +71,7 @@ void Bot::leave() {
   report_.carves_lost += static_cast<uint32_t>(requests_.size());
   requests_.clear();
   unseen_.clear();
+  rejoin_.keep(*mirror_);
   mirror_.reset();
   connection_.reset();
 }
@@ -97,13 +101,16 @@ Result<void> Bot::step(std::chrono::milliseconds wait) {
   const Clock::time_point now = Clock::now();
   ask(now);
   acknowledge(now);
+  rejoin_.tend(ms_between(started_, now) / 1000.0, *mirror_);
   return {};
 }
 
 Result<void> Bot::receive(const Received& received) {
   tally(received, report_);
+  rejoin_.before(received.message, *mirror_);
   const Result<MirrorChanges> applied = mirror_->apply(received.message);
   if (!applied) return tl::unexpected(applied.error());
+  rejoin_.after(received.message, *mirror_, *connection_);
   while (const auto repair = mirror_->take_repair_request()) {
     log("a check failed at tick " + std::to_string(repair->tick) + ": asking for " +
         std::to_string(repair->chunks.size()) + " chunks");
@@ -204,7 +211,7 @@ bool Bot::finished() const {
 void Bot::set_interest(glm::vec3 eye_m, float radius_m) {
   eye_m_ = eye_m;
   config_.interest_radius_m = radius_m;
-  if (connection_) connection_->send(InterestMessage{eye_m, radius_m});
+  if (connection_) rejoin_.follow(eye_m, radius_m, *mirror_, *connection_);
 }
 
 BotReport Bot::run() {

@@ -15,6 +15,7 @@
 
 #include "client/bot/carver.h"
 #include "client/bot/report.h"
+#include "client/cache/rejoin.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 
@@ -31,6 +32,7 @@ struct BotConfig : ServerEndpoint {
   bool check_hash = false;          ///< fail unless the hash of all edits equals the server's in the end
   double timeout_s = 300.0;
   uint32_t reconnects_max = 5;
+  CacheConfig cache{};  ///< without a bound: it comes back with nothing
 };
 
 class Bot {
@@ -82,6 +84,7 @@ class Bot {
   Log log_;
   Carver carver_;
   glm::vec3 eye_m_;
+  Rejoin rejoin_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;
   std::unordered_map<uint32_t, Request> requests_;          ///< by request number: not answered yet

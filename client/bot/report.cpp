@@ -102,6 +102,7 @@ std::string to_json(const BotReport& report) {
   json["frames"] = seen.frames;
   json["chunks"] = {{"held", report.chunks_held},
                     {"received_whole", seen.chunks},
+                    {"kept", seen.chunks_kept},
                     {"dropped", seen.dropped_chunks},
                     {"patched_bricks", seen.patched_bricks}};
   json["checks"] = seen.checks;

@@ -62,20 +62,21 @@ struct Connection::Impl {
   ConnectionEnd reason;
   ConnectionCounters counters;
 
-  Result<void> start(const ServerEndpoint& server, const HelloMessage& hello);
+  Result<void> start(const ServerEndpoint& server, const std::vector<ClientMessage>& first);
   void try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
-                const HelloMessage& hello, const asio::error_code& before);
+                const std::vector<ClientMessage>& first, const asio::error_code& before);
   void end(const std::string& why, const std::string& refusal = {});
   void read();
   void take_messages();
   void enqueue(ServerMessage message, size_t bytes);
   void handle(ServerMessage message, size_t bytes);
   void push(std::vector<uint8_t> bytes);
+  void note_sent(size_t bytes);
   void write();
   std::vector<Received> take_all();
 };
 
-Result<void> Connection::Impl::start(const ServerEndpoint& server, const HelloMessage& hello) {
+Result<void> Connection::Impl::start(const ServerEndpoint& server, const std::vector<ClientMessage>& first) {
   if (server.host.empty()) return fail("no server is named (--host)");
   std::shared_ptr<const TlsClientContext> tls;
   if (server.tls) {
@@ -84,18 +85,18 @@ Result<void> Connection::Impl::start(const ServerEndpoint& server, const HelloMe
     tls = std::move(*made);
   }
   resolver.async_resolve(server.host, std::to_string(server.port),
-                         [this, server, tls, hello](const asio::error_code& error, const auto& results) {
+                         [this, server, tls, first](const asio::error_code& error, const auto& results) {
                            if (error) return end("cannot find the host: " + error.message());
                            found = results;
                            untried = found.begin();
-                           try_next(server, tls, hello, asio::error::host_not_found);
+                           try_next(server, tls, first, asio::error::host_not_found);
                          });
   return {};
 }
 
 /// Connects to the next of the server's addresses, and says hello.
 void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
-                                const HelloMessage& hello, const asio::error_code& before) {
+                                const std::vector<ClientMessage>& first, const asio::error_code& before) {
   if (ended) return;
   if (untried == found.end())
     return end("cannot connect: " + before.message() + "; is a server running there?");
@@ -103,18 +104,22 @@ void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<co
   asio::error_code failed;
   socket.close(failed);
   socket.open(to.protocol(), failed);
-  if (failed) return try_next(server, std::move(tls), hello, failed);
+  if (failed) return try_next(server, std::move(tls), first, failed);
   // What the link does not take is to wait at the server, as it would there, and not in this socket.
   asio::error_code ignored;
   if (server.link) socket.set_option(tcp::socket::receive_buffer_size(limits::link_receive_bytes), ignored);
-  socket.async_connect(to, [this, server, tls, hello](const asio::error_code& refused) {
-    if (refused) return try_next(server, tls, hello, refused);
+  socket.async_connect(to, [this, server, tls, first](const asio::error_code& refused) {
+    if (refused) return try_next(server, tls, first, refused);
     transport = std::make_shared<TcpTransport>(std::move(socket));
     if (server.link)
       transport = std::make_shared<LinkTransport>(std::move(transport), *server.link,
                                                   std::make_unique<AsioLinkClock>(context));
     if (tls) transport = std::make_shared<TlsTransport>(std::move(transport), TlsEngine(tls, server.host));
-    push(encode(ClientMessage{hello}));
+    for (const ClientMessage& message : first) {
+      std::vector<uint8_t> bytes = encode(message);
+      note_sent(bytes.size());
+      push(std::move(bytes));
+    }
     read();
   });
 }
@@ -208,6 +213,12 @@ void Connection::Impl::enqueue(ServerMessage message, size_t bytes) {
   changed.notify_all();
 }
 
+void Connection::Impl::note_sent(size_t bytes) {
+  const std::scoped_lock lock(mutex);
+  counters.sent_bytes += bytes;
+  ++counters.sent_messages;
+}
+
 void Connection::Impl::push(std::vector<uint8_t> bytes) {
   if (ended) return;
   outbox_bytes += bytes.size();
@@ -251,15 +262,18 @@ std::vector<Received> Connection::Impl::take_all() {
 Connection::Connection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
-    const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within) {
+    const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
+    const std::vector<ClientMessage>& then) {
   const auto failed = [&server](const std::string& why, const std::string& refusal = {}) {
     return tl::unexpected(
         ConnectionEnd{{server.host + ":" + std::to_string(server.port) + ": " + why}, refusal});
   };
   hello.token = server.token;
+  std::vector<ClientMessage> first{std::move(hello)};
+  first.insert(first.end(), then.begin(), then.end());
   try {
     auto impl = std::make_unique<Impl>();
-    if (Result<void> started = impl->start(server, hello); !started) return failed(started.error().message);
+    if (Result<void> started = impl->start(server, first); !started) return failed(started.error().message);
     impl->context.run_for(within);
     if (!impl->welcome) {
       impl->end("no answer within " + std::to_string(within.count()) + " ms");
@@ -299,9 +313,8 @@ void Connection::send(const ClientMessage& message) {
   {
     const std::scoped_lock lock(impl_->mutex);
     if (!impl_->open) return;
-    impl_->counters.sent_bytes += bytes.size();
-    ++impl_->counters.sent_messages;
   }
+  impl_->note_sent(bytes.size());
   asio::post(impl_->context,
              [impl = impl_.get(), bytes = std::move(bytes)]() mutable { impl->push(std::move(bytes)); });
 }

@@ -30,7 +30,7 @@ struct Received {
 struct ConnectionCounters {
   uint64_t received_bytes = 0;
   uint64_t received_messages = 0;
-  uint64_t sent_bytes = 0;  ///< handed to send()
+  uint64_t sent_bytes = 0;  ///< handed over to be sent, the hello included
   uint64_t sent_messages = 0;
   size_t waiting_messages = 0;  ///< received, not yet polled
   size_t waiting_bytes = 0;     ///< their memory, decoded
@@ -39,11 +39,11 @@ struct ConnectionCounters {
 
 class Connection {
  public:
-  /// Connects, sends a hello, with the endpoint's token, and waits for the welcome. The error names the
-  /// address and the failure; a refusal has the server's reason.
-  static tl::expected<std::unique_ptr<Connection>, ConnectionEnd> connect(const ServerEndpoint& server,
-                                                                          HelloMessage hello,
-                                                                          std::chrono::milliseconds within);
+  /// Connects, sends a hello, with the endpoint's token, then other messages if there are any, and waits for
+  /// the welcome. The error names the address and the failure; a refusal has the server's reason.
+  static tl::expected<std::unique_ptr<Connection>, ConnectionEnd> connect(
+      const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
+      const std::vector<ClientMessage>& then = {});
   /// Closes.
   ~Connection();
   Connection(const Connection&) = delete;

@@ -28,6 +28,7 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   transforms += other.transforms;
   transform_bytes += other.transform_bytes;
   chunks += other.chunks;
+  chunks_kept += other.chunks_kept;
   dropped_chunks += other.dropped_chunks;
   pieces_made += other.pieces_made;
   pieces_sent += other.pieces_sent;
@@ -40,8 +41,9 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   return *this;
 }
 
-Mirror::Mirror(const WelcomeMessage& welcome)
-    : field_(welcome.terrain),
+Mirror::Mirror(const WelcomeMessage& welcome, KeptChunks kept)
+    : kept_(std::move(kept)),
+      field_(welcome.terrain),
       known_motions_(motion_rules(welcome.tick_rate_hz, welcome.ticks_per_transform),
                      welcome.terrain.voxel_size_m),
       tick_(welcome.tick),
@@ -56,6 +58,10 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const RefusalMessage& refusal) -> Done { return fail("the server refused: " + refusal.reason); },
           [&](const FrameMessage& frame) { return apply_frame(frame, changes); },
           [&](const ChunkMessage& chunk) { return apply_chunk(chunk, changes); },
+          [&](const KeptMessage& kept) -> Done {
+            apply_kept(kept, changes);
+            return {};
+          },
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
@@ -238,13 +244,17 @@ void Mirror::move_piece(PieceMotion& motion, const Pose& to, Tick tick) const {
   motion.to_tick = tick;
 }
 
-Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& changes) {
-  forget_chunk(message.chunk, changes);
-  for (const BrickPatch& patch : message.bricks) {
+void Mirror::replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes) {
+  forget_chunk(chunk, changes);
+  for (const BrickPatch& patch : bricks) {
     field_.set_brick(patch.coord, patch.brick);
     field_.paint_brick(patch.coord, patch.paint);
     changes.bricks.push_back(patch.coord);
   }
+}
+
+Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& changes) {
+  replace_chunk(message.chunk, message.bricks, changes);
   if (field_.chunk_hash(message.chunk) != message.hash)
     return fail("chunk (" + std::to_string(message.chunk.x) + ", " + std::to_string(message.chunk.y) + ", " +
                 std::to_string(message.chunk.z) + ") does not have the hash that came with it");
@@ -253,6 +263,20 @@ Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& cha
   counters_.repairs_arrived += repairs_awaited_.erase(message.chunk);
   ++counters_.chunks;
   return {};
+}
+
+/// Where what was kept is not what the server takes it for, its hash is sent, and the chunk comes whole.
+void Mirror::apply_kept(const KeptMessage& message, MirrorChanges& changes) {
+  for (size_t i = 0; i < message.chunks.size(); ++i) {
+    const ChunkCoord chunk = message.chunks[i];
+    replace_chunk(chunk, kept_ ? kept_(chunk) : std::vector<BrickPatch>(), changes);
+    held_.insert(chunk);
+    repairs_awaited_.erase(chunk);
+    ++counters_.chunks_kept;
+    if (field_.chunk_hash(chunk) == message.hashes[i]) continue;
+    ++counters_.mismatches;
+    mismatched_[chunk] = {tick_, field_.chunk_hash(chunk)};
+  }
 }
 
 Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& changes) {

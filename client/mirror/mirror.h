@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,7 +50,8 @@ struct MirrorCounters {
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses, predicted ones too
   uint64_t transform_bytes = 0;
-  uint64_t chunks = 0;  ///< received whole
+  uint64_t chunks = 0;       ///< received whole
+  uint64_t chunks_kept = 0;  ///< taken from what was kept
   uint64_t dropped_chunks = 0;
   uint64_t pieces_made = 0;    ///< by operations
   uint64_t pieces_sent = 0;    ///< received whole
@@ -63,9 +65,13 @@ struct MirrorCounters {
   MirrorCounters& operator+=(const MirrorCounters& other);
 };
 
+/// The edits of a chunk that the client has kept from earlier; empty when it has none.
+using KeptChunks = std::function<std::vector<BrickPatch>(ChunkCoord)>;
+
 class Mirror {
  public:
-  explicit Mirror(const WelcomeMessage& welcome);
+  /// `kept`: what was offered to the server.
+  explicit Mirror(const WelcomeMessage& welcome, KeptChunks kept = {});
 
   /// Applies one message. A message that cannot be applied (unknown piece, wrong base) is an error: the
   /// mirror cannot be used any more, and the caller connects again.
@@ -112,6 +118,8 @@ class Mirror {
   Result<void> apply_motions(const std::vector<uint8_t>& motions, Tick tick);
   void move_piece(PieceMotion& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
+  void apply_kept(const KeptMessage& message, MirrorChanges& changes);
+  void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   void apply_reset(MirrorChanges& changes);
   Result<void> within_limits() const;
@@ -123,6 +131,7 @@ class Mirror {
   void remove_piece(PieceId id, MirrorChanges& changes);
   void count(const Operation& operation);
 
+  KeptChunks kept_;
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses

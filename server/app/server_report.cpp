@@ -81,6 +81,8 @@ Json json_of(const NetStats& net) {
   const PublisherStats& sent = net.published;
   return {{"now", net.sessions},
           {"joined", net.sessions_joined},
+          {"resumed", net.sessions_resumed},
+          {"tickets_void", net.tickets_void},
           {"refused", net.sessions_refused},
           {"cut", net.sessions_cut},
           {"turned_away", net.turned_away},
@@ -156,6 +158,8 @@ std::string to_json(const ServerReport& report) {
                {"chunk_bytes", sent.chunk_bytes},
                {"piece_bytes", sent.piece_bytes},
                {"ground_bytes", sent.ground_bytes},
+               {"kept_bytes", sent.kept_bytes},
+               {"chunks_kept", sent.chunks_kept},
                {"bytes_per_carve", mean<CarveOperation>(sent)},
                {"bytes_per_merge", mean<StampOperation>(sent)},
                {"sessions", json_of(report.net)},

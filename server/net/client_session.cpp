@@ -58,6 +58,7 @@ void ClientSession::read_failed(bool orderly, const std::string& why) {
     return refuse({Refusal::message_cut_short, "the connection ended in the middle of a message, after " +
                                                    std::to_string(reader_.buffered_bytes()) +
                                                    " bytes of it"});
+  was_lost_ = !orderly;
   close(orderly ? "left" : why);
 }
 
@@ -149,6 +150,7 @@ void ClientSession::write() {
   transport_->write_some(std::span(buffers).first(count), [self = shared_from_this()](const Moved& moved) {
     self->writing_ = false;
     if (self->phase_ == Phase::closed) return;
+    self->was_lost_ = !moved;
     if (!moved) return self->close(moved.error().why);
     self->write_done(*moved);
   });
@@ -197,6 +199,7 @@ void ClientSession::finish_sending() {
 void ClientSession::close(const std::string& reason) {
   if (phase_ == Phase::closed) return;
   const auto self = shared_from_this();
+  may_go_on_ = phase_ == Phase::joined;
   phase_ = Phase::closed;
   transport_->close();
   outbox_.clear();

@@ -71,6 +71,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void check_time(double now_s);
 
   uint64_t id() const { return id_; }
+  /// It goes on as another session, which has no connection any more.
+  void continue_as(uint64_t id) { id_ = id; }
   Phase phase() const { return phase_; }
   const std::string& peer() const { return peer_; }
   /// As of Door.
@@ -89,6 +91,10 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   Backlog backlog() const { return {backlog_bytes_, pace_.bytes_max()}; }
   /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
+  /// Of a closed one: whether it had joined and was not refused; and whether its connection was lost, rather
+  /// than ended by either side.
+  bool may_go_on() const { return may_go_on_; }
+  bool was_lost() const { return was_lost_; }
 
  private:
   void read();
@@ -127,6 +133,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   double offered_s_ = 0.0;
   bool writing_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
+  bool may_go_on_ = false;
+  bool was_lost_ = false;
 };
 
 }  // namespace scree

@@ -126,6 +126,23 @@ inline constexpr int accept_pause_ms = 100;
 inline constexpr double idle_seconds_max = 60.0;
 inline constexpr double inert_seconds_max = 2.0;
 
+/// Seconds for which no chunks are sent to a client that has announced an offer; then it is as one without.
+inline constexpr double offer_wait_s = 1.0;
+
+/// Seconds after which an offer is forgotten, if not all that was wanted has come before.
+inline constexpr double offer_seconds_max = 60.0;
+
+/// Seconds after the end of its connection for which a session can go on by its ticket.
+inline constexpr double ticket_seconds_max = 60.0;
+
+/// Sessions without a connection that can go on; above: those that ended first are forgotten.
+inline constexpr size_t departed_max = 4096;
+
+/// Seconds for which a full server keeps the place of a lost connection, and the part of all places that it
+/// keeps so; above: somebody else may have it. Holders of tokens may at once.
+inline constexpr double place_kept_seconds_max = 15.0;
+inline constexpr double places_kept_part = 0.25;
+
 /// Lines of one kind in the log, a second and at once; the rest is counted.
 inline constexpr double log_lines_per_second = 2.0;
 inline constexpr double log_lines_burst = 8.0;

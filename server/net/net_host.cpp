@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "crypto/signing_key.h"
 #include "proto/codec.h"
 #include "server/net/descriptors.h"
 #include "shared/base/check.h"
@@ -33,14 +34,6 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.heartbeat_s};
 }
 
-Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
-  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
-    return fail("the eye's position is not a number");
-  if (!std::isfinite(radius_m) || radius_m < 0.0F)
-    return fail("the radius of interest must be a number, and not negative");
-  return std::min(radius_m, limits::interest_radius_max_m);
-}
-
 }  // namespace
 
 NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
@@ -49,6 +42,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       commands_(commands),
       entrance_(context_, config.door, *this),
       timer_(context_),
+      world_(std::max<uint64_t>(1, random_number())),
       publisher_(publisher_config(config)) {}
 
 Result<void> NetHost::listen() {
@@ -141,6 +135,7 @@ void NetHost::tick_timer() {
     for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
     for (const auto& session : sessions) session->check_time(now_s);
     end_lapsed_grants();
+    tickets_.expire(now_s);
     if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
       for (const auto& session : sessions) session->close("the server stops");
       return;
@@ -152,47 +147,6 @@ void NetHost::tick_timer() {
 uint32_t NetHost::joined_count() const {
   CHECK(outsiders_.size() <= sessions_.size());
   return static_cast<uint32_t>(sessions_.size() - outsiders_.size());
-}
-
-tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  if (hello.protocol != protocol_version)
-    return refuse(Refusal::protocol_version, "this server speaks protocol version " +
-                                                 std::to_string(protocol_version) + ", the client version " +
-                                                 std::to_string(hello.protocol) +
-                                                 ": use a client and a server of the same release");
-  if (stopping_) return refuse(Refusal::server_stops, "the server stops");
-  const auto grant = grant_to(session, hello);
-  if (!grant) return tl::unexpected(grant.error());
-  const size_t sessions_max = std::min<size_t>(service_.sessions_max, descriptors_ - outsiders_max_);
-  if (joined_count() >= sessions_max && !make_room(session, *grant))
-    return refuse(Refusal::sessions_max, "the server is full: " + std::to_string(sessions_max) +
-                                             " sessions (sessions-max); try again later");
-  const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
-  if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
-  publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels);
-  outsiders_.erase(session.id());
-  Entry& entry = sessions_.at(session.id());
-  entry.grant = *grant;
-  entry.name = grant->name;
-  entry.program = hello.client;
-  entry.joined_s = steady_now_s();
-  entry.in_common = in_common(session, *grant);
-  if (!entry.in_common.empty()) entry.party = parties_.join(entry.in_common, session.id());
-  ++counts_.sessions_joined;
-  update_stats();
-  say(spdlog::level::info, "joined",
-      fmt::format("session {}: {} joined from {} as {}, interest {} m", session.id(), hello.client,
-                  session.peer(), name_of(grant->role), *radius_m));
-  WelcomeMessage welcome;
-  welcome.session = session.id();
-  welcome.tick = publisher_.state().tick();
-  welcome.tick_rate_hz = config_.tick_rate_hz;
-  welcome.ticks_per_transform = config_.ticks_per_transform;
-  welcome.terrain = config_.terrain;
-  welcome.interest_radius_m = *radius_m;
-  welcome.replay = config_.replay;
-  welcome.role = grant->role;
-  return welcome;
 }
 
 tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
@@ -213,6 +167,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
                 fmt::format("session {}: {} chunks differ at tick {}", session.id(), repair.chunks.size(),
                             repair.tick));
             publisher_.repair(session.id(), repair);
+            return {};
+          },
+          [&](const OfferMessage& offer) -> Done {
+            if (offer.world == world_) publisher_.offer(session.id(), offer);
             return {};
           },
           // On TCP the bytes that wait for a client say how far behind it is.
@@ -236,6 +194,14 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
       },
       message);
+}
+
+Result<float> NetHost::granted_radius(glm::vec3 eye_m, float radius_m) {
+  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
+    return fail("the eye's position is not a number");
+  if (!std::isfinite(radius_m) || radius_m < 0.0F)
+    return fail("the radius of interest must be a number, and not negative");
+  return std::min(radius_m, limits::interest_radius_max_m);
 }
 
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
@@ -306,6 +272,7 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
                   refused.message));
   publisher_.leave(session.id());
   request_times_.forget(session.id());
+  tickets_.forget(session.id());
   outsiders_.insert(session.id());
   update_stats();
 }
@@ -323,6 +290,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
   request_times_.forget(session.id());
+  remember(session);
   outsiders_.erase(session.id());
   if (const Entry& entry = sessions_.at(session.id()); !entry.in_common.empty())
     parties_.leave(entry.in_common);

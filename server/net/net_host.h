@@ -19,6 +19,7 @@
 #include "server/net/net_server.h"
 #include "server/net/parties.h"
 #include "server/net/request_times.h"
+#include "server/net/tickets.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
@@ -71,7 +72,7 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   void begin(std::shared_ptr<Transport> transport, const std::string& address);
   void close_oldest_outsider(const std::string& why);
-  bool make_room(const ClientSession& newcomer, const Grant& grant);
+  static Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
   /// A line of the log, of a kind of which there are few a second.
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
   void tick_timer();
@@ -83,6 +84,13 @@ class NetHost final : public SessionHost, public EntranceHost {
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
   void fit_descriptors();
+
+  // ---- who joins, or goes on after a lost connection (net_host_join.cpp)
+  std::optional<Departed> resume(const std::string& ticket, const Grant& grant);
+  tl::expected<void, Refused> find_room(const ClientSession& newcomer, const Grant& grant, bool has_place);
+  bool make_room(const ClientSession& newcomer, const Grant& grant);
+  Entry& enter(ClientSession& session, uint64_t id);
+  void remember(const ClientSession& session);
 
   // ---- who may come in and do what (net_host_access.cpp)
   Result<void> open_access();
@@ -122,6 +130,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   std::shared_ptr<const Access> access_;
   Bans bans_;
   Parties parties_;
+  Tickets tickets_;
+  const uint64_t world_;  ///< WelcomeMessage::world
   Publisher publisher_;
   RequestTimes request_times_;
   std::atomic<bool> watched_{false};

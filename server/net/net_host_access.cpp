@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <tuple>
 
 #include "server/net/net_host.h"
 #include "shared/base/check.h"
@@ -60,40 +59,6 @@ std::shared_ptr<Transport> NetHost::transport_over(asio::ip::tcp::socket socket)
   auto plain = std::make_shared<TcpTransport>(std::move(socket));
   if (!access_->tls()) return plain;
   return std::make_shared<SniffingTransport>(std::move(plain), access_->tls());
-}
-
-/// Ends one session for the newcomer: one without a token if there is any, of the address with the most, the
-/// idlest of these. False when all stay.
-bool NetHost::make_room(const ClientSession& newcomer, const Grant& grant) {
-  const double now_s = steady_now_s();
-  const auto holds_token = [](const Grant& held) { return held.token_id != 0 || held.role == Role::admin; };
-  std::map<std::string, size_t> held;
-  for (const auto& [id, entry] : sessions_)
-    if (entry.session->phase() == ClientSession::Phase::joined) ++held[entry.session->address()];
-  const size_t few = held[newcomer.address()] + joined_count() / 4;
-  // Why a session gives way; null: it stays. Administrators give way to nobody, holders of tokens to such
-  // alone.
-  const auto why = [&](const Entry& entry) -> const char* {
-    if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
-      return nullptr;
-    const bool idle = entry.session->may_make_room(now_s);
-    if (holds_token(entry.grant)) return idle && holds_token(grant) ? "you did nothing for long" : nullptr;
-    if (idle) return "you did nothing for long";
-    if (holds_token(grant)) return "those who hold a token go first";
-    return held[entry.session->address()] > few ? "your address holds many places" : nullptr;
-  };
-  const auto rank = [&](const Entry& entry) {
-    return std::tuple(!holds_token(entry.grant), held[entry.session->address()],
-                      entry.session->idle_s(now_s));
-  };
-  const Entry* least = nullptr;
-  for (const auto& [id, entry] : sessions_)
-    if (why(entry) != nullptr && (least == nullptr || rank(entry) > rank(*least))) least = &entry;
-  if (least == nullptr) return false;
-  const std::string words = why(*least);
-  const auto session = least->session;
-  session->refuse({Refusal::idle_made_room, "the server is full, and " + words + ": another has your place"});
-  return true;
 }
 
 /// A wrong token ends the connection, and costs its address a wait (Door). The right one waits, too: if it
@@ -209,6 +174,11 @@ std::vector<BanRow> NetHost::ban_rows() const {
 
 Result<void> NetHost::kick(const KickSession& kick) {
   const auto found = sessions_.find(kick.session);
+  if (found == sessions_.end() && tickets_.departed(kick.session) != nullptr) {
+    tickets_.forget(kick.session);
+    spdlog::info("session {}: kicked by an administrator while its connection was lost", kick.session);
+    return {};
+  }
   if (found == sessions_.end()) return fail("there is no session " + std::to_string(kick.session));
   const auto session = found->second.session;
   spdlog::info("session {}: kicked by an administrator", kick.session);
@@ -221,8 +191,10 @@ Result<void> NetHost::ban(const BanAddress& ban) {
   std::string address = ban.address;
   if (ban.session != 0) {
     const auto found = sessions_.find(ban.session);
-    if (found == sessions_.end()) return fail("there is no session " + std::to_string(ban.session));
-    address = found->second.session->ip();
+    const Departed* const departed = tickets_.departed(ban.session);
+    if (found == sessions_.end() && departed == nullptr)
+      return fail("there is no session " + std::to_string(ban.session));
+    address = departed != nullptr ? departed->ip : found->second.session->ip();
   }
   const auto key = ban_key(address);
   if (!key) return tl::unexpected(key.error());
@@ -230,6 +202,8 @@ Result<void> NetHost::ban(const BanAddress& ban) {
   const uint64_t until_s = ban.minutes == 0 ? 0 : now_s + ban.minutes * seconds_per_minute;
   Result<void> added = bans_.add(*key, {until_s, ban.reason}, now_s);
   spdlog::info("{} is banned by an administrator", *key);
+  tickets_.forget_departed(
+      [&](const Departed& departed) { return bans_.find(departed.ip, now_s) != nullptr; });
   std::vector<std::shared_ptr<ClientSession>> there;
   for (const auto& [id, entry] : sessions_)
     if (entry.grant.role != Role::admin && bans_.find(entry.session->ip(), now_s) != nullptr)

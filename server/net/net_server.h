@@ -45,6 +45,8 @@ struct NetStats {
   PublisherStats published;
   uint32_t sessions = 0;  ///< now
   uint64_t sessions_joined = 0;
+  uint64_t sessions_resumed = 0;  ///< of those that joined: went on by a ticket
+  uint64_t tickets_void = 0;      ///< presented, and did not hold
   uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
   uint64_t sessions_cut = 0;      ///< cut off: they did not read, or said no hello
   uint64_t turned_away = 0;       ///< connections closed without a session

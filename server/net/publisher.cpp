@@ -17,6 +17,7 @@ namespace {
 
 /// Chunks or pieces in one list to stream; the budget of bytes ends the streaming much earlier.
 constexpr size_t stream_batch = 64;
+static_assert(stream_batch <= limits::kept_chunks_max);
 
 SharedBytes bytes_of(const ServerMessage& message) {
   return std::make_shared<const std::vector<uint8_t>>(encode(message));
@@ -43,9 +44,16 @@ int64_t size_of(const SharedBytes& bytes) {
 Publisher::Publisher(const PublisherConfig& config)
     : config_(config), motions_(no_motions(config)), ground_(config.terrain), clock_(config.tick_rate_hz) {}
 
-void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels) {
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers) {
   leave(session);
-  clients_.emplace(session, Client{session, ClientView(eye_m, radius_m, has_kernels)});
+  Client client{session, ClientView(eye_m, radius_m, has_kernels)};
+  if (offers) client.offer.await(ticks_of(limits::offer_wait_s));
+  clients_.emplace(session, std::move(client));
+}
+
+void Publisher::offer(uint64_t session, const OfferMessage& offer) {
+  const auto client = clients_.find(session);
+  if (client != clients_.end()) client->second.offer.take(offer, ticks_of(limits::offer_seconds_max));
 }
 
 void Publisher::leave(uint64_t session) {
@@ -122,7 +130,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   for (auto& [session, client] : clients_) serve(client, changes, backlog(session));
   stream_ground(backlog);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
-  CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.piece_bytes + stats_.ground_bytes <=
+  CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
+            stats_.ground_bytes <=
         stats_.sent_bytes);
   return std::exchange(out_, {});
 }
@@ -146,6 +155,7 @@ bool Publisher::ready(Client& client, size_t backlog_bytes) {
   if (client.reset_due) {
     client.reset_due = false;
     client.view.reset();
+    client.offer.forget();
     client.last_frame = 0;
     send(client, bytes_of(ResetMessage{}));
   }
@@ -169,8 +179,8 @@ void Publisher::serve(Client& client, const TickChanges& changes, const Backlog&
 
 /// Whether the client gets a frame of this tick though nothing happened for it.
 bool Publisher::frame_due(const Client& client, Tick tick) const {
-  const auto heartbeat_ticks = static_cast<Tick>(config_.heartbeat_s * config_.tick_rate_hz);
-  return client.last_frame == 0 || tick >= client.last_frame + heartbeat_ticks || status_due(tick);
+  return client.last_frame == 0 || tick >= client.last_frame + ticks_of(config_.heartbeat_s) ||
+         status_due(tick);
 }
 
 bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScope parts) {
@@ -194,15 +204,32 @@ bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScop
 void Publisher::stream_chunks(Client& client, const TickChanges& changes) {
   client.chunk_credit_bytes =
       std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
-  if (client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
+  if (!client.offer.ready() || client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
+  KeptMessage kept;
   for (const ChunkCoord coord : client.view.next_chunks(changes, stream_batch)) {
-    if (client.chunk_credit_bytes <= 0 || client.room_bytes <= 0) return;
-    const SharedBytes bytes = cache_.chunk(coord, state_.chunks().at(coord));
+    if (client.chunk_credit_bytes <= 0 || client.room_bytes <= 0) break;
+    const PublishedChunk& chunk = state_.chunks().at(coord);
+    client.view.sent_chunk(coord);
+    if (client.offer.answers(coord, chunk.hash)) {
+      kept.chunks.push_back(coord);
+      kept.hashes.push_back(chunk.hash);
+      continue;
+    }
+    const SharedBytes bytes = cache_.chunk(coord, chunk);
     client.chunk_credit_bytes -= size_of(bytes);
     stats_.chunk_bytes += bytes->size();
-    client.view.sent_chunk(coord);
     send(client, bytes);
   }
+  if (!kept.chunks.empty()) send_kept(client, kept);
+  if (client.view.wanted_chunks() == 0) client.offer.forget();
+}
+
+void Publisher::send_kept(Client& client, const KeptMessage& kept) {
+  const SharedBytes bytes = bytes_of(kept);
+  client.chunk_credit_bytes -= size_of(bytes);
+  stats_.kept_bytes += bytes->size();
+  stats_.chunks_kept += kept.chunks.size();
+  send(client, bytes);
 }
 
 void Publisher::stream_pieces(Client& client) {
@@ -259,7 +286,8 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
     const auto client = clients_.find(reply.session);
     if (client == clients_.end()) continue;
     const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
-    send(client->second, bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}));
+    send(client->second,
+         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}));
   }
   return std::exchange(out_, {});
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "server/net/chunk_offer.h"
 #include "server/net/client_view.h"
 #include "server/net/encode_cache.h"
 #include "server/net/ground_stream.h"
@@ -49,6 +50,8 @@ struct PublisherStats {
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
   uint64_t ground_bytes = 0;
+  uint64_t kept_bytes = 0;
+  uint64_t chunks_kept = 0;         ///< that were offered, and not sent
   OperationCounts operations;       ///< operations published
   OperationCounts operation_bytes;  ///< their encoded size
   uint64_t repairs = 0;             ///< chunks sent again because a check failed
@@ -68,10 +71,12 @@ class Publisher {
   explicit Publisher(const PublisherConfig& config);
 
   /// `has_kernels`: whether the client can carry out operations; then it gets motions, else whole poses
-  /// (Frame.motions, Frame.transforms).
-  void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels);
+  /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it.
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers = false);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
+  /// Takes the client's word for the chunks that it has; of this world.
+  void offer(uint64_t session, const OfferMessage& offer);
   /// Sends those of the request's chunks again whose hash differs from the server's at that tick.
   void repair(uint64_t session, const RepairRequest& request);
   /// Queues chunks whose ground the client asks for; false when too many would wait (GroundStream::ask).
@@ -119,6 +124,7 @@ class Publisher {
     Tick last_frame = 0;  ///< tick of the last frame that it got; 0: none
     uint64_t sent_bytes = 0;
     uint32_t repairs = 0;
+    ChunkOffer offer{};
     bool watches = false;
     int64_t physics_credit_bytes = 0;
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
@@ -130,6 +136,8 @@ class Publisher {
   bool send_frame(Client& client, const TickChanges& changes, FrameScope parts);
   bool frame_due(const Client& client, Tick tick) const;
   void stream_chunks(Client& client, const TickChanges& changes);
+  void send_kept(Client& client, const KeptMessage& kept);
+  uint32_t ticks_of(double seconds) const { return static_cast<uint32_t>(seconds * config_.tick_rate_hz); }
   void stream_pieces(Client& client);
   void stream_ground(const std::function<Backlog(uint64_t)>& backlog);
   void send_cursors(Client& client);

@@ -52,6 +52,45 @@ struct Pair {
   CarveOperation carve(uint32_t seeds = 8) { return source.carve({1.0F, -0.5F, 1.0F}, 1.5F, seeds); }
 };
 
+TEST(Mirror, what_it_has_kept_is_taken_on_the_servers_word_and_followed) {
+  Pair before;
+  ASSERT_TRUE(before.mirror.apply(before.frame({before.carve()})));
+  const auto kept = [&](ChunkCoord chunk) { return before.chunk(chunk).bricks; };
+  Mirror mirror(flat_welcome(), kept);
+  KeptMessage message{before.source.field().edited_chunks(), {}};
+  for (const ChunkCoord chunk : message.chunks)
+    message.hashes.push_back(before.source.field().chunk_hash(chunk));
+  const auto applied = mirror.apply(message);
+  ASSERT_TRUE(applied);
+  EXPECT_FALSE(applied->bricks.empty());
+  EXPECT_EQ(mirror.field().hash(), before.source.field().hash());
+  EXPECT_EQ(mirror.held_chunks().size(), message.chunks.size());
+  EXPECT_FALSE(mirror.take_repair_request());
+  ASSERT_TRUE(mirror.apply(before.frame({before.carve()})));
+  EXPECT_EQ(mirror.mismatches(), 0U);
+}
+
+TEST(Mirror, what_it_has_not_kept_or_otherwise_than_the_server_means_is_asked_for) {
+  Pair pair;
+  ASSERT_TRUE(pair.mirror.apply(pair.frame({pair.carve()})));
+  const ChunkCoord chunk = pair.source.field().edited_chunks().front();
+  const auto other = [&](ChunkCoord) {
+    return std::vector<BrickPatch>{{brick_in_chunk(chunk, 0), solid_brick()}};
+  };
+  for (const KeptChunks& kept : {KeptChunks(), KeptChunks(other)}) {
+    Mirror mirror(flat_welcome(), kept);
+    ASSERT_TRUE(mirror.apply(KeptMessage{{chunk}, {pair.source.field().chunk_hash(chunk)}}));
+    const auto repair = mirror.take_repair_request();
+    ASSERT_TRUE(repair);
+    EXPECT_EQ(repair->chunks, std::vector{chunk});
+    EXPECT_EQ(repair->hashes, std::vector{mirror.field().chunk_hash(chunk)});
+    EXPECT_FALSE(mirror.take_repair_request());
+    ASSERT_TRUE(mirror.apply(pair.chunk(chunk)));
+    EXPECT_EQ(mirror.field().chunk_hash(chunk), pair.source.field().chunk_hash(chunk));
+    EXPECT_EQ(mirror.counters().repairs_arrived, 1U);
+  }
+}
+
 TEST(Mirror, operations_give_the_same_hash_pieces_and_poses_as_on_the_server) {
   Pair pair;
   const auto carved = pair.mirror.apply(pair.frame({pair.carve()}));

@@ -82,11 +82,33 @@ inline void append(Lines& lines, const Lines& more) {
 
 // ---- messages in words
 
+/// Bytes that nobody reads, as a ticket is.
+inline std::string words_of_bytes(const std::string& bytes) {
+  std::string hex;
+  for (const char byte : bytes) hex += fmt::format("{:02x}", static_cast<uint8_t>(byte));
+  return hex.empty() ? "none" : hex;
+}
+
 inline Lines describe(const HelloMessage& m) {
-  return {fmt::format("hello: protocol {}, client '{}', name '{}', token '{}'", m.protocol, m.client, m.name,
-                      m.token),
-          fmt::format("eye {}, radius {} m, kernels: {}", words(m.eye_m), m.interest_radius_m,
-                      m.lacks_kernels ? "none" : "has them")};
+  Lines lines{fmt::format("hello: protocol {}, client '{}', name '{}', token '{}'", m.protocol, m.client,
+                          m.name, m.token),
+              fmt::format("eye {}, radius {} m, kernels: {}", words(m.eye_m), m.interest_radius_m,
+                          m.lacks_kernels ? "none" : "has them")};
+  if (m.world != 0 || !m.ticket.empty())
+    lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
+  return lines;
+}
+inline Lines describe(const OfferMessage& m) {
+  Lines lines{fmt::format("offer: world 0x{:016x}", m.world)};
+  for (size_t i = 0; i < m.chunks.size(); ++i)
+    lines.push_back(fmt::format("chunk: {}, hash 0x…{:04x}", words(m.chunks[i]), m.hashes[i]));
+  return lines;
+}
+inline Lines describe(const KeptMessage& m) {
+  Lines lines{"kept:"};
+  for (size_t i = 0; i < m.chunks.size(); ++i)
+    lines.push_back(fmt::format("chunk: {}, hash 0x{:016x}", words(m.chunks[i]), m.hashes[i]));
+  return lines;
 }
 inline Lines describe(const InterestMessage& m) {
   return {fmt::format("interest: eye {}, radius {} m", words(m.eye_m), m.interest_radius_m)};
@@ -148,12 +170,14 @@ inline Lines describe(const GroundRequest& m) {
   return {fmt::format("ground: {}", words(m.chunks))};
 }
 inline Lines describe(const WelcomeMessage& m) {
-  return {fmt::format("welcome: protocol {}, session {}, tick {}, role {}", m.protocol, m.session, m.tick,
-                      name_of(m.role)),
-          fmt::format("{} ticks a second, transforms every {} ticks, radius {} m, replay: {}", m.tick_rate_hz,
-                      m.ticks_per_transform, m.interest_radius_m, m.replay),
-          fmt::format("terrain: {}, seed {}, voxels of {} m", row_of(m.terrain.kind).name,
-                      m.terrain.random_seed, m.terrain.voxel_size_m)};
+  return {
+      fmt::format("welcome: protocol {}, session {}, tick {}, role {}", m.protocol, m.session, m.tick,
+                  name_of(m.role)),
+      fmt::format("{} ticks a second, transforms every {} ticks, radius {} m, replay: {}", m.tick_rate_hz,
+                  m.ticks_per_transform, m.interest_radius_m, m.replay),
+      fmt::format("terrain: {}, seed {}, voxels of {} m", row_of(m.terrain.kind).name, m.terrain.random_seed,
+                  m.terrain.voxel_size_m),
+      fmt::format("world 0x{:016x}, ticket {}, resumed: {}", m.world, words_of_bytes(m.ticket), m.resumed)};
 }
 inline Lines describe(const RefusalMessage& m) {
   return {fmt::format("refusal: '{}', name '{}'", m.reason, m.name)};

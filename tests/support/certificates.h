@@ -2,38 +2,16 @@
 #pragma once
 
 #include <ctime>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <memory>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/x509v3.h>
 #include <string>
-#include <unistd.h>
+
+#include "tests/support/test_folder.h"
 
 namespace scree {
-
-/// A folder of the running test's own; gone when the test is.
-class TestFolder {
- public:
-  TestFolder() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("scree_" + std::string(info->test_suite_name()) + "_" +
-                                                      info->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A certificate and its key. Without an issuer it is self-signed.
 class TestCertificate {

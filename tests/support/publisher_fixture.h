@@ -45,6 +45,8 @@ class TrustingClient {
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
   std::vector<GroundMessage> grounds;
+  TrustingClient* before = nullptr;  ///< has the chunks that this one offered
+  size_t kept = 0;
 
  private:
   void apply(const FrameMessage& frame) {
@@ -99,6 +101,19 @@ class TrustingClient {
       field.paint_brick(patch.coord, patch.paint);
     }
     EXPECT_EQ(field.chunk_hash(message.chunk), message.hash);
+  }
+  void apply(const KeptMessage& message) {
+    for (size_t i = 0; i < message.chunks.size(); ++i) {
+      ++kept;
+      const ChunkCoord chunk = message.chunks[i];
+      chunk_order.push_back(chunk);
+      if (before == nullptr) continue;
+      for (const BrickCoord brick : before->field.edited_bricks(chunk)) {
+        field.set_brick(brick, before->field.brick(brick));
+        field.paint_brick(brick, before->field.painted(brick));
+      }
+      EXPECT_EQ(field.chunk_hash(chunk), message.hashes[i]);
+    }
   }
   void apply(const PieceMessage& message) {
     ++piece_messages;

@@ -39,6 +39,11 @@ class RawClient {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
   }
   bool send(const ClientMessage& message) { return send_bytes(encode(message)); }
+  /// Ends the connection out of order, as a lost link does, when it is closed.
+  void reset() {
+    const linger at_once{1, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+  }
   void finish_sending() { ::shutdown(socket_, SHUT_WR); }
 
   /// The next message; nothing at the end of the stream or after the deadline.

@@ -14,6 +14,7 @@ namespace scree {
 /// Runs the program; returns its exit status and its output.
 inline std::pair<int, std::string> run_viewer(const std::string& environment, const std::string& arguments) {
   const std::string command = "env " + environment + " XDG_CONFIG_HOME=" + testing::TempDir() +
+                              "scree_nobody XDG_CACHE_HOME=" + testing::TempDir() +
                               "scree_nobody " SCREE_VIEWER_PROGRAM " " + arguments + " 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return {-1, "cannot be run"};

@@ -105,6 +105,9 @@ inline std::vector<ServerMessage> server_messages() {
   welcome.interest_radius_m = 64.0F;
   welcome.replay = true;
   welcome.role = Role::carver;
+  welcome.world = 0xFEDCBA9876543210ULL;
+  welcome.ticket = std::string("\0\xFF ticket", 9);
+  welcome.resumed = true;
   ChunkMessage chunk;
   chunk.chunk = {-1, 2, 0};
   chunk.version = 17;
@@ -139,6 +142,7 @@ inline std::vector<ServerMessage> server_messages() {
       physics(),
       GroundMessage{{-1, 2, 0}, false, 1ULL << 62U, {{{-4, 8, 0}, noisy_brick(5)}}, 0x123456789ABCDEF0ULL},
       GroundMessage{.chunk = {7, -8, 9}, .beyond = true},
+      KeptMessage{{{1, 2, 3}, {-4, 5, -6}}, {1, 0xFFFFFFFFFFFFFFFFULL}},
       AdminListMessage{
           3,
           {{7, "Ann", "scree-viewer", "127.0.0.1", Role::builder, 1ULL << 63U, 60, 1ULL << 40U, true}},
@@ -156,24 +160,32 @@ inline std::vector<ClientMessage> client_messages() {
   authored.pattern = SeedPattern::authored;
   authored.seeds = 2;
   authored.authored_m = {{1.0F, 2.0F, 3.0F}, {-4.0F, 0.25F, 4095.0F}};
-  return {
-      HelloMessage{protocol_version, "scree-bot", {1.0F, 2.0F, -3.0F}, 96.0F, "Ann", "scree1.token", true},
-      InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
-      carve,
-      authored,
-      FillMessage{{sphere({0.0F, 1.0F, 0.0F}, 2.0F)}, 6},
-      PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice}, 8},
-      RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
-      AckMessage{1ULL << 40U},
-      AdminMessage{8, "a-token-of-some-length", SettingValues{{"dents", "false"}, {"impacts", ""}}},
-      AdminMessage{9, "", ListSessions{}},
-      AdminMessage{10, "", KickSession{77, "too loud"}},
-      AdminMessage{11, "", BanAddress{0, "2001:db8::1", 90, "no reason"}},
-      AdminMessage{12, "", ListBans{}},
-      AdminMessage{13, "", LiftBan{"2001:db8::/64"}},
-      CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
-      WatchMessage{true},
-      GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}}};
+  return {HelloMessage{protocol_version,
+                       "scree-bot",
+                       {1.0F, 2.0F, -3.0F},
+                       96.0F,
+                       "Ann",
+                       "scree1.token",
+                       true,
+                       std::string("\xFF\0\x80", 3),
+                       1ULL << 63U},
+          InterestMessage{{-9.0F, 8.0F, 7.0F}, 12.5F},
+          carve,
+          authored,
+          FillMessage{{sphere({0.0F, 1.0F, 0.0F}, 2.0F)}, 6},
+          PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice}, 8},
+          RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
+          AckMessage{1ULL << 40U},
+          AdminMessage{8, "a-token-of-some-length", SettingValues{{"dents", "false"}, {"impacts", ""}}},
+          AdminMessage{9, "", ListSessions{}},
+          AdminMessage{10, "", KickSession{77, "too loud"}},
+          AdminMessage{11, "", BanAddress{0, "2001:db8::1", 90, "no reason"}},
+          AdminMessage{12, "", ListBans{}},
+          AdminMessage{13, "", LiftBan{"2001:db8::/64"}},
+          CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
+          WatchMessage{true},
+          GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
+          OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}}};
 }
 
 /// The message without its length prefix.

@@ -48,7 +48,8 @@ class ViewerApp : public testing::Test {
                                               {"--view-radius", "12"},
                                               {"--camera", "0,3,6,0,-25"},
                                               {"--offscreen", "true"},
-                                              {"--gl-debug", "true"}};
+                                              {"--gl-debug", "true"},
+                                              {"--cache-mib", "0"}};
     for (const auto& [name, value] : arguments) values.insert_or_assign(name, value);
     std::vector<std::string> texts{"scree-viewer"};
     for (const auto& [name, value] : values) texts.push_back(name + "=" + value);

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "client/bot/bot.h"
+#include "client/cache/cache_options.h"
 #include "client/connection/endpoint_options.h"
 #include "shared/base/limits.h"
 
@@ -131,6 +132,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
   scree::EndpointOptions endpoint(app, options.bot);
+  scree::CacheOptions cache(app, options.bot.cache, 0);
   add_interest(app, options);
   add_carving(app, options);
   add_ending(app, options);
@@ -143,6 +145,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "scree-bot: error: %s\n", completed.error().message.c_str());
     return exit_usage;
   }
+  cache.complete();
   complete(options);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("bot"));
   spdlog::set_pattern("%H:%M:%S.%e %n %v");

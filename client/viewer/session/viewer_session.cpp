@@ -29,11 +29,18 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 
 }  // namespace
 
-ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name)
+ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name,
+                             const CacheConfig& cache)
     : server_(std::move(server)),
       interest_radius_m_(interest_radius_m),
       name_(std::move(name)),
+      rejoin_(cache),
       retry_s_(limits::reconnect_min_s) {}
+
+ViewerSession::~ViewerSession() {
+  if (connecting_.valid()) connecting_.wait();
+  rejoin_.finish(connection_ ? mirror_.get() : nullptr);
+}
 
 SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
@@ -47,6 +54,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   if (predictions_) predictions_->settle(now_s, step.changes);
   if (connection_) report(now_s, eye_m);
   if (connection_) report_cursor(now_s, camera);
+  if (connection_) rejoin_.tend(now_s, *mirror_);
   return step;
 }
 
@@ -57,8 +65,8 @@ void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   hello.eye_m = eye_m;
   hello.interest_radius_m = interest_radius_m_;
   hello.name = name_;
-  connecting_ = std::async(std::launch::async, [server = server_, hello] {
-    auto made = Connection::connect(server, hello, connect_within);
+  connecting_ = std::async(std::launch::async, [this, hello] {
+    auto made = rejoin_.connect(server_, hello, connect_within);
     Attempt attempt;
     if (made) {
       attempt.connection = std::move(*made);
@@ -80,7 +88,7 @@ bool ViewerSession::finish_connecting(double now_s) {
   connection_ = std::move(attempt.connection);
   connected_since_s_ = now_s;
   predictions_.reset();
-  mirror_ = std::make_unique<Mirror>(connection_->welcome());
+  mirror_ = rejoin_.begin(*connection_);
   predictions_ = std::make_unique<Predictions>(*mirror_);
   asked_s_.clear();
   playback_.start(connection_->welcome());
@@ -97,6 +105,7 @@ bool ViewerSession::finish_connecting(double now_s) {
 }
 
 void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
+  if (connection_) rejoin_.keep(*mirror_);
   connection_.reset();
   cursors_.clear();
   physics_.reset();
@@ -144,6 +153,7 @@ void ViewerSession::measure(const ReplyMessage& reply, double arrived_s) {
 void ViewerSession::apply(const ServerMessage& message, double now_s, SessionStep& step) {
   std::visit(Overloaded{[&](const ChunkMessage&) { last_chunk_s_ = now_s; },
                         [&](const ResetMessage&) { last_chunk_s_ = now_s; },
+                        [&](const KeptMessage&) { last_chunk_s_ = now_s; },
                         [&](const ReplyMessage& reply) {
                           if (reply.refusal.empty()) return;
                           notice_ = reply.refusal;
@@ -153,12 +163,14 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
                         [](const auto&) {}},  // the mirror's alone
              message);
+  rejoin_.before(message, *mirror_);
   const Result<MirrorChanges> changes = mirror_->apply(message);
   if (!changes) {
     lose(now_s, {{"what the server sent cannot be applied: " + changes.error().message}});
     return;
   }
   predictions_->notice(message);
+  rejoin_.after(message, *mirror_, *connection_);
   saw_pieces_ = saw_pieces_ || !changes->pieces_added.empty();
   append(step.changes, *changes);
 }
@@ -172,7 +184,7 @@ void ViewerSession::report(double now_s, glm::vec3 eye_m) {
   }
   if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m) return;
   reported_eye_m_ = eye_m;
-  connection_->send(InterestMessage{eye_m, interest_radius_m_});
+  rejoin_.follow(eye_m, interest_radius_m_, *mirror_, *connection_);
 }
 
 void ViewerSession::report_cursor(double now_s, const Camera& camera) {

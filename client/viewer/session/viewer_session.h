@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "client/cache/rejoin.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "client/mirror/predictions.h"
@@ -30,7 +31,10 @@ struct SessionStep {
 class ViewerSession {
  public:
   /// `name`: the person's, shown to others.
-  ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name);
+  ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name, const CacheConfig& cache);
+  ~ViewerSession();
+  ViewerSession(const ViewerSession&) = delete;
+  ViewerSession& operator=(const ViewerSession&) = delete;
 
   SessionStep step(double now_s, const Camera& camera);
 
@@ -94,6 +98,7 @@ class ViewerSession {
   ServerEndpoint server_;
   float interest_radius_m_;
   std::string name_;
+  Rejoin rejoin_;  ///< of the thread that connects, while there is one
   std::future<Attempt> connecting_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "client/cache/cache_options.h"
+#include "client/cache/limits.h"
 #include "client/connection/endpoint_options.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
@@ -189,6 +191,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
   app.option_defaults()->always_capture_default();
   EndpointOptions endpoint(app, options);
+  CacheOptions cache(app, options.cache, limits::cache_mib_default);
   declare(app, options, texts);
   try {
     app.parse(argc, argv);
@@ -199,6 +202,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }
+  cache.complete();
   Result<void> understood = endpoint.complete();
   if (understood) understood = understand(texts, options);
   if (!understood) {

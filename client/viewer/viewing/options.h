@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "client/cache/rejoin.h"
 #include "client/connection/endpoint.h"
 #include "client/render/methods.h"
 #include "client/render/scene/camera.h"
@@ -18,6 +19,7 @@ namespace scree {
 
 struct ViewerOptions : ServerEndpoint {
   std::string name;  ///< the person's
+  CacheConfig cache{};
   int width = 1280;
   int height = 720;
   Camera camera;

@@ -18,7 +18,7 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
 Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
     : options(given),
       trace(given.trace_file.empty() ? nullptr : std::make_unique<Trace>()),
-      session(given, given.view_radius_m, given.name),
+      session(given, given.view_radius_m, given.name, given.cache),
       view(std::move(drawn)),
       camera(given.camera),
       screenshots(given.screenshots) {

@@ -1,0 +1,45 @@
+// Kept chunks as files, one for each world at each server's address. A file is written anew and renamed, so
+// that neither a crash nor two clients at once leave half of one: who writes last is read next. It is only a
+// cache: a file that cannot be written or read is as none. Used by one thread at a time.
+//
+// A file, little-endian: u64 a number that says what it is, u64 world, f32 voxel size (metres); then for each
+// chunk, the one used last at the end: u32 bytes of its bricks, i32 x, y, z, u64 hash, the bricks as in
+// Chunk.bricks (proto/scree.proto).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/cache/chunk_cache.h"
+
+namespace scree {
+
+/// What is kept of a world.
+struct KeptWorld {
+  uint64_t world = 0;
+  float voxel_size_m = 0.0F;
+  std::vector<KeptChunk> chunks{};
+};
+
+class CacheFolder {
+ public:
+  /// `path` is empty: nothing is read or written. `bytes_max`: of all files.
+  CacheFolder(std::string path, size_t bytes_max) : path_(std::move(path)), bytes_max_(bytes_max) {}
+
+  /// What the address' file of that world has, or, without a world, of the one written last. Stops at the
+  /// first thing that is wrong; that the bricks have their hashes is not checked here.
+  std::optional<KeptWorld> read(const std::string& address, std::optional<uint64_t> world) const;
+  /// Then removes the files written longest ago, as far as all are more than the bound.
+  void write(const std::string& address, const KeptWorld& kept) const;
+
+ private:
+  std::string file_of(const std::string& address, uint64_t world) const;
+  void bound() const;
+
+  std::string path_;
+  size_t bytes_max_;
+};
+
+}  // namespace scree

@@ -1,0 +1,29 @@
+#include "client/cache/cache_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "client/cache/limits.h"
+#include "shared/base/xdg_folder.h"
+
+namespace scree {
+
+CacheOptions::CacheOptions(CLI::App& app, CacheConfig& config, size_t mib) : config_(config), mib_(mib) {
+  config_.folder = xdg_folder("XDG_CACHE_HOME", ".cache");
+  app.add_option("--cache", config_.folder,
+                 "folder for the edited terrain of servers that were visited, so that less is sent the next "
+                 "time")
+      ->envname("SCREE_CACHE")
+      ->capture_default_str();
+  app.add_option("--cache-mib", mib_, "MiB that may be kept there; 0: no files")
+      ->envname("SCREE_CACHE_MIB")
+      ->check(CLI::Range(size_t{0}, limits::cache_mib_max))
+      ->capture_default_str();
+}
+
+/// Without files, what is in memory is for lost connections.
+void CacheOptions::complete() {
+  if (mib_ == 0) config_.folder.clear();
+  config_.bytes_max = (mib_ == 0 ? limits::cache_mib_default : mib_) << 20U;
+}
+
+}  // namespace scree

@@ -1,0 +1,141 @@
+#include "client/cache/rejoin.h"
+
+#include <algorithm>
+
+#include "client/cache/limits.h"
+
+namespace scree {
+
+Rejoin::Rejoin(const CacheConfig& config)
+    : config_(config), folder_(config.folder, config.bytes_max), cache_(config.bytes_max) {}
+
+void Rejoin::load(std::optional<uint64_t> world) {
+  const auto kept = folder_.read(address_, world);
+  if (!kept) return;
+  world_ = kept->world;
+  voxel_size_m_ = kept->voxel_size_m;
+  cache_ = ChunkCache(config_.bytes_max);
+  cache_.load(kept->chunks);
+}
+
+tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Rejoin::connect(const ServerEndpoint& server,
+                                                                         HelloMessage hello,
+                                                                         std::chrono::milliseconds within) {
+  save();
+  address_ = server.host + ":" + std::to_string(server.port);
+  if (keeps() && world_ == 0) load(std::nullopt);
+  eye_m_ = hello.eye_m;
+  radius_m_ = hello.interest_radius_m;
+  hello.ticket = ticket_;
+  std::vector<ClientMessage> then;
+  offered_.clear();
+  if (world_ != 0) {
+    OfferMessage offer = next_offer({});
+    if (!offer.chunks.empty()) {
+      hello.world = world_;
+      then.emplace_back(std::move(offer));
+    }
+  }
+  return Connection::connect(server, std::move(hello), within, then);
+}
+
+std::unique_ptr<Mirror> Rejoin::begin(Connection& connection) {
+  const WelcomeMessage& welcome = connection.welcome();
+  ticket_ = welcome.ticket;
+  to_pack_.clear();
+  if (!keeps()) return std::make_unique<Mirror>(welcome);
+  if (welcome.world != world_) {
+    world_ = 0;
+    offered_.clear();
+    cache_ = ChunkCache(config_.bytes_max);
+    load(welcome.world);
+  }
+  world_ = welcome.world;
+  voxel_size_m_ = welcome.terrain.voxel_size_m;
+  auto mirror = std::make_unique<Mirror>(welcome, [this](ChunkCoord chunk) { return cache_.find(chunk); });
+  offer(*mirror, connection);
+  return mirror;
+}
+
+/// Empty when the server knows all of it.
+OfferMessage Rejoin::next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held) {
+  OfferMessage offer = cache_.offer(eye_m_, radius_m_ + limits::offer_margin_m, voxel_size_m_, held);
+  offer.world = world_;
+  if (std::ranges::includes(offered_, offer.chunks)) return {};
+  offered_ = offer.chunks;
+  return offer;
+}
+
+void Rejoin::offer(const Mirror& mirror, Connection& connection) {
+  const OfferMessage offer = next_offer(mirror.held_chunks());
+  if (!offer.chunks.empty()) connection.send(offer);
+}
+
+void Rejoin::before(const ServerMessage& message, Mirror& mirror) {
+  if (!keeps()) return;
+  if (std::holds_alternative<ResetMessage>(message)) keep(mirror);
+  const auto* frame = std::get_if<FrameMessage>(&message);
+  if (frame == nullptr) return;
+  if (!frame->dropped_chunks.empty()) offered_.clear();
+  for (const ChunkCoord chunk : frame->dropped_chunks)
+    if (mirror.held_chunks().contains(chunk)) changed_ = cache_.keep(mirror.field(), chunk) || changed_;
+}
+
+void Rejoin::after(const ServerMessage& message, Mirror& mirror, Connection& connection) {
+  if (!keeps() || !std::holds_alternative<ResetMessage>(message)) return;
+  offered_.clear();
+  offer(mirror, connection);
+}
+
+void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection& connection) {
+  eye_m_ = eye_m;
+  radius_m_ = radius_m;
+  connection.send(InterestMessage{eye_m, radius_m});
+  if (keeps()) offer(mirror, connection);
+}
+
+void Rejoin::tend(double now_s, Mirror& mirror) {
+  if (!keeps()) return;
+  for (size_t packed = 0; packed < limits::chunks_packed_at_once && !to_pack_.empty();) {
+    const ChunkCoord chunk = to_pack_.back();
+    to_pack_.pop_back();
+    if (!mirror.held_chunks().contains(chunk) || !cache_.keep(mirror.field(), chunk)) continue;
+    changed_ = true;
+    ++packed;
+  }
+  if (!to_pack_.empty() || now_s < next_keep_s_) return;
+  if (next_keep_s_ > 0.0) {
+    to_pack_.assign(mirror.held_chunks().begin(), mirror.held_chunks().end());
+    const bool busy =
+        writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+    if (changed_ && !busy) {
+      changed_ = false;
+      writing_ = std::async(std::launch::async, [folder = folder_, address = address_,
+                                                 kept = KeptWorld{world_, voxel_size_m_, cache_.all()}] {
+        folder.write(address, kept);
+      });
+    }
+  }
+  next_keep_s_ = now_s + limits::keep_interval_s;
+}
+
+void Rejoin::keep(Mirror& mirror) {
+  if (!keeps()) return;
+  for (const ChunkCoord chunk : mirror.held_chunks())
+    changed_ = cache_.keep(mirror.field(), chunk) || changed_;
+}
+
+void Rejoin::finish(Mirror* mirror) {
+  if (config_.folder.empty()) return;
+  if (mirror != nullptr) keep(*mirror);
+  save();
+}
+
+void Rejoin::save() {
+  if (writing_.valid()) writing_.get();
+  if (!changed_ || world_ == 0) return;
+  changed_ = false;
+  folder_.write(address_, {world_, voxel_size_m_, cache_.all()});
+}
+
+}  // namespace scree

@@ -1,0 +1,80 @@
+// How a client comes back to a server: it keeps the world's edited chunks, offers them when it connects
+// again, and its session goes on by the ticket of the last welcome (proto/join.proto). What it keeps outlives
+// the program when there is a folder for it.
+//
+// Outlives the mirrors that it makes. One thread at a time: connect() may run on another one while there is
+// no connection.
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <string>
+
+#include "client/cache/cache_folder.h"
+#include "client/cache/chunk_cache.h"
+#include "client/connection/connection.h"
+#include "client/mirror/mirror.h"
+
+namespace scree {
+
+struct CacheConfig {
+  std::string folder{};  ///< empty: kept until the program ends
+  size_t bytes_max = 0;  ///< of the chunks in memory, and of all files
+};
+
+class Rejoin {
+ public:
+  /// Without a bound, nothing is kept, and nothing offered.
+  explicit Rejoin(const CacheConfig& config);
+  /// Waits for a file that is being written.
+  ~Rejoin() = default;
+
+  /// As Connection::connect(), with ticket and offer. Reads files; writes what was kept before.
+  tl::expected<std::unique_ptr<Connection>, ConnectionEnd> connect(const ServerEndpoint& server,
+                                                                   HelloMessage hello,
+                                                                   std::chrono::milliseconds within);
+  /// The mirror for a new connection, which is the last one that connect() made.
+  std::unique_ptr<Mirror> begin(Connection& connection);
+
+  /// Call before the mirror applies the message, and after: chunks that it forgets are kept, and offered
+  /// again when they are to come again.
+  void before(const ServerMessage& message, Mirror& mirror);
+  void after(const ServerMessage& message, Mirror& mirror, Connection& connection);
+  /// Sends the interest, and an offer of what is kept of what comes into it.
+  void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection& connection);
+  /// Call often: packs a few chunks, and writes the file from time to time, on another thread. Seconds, of
+  /// any origin.
+  void tend(double now_s, Mirror& mirror);
+  /// Keeps all that the mirror holds: its connection is lost.
+  void keep(Mirror& mirror);
+  /// Writes what is kept. Returns when it is written.
+  void save();
+  /// Before the program ends: keeps and writes what the mirror holds, if there is a folder. May be null.
+  void finish(Mirror* mirror);
+
+  const ChunkCache& cache() const { return cache_; }
+
+ private:
+  bool keeps() const { return config_.bytes_max != 0; }
+  void load(std::optional<uint64_t> world);
+  OfferMessage next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held);
+  void offer(const Mirror& mirror, Connection& connection);
+
+  CacheConfig config_;
+  CacheFolder folder_;
+  ChunkCache cache_;
+  std::string address_;
+  uint64_t world_ = 0;  ///< of the cache; 0: not known
+  float voxel_size_m_ = 0.0F;
+  std::string ticket_;
+  glm::vec3 eye_m_{0.0F};
+  float radius_m_ = 0.0F;
+  std::vector<ChunkCoord> offered_;  ///< last, as far as the server may still know of it
+  bool changed_ = false;             ///< since the last write
+  std::vector<ChunkCoord> to_pack_;
+  double next_keep_s_ = 0.0;
+  std::future<void> writing_;
+};
+
+}  // namespace scree

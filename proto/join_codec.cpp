@@ -1,0 +1,142 @@
+#include "proto/join_codec.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "proto/byte_stream.h"
+#include "shared/base/check.h"
+#include "shared/base/text.h"
+
+namespace scree {
+
+namespace {
+
+constexpr size_t short_hash_bytes = sizeof(uint16_t);
+
+std::string pack_hashes(const std::vector<uint16_t>& hashes) {
+  std::string bytes;
+  bytes.reserve(hashes.size() * short_hash_bytes);
+  for (const uint16_t hash : hashes) {
+    bytes.push_back(static_cast<char>(hash & 0xFFU));
+    bytes.push_back(static_cast<char>(hash >> 8U));
+  }
+  return bytes;
+}
+
+std::vector<uint16_t> unpack_hashes(const std::string& packed, size_t count, FieldChecker& check) {
+  if (packed.size() != count * short_hash_bytes) {
+    check.refuse(std::to_string(packed.size()) + " bytes of hashes for " + std::to_string(count) + " chunks");
+    return {};
+  }
+  std::vector<uint16_t> hashes(count);
+  const std::span<const uint8_t> bytes = as_span(packed);
+  for (size_t i = 0; i < count; ++i)
+    hashes[i] = static_cast<uint16_t>(bytes[2 * i] | (bytes[2 * i + 1] << 8U));
+  return hashes;
+}
+
+}  // namespace
+
+void write(wire::Hello& to, const HelloMessage& from) {
+  to.set_protocol(from.protocol);
+  to.set_client(showable(from.client, limits::client_name_bytes_max));
+  write(*to.mutable_eye(), from.eye_m);
+  to.set_interest_radius_m(from.interest_radius_m);
+  to.set_name(showable(from.name, limits::person_name_bytes_max));
+  to.set_token(showable(from.token, limits::access_token_bytes_max));
+  to.set_lacks_kernels(from.lacks_kernels);
+  to.set_ticket(from.ticket);
+  to.set_world(from.world);
+}
+
+HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
+  HelloMessage hello;
+  hello.protocol = from.protocol();
+  // In another version the fields may have another meaning: only its number is read, for the refusal.
+  if (hello.protocol != protocol_version) return hello;
+  hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
+  hello.eye_m = check.vec3(from.eye(), "eye");
+  hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
+  hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
+  hello.lacks_kernels = from.lacks_kernels();
+  hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
+  hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
+  hello.world = from.world();
+  return hello;
+}
+
+void write(wire::Welcome& to, const WelcomeMessage& from) {
+  to.set_protocol(from.protocol);
+  to.set_session(from.session);
+  to.set_tick(from.tick);
+  to.set_tick_rate_hz(from.tick_rate_hz);
+  to.set_ticks_per_transform(from.ticks_per_transform);
+  to.mutable_terrain()->set_kind(static_cast<wire::TerrainKind>(from.terrain.kind));
+  to.mutable_terrain()->set_random_seed(from.terrain.random_seed);
+  to.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
+  to.set_interest_radius_m(from.interest_radius_m);
+  to.set_replay(from.replay);
+  to.set_role(static_cast<wire::Role>(from.role));
+  to.set_world(from.world);
+  to.set_ticket(from.ticket);
+  to.set_resumed(from.resumed);
+}
+
+WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
+  WelcomeMessage welcome;
+  welcome.protocol = from.protocol();
+  welcome.session = from.session();
+  welcome.tick = from.tick();
+  welcome.tick_rate_hz =
+      check.within(from.tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
+  welcome.ticks_per_transform =
+      check.within(from.ticks_per_transform(), 1, limits::tick_rate_max_hz, "ticks_per_transform");
+  welcome.terrain.kind = check.kind<TerrainKind>(from.terrain().kind(), "kind of terrain");
+  welcome.terrain.random_seed = from.terrain().random_seed();
+  const float voxel_size_m = check.finite(from.terrain().voxel_size_m(), "voxel_size_m");
+  if (voxel_size_m < limits::voxel_size_min_m || voxel_size_m > limits::voxel_size_max_m)
+    check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
+  welcome.terrain.voxel_size_m = voxel_size_m;
+  welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
+  welcome.replay = from.replay();
+  welcome.role = check.kind<Role>(from.role(), "role");
+  welcome.world = from.world();
+  welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
+  welcome.resumed = from.resumed();
+  return welcome;
+}
+
+void write(wire::Offer& to, const OfferMessage& from) {
+  CHECK_EQ(from.chunks.size(), from.hashes.size());
+  to.set_world(from.world);
+  to.set_chunks(pack_chunks(from.chunks));
+  to.set_hashes(pack_hashes(from.hashes));
+}
+
+OfferMessage read_offer(const wire::Offer& from, FieldChecker& check) {
+  OfferMessage offer;
+  offer.world = from.world();
+  offer.chunks = check.chunks(from.chunks(), limits::offer_chunks_max, "chunks of an offer");
+  if (std::ranges::adjacent_find(offer.chunks, std::ranges::greater_equal{}) != offer.chunks.end())
+    check.refuse("chunks of an offer do not ascend");
+  offer.hashes = unpack_hashes(from.hashes(), offer.chunks.size(), check);
+  return offer;
+}
+
+void write(wire::Kept& to, const KeptMessage& from) {
+  CHECK_EQ(from.chunks.size(), from.hashes.size());
+  to.set_chunks(pack_chunks(from.chunks));
+  to.mutable_hashes()->Add(from.hashes.begin(), from.hashes.end());
+}
+
+KeptMessage read_kept(const wire::Kept& from, FieldChecker& check) {
+  KeptMessage kept;
+  kept.chunks = check.chunks(from.chunks(), limits::kept_chunks_max, "chunks kept");
+  kept.hashes.assign(from.hashes().begin(), from.hashes().end());
+  if (kept.hashes.size() != kept.chunks.size())
+    check.refuse(std::to_string(kept.hashes.size()) + " hashes for " + std::to_string(kept.chunks.size()) +
+                 " chunks kept");
+  return kept;
+}
+
+}  // namespace scree

@@ -1,0 +1,84 @@
+#include "server/net/tickets.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "crypto/signing_key.h"
+#include "proto/limits.h"
+#include "server/net/limits.h"
+#include "shared/base/token.h"
+
+namespace scree {
+
+namespace {
+
+/// A ticket is the session's number, which is no secret, and two random numbers.
+constexpr size_t number_bytes = sizeof(uint64_t);
+constexpr size_t ticket_bytes = 3 * number_bytes;
+static_assert(ticket_bytes <= limits::ticket_bytes_max);
+
+std::string bytes_of(uint64_t number) {
+  std::string bytes(number_bytes, '\0');
+  std::memcpy(bytes.data(), &number, number_bytes);
+  return bytes;
+}
+
+}  // namespace
+
+std::string Tickets::issue(uint64_t session) {
+  forget(session);
+  const std::string& secret = secrets_[session] = bytes_of(random_number()) + bytes_of(random_number());
+  return bytes_of(session) + secret;
+}
+
+void Tickets::forget(uint64_t session) {
+  secrets_.erase(session);
+  departed_.erase(session);
+}
+
+std::optional<uint64_t> Tickets::session_of(const std::string& ticket) const {
+  if (ticket.size() != ticket_bytes) return std::nullopt;
+  uint64_t session = 0;
+  std::memcpy(&session, ticket.data(), number_bytes);
+  const auto found = secrets_.find(session);
+  const std::string_view secret = std::string_view(ticket).substr(number_bytes);
+  if (found == secrets_.end() || !same_token(secret, found->second)) return std::nullopt;
+  return session;
+}
+
+void Tickets::depart(Departed departed) {
+  if (!secrets_.contains(departed.session)) return;
+  departed_.insert_or_assign(departed.session, std::move(departed));
+  if (departed_.size() <= limits::departed_max) return;
+  const auto since = [](const auto& entry) { return entry.second.departed_s; };
+  forget(std::ranges::min_element(departed_, {}, since)->first);
+}
+
+const Departed* Tickets::departed(uint64_t session) const {
+  const auto found = departed_.find(session);
+  return found == departed_.end() ? nullptr : &found->second;
+}
+
+void Tickets::expire(double now_s) {
+  forget_departed(
+      [&](const Departed& departed) { return now_s > departed.departed_s + limits::ticket_seconds_max; });
+}
+
+void Tickets::forget_departed(const std::function<bool(const Departed&)>& unwanted) {
+  std::erase_if(departed_, [&](const auto& entry) {
+    if (!unwanted(entry.second)) return false;
+    secrets_.erase(entry.first);
+    return true;
+  });
+}
+
+size_t Tickets::places_kept(double now_s) const {
+  return static_cast<size_t>(
+      std::ranges::count_if(departed_, [&](const auto& entry) { return has_place(entry.second, now_s); }));
+}
+
+bool has_place(const Departed& departed, double now_s) {
+  return departed.keeps_place && now_s <= departed.departed_s + limits::place_kept_seconds_max;
+}
+
+}  // namespace scree

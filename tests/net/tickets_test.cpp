@@ -1,0 +1,90 @@
+// Tickets: for one use, for one session, for a minute, and for so many sessions.
+#include "server/net/tickets.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+#include "server/net/limits.h"
+
+namespace scree {
+namespace {
+
+Departed departed(uint64_t session, double at_s, bool keeps_place = false) {
+  return {session, {},         "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0,
+          at_s,    keeps_place};
+}
+
+TEST(Tickets, a_ticket_is_its_sessions_until_the_next_is_issued) {
+  Tickets tickets;
+  const std::string first = tickets.issue(7);
+  EXPECT_EQ(tickets.session_of(first), 7U);
+  EXPECT_EQ(tickets.departed(7), nullptr) << "it is still connected";
+  tickets.depart(departed(7, 10.0));
+  ASSERT_NE(tickets.departed(7), nullptr);
+  const std::string second = tickets.issue(7);
+  EXPECT_EQ(tickets.session_of(first), std::nullopt);
+  EXPECT_EQ(tickets.session_of(second), 7U);
+  EXPECT_EQ(tickets.departed(7), nullptr);
+}
+
+TEST(Tickets, no_byte_of_a_ticket_may_differ_and_none_be_missing) {
+  Tickets tickets;
+  tickets.issue(6);
+  const std::string ticket = tickets.issue(7);
+  for (size_t i = 0; i < ticket.size(); ++i) {
+    std::string other = ticket;
+    other[i] = static_cast<char>(other[i] ^ 1);
+    EXPECT_EQ(tickets.session_of(other), std::nullopt) << "byte " << i;
+    EXPECT_EQ(tickets.session_of(ticket.substr(0, i)), std::nullopt);
+  }
+  EXPECT_EQ(tickets.session_of(ticket + "x"), std::nullopt);
+}
+
+TEST(Tickets, are_not_alike) {
+  Tickets tickets;
+  std::set<std::string> secrets;
+  for (int i = 0; i < 1000; ++i) secrets.insert(tickets.issue(1).substr(8));
+  EXPECT_EQ(secrets.size(), 1000U);
+}
+
+TEST(Tickets, hold_for_a_minute_after_the_connections_end) {
+  Tickets tickets;
+  const std::string ticket = tickets.issue(7);
+  tickets.expire(1e9);
+  EXPECT_EQ(tickets.session_of(ticket), 7U) << "a session that lasts has no time";
+  tickets.depart(departed(7, 100.0));
+  tickets.expire(100.0 + limits::ticket_seconds_max);
+  EXPECT_EQ(tickets.session_of(ticket), 7U);
+  tickets.expire(100.1 + limits::ticket_seconds_max);
+  EXPECT_EQ(tickets.session_of(ticket), std::nullopt);
+  EXPECT_EQ(tickets.departed(7), nullptr);
+}
+
+TEST(Tickets, of_too_many_departed_sessions_those_that_ended_first_are_forgotten) {
+  Tickets tickets;
+  std::vector<std::string> all;
+  for (uint64_t id = 0; id <= limits::departed_max; ++id) {
+    all.push_back(tickets.issue(id));
+    tickets.depart(departed(id, 1e6 - static_cast<double>(id)));
+  }
+  EXPECT_EQ(tickets.session_of(all.back()), std::nullopt) << "it ended first";
+  EXPECT_EQ(tickets.session_of(all.front()), 0U);
+  tickets.forget_departed([](const Departed& one) { return one.ip == "10.0.0.1"; });
+  EXPECT_EQ(tickets.session_of(all[1]), std::nullopt);
+  EXPECT_EQ(tickets.session_of(all[2]), 2U);
+}
+
+TEST(Tickets, the_place_of_a_lost_connection_is_kept_for_a_while) {
+  Tickets tickets;
+  for (uint64_t id = 1; id <= 3; ++id) {
+    tickets.issue(id);
+    tickets.depart(departed(id, 100.0, id != 2));
+  }
+  EXPECT_EQ(tickets.places_kept(100.0), 2U);
+  EXPECT_EQ(tickets.places_kept(100.1 + limits::place_kept_seconds_max), 0U);
+  tickets.forget(1);
+  EXPECT_EQ(tickets.places_kept(100.0), 1U);
+}
+
+}  // namespace
+}  // namespace scree
