@@ -22,6 +22,8 @@ const std::vector<Bench>& all_benches() {
        run_fanout_bench},
       {"islands", "what a cut loosened: towers and arches, in 64 m and 1,024 m of edited terrain",
        run_islands_bench},
+      {"join", "joining a world with 10,000 carves, and coming back with what was kept: bytes and seconds",
+       run_join_bench},
       {"latency",
        "100 viewers that carve: from asking to seeing it, by stages, and frames until it is predicted",
        run_latency_bench},
