@@ -158,25 +158,19 @@ struct LinkRow {
 
 TEST(LinkedSessions, show_the_present_as_far_as_the_link_lets_and_end_with_the_same_world) {
   const LinkRow rows[] = {
-      {{}, 0.0},
-      {{.delay_s = 0.2, .jitter_s = 0.04, .rate_bytes_per_s = 1.25e6}, 0.3},
-      {{.delay_s = 0.05, .jitter_s = 0.04, .rate_bytes_per_s = 125e3}, 0.3},
-      {{.delay_s = 0.05, .rate_bytes_per_s = 12.5e3}, 1.0},
-      {{.delay_s = 0.2, .jitter_s = 0.1, .rate_bytes_per_s = 12.5e3}, 1.2},
+      {{}, 0.001},
+      {{.delay_s = 0.2, .jitter_s = 0.04, .rate_bytes_per_s = 1.25e6}, 0.25},
+      {{.delay_s = 0.05, .jitter_s = 0.04, .rate_bytes_per_s = 125e3}, 0.15},
+      {{.delay_s = 0.2, .jitter_s = 0.1, .rate_bytes_per_s = 12.5e3}, 0.9},
   };
   for (const LinkRow& row : rows) {
     SCOPED_TRACE(row.way.rate_bytes_per_s);
     LinkedWorld world({row.way, row.way, 5});
-    world.storm(900);
+    world.storm(600);
     ASSERT_EQ(world.failure, "");
-    const double age_s = quantile(world.ages_s, 0.99);
-    EXPECT_LE(age_s, row.age_p99_max_s);
-    std::printf(
-        "rate %.0f B/s: %zu frames, age median %.3f p99 %.3f worst %.3f s, backlog %zu B, resets %llu\n",
-        row.way.rate_bytes_per_s, world.ages_s.size(), quantile(world.ages_s, 0.5), age_s,
-        quantile(world.ages_s, 1.0), world.worst_backlog_bytes,
-        static_cast<unsigned long long>(world.mirror->counters().resets));
-    for (int i = 0; i < 600; ++i) world.tick();
+    EXPECT_LE(quantile(world.ages_s, 0.99), row.age_p99_max_s);
+    EXPECT_LE(world.worst_backlog_bytes, limits::outbox_soft_bytes / 2) << "what waits is of a tick or two";
+    for (int i = 0; i < 400; ++i) world.tick();
     EXPECT_EQ(world.mirror->field().hash(), world.source.field().hash());
     EXPECT_EQ(world.mirror->pieces().size(), world.source.pieces().size());
     EXPECT_EQ(world.failure, "");
