@@ -74,7 +74,7 @@ inline constexpr int socket_send_buffer_bytes = 256 * 1024;
 
 /// Bytes in that buffer that are not on their way yet. Above: the socket takes no more, and what waits is
 /// held back where newer state can replace it.
-inline constexpr int socket_unsent_bytes = 4 * 1024;
+inline constexpr int socket_unsent_bytes = 2 * 1024;
 
 /// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
 inline constexpr size_t encoded_chunks_max = 1024;

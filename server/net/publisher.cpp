@@ -27,8 +27,8 @@ Motions no_motions(const PublisherConfig& config) {
   return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.terrain.voxel_size_m};
 }
 
-/// Patches are much: who reads slowly gets none, and later the chunks as they are then. By a slow link they
-/// have the room that is left.
+/// Bricks that may be patched: they are much, so who reads slowly gets none, and later the chunks as they are
+/// then. By a slow link they have the room that is left.
 size_t patches_for(const Backlog& backlog) {
   if (!backlog.reads_along()) return 0;
   if (backlog.soft_bytes >= limits::outbox_soft_bytes) return limits::patch_bricks_max;
