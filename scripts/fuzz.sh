@@ -8,8 +8,8 @@ root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 readonly root targets="$root/tests/fuzz/targets" corpora="$root/tests/fuzz/corpus" built="$root/build/fuzz"
 # Seconds for one input, and megabytes: above, the input is a finding. An input takes milliseconds, as a rule.
 readonly input_s_max=60 memory_mb_max=4096
-# Bytes of found inputs that go into the tree for one target, beside the seeds and the findings, and of one of them.
-readonly kept_bytes_max=65536 kept_input_bytes_max=4096
+# Found inputs that go into the tree for one target, beside the seeds and the findings, and their bytes in all.
+readonly kept_inputs_max=64 kept_bytes_max=65536
 
 say() { printf 'fuzz: %s\n' "$*"; }
 die() {
@@ -23,8 +23,7 @@ usage: ./scree fuzz --list                 names the targets
        ./scree fuzz NAME [--minutes N]     fuzzes a target for N minutes (5), on one core, from the corpus in the tree
                                            and what was found before; ends at the first input on which it fails
        ./scree fuzz NAME FILE…             runs these inputs
-       ./scree fuzz NAME --merge           adds the smallest of what was found, as far as it has coverage of its own,
-                                           to the corpus in the tree
+       ./scree fuzz NAME --merge           takes what adds most coverage of all that was found into the corpus in the tree
        ./scree fuzz --seeds                writes the first inputs of all corpora anew
 
 What is found is kept in build/fuzz (found, failed, log). docs/fuzzing.md says how to add a target.
@@ -87,20 +86,22 @@ fuzz() {
   report "$name" "$log" "$started" "$seconds"
 }
 
-# Seeds and findings stay; of the rest of the corpus, and of what was found, those that add coverage.
+# Seeds and findings stay; of the rest of the corpus, and of what was found, those that add most coverage, which
+# libFuzzer writes first.
 merge() {
-  local name=$1 corpus="$corpora/$1" fresh="$built/merged/$1" kept=0 file bytes
+  local name=$1 corpus="$corpora/$1" fresh="$built/merged/$1" inputs=0 kept=0 file bytes
   rm -rf "$fresh"
   mkdir -p "$fresh" "$built/found/$name"
   find "$corpus" -type f \( -name 'seed-*' -o -name 'finding-*' \) -exec cp {} "$fresh" \;
-  "$built/bin/fuzz_$name" "${options[@]}" -merge=1 "$fresh" "$corpus" "$built/found/$name" 2>&1 | grep 'MERGE-OUTER' || true
+  "$built/bin/fuzz_$name" "${options[@]}" -set_cover_merge=1 "$fresh" "$corpus" "$built/found/$name" 2>&1 |
+    grep 'MERGE-OUTER.*added' || true
   find "$corpus" -type f ! -name 'seed-*' ! -name 'finding-*' -delete
-  while read -r bytes file; do
-    ((bytes <= kept_input_bytes_max && kept + bytes <= kept_bytes_max)) || break
-    kept=$((kept + bytes))
+  while read -r _ bytes file; do
+    inputs=$((inputs + 1)) kept=$((kept + bytes))
+    ((inputs <= kept_inputs_max && kept <= kept_bytes_max)) || break
     cp "$fresh/$file" "$corpus"
-  done < <(find "$fresh" -type f ! -name 'seed-*' ! -name 'finding-*' -printf '%s %f\n' | sort -n)
-  say "$corpus: $(find "$corpus" -type f | wc -l) inputs, $(du -bs "$corpus" | cut -f1) bytes"
+  done < <(find "$fresh" -type f ! -name 'seed-*' ! -name 'finding-*' -printf '%T@ %s %f\n' | sort -n)
+  say "$corpus: $(find "$corpus" -type f | wc -l) inputs, $(cat "$corpus"/* | wc -c) bytes"
 }
 
 main() {
