@@ -65,7 +65,7 @@ report() {
 # options: what every run has.
 set_options() {
   # To count what is rare among features (-entropic) takes longer than most inputs of a server.
-  options=(-timeout=$input_s_max -rss_limit_mb=$memory_mb_max -max_len=4096 -entropic=0)
+  options=("-timeout=$input_s_max" "-rss_limit_mb=$memory_mb_max" -max_len=4096 -entropic=0)
   # Memory that is kept from use again, megabytes: more means fresh pages all the time.
   export ASAN_OPTIONS=${ASAN_OPTIONS:-quarantine_size_mb=16}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}

@@ -230,7 +230,7 @@ void write_config(Corpora& corpora) {
 /// Targets that take bytes for choices alone: any bytes are a beginning.
 void write_choices(Corpora& corpora) {
   Random random(20261122);
-  for (const char* target : {"world", "motions", "server", "mirror"})
+  for (const char* target : {"world", "motions", "server", "mirror", "tls"})
     for (size_t bytes = 64; bytes <= 512; bytes *= 2) {
       Seed seed;
       while (seed.bytes.size() < bytes) seed.byte(static_cast<uint8_t>(random.next()));
