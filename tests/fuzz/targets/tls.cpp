@@ -31,7 +31,7 @@ const Contexts& contexts() {
     TestCertificate("DNS:localhost").write(certificate.path(), key.path());
     const auto server = TlsServerContext::load(certificate.path(), key.path());
     CHECK(server.has_value());
-    const auto client = TlsClientContext::make({.fingerprint = (*server)->fingerprint()});
+    const auto client = TlsClientContext::make({.ca_path = "", .fingerprint = (*server)->fingerprint()});
     CHECK(client.has_value());
     return Contexts{*server, *client};
   }();
