@@ -235,6 +235,7 @@ ServerReport LiveServer::report() const {
   const std::scoped_lock lock(state_->mutex);
   ServerReport report = state_->report;
   report.net = net;
+  report.latency = state_->net->latency();
   report.seconds = std::chrono::duration<double>(Clock::now() - state_->started).count();
   if (state_->recorder) {
     report.ticks_recorded = state_->recorder->ticks_written();

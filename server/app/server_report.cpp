@@ -164,7 +164,7 @@ std::string to_json(const ServerReport& report) {
                {"bytes_per_merge", mean<StampOperation>(sent)},
                {"sessions", json_of(report.net)},
                {"refusals", json_of(report.net.refusals)},
-               {"request_latency_ms", json_of(report.net.latency)}});
+               {"request_latency_ms", json_of(report.latency)}});
   Json stages = Json::object();
   for (const TickStageRow& row : tick_stages)
     stages[std::string(row.name)] = json_of(report.stages[index_of(row.stage)]);

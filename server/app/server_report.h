@@ -51,6 +51,7 @@ struct ServerReport {
   std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
   Durations tick;
   NetStats net;
+  LatencyCounts latency;
   std::string record_path;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;

@@ -318,7 +318,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
     const auto entry = sessions_.find(id);
     return entry == sessions_.end() ? Backlog() : entry->second.session->backlog();
   };
-  if (publisher_.status_due(delta.tick)) publisher_.set_latency(request_times_.last_second(steady_now_s()));
+  if (publisher_.status_due(delta.tick)) publisher_.set_latency(request_times_.take_status());
   for (Outgoing& outgoing : publisher_.publish(delta, backlog))
     if (const auto session = queue(std::move(outgoing)))
       if (unflushed_.empty() || unflushed_.back() != session) unflushed_.push_back(session);
@@ -346,7 +346,6 @@ void NetHost::shut_down() {
 void NetHost::update_stats() {
   watched_ = publisher_.is_watched();
   counts_.published = publisher_.stats();
-  counts_.latency = request_times_.counts();
   counts_.sessions = joined_count();
   const std::scoped_lock lock(stats_mutex_);
   stats_ = counts_;

@@ -47,6 +47,7 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   asio::io_context& context() { return context_; }
   NetStats stats() const;
+  LatencyCounts latency() const;
   std::vector<glm::vec3> eyes_m() const;
   bool is_watched() const { return watched_; }
 
@@ -139,6 +140,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   NetStats counts_;
   mutable std::mutex stats_mutex_;
   NetStats stats_;                 ///< guarded by stats_mutex_
+  LatencyCounts latency_;          ///< guarded by stats_mutex_
   std::vector<glm::vec3> eyes_m_;  ///< guarded by stats_mutex_
 };
 

@@ -23,6 +23,13 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
   for (Outgoing& outgoing : publisher_.answer(delta, latency))
     if (auto session = queue(std::move(outgoing))) answered.push_back(std::move(session));
   for (const auto& session : answered) session->flush();
+  const std::scoped_lock lock(stats_mutex_);
+  latency_ = request_times_.counts();
+}
+
+LatencyCounts NetHost::latency() const {
+  const std::scoped_lock lock(stats_mutex_);
+  return latency_;
 }
 
 }  // namespace scree

@@ -86,6 +86,10 @@ NetStats NetServer::stats() const {
   return stats;
 }
 
+LatencyCounts NetServer::latency() const {
+  return impl_->host.latency();
+}
+
 std::vector<glm::vec3> NetServer::eyes_m() const {
   return impl_->host.eyes_m();
 }

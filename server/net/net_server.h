@@ -54,7 +54,6 @@ struct NetStats {
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
   uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
-  LatencyCounts latency;       ///< of requests that a tick answered
 };
 
 class NetServer {
@@ -82,6 +81,8 @@ class NetServer {
 
   /// As of the last tick that was sent. From any thread.
   NetStats stats() const;
+  /// Of requests that a tick answered, since the start. From any thread.
+  LatencyCounts latency() const;
   /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;
   /// Whether any client asked for PhysicsMessages. From any thread.

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double us_per_s = 1e6;
 constexpr double us_per_ms = 1e3;
-constexpr double window_s = 1.0;
 
 uint32_t us_between(double from_s, double to_s) {
   const double us = (to_s - from_s) * us_per_s;
@@ -51,19 +50,19 @@ ServerLatency RequestTimes::answered(uint64_t session, uint32_t request, const T
   for (size_t i = 0; i < latency_stages.size(); ++i)
     counts_[i].add(static_cast<double>(latency.*latency_stages[i].us) / us_per_ms);
   if (answered_.size() >= limits::requests_timed_max) answered_.pop_front();
-  answered_.push_back({now_s, latency});
+  answered_.push_back(latency);
   return latency;
 }
 
-LatencyStatus RequestTimes::last_second(double now_s) {
-  while (!answered_.empty() && answered_.front().at_s < now_s - window_s) answered_.pop_front();
+LatencyStatus RequestTimes::take_status() {
   LatencyStatus status;
   for (const LatencyStageRow& stage : latency_stages) {
     std::vector<double> samples;
-    for (const Answered& each : answered_) samples.push_back(static_cast<double>(each.latency.*stage.us));
+    for (const ServerLatency& each : answered_) samples.push_back(static_cast<double>(each.*stage.us));
     status.median.*stage.us = static_cast<uint32_t>(quantile(samples, 0.5));
     status.worst.*stage.us = static_cast<uint32_t>(quantile(samples, 1.0));
   }
+  answered_.clear();
   return status;
 }
 

@@ -37,8 +37,8 @@ class RequestTimes {
   /// is not known. Each is cut to limits::latency_max_us.
   ServerLatency answered(uint64_t session, uint32_t request, const TickSpan& tick, double now_s);
 
-  /// Over the second before now.
-  LatencyStatus last_second(double now_s);
+  /// Over the requests answered since the last call, which is a second ago.
+  LatencyStatus take_status();
   const LatencyCounts& counts() const { return counts_; }
 
  private:
@@ -46,14 +46,10 @@ class RequestTimes {
     uint32_t request;
     double received_s;
   };
-  struct Answered {
-    double at_s;
-    ServerLatency latency;
-  };
 
   std::map<uint64_t, std::deque<Waiting>> waiting_;  ///< by session; oldest first
   size_t waiting_count_ = 0;
-  std::deque<Answered> answered_;  ///< of the last second
+  std::deque<ServerLatency> answered_;  ///< since the last status
   LatencyCounts counts_;
 };
 

@@ -46,7 +46,7 @@ TEST(ServerReport, stages_that_seldom_act_are_judged_by_the_ticks_in_which_they_
 
 TEST(ServerReport, requests_are_measured_by_stage) {
   ServerReport report;
-  report.net.latency[1].add(12.5);
+  report.latency[1].add(12.5);
   const auto stages = nlohmann::json::parse(to_json(report)).at("request_latency_ms");
   for (const LatencyStageRow& stage : latency_stages) EXPECT_TRUE(stages.contains(stage.name)) << stage.name;
   EXPECT_EQ(stages.at("tick").at("worst"), 12.5);

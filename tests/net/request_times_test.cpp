@@ -48,17 +48,17 @@ TEST(RequestTimes, stages_are_bounded_and_never_negative) {
   EXPECT_GT(times.answered(1, 5, instant(2.0), 2.0).waiting_us, 0U) << "there is room again";
 }
 
-TEST(RequestTimes, the_last_second_has_a_median_and_a_worst) {
+TEST(RequestTimes, a_status_has_the_median_and_the_worst_since_the_one_before) {
   RequestTimes times;
-  EXPECT_EQ(times.last_second(0.0), LatencyStatus{});
+  EXPECT_EQ(times.take_status(), LatencyStatus{});
   for (uint32_t i = 1; i <= 9; ++i) {
     times.received(1, i, 5.0);
     times.answered(1, i, {5.0 + 0.001 * i, 5.0 + 0.001 * i}, 5.02);
   }
-  const LatencyStatus status = times.last_second(5.5);
+  const LatencyStatus status = times.take_status();
   EXPECT_NEAR(status.median.waiting_us, 5000, 1);
   EXPECT_NEAR(status.worst.waiting_us, 9000, 1);
-  EXPECT_EQ(times.last_second(6.1), LatencyStatus{}) << "that is longer ago";
+  EXPECT_EQ(times.take_status(), LatencyStatus{}) << "those were told";
 }
 
 TEST_F(NetServerTest, a_reply_says_how_long_each_stage_took) {
@@ -86,8 +86,8 @@ TEST_F(NetServerTest, a_reply_says_how_long_each_stage_took) {
   EXPECT_NEAR(reply->latency.tick_us, 250000, 2);
   EXPECT_EQ(reply->latency.sending_us, 0U) << "the tick ends later than it was sent";
   server->flush();
-  EXPECT_EQ(server->stats().latency[1].count(), 1U);
-  EXPECT_NEAR(server->stats().latency[1].worst_ms(), 250.0, 0.01);
+  EXPECT_EQ(server->latency()[1].count(), 1U);
+  EXPECT_NEAR(server->latency()[1].worst_ms(), 250.0, 0.01);
 }
 
 }  // namespace

@@ -171,6 +171,7 @@ TEST(ProtocolDocument, its_limits_are_the_programs) {
       {"world_half_height_m", limits::world_half_height_m},
       {"bricks_per_message_max", limits::bricks_per_message_max},
       {"window_side_max", limits::window_side_max},
+      {"latency_max_us", limits::latency_max_us},
       {"repair_chunks_max", limits::repair_chunks_max},
       {"ground_chunks_max", limits::ground_chunks_max},
       {"chunk_bytes_per_tick", limits::chunk_bytes_per_tick},

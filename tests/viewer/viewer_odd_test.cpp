@@ -146,6 +146,21 @@ TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes
   EXPECT_EQ(*picture_difference(*before, *again), 0.0);
 }
 
+TEST_F(ViewerSession, figures_say_what_is_not_answered_and_how_long_the_last_answer_took) {
+  step_until_joined();
+  FactFinder facts;
+  EXPECT_FALSE(facts.find(*viewing_, steady_now_s()).latency);
+  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward(), steady_now_s());
+  EXPECT_EQ(facts.find(*viewing_, steady_now_s()).predictions, 1U);
+  step_until([&] { return viewing_->session.predictions() == 0; }, "the server's carve");
+  const HudFacts answered = facts.find(*viewing_, steady_now_s());
+  EXPECT_EQ(answered.predictions, 0U);
+  ASSERT_TRUE(answered.latency);
+  EXPECT_GT(answered.latency->server.tick_us, 0U);
+  step_until([&] { return facts.find(*viewing_, steady_now_s()).status->latency != LatencyStatus{}; },
+             "the status");
+}
+
 TEST_F(ViewerSession, pictures_of_one_pixel_and_of_8k_are_drawn_and_more_is_refused_by_name) {
   step_until_joined();
   Renderer& renderer = viewing_->view->renderer();

@@ -241,7 +241,7 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   const CarveMessage carve = strike_with(tool, *hit_m, direction, ++requests_);
   connection_->send(carve);
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
-  asked_s_[carve.request] = steady_now_s();
+  asked_s_[carve.request] = now_s;
   if (predict_) foresee(carve, now_s);
 }
 

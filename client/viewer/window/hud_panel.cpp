@@ -69,7 +69,7 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoi
   if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
   ImGui::PopItemWidth();
-  ImGui::Checkbox("shown before the server answers", &predict);
+  ImGui::Checkbox("show own carves at once", &predict);
   ImGui::Separator();
   ImGui::Checkbox("overlay", &overlay.shown);
   ImGui::BeginDisabled(!overlay.shown);
