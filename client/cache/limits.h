@@ -17,6 +17,10 @@ inline constexpr size_t kept_chunk_bytes = 128;
 /// Chunks that are packed in one call while a session lasts: a frame is not to notice.
 inline constexpr size_t chunks_packed_at_once = 2;
 
+/// Chunks that are packed when a connection ends: a second or two, were all of their bricks edited. The
+/// others are sent again.
+inline constexpr size_t chunks_packed_at_end = 8192;
+
 /// Seconds between two times that a lasting session's chunks are packed, and written: what a crash may lose.
 inline constexpr double keep_interval_s = 120.0;
 

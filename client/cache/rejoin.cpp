@@ -121,8 +121,12 @@ void Rejoin::tend(double now_s, Mirror& mirror) {
 
 void Rejoin::keep(Mirror& mirror) {
   if (!keeps()) return;
-  for (const ChunkCoord chunk : mirror.held_chunks())
-    changed_ = cache_.keep(mirror.field(), chunk) || changed_;
+  size_t packed = 0;
+  for (const ChunkCoord chunk : mirror.held_chunks()) {
+    if (packed == limits::chunks_packed_at_end) break;
+    packed += cache_.keep(mirror.field(), chunk) ? 1 : 0;
+  }
+  changed_ = changed_ || packed > 0;
 }
 
 void Rejoin::finish(Mirror* mirror) {

@@ -10,7 +10,9 @@
 #include "shared/base/timing.h"
 #include "tests/support/loaded_libraries.h"
 #include "tests/support/patience.h"
+#include "tests/support/raw_client.h"
 #include "tests/support/run_viewer.h"
+#include "tests/support/test_folder.h"
 
 namespace scree {
 namespace {
@@ -159,6 +161,33 @@ TEST_F(ViewerSession, figures_say_what_is_not_answered_and_how_long_the_last_ans
   EXPECT_GT(answered.latency->server.tick_us, 0U);
   step_until([&] { return facts.find(*viewing_, steady_now_s()).status->latency != LatencyStatus{}; },
              "the status");
+}
+
+TEST_F(ViewerSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
+  const TestFolder folder;
+  options_.cache = {folder / "cache", size_t{1} << 24U};
+  RawClient builder(server_->port());
+  ASSERT_TRUE(builder.send(HelloMessage{protocol_version, "test", {}, 8.0F}));
+  ASSERT_TRUE(builder.send(FillMessage{{sphere({}, 1.0F)}, 1}));
+  ASSERT_TRUE(builder.receive_as<ReplyMessage>(patience));
+  const auto look = [&] {
+    viewing_.reset();
+    viewing_ = std::move(*Viewing::begin(options_));
+    const auto edits = [&] {
+      Mirror* const mirror = viewing_->session.mirror();
+      return mirror != nullptr && !mirror->held_chunks().empty();
+    };
+    step_until(edits, "the fill");
+    step_until_joined();
+    return viewing_->session.mirror()->counters();
+  };
+  const MirrorCounters first = look();
+  EXPECT_GT(first.chunks, 0U);
+  EXPECT_EQ(first.chunks_kept, 0U);
+  const MirrorCounters second = look();
+  EXPECT_EQ(second.chunks, 0U);
+  EXPECT_EQ(second.chunks_kept, first.chunks);
+  EXPECT_EQ(second.mismatches, 0U);
 }
 
 TEST_F(ViewerSession, pictures_of_one_pixel_and_of_8k_are_drawn_and_more_is_refused_by_name) {
