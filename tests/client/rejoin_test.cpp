@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "client/bot/bot.h"
+#include "client/cache/limits.h"
 #include "server/app/live_server.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/test_folder.h"
@@ -134,6 +135,46 @@ TEST_F(RejoinTest, damaged_files_cost_bytes_and_nothing_else) {
     EXPECT_EQ(report.connections, 1U);
     EXPECT_GT(report.seen.chunks, 0U) << "what was damaged came whole";
   }
+}
+
+TEST_F(RejoinTest, while_a_session_lasts_its_chunks_are_packed_few_at_once_and_written) {
+  BotConfig other = config(6);
+  other.cache = {};
+  visit(other);
+  Rejoin rejoin(config(0).cache);
+  ServerEndpoint endpoint;
+  endpoint.port = server_->port();
+  const auto connected =
+      rejoin.connect(endpoint, {protocol_version, "test", {}, 96.0F}, std::chrono::seconds(10));
+  ASSERT_TRUE(connected) << connected.error().message;
+  Connection& connection = **connected;
+  const std::unique_ptr<Mirror> mirror = rejoin.begin(connection);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (mirror->field().hash() != server_->world()->field().hash() &&
+         std::chrono::steady_clock::now() < end) {
+    ASSERT_TRUE(server_->step_once());
+    for (const Received& received : connection.wait(std::chrono::milliseconds(1)))
+      ASSERT_TRUE(mirror->apply(received.message));
+  }
+  const size_t held = mirror->held_chunks().size();
+  ASSERT_GT(held, 2 * limits::chunks_packed_at_once);
+  double now_s = 1.0;
+  rejoin.tend(now_s, *mirror);
+  now_s += limits::keep_interval_s;
+  rejoin.tend(now_s, *mirror);
+  for (size_t packed = 0; packed < held; packed += limits::chunks_packed_at_once) {
+    const size_t before = rejoin.cache().chunks();
+    rejoin.tend(now_s, *mirror);
+    EXPECT_LE(rejoin.cache().chunks(), before + limits::chunks_packed_at_once);
+  }
+  EXPECT_EQ(rejoin.cache().chunks(), held);
+  rejoin.tend(now_s + limits::keep_interval_s, *mirror);
+  rejoin.save();  // waits for the other thread
+  const auto written = CacheFolder(folder_ / "cache", size_t{1} << 24U)
+                           .read("127.0.0.1:" + std::to_string(server_->port()), std::nullopt);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(written->world, connection.welcome().world);
+  EXPECT_EQ(written->chunks.size(), held);
 }
 
 TEST_F(RejoinTest, two_at_once_leave_files_that_are_right) {
