@@ -28,4 +28,7 @@ inline constexpr double link_delay_max_s = 10.0;
 inline constexpr double link_rate_min_bytes_per_s = 125.0;
 inline constexpr double link_bytes_max = 1e12;
 
+/// Buffers that one write to a socket gathers. Above: the rest is taken next time.
+inline constexpr size_t gathered_buffers_max = 16;
+
 }  // namespace scree::limits

@@ -1,7 +1,12 @@
 #include "transport/tcp_transport.h"
 
+#include <algorithm>
+#include <array>
 #include <asio/buffer.hpp>
+#include <sys/socket.h>
 #include <vector>
+
+#include "transport/limits.h"
 
 namespace scree {
 
@@ -36,6 +41,19 @@ void TcpTransport::write_some(Buffers buffers, Done done) {
   socket_.async_write_some(gathered,
                            [self = shared_from_this(), done = std::move(done)](
                                const asio::error_code& error, size_t bytes) { done(moved(error, bytes)); });
+}
+
+/// The system call itself: Asio would queue a handler for what is done already.
+size_t TcpTransport::write_now(Buffers buffers) {
+  std::array<iovec, limits::gathered_buffers_max> gathered;
+  const size_t count = std::min(buffers.size(), gathered.size());
+  for (size_t i = 0; i < count; ++i)
+    gathered[i] = {const_cast<uint8_t*>(buffers[i].data()), buffers[i].size()};  // it only reads them
+  msghdr message{};
+  message.msg_iov = gathered.data();
+  message.msg_iovlen = count;
+  const ssize_t sent = sendmsg(socket_.native_handle(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
+  return sent < 0 ? 0 : static_cast<size_t>(sent);
 }
 
 void TcpTransport::finish_sending() {

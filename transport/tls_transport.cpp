@@ -20,15 +20,37 @@ void TlsTransport::read_some(std::span<uint8_t> into, Done done) {
 }
 
 /// A copy: one record holds what many buffers do, and each record costs 22 bytes.
-void TlsTransport::write_some(Buffers buffers, Done done) {
+void TlsTransport::take(Buffers buffers) {
   CHECK(!write_done_ && plain_.empty());
   for (const std::span<const uint8_t> bytes : buffers) {
     const auto some = bytes.first(std::min(bytes.size(), limits::tls_chunk_bytes - plain_.size()));
     plain_.insert(plain_.end(), some.begin(), some.end());
   }
   taken_bytes_ = plain_.size();
+}
+
+void TlsTransport::write_some(Buffers buffers, Done done) {
+  take(buffers);
   write_done_ = std::move(done);
   go_on();
+}
+
+/// While anything waits to be sent, nothing more is encrypted: it could not go either.
+size_t TlsTransport::write_now(Buffers buffers) {
+  const bool waiting = sending_ || unsent_from_ < unsent_.size() || engine_.output_bytes() > 0;
+  if (waiting || closed_ || broken_ || !engine_.established()) return 0;
+  take(buffers);
+  encrypt();
+  if (broken_) return 0;
+  engine_.take_output(unsent_);
+  const std::span<const uint8_t> bytes(unsent_);
+  unsent_from_ = below_->write_now({&bytes, 1});
+  return taken_bytes_;
+}
+
+void TlsTransport::send_rest() {
+  below_->send_rest();
+  send();
 }
 
 /// Does all that can be done now. A handler called from here may end the stream.

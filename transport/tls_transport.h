@@ -19,6 +19,8 @@ class TlsTransport final : public Transport, public std::enable_shared_from_this
 
   void read_some(std::span<uint8_t> into, Done done) override;
   void write_some(Buffers buffers, Done done) override;
+  size_t write_now(Buffers buffers) override;
+  void send_rest() override;
   void finish_sending() override;
   void close() override;
   void cut() override;
@@ -28,6 +30,7 @@ class TlsTransport final : public Transport, public std::enable_shared_from_this
   uint16_t port() const override { return below_->port(); }
 
  private:
+  void take(Buffers buffers);
   void go_on();
   void encrypt();
   void send();

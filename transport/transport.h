@@ -1,10 +1,11 @@
 // A stream of bytes both ways, whatever carries it: TCP, TLS over another stream. What is above it knows no
 // other.
 //
-// All calls and all handlers are on one thread, the one that runs the sockets. At most one read and one write
-// are under way at a time, and their memory stays valid until the handler is called. A handler is called
-// once, possibly before the call returns; after close() it is called with an error, or not at all. Handlers
-// keep their stream alive, so a stream is owned by a shared_ptr.
+// All calls and all handlers are on one thread, the one that runs the sockets; write_now() alone may be
+// called by another one while that one waits for it. At most one read and one write are under way at a time,
+// and their memory stays valid until the handler is called. A handler is called once, possibly before the
+// call returns; after close() it is called with an error, or not at all. Handlers keep their stream alive, so
+// a stream is owned by a shared_ptr.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,12 @@ class Transport {
   virtual void read_some(std::span<uint8_t> into, Done done) = 0;
   /// Sends some of the bytes, from the first on.
   virtual void write_some(Buffers buffers, Done done) = 0;
+  /// Sends the bytes that go without waiting, from the first on, calls no handler, and returns how many of
+  /// them it took. 0: none; write_some() waits, or tells the error. No write is under way. send_rest() must
+  /// follow before any other call.
+  virtual size_t write_now(Buffers buffers) = 0;
+  /// Goes on with the bytes that write_now() took and could not send.
+  virtual void send_rest() {}
   /// Tells the other side that no more comes. No write is under way, and none follows.
   virtual void finish_sending() = 0;
   virtual void close() = 0;

@@ -6,6 +6,7 @@
 
 #include "shared/base/random.h"
 #include "tests/support/certificates.h"
+#include "transport/limits.h"
 
 namespace scree {
 namespace {
@@ -21,6 +22,12 @@ class LinkEnd final : public Transport {
     bytes_ = buffers.front();
     write_done_ = std::move(done);
   }
+  size_t write_now(Buffers buffers) override {
+    EXPECT_FALSE(write_done_);
+    const auto some = buffers.front().first(std::min(buffers.front().size(), takes_now));
+    now_.insert(now_.end(), some.begin(), some.end());
+    return some.size();
+  }
   void finish_sending() override { finished_ = true; }
   void close() override { read_done_ = write_done_ = nullptr; }
   void cut() override { close(); }
@@ -31,6 +38,13 @@ class LinkEnd final : public Transport {
 
   /// Moves at most so many bytes to the other end, if one writes and the other reads; how many.
   size_t carry(LinkEnd& to, size_t bytes_max) {
+    if (!now_.empty() && to.read_done_) {
+      const size_t count = std::min({bytes_max, now_.size(), to.into_.size()});
+      std::copy_n(now_.begin(), count, to.into_.begin());
+      now_.erase(now_.begin(), now_.begin() + static_cast<ptrdiff_t>(count));
+      std::exchange(to.read_done_, nullptr)(count);
+      return count;
+    }
     if (finished_ && !write_done_ && to.read_done_) {
       std::exchange(to.read_done_, nullptr)(tl::unexpected(StreamEnd{true, "end"}));
       return 0;
@@ -45,7 +59,10 @@ class LinkEnd final : public Transport {
     return count;
   }
 
+  size_t takes_now = 0;  ///< at most so many bytes at once
+
  private:
+  std::vector<uint8_t> now_;  ///< taken by write_now(), and on the way
   std::span<uint8_t> into_;
   std::span<const uint8_t> bytes_;
   Done read_done_;
@@ -117,6 +134,53 @@ TEST(TlsTransports, give_out_what_was_put_in_however_the_bytes_below_are_cut) {
     EXPECT_TRUE(here.end->orderly) << seed;
     for (Talker* talker : {&here, &there}) talker->stream->close();
   }
+}
+
+TEST(TlsTransports, send_at_once_as_much_as_the_link_takes_and_the_rest_in_its_order) {
+  const TestFolder folder;
+  TestCertificate("DNS:localhost").write(folder / "certificate", folder / "key");
+  const auto near = std::make_shared<LinkEnd>(), far = std::make_shared<LinkEnd>();
+  Talker here{std::make_shared<TlsTransport>(
+                  near, TlsEngine(*TlsClientContext::make({folder / "certificate", ""}), "localhost")),
+              {}};
+  const auto server = std::make_shared<TlsTransport>(
+      far, TlsEngine(*TlsServerContext::load(folder / "certificate", folder / "key")));
+  std::vector<uint8_t> wanted;
+  const auto write_now = [&](size_t count) {
+    std::vector<uint8_t> bytes(count);
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(wanted.size() + (&byte - bytes.data()) * 7);
+    const std::span<const uint8_t> all(bytes);
+    const size_t taken = server->write_now({&all, 1});
+    EXPECT_LE(taken, count);
+    wanted.insert(wanted.end(), bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(taken));
+    server->send_rest();
+    return taken;
+  };
+  EXPECT_EQ(write_now(100), 0U) << "before the handshake nothing goes";
+  here.read();
+  std::array<uint8_t, 64> at_server{};
+  server->read_some(at_server, [](const Moved&) {});
+  const auto carry = [&](int steps) {
+    for (int step = 0; step < steps; ++step) {
+      near->carry(*far, 1000);
+      far->carry(*near, 1000);
+    }
+  };
+  carry(100);
+  ASSERT_TRUE(server->established());
+  far->takes_now = 100'000;
+  EXPECT_EQ(write_now(700), 700U);
+  EXPECT_EQ(write_now(100'000), limits::tls_chunk_bytes) << "one record";
+  far->takes_now = 300;
+  EXPECT_EQ(write_now(5000), 5000U);
+  EXPECT_EQ(write_now(10), 0U) << "the rest of the last ones goes first";
+  carry(100);
+  EXPECT_EQ(here.arrived, wanted);
+  far->takes_now = 0;
+  EXPECT_EQ(write_now(2000), 2000U);
+  carry(100);
+  EXPECT_EQ(here.arrived, wanted);
+  for (Transport* end : {here.stream.get(), static_cast<Transport*>(server.get())}) end->close();
 }
 
 TEST(TlsTransports, tell_both_who_read_and_who_write_that_the_handshake_failed) {
