@@ -44,6 +44,12 @@ std::optional<Tick> tick_of(const uint8_t* at, size_t size) {
 
 }  // namespace
 
+void stand_aside() {
+  const auto thread = static_cast<id_t>(gettid());
+  constexpr int nicer = 10;
+  setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + nicer);
+}
+
 void AgeCount::add(double age_s) {
   const auto step = static_cast<size_t>(std::max(age_s, 0.0) / step_s);
   ++steps_[std::min(step, steps_.size() - 1)];
@@ -142,7 +148,7 @@ void Drains::take(Reader& reader, const uint8_t* bytes, size_t size, double now_
 }
 
 void Drains::run() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);  // they stand for machines of their own
+  stand_aside();
   std::vector<epoll_event> events(256);
   std::vector<uint8_t> buffer(size_t{64} << 10U);
   while (!stopping_) {

@@ -14,6 +14,9 @@
 
 namespace scree {
 
+/// Lets other threads go before this one, which stands for a client's machine, not for the server's.
+void stand_aside();
+
 /// When each tick was handed to the network side; written by the simulation, read by those who measure.
 class TickTimes {
  public:

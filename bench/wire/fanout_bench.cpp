@@ -72,6 +72,7 @@ class Mirrors {
     return sum;
   }
   void run() {
+    stand_aside();
     while (!stopping_ && failure_.empty()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       for (size_t i = 0; i < mirrors_.size(); ++i)
