@@ -38,7 +38,7 @@ class Transport {
   /// Sends the bytes that go without waiting, from the first on, calls no handler, and returns how many of
   /// them it took. 0: none; write_some() waits, or tells the error. No write is under way. send_rest() must
   /// follow before any other call.
-  virtual size_t write_now(Buffers buffers) = 0;
+  virtual size_t write_now(Buffers /*buffers*/) { return 0; }
   /// Goes on with the bytes that write_now() took and could not send.
   virtual void send_rest() {}
   /// Tells the other side that no more comes. No write is under way, and none follows.

@@ -6,6 +6,7 @@
 
 #include "proto/messages.h"
 #include "server/app/limits.h"
+#include "server/net/limits.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
@@ -38,6 +39,11 @@ void add_network(CLI::App& app, Raw& raw) {
   net.port = default_port;
   app.add_option("-p,--port", net.port, "TCP port; 0: one that is free")->capture_default_str();
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
+      ->capture_default_str();
+  app.add_option("--net-threads", net.net_threads,
+                 within<size_t>("threads that encode and send; 0: as many as there are cores", 0,
+                                limits::workers_max))
+      ->check(CLI::Range(size_t{0}, limits::workers_max))
       ->capture_default_str();
 }
 

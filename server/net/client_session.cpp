@@ -11,13 +11,6 @@
 
 namespace scree {
 
-namespace {
-
-/// Buffers handed to one write.
-constexpr size_t gather_max = 16;
-
-}  // namespace
-
 ClientSession::ClientSession(std::shared_ptr<Transport> transport, std::string address, uint64_t id,
                              SessionHost& host, const SessionTimes& times, double now_s)
     : transport_(std::move(transport)),
@@ -118,7 +111,7 @@ void ClientSession::send(const ServerMessage& message) {
 
 void ClientSession::send(SharedBytes bytes) {
   queue(std::move(bytes));
-  write();
+  if (keeps_up()) write();
 }
 
 void ClientSession::queue(SharedBytes bytes) {
@@ -128,26 +121,37 @@ void ClientSession::queue(SharedBytes bytes) {
   backlog_bytes_ += bytes->size();
   outbox_.push_back(std::move(bytes));
   CHECK_DEBUG(backlog_adds_up());
-  if (backlog_bytes_ > limits::outbox_hard_bytes)
-    return cut_off(Refusal::outbox_full, "read too little: more than " +
-                                             std::to_string(limits::outbox_hard_bytes) +
-                                             " bytes waited for it (limits.outbox_hard_bytes)");
+}
+
+bool ClientSession::keeps_up() {
+  if (phase_ == Phase::closed) return false;
+  if (backlog_bytes_ <= limits::outbox_hard_bytes) return true;
+  cut_off(Refusal::outbox_full, "read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
+                                    " bytes waited for it (limits.outbox_hard_bytes)");
+  return false;
+}
+
+ClientSession::Gathered ClientSession::gather() const {
+  Gathered gathered;
+  const size_t count_max = std::min(outbox_.size(), gathered.buffers.size());
+  for (size_t left = pace_.bytes_max(); left > 0 && gathered.count < count_max; ++gathered.count) {
+    const auto bytes = std::span<const uint8_t>(*outbox_[gathered.count])
+                           .subspan(gathered.count == 0 ? front_sent_bytes_ : 0);
+    const auto part = bytes.first(std::min(left, bytes.size()));
+    gathered.buffers[gathered.count] = part;
+    gathered.bytes += part.size();
+    left -= part.size();
+  }
+  return gathered;
 }
 
 void ClientSession::write() {
   if (writing_ || outbox_.empty() || phase_ == Phase::closed) return;
   writing_ = true;
-  offered_bytes_ = 0;
-  std::array<std::span<const uint8_t>, gather_max> buffers;
-  size_t count = 0;
-  for (size_t left = pace_.bytes_max(); left > 0 && count < std::min(outbox_.size(), gather_max); ++count) {
-    const auto bytes = std::span<const uint8_t>(*outbox_[count]).subspan(count == 0 ? front_sent_bytes_ : 0);
-    buffers[count] = bytes.first(std::min(left, bytes.size()));
-    left -= buffers[count].size();
-    offered_bytes_ += buffers[count].size();
-  }
+  const Gathered gathered = gather();
+  offered_bytes_ = gathered.bytes;
   offered_s_ = times_.now_s();
-  transport_->write_some(std::span(buffers).first(count), [self = shared_from_this()](const Moved& moved) {
+  transport_->write_some(gathered.all(), [self = shared_from_this()](const Moved& moved) {
     self->writing_ = false;
     if (self->phase_ == Phase::closed) return;
     self->was_lost_ = !moved;
@@ -157,8 +161,14 @@ void ClientSession::write() {
 }
 
 void ClientSession::write_done(size_t bytes) {
+  pace_.took(bytes, offered_bytes_, times_.now_s() - offered_s_);
+  count_sent(bytes);
+  if (outbox_.empty() && phase_ == Phase::refused) return finish_sending();
+  write();
+}
+
+void ClientSession::count_sent(size_t bytes) {
   progress_s_ = times_.now_s();
-  pace_.took(bytes, offered_bytes_, progress_s_ - offered_s_);
   CHECK(bytes <= backlog_bytes_);
   backlog_bytes_ -= bytes;
   sent_bytes_ += bytes;
@@ -169,7 +179,22 @@ void ClientSession::write_done(size_t bytes) {
   }
   front_sent_bytes_ = sent;
   CHECK_DEBUG(backlog_adds_up());
-  if (outbox_.empty() && phase_ == Phase::refused) return finish_sending();
+}
+
+void ClientSession::send_now() {
+  if (phase_ != Phase::joined) return;
+  while (!writing_ && !outbox_.empty()) {
+    const Gathered gathered = gather();
+    const size_t taken = transport_->write_now(gathered.all());
+    if (taken == 0) return;
+    pace_.took(taken, gathered.bytes, 0.0);
+    count_sent(taken);
+  }
+}
+
+void ClientSession::settle() {
+  if (!keeps_up()) return;
+  transport_->send_rest();
   write();
 }
 

@@ -1,4 +1,5 @@
-// One client's connection. Used by NetHost only. All calls are on the network thread.
+// One client's connection. Used by NetHost only. All calls are on the network thread, but for send_now(),
+// which another one may call while the network thread waits for it.
 //
 // Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed.
 // The bytes that wait for the client are bounded: the publisher sends less and stops long before
@@ -22,6 +23,7 @@
 #include "server/net/reading_pace.h"
 #include "server/work/refusal.h"
 #include "shared/base/timing.h"
+#include "transport/limits.h"
 #include "transport/transport.h"
 
 namespace scree {
@@ -57,9 +59,13 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   void start();
   void send(SharedBytes bytes);
-  /// As send(), but what is queued goes with the next send() or flush().
+  /// As send(), but what is queued goes with the next send(), or with send_now() and settle().
   void queue(SharedBytes bytes);
-  void flush() { write(); }
+  /// Sends of what is queued what the link takes at once. Calls nobody else, and touches nothing but this
+  /// session. settle() must follow before any other call.
+  void send_now();
+  /// Sends the rest as the link takes it. Cuts the client off if that is too much.
+  void settle();
   void send(const ServerMessage& message);
   /// Closes at once, and is counted by this reason.
   void cut_off(Refusal reason, const std::string& words);
@@ -103,7 +109,18 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   bool take_message(std::span<const uint8_t> body);
   void write();
   void write_done(size_t bytes);
+  void count_sent(size_t bytes);
+  struct Gathered {
+    std::array<std::span<const uint8_t>, limits::gathered_buffers_max> buffers;
+    size_t count = 0;
+    size_t bytes = 0;
+    Transport::Buffers all() const { return std::span(buffers).first(count); }
+  };
+  /// The next bytes to send, as many as the client's link takes soon.
+  Gathered gather() const;
   void finish_sending();
+  /// False when it is closed, or was cut off for too long a backlog.
+  bool keeps_up();
   /// Whether backlog_bytes_ is the rest of the outbox's bytes; for CHECK_DEBUG.
   bool backlog_adds_up() const;
 

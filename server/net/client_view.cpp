@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "server/net/limits.h"
 #include "shared/base/check.h"
@@ -48,9 +50,17 @@ TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const
     orphan.insert(chunk);
   }
   ended.reserve(d.operations.size());
+  needs.reserve(d.operations.size());
+  opens.reserve(d.operations.size());
   for (const AppliedOperation& operation : d.operations) {
     ended.push_back(pieces_ended_by(operation.operation));
     for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
+    std::vector<ChunkCoord>& needed = needs.emplace_back();
+    std::ranges::set_union(operation.reads, operation.writes, std::back_inserter(needed));
+    // The others are the same on every client: nothing but operations of this tick has ever changed them.
+    const auto unedited = [&](ChunkCoord chunk) { return !before.chunks().contains(chunk); };
+    std::erase_if(needed, unedited);
+    std::ranges::copy_if(operation.writes, std::back_inserter(opens.emplace_back()), unedited);
   }
 }
 
@@ -76,6 +86,7 @@ void ClientView::reset() {
   stale_.clear();
   wanted_.clear();
   known_.clear();
+  sent_poses_.clear();
   stepped_ = 0;
   rescan_due_ = true;
   rescanned_ = 0;
@@ -102,34 +113,41 @@ bool ClientView::near(glm::vec3 place_m, float factor) const {
 
 /// Whether the client has, bit for bit, every brick that the operation reads: in held chunks, and in chunks
 /// that nothing but operations of this frame has ever changed.
-bool ClientView::can_apply(const AppliedOperation& operation, const std::vector<PieceId>& ended,
-                           const TickChanges& changes, const ChunkSet& tainted) const {
+bool ClientView::can_apply(size_t operation, const TickChanges& changes, const ChunkSet& tainted) const {
   if (!has_kernels_) return false;
-  const auto readable = [&](ChunkCoord chunk) {
-    if (tainted.contains(chunk)) return false;
-    if (held_.contains(chunk) || changes.fresh.contains(chunk)) return true;
-    return !changes.state.chunks().contains(chunk);
-  };
-  if (!std::ranges::all_of(operation.reads, readable)) return false;
-  if (!std::ranges::all_of(operation.writes, readable)) return false;
-  return std::ranges::all_of(ended, [&](PieceId piece) { return known_.contains(piece); });
+  const auto is_tainted = [&](ChunkCoord chunk) { return tainted.contains(chunk); };
+  const auto is_held = [&](ChunkCoord chunk) { return held_.contains(chunk); };
+  const AppliedOperation& applied = changes.delta.operations[operation];
+  if (!tainted.empty() &&
+      (std::ranges::any_of(applied.reads, is_tainted) || std::ranges::any_of(applied.writes, is_tainted)))
+    return false;
+  return std::ranges::all_of(changes.needs[operation], is_held) &&
+         std::ranges::all_of(changes.ended[operation], [this](PieceId piece) { return knows(piece); });
 }
 
-bool ClientView::concerns(const AppliedOperation& operation, const std::vector<PieceId>& ended,
-                          const TickChanges& changes) const {
-  if (std::ranges::any_of(ended, [&](PieceId piece) { return known_.contains(piece); })) return true;
+bool ClientView::concerns(size_t operation, const TickChanges& changes) const {
+  const AppliedOperation& applied = changes.delta.operations[operation];
+  if (std::ranges::any_of(changes.ended[operation], [this](PieceId piece) { return knows(piece); }))
+    return true;
   const auto followed = [&](ChunkCoord chunk) {
     return held_.contains(chunk) || near(chunk, changes.voxel_size_m);
   };
-  if (std::ranges::any_of(operation.writes, followed)) return true;
-  return std::ranges::any_of(operation.created, [&](PieceId id) {
+  if (std::ranges::any_of(applied.writes, followed)) return true;
+  return std::ranges::any_of(applied.created, [&](PieceId id) {
     const auto piece = changes.state.pieces().find(id);
     return piece != changes.state.pieces().end() && near(place_of(piece->second.pose), 1.0F);
   });
 }
 
-void ClientView::forget_piece(PieceId piece, FrameSelection& frame) {
-  if (known_.erase(piece) != 0) frame.removed.push_back(piece);
+bool ClientView::forget(PieceId piece) {
+  const auto known = known_.find(piece);
+  sent_poses_.erase(piece);
+  return known != known_.end() && !std::exchange(known->second.gone, true);
+}
+
+size_t ClientView::known_pieces() const {
+  return static_cast<size_t>(
+      std::ranges::count_if(known_, [](const auto& known) { return !known.second.gone; }));
 }
 
 void ClientView::select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
@@ -137,21 +155,21 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
   for (uint32_t i = 0; i < changes.delta.operations.size(); ++i) {
     const AppliedOperation& operation = changes.delta.operations[i];
     const std::vector<PieceId>& ended = changes.ended[i];
-    if (!can_apply(operation, ended, changes, tainted) || !concerns(operation, ended, changes)) {
+    if (!can_apply(i, changes, tainted) || !concerns(i, changes)) {
       tainted.insert(operation.writes.begin(), operation.writes.end());
-      for (const PieceId id : ended) forget_piece(id, frame);
+      for (const PieceId id : ended)
+        if (forget(id)) frame.removed.push_back(id);
       continue;
     }
     frame.operations.push_back(i);
-    for (const ChunkCoord chunk : operation.writes) {
-      changed.insert(chunk);
-      // A written chunk beyond the interest is followed, too, until the next scan drops it.
+    changed.insert(operation.writes.begin(), operation.writes.end());
+    // A written chunk beyond the interest is followed, too, until the next scan drops it. Others are held.
+    for (const ChunkCoord chunk : changes.opens[i])
       if (held_.insert(chunk).second && !near(chunk, changes.voxel_size_m)) rescan_due_ = true;
-    }
     const std::optional<PieceId> parent = parent_of(operation.operation);
-    const bool has_motion = !parent || (known_.contains(*parent) && known_.at(*parent).has_motion);
+    const bool has_motion = !parent || (knows(*parent) && known_.at(*parent).has_motion);
     for (const PieceId id : operation.created) known_[id] = {.has_motion = has_motion};
-    for (const PieceId id : ended) known_.erase(id);
+    for (const PieceId id : ended) forget(id);
   }
 }
 
@@ -216,12 +234,12 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
 }
 
 void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
-                             FrameSelection& frame) const {
+                             FrameSelection& frame) {
   if (!has_kernels_) {
     const QuantisedPose& pose = piece.target.pose;
-    if (!known.has_pose || known.sent != pose) frame.moved.push_back({piece.id, pose});
-    known.sent = pose;
-    known.has_pose = true;
+    const auto [sent, is_first] = sent_poses_.try_emplace(piece.id, pose);
+    if (is_first || sent->second != pose) frame.moved.push_back({piece.id, pose});
+    sent->second = pose;
     return;
   }
   // The client's motion is of the step before, or the piece has rested since the last one that it got.
@@ -236,18 +254,22 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
   auto piece = alive.begin();
   bool moves = false;
   if (has_kernels_) frame.steps.reserve(known_.size());
-  for (auto known = known_.begin(); known != known_.end();) {
+  auto kept = known_.begin();
+  for (auto known = known_.begin(); known != known_.end(); ++known) {
+    if (known->second.gone) continue;
     while (piece != alive.end() && piece->id < known->first) ++piece;
     if (piece == alive.end() || piece->id != known->first ||
         !near(piece->place_m, limits::interest_keep_factor)) {
       frame.removed.push_back(known->first);
-      known = known_.erase(known);
+      sent_poses_.erase(known->first);
       continue;
     }
     select_pose(*piece, changes, known->second, frame);
     moves = moves || piece->changed == changes.delta.tick;
-    ++known;
+    if (kept != known) *kept = *known;
+    ++kept;
   }
+  known_.erase(kept, known_.end());
   if (!moves && frame.wholes.empty()) frame.steps.clear();  // all rest where the client has them
   stepped_ = changes.delta.tick;
 }
@@ -295,6 +317,7 @@ std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size
 }
 
 std::vector<PieceId> ClientView::next_pieces(const Motions& motions, size_t count) const {
+  if (known_.size() == motions.all().size()) return {};  // it has all that are alive, and no others
   std::vector<std::pair<float, PieceId>> candidates;
   auto known = known_.begin();
   for (const TrackedMotion& piece : motions.all()) {
@@ -315,7 +338,8 @@ void ClientView::sent_chunk(ChunkCoord chunk) {
 }
 
 void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
-  known_[piece] = {.sent = pose, .has_pose = true};
+  known_[piece] = {};
+  if (!has_kernels_) sent_poses_.insert_or_assign(piece, pose);
 }
 
 void ClientView::distrust(ChunkCoord chunk) {

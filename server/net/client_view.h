@@ -31,9 +31,11 @@ struct TickChanges {
   const Motions& motions;
   float voxel_size_m = 0.0F;
   std::unordered_map<ChunkCoord, std::vector<const BrickState*>, CoordHash> bricks;
-  std::vector<std::vector<PieceId>> ended;  ///< by each operation
-  ChunkSet fresh;                           ///< changed for the first time in this tick
-  ChunkSet orphan;                          ///< changed, but by no operation (in a keyframe)
+  std::vector<std::vector<PieceId>> ended;     ///< by each operation
+  std::vector<std::vector<ChunkCoord>> needs;  ///< chunks with edits before, which each reads or writes
+  std::vector<std::vector<ChunkCoord>> opens;  ///< chunks without edits before, which each writes
+  ChunkSet fresh;                              ///< changed for the first time in this tick
+  ChunkSet orphan;                             ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
               const Motions& motions, float voxel_size_m);
@@ -79,7 +81,7 @@ class ClientView {
   /// gone a step.
   FrameSelection select_frame(const TickChanges& changes, FrameScope parts);
 
-  /// Up to `count` chunks (pieces) to send whole, nearest first.
+  /// Up to `count` chunks (pieces) to send whole, nearest first; pieces right after a frame with poses.
   std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
   std::vector<PieceId> next_pieces(const Motions& motions, size_t count) const;
   /// Notes that a chunk (piece) was sent whole: from now on it is followed.
@@ -92,24 +94,24 @@ class ClientView {
   void reset();
 
   const ChunkSet& held() const { return held_; }
-  bool knows(PieceId piece) const { return known_.contains(piece); }
-  size_t known_pieces() const { return known_.size(); }
+  bool knows(PieceId piece) const {
+    const auto known = known_.find(piece);
+    return known != known_.end() && !known->second.gone;
+  }
+  size_t known_pieces() const;
   size_t wanted_chunks() const { return wanted_.size(); }
 
  private:
   /// Small, for a client's walk over its pieces costs by the memory that it touches.
   struct Known {
-    QuantisedPose sent{};     ///< last whole pose, if has_pose
-    bool has_pose = false;    ///< else the client has the pose at which it was cut
     bool has_motion = false;  ///< as of the last frame with poses, or of the piece's birth
+    bool gone = false;        ///< the client has it no more; the next walk takes the entry out
   };
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;
   bool near(glm::vec3 place_m, float factor) const;
-  bool can_apply(const AppliedOperation& operation, const std::vector<PieceId>& ended,
-                 const TickChanges& changes, const ChunkSet& tainted) const;
-  bool concerns(const AppliedOperation& operation, const std::vector<PieceId>& ended,
-                const TickChanges& changes) const;
+  bool can_apply(size_t operation, const TickChanges& changes, const ChunkSet& tainted) const;
+  bool concerns(size_t operation, const TickChanges& changes) const;
   void select_operations(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted,
                          ChunkSet& changed);
   void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
@@ -117,9 +119,10 @@ class ClientView {
   size_t patch_room(size_t most);
   void select_poses(const TickChanges& changes, FrameSelection& frame);
   void select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
-                   FrameSelection& frame) const;
+                   FrameSelection& frame);
   void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
-  void forget_piece(PieceId piece, FrameSelection& frame);
+  /// False when the client does not have it.
+  bool forget(PieceId piece);
   /// Whether the invariants hold, and `changed` chunks are held; for CHECK_DEBUG.
   bool is_sound(const ChunkSet& changed) const;
 
@@ -136,7 +139,9 @@ class ClientView {
       stale_;  ///< not held, but the client has edits there, to be replaced by the whole chunk or dropped
   ChunkSet wanted_;                                   ///< edited, within interest, not held
   boost::container::flat_map<PieceId, Known> known_;  ///< walked in every frame with poses, of every client
-  Tick stepped_ = 0;                                  ///< the last tick whose frame had poses
+  /// Of a client without kernels: the last whole pose of each piece that got one since it was cut.
+  std::unordered_map<PieceId, QuantisedPose> sent_poses_;
+  Tick stepped_ = 0;  ///< the last tick whose frame had poses
 };
 
 }  // namespace scree

@@ -1,5 +1,7 @@
 #include "server/net/encode_cache.h"
 
+#include <numeric>
+
 #include "proto/codec.h"
 #include "proto/motion_codec.h"
 #include "proto/transforms.h"
@@ -20,7 +22,8 @@ bool decodes(const SharedBytes& bytes) {
   return body.size() > limits::message_bytes_max || decode_server(body).has_value();
 }
 
-/// Equal for equal selections, and hardly ever for others.
+/// Equal for equal selections, and seldom for others. Sums, which are quick: there are as many pieces to sum
+/// up as to send, for every client, and a mistake costs a comparison.
 uint64_t key_of(const FrameSelection& selection) {
   uint64_t key = selection.check;
   const auto mix = [&key](uint64_t value) { key = (key ^ value) * 0x9E3779B97F4A7C15ULL; };
@@ -29,7 +32,8 @@ uint64_t key_of(const FrameSelection& selection) {
   mix(selection.dropped.size());
   for (const std::vector<PieceId>* ids : {&selection.removed, &selection.steps, &selection.wholes}) {
     mix(ids->size());
-    for (const PieceId id : *ids) mix(id);
+    mix(std::accumulate(ids->begin(), ids->end(), uint64_t{0}));
+    if (!ids->empty()) mix(uint64_t{ids->front()} << 32U | ids->back());
   }
   mix(selection.moved.size());
   return key;
@@ -77,42 +81,77 @@ void EncodeCache::start_tick() {
   pieces_.clear();
 }
 
-const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const TickChanges& changes) {
+/// Selections are long: those that others have made are compared without the lock.
+EncodeCache::EncodedFrame& EncodeCache::entry_of(FrameSelection selection) {
   const uint64_t key = key_of(selection);
-  const auto [first, last] = frames_.equal_range(key);
-  for (auto it = first; it != last; ++it)
-    if (it->second->selection == selection) return *it->second;
-  const FrameMessage message = frame_of(selection, changes);
-  Frame& frame = *frames_.emplace(key, std::make_unique<Frame>())->second;
-  frame.selection = std::move(selection);
-  frame.transform_bytes = message.transforms.size() + message.motions.size();
-  frame.bytes = share(encode(ServerMessage(message)));
-  CHECK_DEBUG(decodes(frame.bytes));
-  return frame;
+  size_t compared = 0;
+  std::vector<EncodedFrame*> others;
+  while (true) {
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto [first, last] = frames_.equal_range(key);
+      others.clear();
+      for (auto it = first; it != last; ++it) others.push_back(it->second.get());
+      if (others.size() == compared) {
+        EncodedFrame& made = *frames_.emplace(key, std::make_unique<EncodedFrame>())->second;
+        made.frame.selection = std::move(selection);
+        return made;
+      }
+    }
+    for (EncodedFrame* other : others)
+      if (other->frame.selection == selection) return *other;
+    compared = others.size();
+  }
+}
+
+const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const TickChanges& changes) {
+  EncodedFrame& entry = entry_of(std::move(selection));
+  std::call_once(entry.once, [&] {
+    const FrameMessage message = frame_of(entry.frame.selection, changes);
+    entry.frame.transform_bytes = message.transforms.size() + message.motions.size();
+    entry.frame.bytes = share(encode(ServerMessage(message)));
+    CHECK_DEBUG(decodes(entry.frame.bytes));
+  });
+  return entry.frame;
+}
+
+std::shared_ptr<EncodeCache::Encoded> EncodeCache::entry_of(ChunkCoord coord, const PublishedChunk& chunk) {
+  const std::scoped_lock lock(mutex_);
+  if (chunks_.size() >= limits::encoded_chunks_max && !chunks_.contains(coord)) chunks_.clear();
+  EncodedChunk& known = chunks_[coord];
+  if (!known.encoded || known.version != chunk.version || known.hash != chunk.hash)
+    known = {chunk.version, chunk.hash, std::make_shared<Encoded>()};
+  CHECK(chunks_.size() <= limits::encoded_chunks_max);
+  return known.encoded;
 }
 
 SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
-  if (chunks_.size() >= limits::encoded_chunks_max && !chunks_.contains(coord)) chunks_.clear();
-  EncodedChunk& encoded = chunks_[coord];
-  if (encoded.bytes && encoded.version == chunk.version && encoded.hash == chunk.hash) return encoded.bytes;
-  ChunkMessage message;
-  message.chunk = coord;
-  message.version = chunk.version;
-  message.hash = chunk.hash;
-  message.bricks.reserve(chunk.bricks.size());
-  for (const auto& [brick, state] : chunk.bricks)
-    message.bricks.push_back({brick, *state.brick, state.paint});
-  encoded = {chunk.version, chunk.hash, share(encode(ServerMessage(std::move(message))))};
-  CHECK(chunks_.size() <= limits::encoded_chunks_max);
-  CHECK_DEBUG(decodes(encoded.bytes));
-  return encoded.bytes;
+  const std::shared_ptr<Encoded> entry = entry_of(coord, chunk);
+  std::call_once(entry->once, [&] {
+    ChunkMessage message;
+    message.chunk = coord;
+    message.version = chunk.version;
+    message.hash = chunk.hash;
+    message.bricks.reserve(chunk.bricks.size());
+    for (const auto& [brick, state] : chunk.bricks)
+      message.bricks.push_back({brick, *state.brick, state.paint});
+    entry->bytes = share(encode(ServerMessage(std::move(message))));
+    CHECK_DEBUG(decodes(entry->bytes));
+  });
+  return entry->bytes;
 }
 
 SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
-  SharedBytes& bytes = pieces_[id];
-  if (!bytes) bytes = share(encode(ServerMessage(PieceMessage{id, *piece.volume, piece.pose})));
-  CHECK_DEBUG(decodes(bytes));
-  return bytes;
+  Encoded* entry = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    entry = &pieces_[id];
+  }
+  std::call_once(entry->once, [&] {
+    entry->bytes = share(encode(ServerMessage(PieceMessage{id, *piece.volume, piece.pose})));
+    CHECK_DEBUG(decodes(entry->bytes));
+  });
+  return entry->bytes;
 }
 
 }  // namespace scree

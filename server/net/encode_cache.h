@@ -1,10 +1,14 @@
 // Encodes a tick's frames, chunks and pieces once; all clients with the same selection share the bytes. Holds
-// at most limits::encoded_chunks_max chunks. Not thread-safe.
+// at most limits::encoded_chunks_max chunks.
+//
+// frame(), chunk() and piece() may be called by several threads at once: who asks first encodes, others that
+// ask for the same wait for it. start_tick() is called while nobody does.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -32,14 +36,28 @@ class EncodeCache {
   SharedBytes piece(PieceId id, const PublishedPiece& piece);
 
  private:
+  /// Written by who comes first, and constant afterwards.
+  struct EncodedFrame {
+    Frame frame;
+    std::once_flag once;
+  };
+  struct Encoded {
+    SharedBytes bytes;
+    std::once_flag once;
+  };
   struct EncodedChunk {
     Tick version = 0;
     uint64_t hash = 0;
-    SharedBytes bytes;
+    std::shared_ptr<Encoded> encoded;
   };
-  std::unordered_multimap<uint64_t, std::unique_ptr<Frame>> frames_;  ///< by a hash of the selection
+  EncodedFrame& entry_of(FrameSelection selection);
+  std::shared_ptr<Encoded> entry_of(ChunkCoord coord, const PublishedChunk& chunk);
+
+  std::mutex mutex_;
+  // Guarded by mutex_, but for what the entries hold.
+  std::unordered_multimap<uint64_t, std::unique_ptr<EncodedFrame>> frames_;  ///< by a hash of the selection
   std::unordered_map<ChunkCoord, EncodedChunk, CoordHash> chunks_;
-  std::map<PieceId, SharedBytes> pieces_;
+  std::map<PieceId, Encoded> pieces_;
 };
 
 }  // namespace scree

@@ -168,9 +168,22 @@ inline constexpr size_t commands_waiting_max = 1024;
 /// Above: their replies say nothing of stages, and the oldest answers are forgotten.
 inline constexpr size_t requests_timed_max = 4096;
 
-/// Ticks whose messages go out together when the network thread lags: a write for each costs it more than all
-/// else.
+/// Part of a tick's time that handing its messages to the sockets may take, on average. Above: those of
+/// several ticks go out together, by one write for each session, for a write costs more than all else; the
+/// other half is for what selects them.
+inline constexpr double flush_share_max = 0.5;
+
+/// Ticks whose messages go out together at most, for that reason or because the network thread lags. They
+/// wait for two ticks' time at most if no more ticks come.
 inline constexpr uint32_t ticks_per_flush_max = 4;
+inline constexpr double flush_wait_ticks_max = 2.0;
+
+/// Threads that encode and send, the network thread included; more would wait for each other.
+inline constexpr size_t workers_max = 64;
+
+/// Sessions that a thread serves before it takes the next: about 0.2 ms of work, several times what it costs
+/// to wake a thread.
+inline constexpr size_t sessions_per_part = 32;
 
 /// Ticks published that the network thread has not taken yet; above: the simulation waits for it, and the
 /// wait is counted.

@@ -42,8 +42,11 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       commands_(commands),
       entrance_(context_, config.door, *this),
       timer_(context_),
+      flush_rate_(config.tick_rate_hz),
+      flush_timer_(context_),
       world_(std::max<uint64_t>(1, random_number())),
-      publisher_(publisher_config(config)) {}
+      workers_(config.net_threads),
+      publisher_(publisher_config(config), workers_) {}
 
 Result<void> NetHost::listen() {
   if (Result<void> opened = open_access(); !opened) return opened;
@@ -265,6 +268,7 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
 }
 
 void NetHost::refused(ClientSession& session, const Refused& refused) {
+  CHECK(!workers_.at_work());
   ++counts_.sessions_refused;
   counts_.refusals.add(refused.reason);
   say(spdlog::level::warn, name_of(refused.reason),
@@ -278,6 +282,7 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
 }
 
 void NetHost::closed(ClientSession& session, const std::string& reason) {
+  CHECK(!workers_.at_work());
   if (const std::optional<Refusal> cut_for = session.cut_for()) {
     ++counts_.sessions_cut;
     counts_.refusals.add(*cut_for);
@@ -307,30 +312,6 @@ void NetHost::grant(const ServiceLimits& service) {
   for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
 }
 
-void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
-  CHECK(network_thread_.is_the_same());
-  CHECK_EQ(publisher_.clients(), joined_count());
-  if (delta.service && *delta.service != service_) grant(*delta.service);
-  for (const Reply& reply : delta.replies)
-    if (reply.reason) counts_.refusals.add(*reply.reason);
-  publisher_.set_refusals(counts_.refusals);
-  const auto backlog = [this](uint64_t id) {
-    const auto entry = sessions_.find(id);
-    return entry == sessions_.end() ? Backlog() : entry->second.session->backlog();
-  };
-  if (publisher_.status_due(delta.tick)) publisher_.set_latency(request_times_.take_status());
-  for (Outgoing& outgoing : publisher_.publish(delta, backlog))
-    if (const auto session = queue(std::move(outgoing)))
-      if (unflushed_.empty() || unflushed_.back() != session) unflushed_.push_back(session);
-  answer(delta, span);
-  if (!more || ++ticks_unflushed_ >= limits::ticks_per_flush_max) {
-    for (const auto& session : unflushed_) session->flush();
-    unflushed_.clear();
-    ticks_unflushed_ = 0;
-  }
-  update_stats();
-}
-
 void NetHost::shut_down() {
   if (stopping_) return;
   stopping_ = true;
@@ -339,6 +320,7 @@ void NetHost::shut_down() {
   std::vector<std::shared_ptr<ClientSession>> sessions;
   for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
   for (const auto& session : sessions) session->refuse({Refusal::server_stops, "the server stops"});
+  flush_timer_.cancel();
   timer_.cancel();
   tick_timer();
 }

@@ -1,5 +1,9 @@
 // The network thread's side of NetServer: every session, and the publisher that serves them. Used by
 // net_server.cpp only (Asio). Runs on the network thread; stats() and the counters are for any thread.
+//
+// Within publish() the workers compose messages and hand them to the sockets, while the network thread takes
+// part and waits. They touch sessions only by send_now(), each session on one of them, and this object not at
+// all: whatever ends a session, counts or logs comes before or after, on the network thread.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,6 +19,7 @@
 #include "server/net/bans.h"
 #include "server/net/client_session.h"
 #include "server/net/entrance.h"
+#include "server/net/flush_rate.h"
 #include "server/net/log_limit.h"
 #include "server/net/net_server.h"
 #include "server/net/parties.h"
@@ -43,6 +48,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.
   void take_access(std::shared_ptr<const Access> access);
+  /// Hands all that is queued to the sockets.
+  void flush();
   void shut_down();
 
   asio::io_context& context() { return context_; }
@@ -61,6 +68,7 @@ class NetHost final : public SessionHost, public EntranceHost {
     double joined_s = 0.0;
     std::string in_common{};  ///< with the sessions of its party (Parties); empty: it shares with none
     uint64_t party = 0;       ///< as of Command
+    bool unflushed = false;   ///< in unflushed_
   };
 
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override;
@@ -85,6 +93,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
   void fit_descriptors();
+  void flush_later();
 
   // ---- who joins, or goes on after a lost connection (net_host_join.cpp)
   std::optional<Departed> resume(const std::string& ticket, const Grant& grant);
@@ -123,8 +132,9 @@ class NetHost final : public SessionHost, public EntranceHost {
   double stop_deadline_s_ = 0.0;
   uint64_t next_session_ = 1;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
-  std::vector<std::shared_ptr<ClientSession>> unflushed_;  ///< have messages that are only queued
-  uint32_t ticks_unflushed_ = 0;
+  std::vector<std::shared_ptr<ClientSession>> unflushed_;  ///< have messages that are only queued; once each
+  FlushRate flush_rate_;
+  asio::steady_timer flush_timer_;
   std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused
   size_t outsiders_max_ = limits::outsiders_max;
   size_t descriptors_ = 0;  ///< for connections
@@ -133,6 +143,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   Parties parties_;
   Tickets tickets_;
   const uint64_t world_;  ///< WelcomeMessage::world
+  Workers workers_;
   Publisher publisher_;
   RequestTimes request_times_;
   std::atomic<bool> watched_{false};

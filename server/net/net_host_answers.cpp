@@ -22,7 +22,7 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
   std::vector<std::shared_ptr<ClientSession>> answered;
   for (Outgoing& outgoing : publisher_.answer(delta, latency))
     if (auto session = queue(std::move(outgoing))) answered.push_back(std::move(session));
-  for (const auto& session : answered) session->flush();
+  for (const auto& session : answered) session->settle();
   const std::scoped_lock lock(stats_mutex_);
   latency_ = request_times_.counts();
 }

@@ -3,6 +3,7 @@
 #include <asio/post.hpp>
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <thread>
 
 #include "server/net/net_host.h"
@@ -12,6 +13,10 @@ namespace scree {
 
 struct NetServer::Impl {
   Impl(const NetConfig& net, CommandQueue& commands) : config(net), host(net, commands) {}
+
+  /// Hands a job to the network thread; waits while too many wait there. Nothing happens after stop().
+  /// `more`: another one waits behind it.
+  void post(std::function<void(bool more)> job);
 
   const NetConfig config;
   NetHost host;
@@ -41,29 +46,34 @@ uint16_t NetServer::port() const {
   return impl_->host.port();
 }
 
+void NetServer::Impl::post(std::function<void(bool more)> job) {
+  {
+    std::unique_lock lock(mutex);
+    if (in_flight >= limits::deltas_in_flight_max) ++waits;
+    taken.wait(lock, [&] { return stopped || in_flight < limits::deltas_in_flight_max; });
+    if (stopped) return;
+    ++in_flight;
+  }
+  asio::post(host.context(), [this, job = std::move(job)] {
+    size_t now_in_flight = 0;
+    {
+      const std::scoped_lock lock(mutex);
+      now_in_flight = in_flight;
+    }
+    job(now_in_flight > 1);
+    {
+      const std::scoped_lock lock(mutex);
+      CHECK(in_flight > 0 && in_flight <= limits::deltas_in_flight_max);
+      --in_flight;
+    }
+    taken.notify_all();
+  });
+}
+
 void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span) {
   CHECK(delta != nullptr);
-  {
-    std::unique_lock lock(impl_->mutex);
-    if (impl_->in_flight >= limits::deltas_in_flight_max) ++impl_->waits;
-    impl_->taken.wait(lock,
-                      [&] { return impl_->stopped || impl_->in_flight < limits::deltas_in_flight_max; });
-    if (impl_->stopped) return;
-    ++impl_->in_flight;
-  }
-  asio::post(impl_->host.context(), [impl = impl_.get(), delta = std::move(delta), span] {
-    size_t in_flight = 0;
-    {
-      const std::scoped_lock lock(impl->mutex);
-      in_flight = impl->in_flight;
-    }
-    impl->host.publish(*delta, span, in_flight > 1);
-    {
-      const std::scoped_lock lock(impl->mutex);
-      CHECK(impl->in_flight > 0 && impl->in_flight <= limits::deltas_in_flight_max);
-      --impl->in_flight;
-    }
-    impl->taken.notify_all();
+  impl_->post([host = &impl_->host, delta = std::move(delta), span](bool more) {
+    host->publish(*delta, span, more);
   });
 }
 
@@ -76,6 +86,7 @@ Result<void> NetServer::reload() {
 }
 
 void NetServer::flush() {
+  impl_->post([host = &impl_->host](bool) { host->flush(); });
   std::unique_lock lock(impl_->mutex);
   impl_->taken.wait(lock, [&] { return impl_->stopped || impl_->in_flight == 0; });
 }

@@ -1,9 +1,9 @@
 // The server's network side: accepts clients, hands their requests to the simulation, and sends them the
 // messages that the Publisher selects.
 //
-// One network thread owns all sockets; it only queues, decodes and sends. The simulation calls publish(),
-// which only posts. A client that breaks the protocol gets the reason and is closed; other clients do not
-// notice.
+// One network thread owns all sockets; it only queues, decodes and sends. Encoding and sending it shares with
+// workers (workers.h), for which it waits. The simulation calls publish(), which only posts. A client that
+// breaks the protocol gets the reason and is closed; other clients do not notice.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,7 @@ struct NetConfig {
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
   double heartbeat_s = limits::heartbeat_s;  ///< as of PublisherConfig
+  size_t net_threads = 0;                    ///< that encode and send; 0: as many as the machine has cores
 };
 
 /// Counts since the start.

@@ -1,6 +1,8 @@
 #include "server/net/publisher.h"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "proto/codec.h"
@@ -41,8 +43,28 @@ int64_t size_of(const SharedBytes& bytes) {
 
 }  // namespace
 
-Publisher::Publisher(const PublisherConfig& config)
-    : config_(config), motions_(no_motions(config)), ground_(config.terrain), clock_(config.tick_rate_hz) {}
+PublisherStats& PublisherStats::operator+=(const PublisherStats& other) {
+  sent_bytes += other.sent_bytes;
+  frame_bytes += other.frame_bytes;
+  transform_bytes += other.transform_bytes;
+  chunk_bytes += other.chunk_bytes;
+  kept_bytes += other.kept_bytes;
+  chunks_kept += other.chunks_kept;
+  piece_bytes += other.piece_bytes;
+  ground_bytes += other.ground_bytes;
+  operations += other.operations;
+  operation_bytes += other.operation_bytes;
+  repairs += other.repairs;
+  resets += other.resets;
+  return *this;
+}
+
+Publisher::Publisher(const PublisherConfig& config, Workers& workers)
+    : config_(config),
+      workers_(workers),
+      motions_(no_motions(config)),
+      ground_(config.terrain),
+      clock_(config.tick_rate_hz) {}
 
 void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers) {
   leave(session);
@@ -57,6 +79,7 @@ void Publisher::offer(uint64_t session, const OfferMessage& offer) {
 }
 
 void Publisher::leave(uint64_t session) {
+  watch(session, false);
   clients_.erase(session);
   cursors_.erase(session);
   ground_.leave(session);
@@ -73,17 +96,9 @@ void Publisher::set_cursor(PlayerCursor cursor) {
 
 void Publisher::watch(uint64_t session, bool physics) {
   const auto client = clients_.find(session);
-  if (client != clients_.end()) client->second.watches = physics;
-}
-
-std::vector<glm::vec3> Publisher::eyes_m() const {
-  std::vector<glm::vec3> eyes_m;
-  for (const auto& [session, client] : clients_) eyes_m.push_back(client.view.eye_m());
-  return eyes_m;
-}
-
-bool Publisher::is_watched() const {
-  return std::ranges::any_of(clients_, [](const auto& entry) { return entry.second.watches; });
+  if (client == clients_.end() || client->second.watches == physics) return;
+  client->second.watches = physics;
+  watchers_ += physics ? 1 : -1;
 }
 
 void Publisher::repair(uint64_t session, const RepairRequest& request) {
@@ -127,13 +142,40 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   clock_.add(delta.times, delta.work);
   count_operations(delta);
   cache_.start_tick();
-  for (auto& [session, client] : clients_) serve(client, changes, backlog(session));
-  stream_ground(backlog);
+  serve_all(changes, backlog);
+  Part rest;
+  stream_ground(backlog, rest);
+  add(std::move(rest));
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
             stats_.ground_bytes <=
         stats_.sent_bytes);
   return std::exchange(out_, {});
+}
+
+/// All that the clients have in common is ready; what is only read from here on is safe to share.
+void Publisher::serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog) {
+  std::vector<Client*> clients;
+  clients.reserve(clients_.size());
+  eyes_m_.clear();
+  for (auto& [session, client] : clients_) {
+    clients.push_back(&client);
+    eyes_m_.push_back(client.view.eye_m());
+  }
+  status_ = status();
+  std::vector<Part> parts(Workers::parts_of(clients.size(), limits::sessions_per_part));
+  const auto serve_some = [&](size_t index, std::span<Client*> some) {
+    Part part;
+    for (Client* client : some) serve(*client, changes, backlog(client->session), part);
+    parts[index] = std::move(part);
+  };
+  workers_.share(std::span(clients), limits::sessions_per_part, serve_some);
+  for (Part& part : parts) add(std::move(part));
+}
+
+void Publisher::add(Part&& part) {
+  out_.insert(out_.end(), std::make_move_iterator(part.out.begin()), std::make_move_iterator(part.out.end()));
+  stats_ += part.stats;
 }
 
 void Publisher::count_operations(const TickDelta& delta) {
@@ -144,47 +186,47 @@ void Publisher::count_operations(const TickDelta& delta) {
 }
 
 /// Whether the client gets a frame in this tick. A stopped client that has read everything starts again.
-bool Publisher::ready(Client& client, size_t backlog_bytes) {
+bool Publisher::ready(Client& client, size_t backlog_bytes, Part& part) {
   if (!client.stopped && backlog_bytes > limits::outbox_resync_bytes) client.stopped = true;
   if (client.stopped) {
     if (backlog_bytes != 0) return false;
     client.stopped = false;
     client.reset_due = true;
-    ++stats_.resets;
+    ++part.stats.resets;
   }
   if (client.reset_due) {
     client.reset_due = false;
     client.view.reset();
     client.offer.forget();
     client.last_frame = 0;
-    send(client, bytes_of(ResetMessage{}));
+    send(client, bytes_of(ResetMessage{}), part);
   }
   return true;
 }
 
-void Publisher::serve(Client& client, const TickChanges& changes, const Backlog& backlog) {
-  if (!ready(client, backlog.bytes)) return;
+void Publisher::serve(Client& client, const TickChanges& changes, const Backlog& backlog, Part& part) {
+  if (!ready(client, backlog.bytes, part)) return;
   const Tick tick = changes.delta.tick;
   const bool reads_along = backlog.reads_along();
   client.room_bytes = static_cast<int64_t>(backlog.soft_bytes) - static_cast<int64_t>(backlog.bytes);
   const bool with_poses = reads_along && has_poses(tick);
-  if (!send_frame(client, changes, {with_poses, patches_for(backlog)})) return;
-  if (reads_along) stream_chunks(client, changes);
-  if (with_poses) stream_pieces(client);
-  if (status_due(tick)) send_status(client);
+  if (!send_frame(client, changes, {with_poses, patches_for(backlog)}, part)) return;
+  if (reads_along) stream_chunks(client, changes, part);
+  if (with_poses) stream_pieces(client, part);
+  if (status_due(client, tick)) send_status(client, part);
   if (!reads_along) return;
-  if (tick % ticks_per_watch == 0) send_cursors(client);
-  if (client.watches && changes.delta.physics) send_physics(client, *changes.delta.physics);
+  if (tick % ticks_per_watch == 0) send_cursors(client, part);
+  if (client.watches && changes.delta.physics) send_physics(client, *changes.delta.physics, part);
 }
 
 /// Whether the client gets a frame of this tick though nothing happened for it.
 bool Publisher::frame_due(const Client& client, Tick tick) const {
   return client.last_frame == 0 || tick >= client.last_frame + ticks_of(config_.heartbeat_s) ||
-         status_due(tick);
+         status_due(client, tick);
 }
 
-bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScope parts) {
-  FrameSelection selection = client.view.select_frame(changes, parts);
+bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScope scope, Part& part) {
+  FrameSelection selection = client.view.select_frame(changes, scope);
   const Tick tick = changes.delta.tick;
   if (selection.is_empty() && !frame_due(client, tick)) return true;
   client.last_frame = tick;
@@ -195,13 +237,13 @@ bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScop
     client.reset_due = true;
     return false;
   }
-  stats_.frame_bytes += frame.bytes->size();
-  stats_.transform_bytes += frame.transform_bytes;
-  send(client, frame.bytes);
+  part.stats.frame_bytes += frame.bytes->size();
+  part.stats.transform_bytes += frame.transform_bytes;
+  send(client, frame.bytes, part);
   return true;
 }
 
-void Publisher::stream_chunks(Client& client, const TickChanges& changes) {
+void Publisher::stream_chunks(Client& client, const TickChanges& changes, Part& part) {
   client.chunk_credit_bytes =
       std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (!client.offer.ready() || client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
@@ -217,22 +259,22 @@ void Publisher::stream_chunks(Client& client, const TickChanges& changes) {
     }
     const SharedBytes bytes = cache_.chunk(coord, chunk);
     client.chunk_credit_bytes -= size_of(bytes);
-    stats_.chunk_bytes += bytes->size();
-    send(client, bytes);
+    part.stats.chunk_bytes += bytes->size();
+    send(client, bytes, part);
   }
-  if (!kept.chunks.empty()) send_kept(client, kept);
+  if (!kept.chunks.empty()) send_kept(client, kept, part);
   if (client.view.wanted_chunks() == 0) client.offer.forget();
 }
 
-void Publisher::send_kept(Client& client, const KeptMessage& kept) {
+void Publisher::send_kept(Client& client, const KeptMessage& kept, Part& part) {
   const SharedBytes bytes = bytes_of(kept);
   client.chunk_credit_bytes -= size_of(bytes);
-  stats_.kept_bytes += bytes->size();
-  stats_.chunks_kept += kept.chunks.size();
-  send(client, bytes);
+  part.stats.kept_bytes += bytes->size();
+  part.stats.chunks_kept += kept.chunks.size();
+  send(client, bytes, part);
 }
 
-void Publisher::stream_pieces(Client& client) {
+void Publisher::stream_pieces(Client& client, Part& part) {
   const int64_t budget = limits::piece_bytes_per_tick * config_.ticks_per_transform;
   client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
   if (client.piece_credit_bytes <= 0) return;
@@ -242,57 +284,58 @@ void Publisher::stream_pieces(Client& client) {
     const SharedBytes bytes = cache_.piece(id, piece);
     if (bytes->size() > limits::message_bytes_max) continue;  // the client gets its merge as bricks
     client.piece_credit_bytes -= size_of(bytes);
-    stats_.piece_bytes += bytes->size();
+    part.stats.piece_bytes += bytes->size();
     client.view.sent_piece(id, piece.pose);
-    send(client, bytes);
+    send(client, bytes, part);
   }
 }
 
-void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog) {
+void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part) {
   const auto reader = [&](uint64_t session) -> const ClientView* {
     const Client& client = clients_.at(session);
     const bool reads_along = !client.stopped && backlog(session).reads_along();
     return reads_along ? &client.view : nullptr;
   };
-  ground_.serve(reader, [this](uint64_t session, const SharedBytes& bytes) {
-    stats_.ground_bytes += bytes->size();
-    send(clients_.at(session), bytes);
+  ground_.serve(reader, [&](uint64_t session, const SharedBytes& bytes) {
+    part.stats.ground_bytes += bytes->size();
+    send(clients_.at(session), bytes, part);
   });
 }
 
-void Publisher::send_cursors(Client& client) {
+void Publisher::send_cursors(Client& client, Part& part) {
   std::vector<PlayerCursor> now =
       cursors_for(client.session, cursors_, client.view.eye_m(), client.view.radius_m());
   if (now == client.cursors) return;
   client.cursors = now;
-  send(client, bytes_of(CursorsMessage{std::move(now)}));
+  send(client, bytes_of(CursorsMessage{std::move(now)}), part);
 }
 
-void Publisher::send_physics(Client& client, const PhysicsMessage& physics) {
+void Publisher::send_physics(Client& client, const PhysicsMessage& physics, Part& part) {
   constexpr int64_t budget = limits::physics_bytes_per_tick * int64_t{ticks_per_watch};
   client.physics_credit_bytes = std::min(client.physics_credit_bytes + budget, budget);
   if (client.physics_credit_bytes <= 0 || client.room_bytes <= 0) return;
-  const PhysicsMessage part =
+  const PhysicsMessage near =
       physics_for(physics, state_, config_.terrain.voxel_size_m, client.view.eye_m(), client.view.radius_m());
-  const SharedBytes bytes = bytes_of(part);
+  const SharedBytes bytes = bytes_of(near);
   client.physics_credit_bytes -= size_of(bytes);
-  send(client, bytes);
+  send(client, bytes, part);
 }
 
 std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
                                         const std::function<ServerLatency(const Reply&)>& latency) {
-  out_.clear();
+  Part replies;
   for (const Reply& reply : delta.replies) {
     const auto client = clients_.find(reply.session);
     if (client == clients_.end()) continue;
     const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
     send(client->second,
-         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}));
+         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}), replies);
   }
+  add(std::move(replies));
   return std::exchange(out_, {});
 }
 
-void Publisher::send_status(Client& client) {
+StatusMessage Publisher::status() const {
   StatusMessage status;
   status.tick = state_.tick();
   status.clients = static_cast<uint32_t>(clients_.size());
@@ -306,11 +349,9 @@ void Publisher::send_status(Client& client) {
   status.tick_worst_ms = clock_.worst_ms();
   status.stages = clock_.stages();
   status.work = clock_.work();
-  status.sent_bytes = client.sent_bytes;
   status.pieces_made = state_.pieces_made();
   status.pieces_merged = state_.pieces_merged();
   status.field_hash = state_.field_hash();
-  status.repairs = client.repairs;
   status.settings = state_.settings();
   status.latency = latency_;
   for (size_t i = 0; i < refusal_reasons; ++i) {
@@ -318,14 +359,21 @@ void Publisher::send_status(Client& client) {
     if (refusals_.of(reason) > 0)
       status.refusals.push_back({std::string(name_of(reason)), refusals_.of(reason)});
   }
-  send(client, bytes_of(status));
+  return status;
 }
 
-void Publisher::send(Client& client, SharedBytes bytes) {
+void Publisher::send_status(Client& client, Part& part) {
+  StatusMessage status = status_;
+  status.sent_bytes = client.sent_bytes;
+  status.repairs = client.repairs;
+  send(client, bytes_of(status), part);
+}
+
+void Publisher::send(Client& client, SharedBytes bytes, Part& part) {
   client.sent_bytes += bytes->size();
   client.room_bytes -= size_of(bytes);
-  stats_.sent_bytes += bytes->size();
-  out_.push_back({client.session, std::move(bytes)});
+  part.stats.sent_bytes += bytes->size();
+  part.out.push_back({client.session, std::move(bytes)});
 }
 
 }  // namespace scree

@@ -9,7 +9,10 @@
 // (Backlog), it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
 // everything, a ResetMessage tells it to forget its edits and pieces, and it joins anew.
 //
-// No sockets and no clock: the owner delivers the bytes in order. Not thread-safe.
+// No sockets and no clock: the owner delivers the bytes in order. One thread, the workers' owner, makes all
+// calls. Within publish() the workers serve the clients, each client on one of them: a client's part changes
+// nothing but the client, the cache, and the messages and counts of its part, which are put together in the
+// clients' order. So each client gets the same bytes however many workers there are.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +28,7 @@
 #include "server/net/ground_stream.h"
 #include "server/net/limits.h"
 #include "server/net/tick_clock.h"
+#include "server/net/workers.h"
 #include "shared/operation/per_operation.h"
 
 namespace scree {
@@ -56,6 +60,8 @@ struct PublisherStats {
   OperationCounts operation_bytes;  ///< their encoded size
   uint64_t repairs = 0;             ///< chunks sent again because a check failed
   uint64_t resets = 0;              ///< clients that fell behind and were reset
+
+  PublisherStats& operator+=(const PublisherStats& other);
 };
 
 /// What waits for a client.
@@ -68,7 +74,8 @@ struct Backlog {
 
 class Publisher {
  public:
-  explicit Publisher(const PublisherConfig& config);
+  /// `workers` outlives the publisher.
+  Publisher(const PublisherConfig& config, Workers& workers);
 
   /// `has_kernels`: whether the client can carry out operations; then it gets motions, else whole poses
   /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it.
@@ -86,18 +93,17 @@ class Publisher {
   void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
   /// Sets the stages of the last second's requests, for the status.
   void set_latency(const LatencyStatus& latency) { latency_ = latency; }
-  /// Whether the clients get a status with this tick.
-  bool status_due(Tick tick) const { return tick % config_.tick_rate_hz == 0; }
   /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void watch(uint64_t session, bool physics);
-  bool is_watched() const;
-  /// Eyes of all clients, by session.
-  std::vector<glm::vec3> eyes_m() const;
+  bool is_watched() const { return watchers_ > 0; }
+  /// Eyes of all clients, by session, as of the last tick.
+  const std::vector<glm::vec3>& eyes_m() const { return eyes_m_; }
 
   /// Takes the next tick and returns the messages for each client. `backlog(session)`: what still waits for
-  /// it. A tick out of sequence is a keyframe: it replaces the state, and resets every client.
+  /// it; called by the workers, too. A tick out of sequence is a keyframe: it replaces the state, and resets
+  /// every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<Backlog(uint64_t)>& backlog);
 
   /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
@@ -129,23 +135,41 @@ class Publisher {
     int64_t physics_credit_bytes = 0;
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
   };
+  /// What serving some clients brings about beside what changes in them.
+  struct Part {
+    std::vector<Outgoing> out;
+    PublisherStats stats;
+  };
   bool has_poses(Tick tick) const { return tick % config_.ticks_per_transform == 0; }
   void count_operations(const TickDelta& delta);
-  void serve(Client& client, const TickChanges& changes, const Backlog& backlog);
-  bool ready(Client& client, size_t backlog_bytes);
-  bool send_frame(Client& client, const TickChanges& changes, FrameScope parts);
-  bool frame_due(const Client& client, Tick tick) const;
-  void stream_chunks(Client& client, const TickChanges& changes);
-  void send_kept(Client& client, const KeptMessage& kept);
   uint32_t ticks_of(double seconds) const { return static_cast<uint32_t>(seconds * config_.tick_rate_hz); }
-  void stream_pieces(Client& client);
-  void stream_ground(const std::function<Backlog(uint64_t)>& backlog);
-  void send_cursors(Client& client);
-  void send_physics(Client& client, const PhysicsMessage& physics);
-  void send_status(Client& client);
-  void send(Client& client, SharedBytes bytes);
+  /// What all clients are told alike.
+  StatusMessage status() const;
+  void serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog);
+  void add(Part&& part);
+
+  // ---- by any of the workers
+  void serve(Client& client, const TickChanges& changes, const Backlog& backlog, Part& part);
+  bool ready(Client& client, size_t backlog_bytes, Part& part);
+  bool send_frame(Client& client, const TickChanges& changes, FrameScope scope, Part& part);
+  bool frame_due(const Client& client, Tick tick) const;
+  /// Once a second, in another tick than most others get theirs.
+  bool status_due(const Client& client, Tick tick) const {
+    return (tick + client.session) % config_.tick_rate_hz == 0;
+  }
+  void stream_chunks(Client& client, const TickChanges& changes, Part& part);
+  void send_kept(Client& client, const KeptMessage& kept, Part& part);
+  void stream_pieces(Client& client, Part& part);
+  void send_cursors(Client& client, Part& part);
+  void send_physics(Client& client, const PhysicsMessage& physics, Part& part);
+  void send_status(Client& client, Part& part);
+  static void send(Client& client, SharedBytes bytes, Part& part);
+
+  // ---- by the owner's thread alone
+  void stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part);
 
   PublisherConfig config_;
+  Workers& workers_;
   PublishedState state_;
   Motions motions_;
   std::map<uint64_t, Client> clients_;
@@ -156,7 +180,10 @@ class Publisher {
   PublisherStats stats_;
   RefusalCounts refusals_;
   LatencyStatus latency_;
+  StatusMessage status_;  ///< of this tick
   std::vector<Outgoing> out_;
+  std::vector<glm::vec3> eyes_m_;
+  size_t watchers_ = 0;
 };
 
 }  // namespace scree

@@ -33,13 +33,15 @@ TEST(ServerOptions, defaults_listen_on_this_machine_only) {
 }
 
 TEST(ServerOptions, flags_are_taken) {
-  const auto parsed =
-      parse({"--port", "0", "--host", "0.0.0.0", "--terrain", "noise", "--seed", "9", "--voxel-size", "0.5",
-             "--tick-rate", "30", "--record", "a.scree", "--impacts", "false", "--dents", "false"});
+  const auto parsed = parse({"--port",      "0",       "--host",   "0.0.0.0",       "--terrain",
+                             "noise",       "--seed",  "9",        "--voxel-size",  "0.5",
+                             "--tick-rate", "30",      "--record", "a.scree",       "--impacts",
+                             "false",       "--dents", "false",    "--net-threads", "3"});
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
   EXPECT_EQ(live.net.port, 0);
   EXPECT_EQ(live.net.bind, "0.0.0.0");
+  EXPECT_EQ(live.net.net_threads, 3U);
   EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
   EXPECT_EQ(live.world.tick_rate_hz, 30U);
   EXPECT_EQ(live.record_path, "a.scree");
@@ -59,6 +61,7 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--pieces-max", "0"}), 2);
   EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
   EXPECT_EQ(exit_code({"--loop"}), 2);
+  EXPECT_EQ(exit_code({"--net-threads", "65"}), 2);
   EXPECT_EQ(exit_code({"--impacts", "perhaps"}), 2);
   EXPECT_EQ(exit_code({"--admin-token", "short"}), 2);
   EXPECT_EQ(exit_code({"--admin-token-file", "/no/such/file"}), 2);

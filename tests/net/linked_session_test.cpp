@@ -62,7 +62,7 @@ class LinkedWorld final : public SessionHost {
     const auto delta = source.step(operations);
     const auto backlog = [this](uint64_t) { return session_->backlog(); };
     for (const Outgoing& outgoing : publisher.publish(*delta, backlog)) session_->queue(outgoing.bytes);
-    session_->flush();
+    session_->settle();
     worst_backlog_bytes = std::max(worst_backlog_bytes, session_->backlog_bytes());
   }
   /// A carve twice a second, up to 60 pieces that are pushed about, the oldest become terrain.

@@ -203,7 +203,8 @@ class PublisherTest : public ::testing::Test {
   }
 
   TickSource source{flat_terrain};
-  Publisher publisher{PublisherConfig{.terrain = flat_terrain}};
+  Workers workers{2};
+  Publisher publisher{PublisherConfig{.terrain = flat_terrain}, workers};
   std::map<uint64_t, TrustingClient> followers;
   std::map<uint64_t, size_t> bytes;
   std::map<uint64_t, SharedBytes> last;

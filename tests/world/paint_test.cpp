@@ -193,7 +193,8 @@ void expect_same(const Client& client, World& world) {
 
 TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   World world(flat_world());
-  Publisher publisher({flat_terrain, 60, 3});
+  Workers workers(1);
+  Publisher publisher({flat_terrain, 60, 3}, workers);
   const auto tick = [&](const std::vector<Command>& commands, std::initializer_list<Client*> clients) {
     const auto delta = world.step(commands);
     const auto outgoing = publisher.publish(*delta, [](uint64_t) { return Backlog{}; });

@@ -1,0 +1,70 @@
+#include "server/net/workers.h"
+
+#include <algorithm>
+
+#include "server/net/limits.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+Workers::Workers(size_t threads) {
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = std::min(threads, limits::workers_max);
+  helpers_.reserve(threads - 1);
+  while (helpers_.size() + 1 < threads) helpers_.emplace_back([this] { help(); });
+}
+
+Workers::~Workers() {
+  CHECK(!at_work_);
+  {
+    const std::scoped_lock lock(mutex_);
+    ending_ = true;
+  }
+  called_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+/// Whoever comes late finds no parts left, and does no harm: only who helps at the end is waited for.
+void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
+  CHECK(owner_.is_the_same());
+  CHECK(!at_work_);
+  at_work_ = true;
+  const bool alone = parts <= 1 || helpers_.empty();
+  {
+    const std::scoped_lock lock(mutex_);
+    CHECK_EQ(helping_, 0U);
+    work_ = &work;
+    parts_ = parts;
+    next_part_ = 0;
+    if (!alone) ++round_;
+  }
+  if (!alone) called_.notify_all();
+  take_parts();
+  {
+    std::unique_lock lock(mutex_);
+    left_.wait(lock, [this] { return helping_ == 0; });
+    work_ = nullptr;
+  }
+  at_work_ = false;
+}
+
+void Workers::take_parts() {
+  for (size_t part = next_part_++; part < parts_; part = next_part_++) (*work_)(part);
+}
+
+void Workers::help() {
+  size_t helped = 0;  // the last round
+  std::unique_lock lock(mutex_);
+  while (true) {
+    called_.wait(lock, [&] { return ending_ || (round_ != helped && work_ != nullptr); });
+    if (ending_) return;
+    helped = round_;
+    ++helping_;
+    lock.unlock();
+    take_parts();
+    lock.lock();
+    if (--helping_ == 0) left_.notify_one();
+  }
+}
+
+}  // namespace scree

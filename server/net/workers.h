@@ -1,0 +1,67 @@
+// Threads that share a piece of work and wait for each other: fork and join. The owner's thread takes part.
+//
+// run() is called by one thread, the owner's, and returns when all parts are done; what it wrote before is
+// seen by the parts, and what the parts wrote is seen after it. Which thread does a part, and when, is open:
+// a part must not touch anything that another part changes, and results are merged by the number of the part,
+// so that they are the same for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "shared/base/thread_check.h"
+
+namespace scree {
+
+class Workers {
+ public:
+  /// So many threads, the owner's included; 0: as many as the machine has cores. At most
+  /// limits::workers_max.
+  explicit Workers(size_t threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  size_t threads() const { return helpers_.size() + 1; }
+  /// Calls work(part) once for each part below `parts`. Not from within work(), which does not throw.
+  void run(size_t parts, const std::function<void(size_t part)>& work);
+  /// Splits the items into parts of `each`, the last one of fewer, and calls work(part, its items) once for
+  /// each.
+  template <typename Item, typename Work>
+  void share(std::span<Item> items, size_t each, const Work& work) {
+    run(parts_of(items.size(), each), [&](size_t part) {
+      const std::span<Item> from = items.subspan(part * each);
+      work(part, from.first(std::min(each, from.size())));
+    });
+  }
+  static size_t parts_of(size_t items, size_t each) { return (items + each - 1) / each; }
+
+  /// Whether run() is under way. By the owner's thread, and from within work().
+  bool at_work() const { return at_work_; }
+
+ private:
+  void help();
+  void take_parts();
+
+  std::vector<std::thread> helpers_;
+  ThreadCheck owner_;
+  bool at_work_ = false;
+  std::mutex mutex_;
+  std::condition_variable called_, left_;
+  size_t round_ = 0;     ///< guarded by mutex_
+  size_t helping_ = 0;   ///< guarded by mutex_
+  bool ending_ = false;  ///< guarded by mutex_
+  // Set while nobody helps, and read by those who do.
+  const std::function<void(size_t)>* work_ = nullptr;  ///< null: there is none
+  size_t parts_ = 0;
+  std::atomic<size_t> next_part_{0};
+};
+
+}  // namespace scree
