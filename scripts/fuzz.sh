@@ -83,7 +83,10 @@ fuzz() {
   { time { "$built/bin/fuzz_$name" "${options[@]}" "$built/found/$name" "$corpora/$name" 2>&1 | tee "$log" |
     grep --line-buffered -E 'INITED|pulse|ERROR|CHECK' >&3 || true; }; } 3>&1 2>"$started.seconds"
   seconds=$(<"$started.seconds")
-  report "$name" "$log" "$started" "$seconds"
+  local status=0
+  report "$name" "$log" "$started" "$seconds" || status=1
+  rm -f "$started" "$started.seconds"
+  return $status
 }
 
 # Seeds and findings stay; of the rest of the corpus, and of what was found, those that add most coverage, which
