@@ -46,13 +46,13 @@ number() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
 report() {
   local name=$1 log=$2 started=$3 seconds=$4 executions coverage found failed
   executions=$(number number_of_executed_units "$log")
-  coverage=$(grep -o 'cov: [0-9]* ft: [0-9]*' "$log" | tail -n 1 || true)
+  coverage=$(grep -ao 'cov: [0-9]* ft: [0-9]*' "$log" | tail -n 1 || true)
   found=$(find "$built/found/$name" -type f | wc -l)
   say "$name: ${executions:-no} executions in $seconds s of processor time; coverage ${coverage:-unknown};" \
     "$found inputs found so far"
   mapfile -t failed < <(find "$built/failed/$name" -type f -newer "$started" ! -name 'slow-unit-*')
   ((${#failed[@]})) || return 0
-  grep -E -m 3 'CHECK failed|ERROR: (Address|Leak|lib)|runtime error' "$log" || true
+  grep -aE -m 3 'CHECK failed|ERROR: (Address|Leak|lib)|runtime error' "$log" || true
   for file in "${failed[@]}"; do
     say "it fails on $file ($(stat -c %s "$file") bytes); to run it again:"
     printf '  ./scree fuzz %s %s\n' "$name" "${file#"$root"/}"
@@ -81,7 +81,7 @@ fuzz() {
   options+=(-print_final_stats=1 -artifact_prefix="$built/failed/$name/"
     -max_total_time="$(awk -v m="$minutes" 'BEGIN { printf "%d", m * 60 }')")
   { time { "$built/bin/fuzz_$name" "${options[@]}" "$built/found/$name" "$corpora/$name" 2>&1 | tee "$log" |
-    grep --line-buffered -E 'INITED|pulse|ERROR|CHECK' >&3 || true; }; } 3>&1 2>"$started.seconds"
+    grep -a --line-buffered -E 'INITED|pulse|ERROR|CHECK' >&3 || true; }; } 3>&1 2>"$started.seconds"
   seconds=$(<"$started.seconds")
   local status=0
   report "$name" "$log" "$started" "$seconds" || status=1
