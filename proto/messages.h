@@ -211,7 +211,7 @@ struct ReplyMessage {
   std::string refusal;  ///< empty: carried out
   uint32_t pieces = 0;
   std::string refusal_name{};  ///< for programs, as of RefusalMessage
-  ServerLatency latency{};  ///< zeroes: no tick answered it
+  ServerLatency latency{};     ///< zeroes: no tick answered it
 };
 
 /// How long a stage of the tick took.

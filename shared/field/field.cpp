@@ -213,7 +213,8 @@ std::vector<ChunkCoord> Field::edited_chunks() const {
   chunks.reserve(chunks.size() + edited_.size());
   for (const auto& [coord, chunk] : edited_) chunks.push_back(coord);
   std::ranges::sort(chunks);
-  chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());  // clang 14 lacks std::ranges::unique
+  chunks.erase(std::unique(chunks.begin(), chunks.end()),
+               chunks.end());  // clang 14 lacks std::ranges::unique
   return chunks;
 }
 

@@ -324,7 +324,8 @@ TEST(TickClock, work_is_the_last_seconds) {
 
 TEST(PublishedPhysics, has_a_budget_of_bytes_and_goes_on_when_it_is_much) {
   TickSource source{flat_terrain};
-  Publisher publisher{PublisherConfig{.terrain = flat_terrain}};
+  Workers workers(1);
+  Publisher publisher({.terrain = flat_terrain}, workers);
   publisher.join(1, {}, 64.0F, true);
   publisher.watch(1, true);
   auto physics = std::make_shared<PhysicsMessage>();

@@ -86,11 +86,12 @@ CrowdsBytes serve_crowd(size_t threads) {
   Publisher publisher({.terrain = flat_terrain}, workers);
   Random random(11);
   const auto somewhere = [&] { return glm::vec3(80.0F * random.unit() - 40.0F, 2.0F, 0.0F); };
-  const auto backlog_bytes = [&](uint64_t session) {
+  const auto backlog_bytes = [&](uint64_t session) -> size_t {
     const uint64_t turn = (session + source.tick()) % 24;
-    if (session % 9 == 0) return turn < 8 ? size_t{1} : limits::outbox_soft_bytes + 1;
-    return session % 10 == 0 && turn > 2 ? limits::outbox_resync_bytes + 1 : size_t{0};
+    if (session % 9 == 0) return turn < 8 ? 1 : limits::outbox_soft_bytes + 1;
+    return session % 10 == 0 && turn > 2 ? limits::outbox_resync_bytes + 1 : 0;
   };
+  const auto backlog = [&](uint64_t session) { return Backlog{backlog_bytes(session)}; };
   for (uint64_t tick = 1; tick <= 90; ++tick) {
     if (tick == 1 || tick == 40)
       for (uint64_t session = tick; session < tick + crowd / 2; ++session)
@@ -103,7 +104,7 @@ CrowdsBytes serve_crowd(size_t threads) {
     if (tick % 6 == 4) operations.push_back(source.stamp(source.pieces().begin()->first));
     for (const auto& [piece, volume] : source.pieces())
       if ((piece + tick) % 3 == 0) source.move(piece, {0.0F, 0.01F * random.unit(), 0.0F});
-    for (const Outgoing& outgoing : publisher.publish(*source.step(operations), backlog_bytes)) {
+    for (const Outgoing& outgoing : publisher.publish(*source.step(operations), backlog)) {
       std::vector<uint8_t>& bytes = got.by_session[outgoing.session];
       bytes.insert(bytes.end(), outgoing.bytes->begin(), outgoing.bytes->end());
     }

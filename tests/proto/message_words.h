@@ -216,8 +216,8 @@ inline Lines describe(const ResetMessage&) {
   return {"reset"};
 }
 inline Lines describe(const ReplyMessage& m) {
-  Lines lines{fmt::format("reply: request {}, refusal '{}', name '{}', {} pieces", m.request, m.refusal, m.refusal_name,
-                          m.pieces)};
+  Lines lines{fmt::format("reply: request {}, refusal '{}', name '{}', {} pieces", m.request, m.refusal,
+                          m.refusal_name, m.pieces)};
   if (m.latency != ServerLatency{})
     lines.push_back(fmt::format("waiting {} µs, tick {} µs, sending {} µs", m.latency.waiting_us,
                                 m.latency.tick_us, m.latency.sending_us));

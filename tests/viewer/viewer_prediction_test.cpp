@@ -26,7 +26,7 @@ class PredictingViewer : public testing::Test {
     ServerEndpoint endpoint;
     endpoint.host = "127.0.0.1";
     endpoint.port = server_->port();
-    session_ = std::make_unique<Session>(endpoint, 24.0F, "");
+    session_ = std::make_unique<Session>(endpoint, 24.0F, "", CacheConfig{});
     camera_.eye_m = {0.0F, 3.0F, 0.0F};
     until("the world", true, [&] { return session_->joined(steady_now_s()); });
   }

@@ -90,7 +90,7 @@ void FuzzServer::tick(bool more) {
   const std::vector<Command> commands = commands_.drain();
   const auto delta = world_.step(commands);
   work_us_ += delta->work.estimate_us;
-  host_.publish(*delta, more);
+  host_.publish(*delta, instant(0.0), more);
   pump();
 }
 

@@ -1,6 +1,7 @@
 // The solver's rows against Bullet's own, in scalar instructions.
-#include "server/bodies/piece_solver.h"
+#include "server/bodies/solver_rows.h"
 
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <gtest/gtest.h>
 
 #include "shared/base/random.h"
