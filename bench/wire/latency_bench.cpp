@@ -25,7 +25,7 @@ class Watcher {
   explicit Watcher(uint16_t port) {
     ServerEndpoint server;
     server.port = port;
-    session_.emplace(server, 48.0F, "");
+    session_.emplace(server, 48.0F, "", CacheConfig{});
   }
 
   /// Frames for so long. `strikes`: one every half a second; counts frames until it is in the field that is
