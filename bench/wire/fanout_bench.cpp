@@ -7,7 +7,7 @@
 #include "bench/wire/drains.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
-#include "server/net/descriptors.h"
+#include "server/doors/descriptors.h"
 #include "server/net/net_server.h"
 #include "server/world/world.h"
 #include "shared/base/memory_count.h"

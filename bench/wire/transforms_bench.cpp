@@ -12,7 +12,7 @@
 #include "bench/wire/pose_scenes.h"
 #include "proto/known_motions.h"
 #include "proto/transforms.h"
-#include "server/net/motions.h"
+#include "server/publish/motions.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 
 #include "proto/messages.h"
 #include "server/app/limits.h"
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "proto/codec.h"
+#include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
 

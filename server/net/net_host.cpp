@@ -8,7 +8,7 @@
 
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
-#include "server/net/descriptors.h"
+#include "server/doors/descriptors.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"

@@ -16,15 +16,15 @@
 #include <set>
 #include <spdlog/common.h>
 
-#include "server/net/bans.h"
+#include "server/doors/bans.h"
+#include "server/doors/entrance.h"
+#include "server/doors/log_limit.h"
+#include "server/doors/parties.h"
+#include "server/doors/tickets.h"
 #include "server/net/client_session.h"
-#include "server/net/entrance.h"
 #include "server/net/flush_rate.h"
-#include "server/net/log_limit.h"
 #include "server/net/net_server.h"
-#include "server/net/parties.h"
 #include "server/net/request_times.h"
-#include "server/net/tickets.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {

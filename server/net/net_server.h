@@ -11,12 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "server/net/access.h"
+#include "server/doors/access.h"
+#include "server/doors/door.h"
+#include "server/doors/limits.h"
 #include "server/net/command_queue.h"
-#include "server/net/door.h"
 #include "server/net/limits.h"
-#include "server/net/publisher.h"
 #include "server/net/request_times.h"
+#include "server/publish/limits.h"
+#include "server/publish/publisher.h"
 #include "server/world/service_limits.h"
 #include "shared/base/result.h"
 #include "shared/base/timing.h"

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "server/net/limits.h"
+#include "server/publish/limits.h"
 
 namespace scree {
 

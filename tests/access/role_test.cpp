@@ -5,7 +5,8 @@
 #include <thread>
 
 #include "client/connection/connection.h"
-#include "server/net/bans.h"
+#include "server/doors/bans.h"
+#include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "tests/support/access_fixture.h"
 #include "tests/support/holds.h"

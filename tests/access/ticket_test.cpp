@@ -3,7 +3,6 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "server/net/limits.h"
 #include "tests/support/access_fixture.h"
 #include "tests/support/holds.h"
 

@@ -9,7 +9,7 @@
 #include "auth/base64url.h"
 #include "auth/duration_text.h"
 #include "proto/limits.h"
-#include "server/net/access.h"
+#include "server/doors/access.h"
 #include "tests/support/certificates.h"
 #include "tests/support/holds.h"
 

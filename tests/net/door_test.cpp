@@ -1,9 +1,9 @@
-#include "server/net/door.h"
+#include "server/doors/door.h"
 
 #include <gtest/gtest.h>
 
-#include "server/net/limits.h"
-#include "server/net/log_limit.h"
+#include "server/doors/limits.h"
+#include "server/doors/log_limit.h"
 
 namespace scree {
 namespace {

@@ -1,12 +1,12 @@
 // Motions on both sides: clients that come, go, skip frames and start anew have the server's, bit for bit,
 // and poses near the published ones.
-#include "server/net/motions.h"
+#include "server/publish/motions.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "shared/base/random.h"
 #include "tests/support/publisher_fixture.h"
 

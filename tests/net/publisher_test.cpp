@@ -1,9 +1,9 @@
 // The publisher's selection, without sockets: what each client gets suffices to have the server's field.
-#include "server/net/publisher.h"
+#include "server/publish/publisher.h"
 
 #include <gtest/gtest.h>
 
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "server/world/world.h"
 #include "tests/support/publisher_fixture.h"
 

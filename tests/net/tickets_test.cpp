@@ -1,10 +1,10 @@
 // Tickets: for one use, for one session, for a minute, and for so many sessions.
-#include "server/net/tickets.h"
+#include "server/doors/tickets.h"
 
 #include <gtest/gtest.h>
 #include <set>
 
-#include "server/net/limits.h"
+#include "server/doors/limits.h"
 
 namespace scree {
 namespace {

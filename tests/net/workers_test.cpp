@@ -1,6 +1,6 @@
 // Work shared among threads: every part is done once, and what a client gets does not depend on how many
 // threads there are, nor on what becomes of the sessions beside it.
-#include "server/net/workers.h"
+#include "server/publish/workers.h"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -1,5 +1,5 @@
 // Who is shown whose cursor, and who is told what the bodies do: over loopback, tick by tick.
-#include "server/net/watching.h"
+#include "server/publish/watching.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

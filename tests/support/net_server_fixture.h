@@ -9,7 +9,6 @@
 #include <string>
 #include <thread>
 
-#include "server/net/limits.h"
 #include "server/net/net_server.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/raw_client.h"

@@ -9,8 +9,8 @@
 #include "proto/codec.h"
 #include "proto/known_motions.h"
 #include "proto/transforms.h"
-#include "server/net/limits.h"
-#include "server/net/publisher.h"
+#include "server/publish/limits.h"
+#include "server/publish/publisher.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/tick_source.h"
 

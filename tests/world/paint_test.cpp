@@ -10,7 +10,7 @@
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
 #include "server/field/vdb_field.h"
-#include "server/net/publisher.h"
+#include "server/publish/publisher.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/limits.h"

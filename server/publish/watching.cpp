@@ -1,4 +1,4 @@
-#include "server/net/watching.h"
+#include "server/publish/watching.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,10 +1,10 @@
-#include "server/net/ground_stream.h"
+#include "server/publish/ground_stream.h"
 
 #include <algorithm>
 #include <vector>
 
 #include "proto/codec.h"
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {

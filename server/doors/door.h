@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "server/net/rate_limit.h"
+#include "server/doors/rate_limit.h"
 #include "server/work/refusal.h"
 
 namespace scree {

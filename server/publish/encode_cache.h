@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/net/client_view.h"
+#include "server/publish/client_view.h"
 
 namespace scree {
 

@@ -16,8 +16,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "server/net/limits.h"
-#include "server/net/motions.h"
+#include "server/publish/limits.h"
+#include "server/publish/motions.h"
 #include "server/world/published_state.h"
 
 namespace scree {

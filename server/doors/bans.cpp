@@ -1,11 +1,11 @@
-#include "server/net/bans.h"
+#include "server/doors/bans.h"
 
 #include <asio/ip/address.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "server/net/limits.h"
+#include "server/doors/limits.h"
 
 namespace scree {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "server/net/limits.h"
-#include "server/net/rate_limit.h"
+#include "server/doors/limits.h"
+#include "server/doors/rate_limit.h"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-#include "server/net/motions.h"
+#include "server/publish/motions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "server/net/client_view.h"
+#include "server/publish/client_view.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "shared/base/check.h"
 #include "shared/field/chunk_distance.h"
 

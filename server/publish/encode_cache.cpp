@@ -1,11 +1,11 @@
-#include "server/net/encode_cache.h"
+#include "server/publish/encode_cache.h"
 
 #include <numeric>
 
 #include "proto/codec.h"
 #include "proto/motion_codec.h"
 #include "proto/transforms.h"
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-#include "server/net/entrance.h"
+#include "server/doors/entrance.h"
 
 #include <asio/buffer.hpp>
 #include <asio/write.hpp>
@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 
 #include "proto/codec.h"
-#include "server/net/limits.h"
+#include "server/doors/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 

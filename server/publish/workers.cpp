@@ -1,8 +1,8 @@
-#include "server/net/workers.h"
+#include "server/publish/workers.h"
 
 #include <algorithm>
 
-#include "server/net/limits.h"
+#include "server/publish/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -1,11 +1,11 @@
-#include "server/net/tickets.h"
+#include "server/doors/tickets.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "crypto/signing_key.h"
 #include "proto/limits.h"
-#include "server/net/limits.h"
+#include "server/doors/limits.h"
 #include "shared/base/token.h"
 
 namespace scree {

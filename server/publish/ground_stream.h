@@ -10,7 +10,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "server/net/encode_cache.h"
+#include "server/publish/encode_cache.h"
 
 namespace scree {
 

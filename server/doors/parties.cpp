@@ -1,4 +1,4 @@
-#include "server/net/parties.h"
+#include "server/doors/parties.h"
 
 #include "shared/base/check.h"
 

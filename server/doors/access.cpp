@@ -1,4 +1,4 @@
-#include "server/net/access.h"
+#include "server/doors/access.h"
 
 #include <algorithm>
 #include <asio/ip/address.hpp>

@@ -1,4 +1,4 @@
-#include "server/net/chunk_offer.h"
+#include "server/publish/chunk_offer.h"
 
 #include <algorithm>
 

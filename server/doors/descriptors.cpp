@@ -1,4 +1,4 @@
-#include "server/net/descriptors.h"
+#include "server/doors/descriptors.h"
 
 #include <algorithm>
 #include <limits>

@@ -8,7 +8,7 @@
 #include <asio/steady_timer.hpp>
 #include <string>
 
-#include "server/net/door.h"
+#include "server/doors/door.h"
 #include "shared/base/result.h"
 
 namespace scree {

@@ -1,11 +1,11 @@
-#include "server/net/door.h"
+#include "server/doors/door.h"
 
 #include <algorithm>
 #include <asio/ip/address.hpp>
 #include <cmath>
 #include <functional>
 
-#include "server/net/limits.h"
+#include "server/doors/limits.h"
 
 namespace scree {
 

@@ -22,13 +22,13 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "server/net/chunk_offer.h"
-#include "server/net/client_view.h"
-#include "server/net/encode_cache.h"
-#include "server/net/ground_stream.h"
-#include "server/net/limits.h"
-#include "server/net/tick_clock.h"
-#include "server/net/workers.h"
+#include "server/publish/chunk_offer.h"
+#include "server/publish/client_view.h"
+#include "server/publish/encode_cache.h"
+#include "server/publish/ground_stream.h"
+#include "server/publish/limits.h"
+#include "server/publish/tick_clock.h"
+#include "server/publish/workers.h"
 #include "shared/operation/per_operation.h"
 
 namespace scree {

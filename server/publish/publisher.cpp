@@ -1,4 +1,4 @@
-#include "server/net/publisher.h"
+#include "server/publish/publisher.h"
 
 #include <algorithm>
 #include <iterator>
@@ -7,8 +7,8 @@
 
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
-#include "server/net/limits.h"
-#include "server/net/watching.h"
+#include "server/publish/limits.h"
+#include "server/publish/watching.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"

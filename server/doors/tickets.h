@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "server/net/access.h"
-#include "server/net/rate_limit.h"
+#include "server/doors/access.h"
+#include "server/doors/rate_limit.h"
 
 namespace scree {
 

@@ -1,0 +1,66 @@
+// Bounds of who comes in, and how often. Each says its unit, its reason, and its effect at the
+// limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Bytes of the kernel's send buffer for one client, most of them on their way; newer state cannot replace
+/// those in it.
+inline constexpr int socket_send_buffer_bytes = 256 * 1024;
+
+/// Bytes in that buffer that are not on their way yet. Above: the socket takes no more, and what waits is
+/// held back where newer state can replace it.
+inline constexpr int socket_unsent_bytes = 2 * 1024;
+
+/// Seconds within which a client must read some of the bytes that wait for it, and its machine acknowledge
+/// those that were sent. Above: it is cut off.
+inline constexpr double stall_seconds_max = 20.0;
+
+/// Connections that one address (Door) may hold; above: closed at once.
+inline constexpr size_t connections_per_address_max = 64;
+
+/// Connections that one address may open, a second and at once; above: closed at once.
+inline constexpr double connects_per_second_max = 10.0;
+inline constexpr double connects_burst_max = 64.0;
+
+/// Addresses that are remembered; above: those without a connection are forgotten, the longest quiet first.
+inline constexpr size_t door_addresses_max = 65536;
+
+/// Seconds for which an address without connections is remembered, when others need its place, and after
+/// which its wrong guesses at tokens are forgiven.
+inline constexpr double door_memory_s = 600.0;
+
+/// Seconds that an address waits after its first wrong token, and at most.
+inline constexpr double guess_wait_min_s = 1.0;
+inline constexpr double guess_wait_max_s = 60.0;
+
+/// Wrong tokens of one address that are known again; above: the oldest is forgotten, and counts as a guess.
+inline constexpr size_t wrong_tokens_known = 4;
+
+/// Milliseconds for which no connection is accepted after accepting has failed.
+inline constexpr int accept_pause_ms = 100;
+
+/// Seconds after the end of its connection for which a session can go on by its ticket.
+inline constexpr double ticket_seconds_max = 60.0;
+
+/// Sessions without a connection that can go on; above: those that ended first are forgotten.
+inline constexpr size_t departed_max = 4096;
+
+/// Seconds for which a full server keeps the place of a lost connection, and the part of all places that it
+/// keeps so; above: somebody else may have it. Holders of tokens may at once.
+inline constexpr double place_kept_seconds_max = 15.0;
+inline constexpr double places_kept_part = 0.25;
+
+/// Lines of one kind in the log, a second and at once; the rest is counted.
+inline constexpr double log_lines_per_second = 2.0;
+inline constexpr double log_lines_burst = 8.0;
+
+/// Bytes from one client, per second and at once; refused and closed.
+inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
+inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;
+/// Addresses that are banned; above: an administrator is told so.
+inline constexpr size_t bans_max = 2048;
+
+}  // namespace scree::limits

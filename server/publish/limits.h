@@ -1,0 +1,82 @@
+// Bounds of what clients are sent. Each says its unit, its reason, and its effect at the
+// limit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scree::limits {
+
+/// Chunks and pieces that a client follows are dropped at this multiple of its radius of interest, so that a
+/// viewer that moves to and fro across the edge does not get them again and again.
+inline constexpr float interest_keep_factor = 1.25F;
+
+/// Bytes of chunks sent to one client in a tick: about 1 MB/s at 60 Hz. Above: the rest waits for the next
+/// ticks, nearest first.
+inline constexpr int64_t chunk_bytes_per_tick = 16 * 1024;
+
+/// Bytes of pieces' volumes sent to one client in a tick. Above: the rest waits, nearest first.
+inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
+
+/// Bricks sent as patches to one client in one frame: 512 KiB of codes, so that a frame stays within
+/// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
+inline constexpr size_t patch_bricks_max = 1024;
+
+/// Bytes that a patched brick takes, about; by these a slow link's room for them is reckoned.
+inline constexpr size_t patch_brick_bytes = 128;
+
+/// Bricks sent as patches to a client without kernels, in a tick on average; what is saved up, up to
+/// patch_bricks_max, may go at once. 32 KiB of codes compress to less than chunk_bytes_per_tick. Above: whole
+/// chunks are streamed instead, within their budget, so that a chunk that changes in every tick is sent as
+/// often as there is room.
+inline constexpr size_t patch_bricks_per_tick = 64;
+
+/// Bytes of ground sent to one client in a tick. Above: the rest waits.
+inline constexpr int64_t ground_bytes_per_tick = 16 * 1024;
+
+/// Bytes of the bodies' state (PhysicsMessage) sent to one client in a tick on average: 240 KB/s at 60 Hz.
+/// Above: it gets the next message later, with the state as it is then.
+inline constexpr int64_t physics_bytes_per_tick = 4 * 1024;
+
+/// Ground that the network thread generates in a tick for all clients together: a chunk with a surface counts
+/// 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last one may go
+/// beyond. Above: the rest waits, each client in turn.
+inline constexpr int ground_work_per_tick = 8;
+
+/// Bytes of encoded ground kept to be sent to several clients. Above: all of it is forgotten, and generated
+/// again on demand.
+inline constexpr size_t ground_kept_bytes_max = 32 * 1024 * 1024;
+
+/// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
+inline constexpr uint32_t rescan_ticks_min = 6;
+
+/// Seconds after which a client gets a frame though nothing happened: it sees that the server lives, and what
+/// time it is there.
+inline constexpr double heartbeat_s = 0.5;
+
+/// Bytes waiting for one client above which it gets no transforms and no streaming: what it reads must not be
+/// old. By a slow link they are fewer: what it takes in outbox_wait_s, but enough for a few frames.
+inline constexpr size_t outbox_soft_bytes = 16 * 1024;
+inline constexpr size_t outbox_soft_min_bytes = 1024;
+inline constexpr double outbox_wait_s = 0.1;
+
+/// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
+inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
+
+/// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
+inline constexpr size_t encoded_chunks_max = 1024;
+
+/// Seconds for which no chunks are sent to a client that has announced an offer; then it is as one without.
+inline constexpr double offer_wait_s = 1.0;
+
+/// Seconds after which an offer is forgotten, if not all that was wanted has come before.
+inline constexpr double offer_seconds_max = 60.0;
+
+/// Threads that encode and send, the network thread included; more would wait for each other.
+inline constexpr size_t workers_max = 64;
+
+/// Sessions that a thread serves before it takes the next: about 0.2 ms of work, several times what it costs
+/// to wake a thread.
+inline constexpr size_t sessions_per_part = 32;
+
+}  // namespace scree::limits
