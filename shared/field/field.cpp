@@ -143,9 +143,9 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
   EditedChunk& chunk = edited_[chunk_of(coord)];
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
-  CHECK_DEBUG(((chunk.bricks & bit) != 0) == is_edited(coord));
   const std::optional<Material> paint = painted(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
+  CHECK_DEBUG(edited == is_edited(coord));
   uint64_t change = brick_hash(coord, brick, paint);
   if (edited) change -= brick_hash(coord, *find_edited(coord), paint);
   store_edited(coord, brick);
