@@ -47,14 +47,19 @@ void FuzzClient::apply(const ServerMessage& message) {
   if (const auto* welcome = std::get_if<WelcomeMessage>(&message)) {
     CHECK(!mirror);
     mirror.emplace(*welcome);
+    ticket = welcome->ticket;
+    world = welcome->world;
     return;
   }
   if (std::holds_alternative<RefusalMessage>(message)) refused = true;
   if (!mirror || refused) return;
   const auto applied = mirror->apply(message);
+  if (!applied && offers) return link->end(true);  // a liar harms itself
   if (!applied) std::fprintf(stderr, "a mirror cannot go on: %s\n", applied.error().message.c_str());
   CHECK(applied.has_value());
-  CHECK_EQ(mirror->mismatches(), 0);
+  CHECK(offers || mirror->mismatches() == 0);
+  if (!offers) return;
+  if (const auto repair = mirror->take_repair_request()) send(*repair);
 }
 
 FuzzServer::FuzzServer(const TerrainSource& terrain)
@@ -99,7 +104,7 @@ void FuzzServer::check_mirrors() {
   pump();
   for (int i = 0; i < settling_ticks; ++i) tick();
   for (const auto& client : clients_) {
-    if (!client->joined() || client->refused || client->link->closed()) continue;
+    if (!client->joined() || client->refused || client->offers || client->link->closed()) continue;
     Mirror& mirror = *client->mirror;
     CHECK(!mirror.take_repair_request());
     for (const ChunkCoord chunk : mirror.held_chunks())

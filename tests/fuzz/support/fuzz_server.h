@@ -28,6 +28,9 @@ class FuzzClient {
 
   std::shared_ptr<MemoryTransport> link;
   std::optional<Mirror> mirror;
+  std::string ticket;   ///< of the welcome
+  uint64_t world = 0;   ///< likewise
+  bool offers = false;  ///< it says that it has chunks, whether it has or not: then its mirror may lack some
   bool reads = true;
   bool refused = false;
   std::vector<std::vector<uint8_t>> received;  ///< bodies, if `keeps`

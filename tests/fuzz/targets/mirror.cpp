@@ -143,8 +143,18 @@ ChunkMessage any_chunk(FuzzInput& input) {
   return chunk;
 }
 
+/// Of chunks that the mirror offered, as if.
+KeptMessage any_kept(FuzzInput& input) {
+  KeptMessage kept;
+  for (uint32_t count = input.below(4); count > 0; --count) {
+    kept.chunks.push_back(chunk_of(any_brick_coord(input)));
+    kept.hashes.push_back(input.byte());
+  }
+  return kept;
+}
+
 ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
-  switch (input.below(8)) {
+  switch (input.below(9)) {
     case 0:
       return any_chunk(input);
     case 1:
@@ -155,6 +165,8 @@ ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
       piece.pose = any_pose(input);
       return piece;
     }
+    case 8:
+      return any_kept(input);
     case 3:
       return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, ids, tick));
     default:

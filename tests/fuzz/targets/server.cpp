@@ -3,6 +3,7 @@
 //
 // Holds: what the server sends can be decoded and applied, at every client; the mirrors' checks agree, and in
 // the end the mirrors are the world as far as they hold it; the ledger balances.
+#include <algorithm>
 #include <array>
 
 #include "proto/codec.h"
@@ -43,7 +44,13 @@ void send_body(FuzzClient& client, std::span<const uint8_t> body) {
   client.link->send(body);
 }
 
-HelloMessage any_hello(FuzzInput& input) {
+/// Whose ticket or world is meant; null: nobody's.
+const FuzzClient* any_client(FuzzInput& input, FuzzServer& server) {
+  const auto& clients = server.clients();
+  return clients.empty() ? nullptr : clients[input.byte() % clients.size()].get();
+}
+
+HelloMessage any_hello(FuzzInput& input, FuzzServer& server) {
   HelloMessage hello;
   hello.client = "fuzz";
   hello.lacks_kernels = input.flag();
@@ -52,7 +59,25 @@ HelloMessage any_hello(FuzzInput& input) {
   const uint32_t token = input.below(8);
   if (token == 0) hello.token = input.text(limits::access_token_bytes_max);
   if (token == 1) hello.token = FuzzServer::admin_token;
+  const uint32_t before = input.below(8);
+  if (const FuzzClient* other = before < 4 ? any_client(input, server) : nullptr) {
+    if (before % 2 == 0) hello.ticket = other->ticket;
+    if (before < 2) hello.world = other->world;
+  }
   return hello;
+}
+
+/// Of chunks in order, which the client need not have.
+OfferMessage any_offer(FuzzInput& input, FuzzServer& server) {
+  const FuzzClient* const client = any_client(input, server);
+  OfferMessage offer{client == nullptr ? 1 : client->world, any_chunks(input), {}};
+  std::ranges::sort(offer.chunks);
+  offer.chunks.erase(std::unique(offer.chunks.begin(), offer.chunks.end()), offer.chunks.end());
+  for (const ChunkCoord chunk : offer.chunks) {
+    const bool has = client != nullptr && client->mirror && input.flag();
+    offer.hashes.push_back(has ? short_hash(client->mirror->field().chunk_hash(chunk)) : input.byte());
+  }
+  return offer;
 }
 
 AdminMessage any_admin(FuzzInput& input) {
@@ -83,10 +108,10 @@ AdminMessage any_admin(FuzzInput& input) {
   return admin;
 }
 
-ClientMessage any_message(FuzzInput& input) {
-  switch (input.below(10)) {
+ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
+  switch (input.below(11)) {
     case 0:
-      return any_hello(input);
+      return any_hello(input, server);
     case 1:
       return InterestMessage{input.place(80.0F), input.coordinate(100.0F)};
     case 2: {
@@ -104,6 +129,8 @@ ClientMessage any_message(FuzzInput& input) {
       return GroundRequest{any_chunks(input)};
     case 7:
       return any_admin(input);
+    case 8:
+      return any_offer(input, server);
     default: {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();
@@ -118,7 +145,7 @@ void act(FuzzInput& input, FuzzServer& server) {
   const uint32_t kind = input.below(16);
   if (kind == 0 || server.clients().empty()) {
     FuzzClient* client = server.connect(input.below(4));
-    if (client != nullptr && input.below(4) != 0) client->send(any_hello(input));
+    if (client != nullptr && input.below(4) != 0) client->send(any_hello(input, server));
     return;
   }
   FuzzClient& client = *server.clients()[input.byte() % server.clients().size()];
@@ -139,8 +166,11 @@ void act(FuzzInput& input, FuzzServer& server) {
     case 8:
       return server.tick(input.below(4) == 3);
     default:
-      return client.send(any_message(input));
+      break;
   }
+  const ClientMessage message = any_message(input, server);
+  client.offers = client.offers || std::holds_alternative<OfferMessage>(message);
+  client.send(message);
 }
 
 }  // namespace
