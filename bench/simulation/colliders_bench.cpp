@@ -8,7 +8,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/terrain_collider.h"
 #include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"

@@ -12,8 +12,8 @@
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/principal_axes.h"
-#include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
 namespace scree {

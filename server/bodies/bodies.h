@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "server/bodies/terrain_collider_kind.h"
+#include "server/colliders/terrain_collider_kind.h"
 #include "shared/base/ids.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"

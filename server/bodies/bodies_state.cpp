@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "server/bodies/limits.h"
-#include "server/bodies/sound_values.h"
 #include "server/bodies/terrain_manifold.h"
 #include "server/bodies/to_bullet.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
 namespace scree {

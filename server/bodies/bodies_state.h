@@ -18,8 +18,8 @@
 #include "server/bodies/bodies.h"
 #include "server/bodies/hull_algorithm.h"
 #include "server/bodies/piece_solver.h"
-#include "server/bodies/terrain_collider.h"
 #include "server/bodies/to_bullet.h"
+#include "server/colliders/terrain_collider.h"
 
 namespace scree {
 

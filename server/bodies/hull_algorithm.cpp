@@ -13,9 +13,9 @@
 
 #include "server/bodies/body_shape.h"
 #include "server/bodies/limits.h"
-#include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
 #include "server/bodies/told_overlap.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "server/bodies/bodies_state.h"
-#include "server/bodies/sound_values.h"
 #include "server/bodies/to_bullet.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
 namespace scree {

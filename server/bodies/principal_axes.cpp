@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "server/bodies/sound_values.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
 namespace scree {

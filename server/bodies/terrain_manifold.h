@@ -6,7 +6,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <vector>
 
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/terrain_collider.h"
 
 namespace scree {
 

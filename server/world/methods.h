@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "server/bodies/terrain_collider_kind.h"
+#include "server/colliders/terrain_collider_kind.h"
 #include "server/fracture/simplify.h"
 #include "shared/fracture/voronoi.h"
 

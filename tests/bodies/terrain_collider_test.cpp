@@ -1,14 +1,13 @@
 // The three ways to find the terrain: each carries a body on even ground, notices that the ground was taken
 // away, and is the same every time; they can be switched while bodies lie on the ground.
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/terrain_collider.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "server/bodies/bodies.h"
-#include "server/bodies/limits.h"
-#include "server/bodies/nearest_triangle.h"
+#include "server/colliders/nearest_triangle.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
 #include "tests/support/bodies_support.h"

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "server/bodies/body_points.h"
-#include "server/bodies/nearby_codes.h"
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/body_points.h"
+#include "server/colliders/nearby_codes.h"
+#include "server/colliders/terrain_collider.h"
 #include "shared/base/check.h"
 
 namespace scree {

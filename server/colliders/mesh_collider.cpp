@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "server/bodies/body_points.h"
-#include "server/bodies/limits.h"
-#include "server/bodies/nearby_codes.h"
-#include "server/bodies/nearest_triangle.h"
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/body_points.h"
+#include "server/colliders/limits.h"
+#include "server/colliders/nearby_codes.h"
+#include "server/colliders/nearest_triangle.h"
+#include "server/colliders/terrain_collider.h"
 #include "shared/surface/surface_nets.h"
 
 namespace scree {

@@ -1,10 +1,10 @@
-#include "server/bodies/terrain_mesh.h"
+#include "server/colliders/terrain_mesh.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "server/bodies/limits.h"
-#include "server/bodies/nearby_codes.h"
+#include "server/colliders/limits.h"
+#include "server/colliders/nearby_codes.h"
 #include "shared/base/check.h"
 #include "shared/surface/surface_nets.h"
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "server/bodies/terrain_mesh.h"
+#include "server/colliders/terrain_mesh.h"
 
 namespace scree {
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "server/bodies/body_points.h"
-#include "server/bodies/limits.h"
-#include "server/bodies/nearby_codes.h"
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/body_points.h"
+#include "server/colliders/limits.h"
+#include "server/colliders/nearby_codes.h"
+#include "server/colliders/terrain_collider.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "server/bodies/sound_values.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 #include "shared/field/piece.h"
 

@@ -1,4 +1,4 @@
-#include "server/bodies/terrain_collider.h"
+#include "server/colliders/terrain_collider.h"
 
 #include "shared/base/check.h"
 

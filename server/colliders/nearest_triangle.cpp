@@ -1,11 +1,11 @@
-#include "server/bodies/nearest_triangle.h"
+#include "server/colliders/nearest_triangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "server/bodies/sound_values.h"
+#include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 #include "shared/field/window_sample.h"
 

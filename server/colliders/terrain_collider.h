@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "server/bodies/terrain_collider_kind.h"
+#include "server/colliders/terrain_collider_kind.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 
@@ -53,9 +53,9 @@ std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind,
 /// voxels, where codes saturate.
 std::unique_ptr<TerrainCollider> make_field_collider(Field& field);
 
-/// Tests the points against the triangles that are drawn (server/bodies/terrain_mesh.h); a block of them is
-/// made again when its terrain changes. The paper's grid does this ("Raymarching": the physics collides with
-/// the polygons). A point collides with the nearest triangle, unless it lies more than
+/// Tests the points against the triangles that are drawn (server/colliders/terrain_mesh.h); a block of them
+/// is made again when its terrain changes. The paper's grid does this ("Raymarching": the physics collides
+/// with the polygons). A point collides with the nearest triangle, unless it lies more than
 /// limits::mesh_depth_voxels behind it: then it falls.
 std::unique_ptr<TerrainCollider> make_mesh_collider(Field& field);
 

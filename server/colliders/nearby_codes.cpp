@@ -1,8 +1,8 @@
-#include "server/bodies/nearby_codes.h"
+#include "server/colliders/nearby_codes.h"
 
 #include <algorithm>
 
-#include "server/bodies/limits.h"
+#include "server/colliders/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {
