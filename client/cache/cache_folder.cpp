@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <unistd.h>
 
 #include "client/cache/limits.h"
@@ -82,6 +83,16 @@ KeptWorld world_of(std::span<const uint8_t> bytes) {
   return kept;
 }
 
+/// Whether a file of that name is one of ours: an address, a world, the extension.
+bool is_ours(std::string_view name) {
+  constexpr size_t world_digits = 16;
+  if (!name.ends_with(extension)) return false;
+  name.remove_suffix(std::string_view(extension).size());
+  if (name.size() <= world_digits || name[name.size() - world_digits - 1] != '_') return false;
+  return std::ranges::all_of(name.substr(name.size() - world_digits),
+                             [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
 struct CacheFile {
   fs::file_time_type written;
   uintmax_t bytes = 0;
@@ -136,6 +147,21 @@ std::optional<KeptWorld> CacheFolder::read(const std::string& address, std::opti
   return kept;
 }
 
+Result<void> CacheFolder::try_writing() const {
+  if (path_.empty()) return {};
+  std::error_code error;
+  if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
+  if (error) return fail(path_ + ": " + error.message());
+  const std::string probe = path_ + "/" + std::to_string(getpid()) + unfinished;
+  std::ofstream out(probe, std::ios::binary | std::ios::trunc);
+  out << "probe";
+  out.close();
+  const bool written = static_cast<bool>(out);
+  fs::remove(probe, error);
+  if (!written) return fail(path_ + ": cannot be written to");
+  return {};
+}
+
 void CacheFolder::write(const std::string& address, const KeptWorld& kept) const {
   if (path_.empty() || kept.chunks.empty()) return;
   std::error_code error;
@@ -164,7 +190,8 @@ void CacheFolder::bound() const {
   for (const CacheFile& file : files_in(path_, "", unfinished))
     if (std::chrono::duration<double>(now - file.written).count() > limits::unfinished_seconds_max)
       fs::remove(file.path, error);
-  const std::vector<CacheFile> files = files_in(path_, "", extension);
+  std::vector<CacheFile> files = files_in(path_, "", extension);
+  std::erase_if(files, [](const CacheFile& file) { return !is_ours(file.path.filename().string()); });
   uintmax_t sum = 0;
   for (const CacheFile& file : files) sum += file.bytes;
   for (const CacheFile& file : files) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "client/cache/chunk_cache.h"
+#include "shared/base/result.h"
 
 namespace scree {
 
@@ -31,6 +32,8 @@ class CacheFolder {
   /// What the address' file of that world has, or, without a world, of the one written last. Stops at the
   /// first thing that is wrong; that the bricks have their hashes is not checked here.
   std::optional<KeptWorld> read(const std::string& address, std::optional<uint64_t> world) const;
+  /// The error says why nothing can be kept there.
+  Result<void> try_writing() const;
   /// Then removes the files written longest ago, as far as all are more than the bound.
   void write(const std::string& address, const KeptWorld& kept) const;
 

@@ -26,4 +26,10 @@ void CacheOptions::complete() {
   config_.bytes_max = (mib_ == 0 ? limits::cache_mib_default : mib_) << 20U;
 }
 
+Result<void> CacheOptions::try_folder() const {
+  const Result<void> usable = CacheFolder(config_.folder, config_.bytes_max).try_writing();
+  if (!usable) return fail("nothing is kept for the next time (--cache): " + usable.error().message);
+  return {};
+}
+
 }  // namespace scree

@@ -20,6 +20,9 @@ class CacheOptions {
 
   /// After the parsing.
   void complete();
+  /// Then: makes the folder. The error says why nothing can be kept in files; what is in memory is, all the
+  /// same.
+  Result<void> try_folder() const;
 
  private:
   CacheConfig& config_;

@@ -4,6 +4,7 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/post.hpp>
+#include <asio/steady_timer.hpp>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -52,6 +53,10 @@ struct Connection::Impl {
   bool paused = false;   ///< by pause_reading
   bool ended = false;    ///< the socket is closed
   std::optional<WelcomeMessage> welcome;
+  asio::steady_timer silence{context};
+  double silent_seconds_max = 0.0;
+  bool sends_frames = false;  ///< the server does, so that its silence says something
+  Clock::time_point heard{};  ///< when bytes came last, or were not asked for
 
   mutable std::mutex mutex;
   std::condition_variable changed;
@@ -66,6 +71,7 @@ struct Connection::Impl {
   void try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
                 const std::vector<ClientMessage>& first, const asio::error_code& before);
   void end(const std::string& why, const std::string& refusal = {});
+  void watch_silence();
   void read();
   void take_messages();
   void enqueue(ServerMessage message, size_t bytes);
@@ -130,6 +136,7 @@ void Connection::Impl::end(const std::string& why, const std::string& refusal) {
   asio::error_code ignored;
   socket.close(ignored);
   if (transport) transport->close();
+  silence.cancel();
   work.reset();
   {
     const std::scoped_lock lock(mutex);
@@ -153,8 +160,23 @@ void Connection::Impl::read() {
       const std::scoped_lock lock(mutex);
       counters.received_bytes += *moved;
     }
+    heard = Clock::now();
     reader.push(std::span<const uint8_t>(buffer).first(*moved));
     take_messages();
+  });
+}
+
+/// Ends the connection when the server has fallen silent.
+void Connection::Impl::watch_silence() {
+  const std::chrono::duration<double> most(silent_seconds_max);
+  silence.expires_after(std::chrono::duration_cast<Clock::duration>(most / 4));
+  silence.async_wait([this, most](const asio::error_code& error) {
+    if (error || ended) return;
+    if (!reading || !sends_frames) heard = Clock::now();
+    if (Clock::now() - heard > most)
+      return end("the connection was lost: the server has been silent for " +
+                 std::to_string(std::lround(most.count())) + " s");
+    watch_silence();
   });
 }
 
@@ -186,6 +208,7 @@ void Connection::Impl::handle(ServerMessage message, size_t bytes) {
     return end("the server refused: " + refusal->reason, refusal->name);
   if (welcome) {
     if (std::holds_alternative<WelcomeMessage>(message)) return end("the server sent a second welcome");
+    sends_frames = sends_frames || std::holds_alternative<FrameMessage>(message);
     enqueue(std::move(message), bytes);
     return;
   }
@@ -273,14 +296,16 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
   first.insert(first.end(), then.begin(), then.end());
   try {
     auto impl = std::make_unique<Impl>();
+    impl->work.emplace(impl->context.get_executor());  // a link may have nothing to do until the time is over
+    impl->silent_seconds_max = server.silent_seconds_max;
     if (Result<void> started = impl->start(server, first); !started) return failed(started.error().message);
     impl->context.run_for(within);
     if (!impl->welcome) {
       impl->end("no answer within " + std::to_string(within.count()) + " ms");
       return failed(impl->reason.message, impl->reason.refusal);
     }
-    if (!impl->ended) impl->work.emplace(impl->context.get_executor());
     impl->context.restart();
+    if (!impl->ended) impl->watch_silence();
     impl->thread = std::thread([context = &impl->context] { context->run(); });
     return std::unique_ptr<Connection>(new Connection(std::move(impl)));
   } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "client/connection/limits.h"
 #include "crypto/tls_context.h"
 #include "proto/messages.h"
 #include "transport/link_config.h"
@@ -17,6 +18,7 @@ struct ServerEndpoint {
   bool tls = false;
   TlsTrust trust{};                  ///< with TLS: whose certificate is taken
   std::optional<LinkConfig> link{};  ///< as if each connection went by such a link
+  double silent_seconds_max = limits::silent_seconds_max;
   std::string token{};  ///< goes with the hello: an access token, or the server's admin token; empty: none
 };
 

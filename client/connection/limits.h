@@ -15,6 +15,10 @@ inline constexpr size_t received_bytes_max = size_t{32} << 20;
 /// Bytes that wait to be sent; a client sends few. Above: the connection is closed.
 inline constexpr size_t unsent_bytes_max = size_t{1} << 20;
 
+/// Seconds without a byte from a server that has sent frames. It sends one twice a second at least, so above
+/// the connection counts as lost: a machine that went away, or a router that forgot it, tells nobody.
+inline constexpr double silent_seconds_max = 10.0;
+
 /// Bytes read from the socket at once.
 inline constexpr size_t read_bytes = size_t{64} << 10;
 

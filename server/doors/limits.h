@@ -25,6 +25,9 @@ inline constexpr size_t connections_per_address_max = 64;
 inline constexpr double connects_per_second_max = 10.0;
 inline constexpr double connects_burst_max = 64.0;
 
+/// Seconds for which a party without sessions keeps its number; longer than any request waits.
+inline constexpr double party_memory_s = 10.0;
+
 /// Addresses that are remembered; above: those without a connection are forgotten, the longest quiet first.
 inline constexpr size_t door_addresses_max = 65536;
 

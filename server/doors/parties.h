@@ -12,15 +12,17 @@ namespace scree {
 
 class Parties {
  public:
-  /// The party of a session with this in common with others.
-  uint64_t join(const std::string& common, uint64_t session);
-  /// One of its sessions has ended. The number stays the party's until the last has.
-  void leave(const std::string& common);
+  /// The party of a session with this in common with others. Seconds of any origin.
+  uint64_t join(const std::string& common, uint64_t session, double now_s);
+  /// One of its sessions has ended. The number stays the party's for limits::party_memory_s after the last
+  /// has, so that nobody becomes another party by coming again while his requests still wait.
+  void leave(const std::string& common, double now_s);
 
  private:
   struct Party {
     uint64_t number = 0;
     size_t sessions = 0;
+    double left_s = 0.0;  ///< when the last session ended
   };
   std::unordered_map<std::string, Party> parties_;
 };

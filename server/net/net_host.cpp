@@ -298,7 +298,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   remember(session);
   outsiders_.erase(session.id());
   if (const Entry& entry = sessions_.at(session.id()); !entry.in_common.empty())
-    parties_.leave(entry.in_common);
+    parties_.leave(entry.in_common, steady_now_s());
   sessions_.erase(session.id());
   update_stats();
 }

@@ -40,7 +40,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels, hello.world == world_);
   entry.grant = *grant;
   entry.in_common = in_common(session, *grant);
-  if (!entry.in_common.empty()) entry.party = parties_.join(entry.in_common, session.id());
+  if (!entry.in_common.empty()) entry.party = parties_.join(entry.in_common, session.id(), steady_now_s());
   entry.name = grant->name;
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : steady_now_s();

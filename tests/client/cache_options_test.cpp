@@ -3,7 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+
+#include "tests/support/test_folder.h"
 
 namespace scree {
 namespace {
@@ -45,6 +49,24 @@ TEST_F(CacheOptionsTest, a_bound_of_nothing_means_no_files) {
   EXPECT_EQ(parsed("", 0).folder, "");
   EXPECT_GT(parsed("", 0).bytes_max, 0U) << "what is in memory is for lost connections";
   EXPECT_THROW(parsed("--cache-mib 99999", 1), CLI::ValidationError);
+}
+
+TEST_F(CacheOptionsTest, a_folder_in_which_nothing_can_be_kept_is_named) {
+  const TestFolder folder;
+  const auto tried = [](const std::string& path) {
+    CacheConfig config;
+    CLI::App app;
+    CacheOptions options(app, config, 1);
+    app.parse("--cache " + path);
+    options.complete();
+    const Result<void> usable = options.try_folder();
+    return usable ? std::string() : usable.error().message;
+  };
+  EXPECT_EQ(tried(folder / "new/folder"), "");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "new/folder"));
+  std::ofstream(folder / "file") << "no folder";
+  for (const char* path : {"file", "file/below"})
+    EXPECT_NE(tried(folder / path).find(folder / path), std::string::npos) << path;
 }
 
 }  // namespace

@@ -190,11 +190,13 @@ TEST_F(CacheFolderTest, all_files_are_bounded_and_the_ones_written_longest_ago_g
   const uintmax_t bytes = fs::file_size(files().front());
   fs::last_write_time(files().front(), fs::file_time_type::clock::now() - std::chrono::hours(2));
   in.write("b:1", kept);
+  put(folder / "cache/thesis.chunks", std::vector<char>(4 * bytes));
   const CacheFolder narrow(folder / "cache", 2 * bytes + bytes / 2);
   narrow.write("c:1", kept);
   EXPECT_FALSE(narrow.read("a:1", std::nullopt));
   EXPECT_TRUE(narrow.read("b:1", std::nullopt));
   EXPECT_TRUE(narrow.read("c:1", std::nullopt));
+  EXPECT_TRUE(fs::exists(folder / "cache/thesis.chunks")) << "another's file";
 }
 
 TEST_F(CacheFolderTest, a_file_that_was_never_finished_is_not_read_and_goes_in_time) {

@@ -133,6 +133,34 @@ TEST(Connection, messages_pass_both_ways_in_order_and_are_counted) {
   EXPECT_EQ(connection->counters().sent_messages, 101U) << "the hello is one, too";
 }
 
+TEST(Connection, a_server_that_falls_silent_after_its_frames_counts_as_lost) {
+  RawServer server;
+  const Answering answering(server, [](RawServer& s) {
+    s.send(WelcomeMessage{});
+    FrameMessage frame;
+    frame.tick = 1;
+    s.send(frame);
+  });
+  ServerEndpoint endpoint;
+  endpoint.port = server.port();
+  endpoint.silent_seconds_max = 0.2;
+  const auto connection = Connection::connect(endpoint, {}, deadline);
+  ASSERT_TRUE(connection);
+  while ((*connection)->connected()) (*connection)->wait(std::chrono::milliseconds(50));
+  EXPECT_TRUE(holds((*connection)->end().message, "the server has been silent"))
+      << (*connection)->end().message;
+}
+
+TEST(Connection, a_link_that_never_delivers_is_given_up_at_the_deadline_and_not_before) {
+  RawServer server;
+  ServerEndpoint endpoint;
+  endpoint.port = server.port();
+  endpoint.link = *read_link("half-open=0");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(Connection::connect(endpoint, {}, std::chrono::milliseconds(100)));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(100));
+}
+
 TEST(Connection, an_end_by_the_server_is_told_and_what_came_before_can_be_polled) {
   RawServer server;
   const auto connection = welcomed(server);

@@ -146,9 +146,11 @@ int main(int argc, char** argv) {
     return exit_usage;
   }
   cache.complete();
+  const auto kept = cache.try_folder();
   complete(options);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("bot"));
   spdlog::set_pattern("%H:%M:%S.%e %n %v");
   if (options.quiet) spdlog::set_level(spdlog::level::err);
+  if (!kept) spdlog::warn(kept.error().message);
   return run(options);
 }

@@ -203,6 +203,8 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }
   cache.complete();
+  if (const Result<void> kept = cache.try_folder(); !kept)
+    std::fprintf(stderr, "scree-viewer: warning: %s\n", kept.error().message.c_str());
   Result<void> understood = endpoint.complete();
   if (understood) understood = understand(texts, options);
   if (!understood) {
