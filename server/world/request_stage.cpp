@@ -119,6 +119,8 @@ struct Checking {
     if (is_relaxed(request.pattern) && !request.authored_m.empty())
       return refuse(Refusal::carve_invalid,
                     "the pattern " + std::string(name_of(request.pattern)) + " takes no points");
+    if (Result<void> valid = validate(request.shape); !valid)  // its centre is asked for below
+      return refuse(Refusal::carve_invalid, valid.error().message);
     CarveOperation operation = operation_of(state, request, request.seeds, Cutter::field);
     if (is_relaxed(request.pattern))
       operation.authored_m.assign(std::min(request.seeds, limits::authored_seeds_max + 1),

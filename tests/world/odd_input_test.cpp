@@ -66,6 +66,19 @@ TEST_F(OddInput, carve_in_air) {
   EXPECT_EQ(delta->ledger, Ledger{});
 }
 
+TEST_F(OddInput, a_shape_of_no_known_kind_whatever_its_seeds) {
+  for (const SeedPattern pattern : all_kinds<SeedPattern>) {
+    CarveRequest carve;
+    carve.shape = sphere({}, 1.0F);
+    carve.shape.kind = static_cast<ShapeKind>(9);
+    carve.pattern = pattern;
+    World world{WorldConfig()};
+    const auto delta = world.step({{{1, 1, carve}}});
+    ASSERT_EQ(delta->replies.size(), 1U);
+    EXPECT_EQ(delta->replies[0].reason, Refusal::carve_invalid) << name_of(pattern);
+  }
+}
+
 TEST_F(OddInput, carve_of_no_volume) {
   const auto delta =
       step({carve(sphere({}, 0.0F), 4, 6.0F, 1), carve(box({}, {1.0F, 0.0F, 1.0F}), 4, 6.0F, 2),
