@@ -87,7 +87,7 @@ const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       // bench/peers/: its own tools are what ours are measured beside.
       {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers/"}},
-      {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/"}},
+      {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/"}},
