@@ -20,8 +20,10 @@ die() {
 usage() {
   cat <<'TEXT'
 usage: ./scree fuzz --list                 names the targets
-       ./scree fuzz NAME [--minutes N]     fuzzes a target for N minutes (5), on one core, from the corpus in the tree
-                                           and what was found before; ends at the first input on which it fails
+       ./scree fuzz NAME [--minutes N] [--seed S]
+                                           fuzzes a target for N minutes (5), on one core, from the corpus in the tree
+                                           and what was found before; ends at the first input on which it fails. With
+                                           a seed it tries the same inputs again, from the same corpus
        ./scree fuzz NAME FILE…             runs these inputs
        ./scree fuzz NAME --merge           takes what adds most coverage of all that was found into the corpus in the tree
        ./scree fuzz --seeds                writes the first inputs of all corpora anew
@@ -123,11 +125,18 @@ main() {
   set_options
   case ${1:-} in
     --merge) merge "$name" ;;
-    --minutes)
-      [[ ${2:-} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--minutes needs a number"
-      fuzz "$name" "$2"
+    --minutes | --seed | '')
+      local minutes=5
+      while (($# > 0)); do
+        case $1 in
+          --minutes) [[ ${2:-} =~ ^[0-9]+(\.[0-9]+)?$ ]] && minutes=$2 || die "--minutes needs a number" ;;
+          --seed) [[ ${2:-} =~ ^[1-9][0-9]{0,8}$ ]] && options+=("-seed=$2") || die "--seed needs a number from 1 on" ;;
+          *) die "there is no option '$1'; ./scree fuzz --help lists them" ;;
+        esac
+        shift 2
+      done
+      fuzz "$name" "$minutes"
       ;;
-    '') fuzz "$name" 5 ;;
     -*) die "there is no option '$1'; ./scree fuzz --help lists them" ;;
     *) "$built/bin/fuzz_$name" "${options[@]}" "$@" ;;
   esac
