@@ -91,7 +91,10 @@ void RequestQueue::pass_over() {
 void RequestQueue::begin_tick() {
   turns_.bring_back();
   turns_.forget_the_idle();
-  for (auto& [id, party] : parties_) party.turns.bring_back();
+  for (auto& [id, party] : parties_) {
+    party.turns.bring_back();
+    party.turns.forget_the_idle();  // or a party whose sessions come and go would grow for ever
+  }
   std::erase_if(parties_, [](const auto& entry) { return entry.second.requests == 0; });
 }
 
