@@ -184,7 +184,7 @@ void expect_a_share_for_each(const std::map<uint64_t, Outcome>& outcomes) {
   EXPECT_LT(outcomes.at(2).done, outcomes.at(2).asked);
 }
 
-constexpr int crowd_seconds = rounds(6, 2);
+constexpr int crowd_seconds = rounds(6, 4);
 
 TEST(work, a_client_that_asks_for_much_does_not_keep_another_from_carving) {
   expect_a_share_for_each(crowd(1, crowd_seconds, 2.0F, 64));
