@@ -6,6 +6,8 @@ function(scree_precompiled NAME HEADER)
   add_library(${NAME} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_link_libraries(${NAME} PRIVATE scree_usage ${ARGN})
   target_precompile_headers(${NAME} PRIVATE ${HEADER})
+  # Without times in it, a precompiled header that ccache kept fits sources that were checked out later.
+  target_compile_options(${NAME} PRIVATE $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
 endfunction()
 
 # One static library per folder, from every .cpp in it.
