@@ -19,6 +19,16 @@ void MethodSwitch::begin_world() {
   shown_is_past_ = shown_.method != nullptr;
 }
 
+void MethodSwitch::forget_world() {
+  next_ = {};
+  shown_ = {};
+}
+
+DrawMethod* MethodSwitch::preparing() {
+  if (next_.method) return next_.method.get();
+  return shown_.method && !shown_.method->loaded() ? shown_.method.get() : nullptr;
+}
+
 Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
   Result<std::unique_ptr<DrawMethod>> made = chosen_->make(pool_, view_radius_m_);
   if (!made) return fail(made.error().message);

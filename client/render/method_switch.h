@@ -18,13 +18,17 @@ class MethodSwitch {
   Result<void> choose(const MethodEntry& entry);
   const MethodEntry& chosen() const { return *chosen_; }
 
-  /// Begins another world: the old one is drawn until the new one is loaded.
+  /// Begins another mirror of the world: what was drawn is drawn until the new one is loaded.
   void begin_world();
+  /// Draws nothing until begin_world() and follow() have made something.
+  void forget_world();
   /// Passes on the mirror's last changes and the scene of this frame.
   Result<void> follow(const MirrorChanges& changes, const Scene& scene, const Camera& camera);
 
   /// Null before the first world.
   DrawMethod* shown() { return shown_.method.get(); }
+  /// The method that loads beside the drawing one, or is not loaded yet; null when there is none.
+  DrawMethod* preparing();
   /// Whether the newest world is shown by the chosen method, everywhere within the view radius.
   bool loaded() const {
     return shown_.entry == chosen_ && !shown_is_past_ && !next_.method && shown_.method->loaded();

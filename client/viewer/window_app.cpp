@@ -1,23 +1,43 @@
 #include "client/viewer/window_app.h"
 
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <tuple>
 
 #include "client/viewer/app.h"
+#include "client/viewer/base/files.h"
+#include "client/viewer/pictures/png.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 namespace {
 
 constexpr LineColour preview_colour{255, 236, 170, 150};
+constexpr double said_s = 6.0;
+
+/// "scree-2026-11-22-203015.png", with a number before the ending if there is such a file.
+std::string new_file(const char* what, const char* ending) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[64];
+  std::strftime(text, sizeof text, "%Y-%m-%d-%H%M%S", &local);
+  const std::string stem = std::string(what) + "-" + text;
+  std::string file = stem + ending;
+  for (int i = 2; std::filesystem::exists(file); ++i) file = stem + "-" + std::to_string(i) + ending;
+  return file;
+}
 
 }  // namespace
 
 WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
     : window_(window),
       viewing_(viewing),
-      hud_(window),
+      screen_(window),
       choice_(kept.hud),
+      hand_(kept.hand),
       overlay_(kept.overlay),
       tool_(kept.tool),
       grid_(viewing.options.grid),
@@ -37,20 +57,83 @@ Result<void> WindowApp::choose(const MethodEntry& method) {
   return viewing_.view->methods().choose(method);
 }
 
+void WindowApp::say(const std::string& text, double now_s) {
+  said_ = text;
+  said_until_s_ = now_s + said_s;
+}
+
+/// Flips what the action shows or hides.
+void WindowApp::act_on_view(Action action) {
+  const auto flip = [&](Action one, bool& shown) {
+    if (action == one) shown = !shown;
+  };
+  if (action == Action::help) choice_.help = after(choice_.help);
+  flip(Action::overlay, overlay_.shown);
+  flip(Action::figures, choice_.figures);
+  flip(Action::graphs, choice_.graphs);
+  flip(Action::panel, choice_.panel);
+  flip(Action::hide, hidden_);
+}
+
+/// What cannot be written is said, and nothing else: the world goes on.
+Result<void> WindowApp::act_on_files(Action action, double now_s) {
+  if (action == Action::copy_place) {
+    const std::string option = "--camera " + camera_text(viewing_.camera);
+    window_.copy(option);
+    say("copied: " + option, now_s);
+  }
+  if (action == Action::picture && viewing_.view->methods().shown() != nullptr) {
+    const Result<Image> image = viewing_.picture(now_s, window_.width(), window_.height());
+    if (!image) return fail(image.error().message);
+    const std::string file = new_file("scree", ".png");
+    const Result<void> written = write_png(file, *image);
+    say(written ? "wrote " + file : written.error().message, now_s);
+  }
+  if (action == Action::record_path) {
+    if (recorder_) {
+      end_path(now_s);
+    } else {
+      recorder_.emplace();
+    }
+  }
+  return {};
+}
+
+void WindowApp::record_path(double now_s) {
+  if (recorder_ && !recorder_->add(now_s, viewing_.camera)) end_path(now_s);
+}
+
+void WindowApp::end_path(double now_s) {
+  const std::string file = new_file("scree-path", ".json");
+  const Result<void> written = write_text(file, recorder_->text());
+  say(written ? "wrote " + file + ": scree view --path " + file + " flies it" : written.error().message,
+      now_s);
+  recorder_.reset();
+}
+
 Result<void> WindowApp::act(const AppInput& input, double now_s) {
   const MethodSwitch& methods = viewing_.view->methods();
   for (const Action action : input.actions) {
     change(tool_, action);
-    if (action == Action::help) choice_.help = !choice_.help;
-    if (action == Action::overlay) overlay_.shown = !overlay_.shown;
-    if (action == Action::graphs) choice_.graphs = !choice_.graphs;
-    if (action == Action::panel) choice_.panel = !choice_.panel;
+    change(hand_, action);
+    act_on_view(action);
+    if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
     if (action == Action::next_method)
       if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
   }
   grow(tool_, input.wheel);
   if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward(), now_s);
   return {};
+}
+
+std::vector<std::string> WindowApp::messages(double now_s) const {
+  if (window_.asks_to_end()) return {"End? Escape or Enter: yes. Any other key or button: no."};
+  std::vector<std::string> lines;
+  if (now_s < said_until_s_) lines.push_back(said_);
+  if (recorder_) lines.push_back("recording the camera's path; K ends it");
+  if (!window_.holds_mouse())
+    lines.emplace_back("click into the picture to take the mouse: then it looks, and a click strikes");
+  return lines;
 }
 
 LineList WindowApp::lines(double now_s) {
@@ -65,31 +148,38 @@ LineList WindowApp::lines(double now_s) {
 
 Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   const HudFacts facts = facts_.find(viewing_, now_s);
+  screen_.begin(!window_.holds_mouse(), hand_.text_scale * hud_.fit());
   hud_.begin(!window_.holds_mouse());
-  hud_.crosshair();
   hud_.note(facts, parts);
-  hud_.figures(facts);
-  if (choice_.graphs) hud_.graphs(facts);
-  const MethodEntry* picked =
-      choice_.panel ? hud_.panel(viewing_.view->methods().chosen(), tool_, overlay_, grid_, predict_)
-                    : nullptr;
+  const MethodEntry* picked = nullptr;
+  if (!hidden_) {
+    hud_.crosshair();
+    const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
+    const Camera& camera = viewing_.camera;
+    hud_.names(viewing_.session.cursors(),
+               camera.projection(aspect, viewing_.options.view_radius_m) * camera.view());
+    hud_.figures(facts, choice_.figures);
+    if (choice_.graphs) hud_.graphs(facts);
+    if (choice_.panel)
+      picked = hud_.panel(viewing_.view->methods().chosen(), {tool_, overlay_, grid_, predict_, hand_});
+    hud_.help(choice_.help, window_.has_gamepad());
+    if (facts.lost) hud_.banner(facts.connection);
+  }
+  if (!hidden_ || window_.asks_to_end()) hud_.messages(facts, messages(now_s));
+  screen_.end();
   viewing_.session.predict(predict_);
   viewing_.view->renderer().set_grid(grid_);
-  if (choice_.help) hud_.help();
-  const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
-  const Camera& camera = viewing_.camera;
-  hud_.names(viewing_.session.cursors(),
-             camera.projection(aspect, viewing_.options.view_radius_m) * camera.view());
-  if (facts.lost) hud_.banner(facts.connection);
-  hud_.end();
   return picked == nullptr ? Result<void>() : choose(*picked);
 }
 
 Result<void> WindowApp::frame() {
-  const AppInput input = window_.poll();
+  AppInput input = window_.poll();
   const double now_s = steady_now_s();
+  input.fly.look *= hand_.mouse_speed;
+  viewing_.camera.field_of_view = glm::radians(hand_.field_of_view_degrees);
   fly(viewing_.camera, input.fly, input.elapsed_s);
   if (viewing_.options.path) follow_path(now_s);
+  record_path(now_s);
   if (Result<void> acted = act(input, now_s); !acted) return acted;
   FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
   Stopwatch watch;
@@ -113,6 +203,7 @@ Settings WindowApp::settings() const {
   settings.view_radius_m = viewing_.options.view_radius_m;
   settings.grid = grid_;
   settings.hud = choice_;
+  settings.hand = hand_;
   settings.overlay = overlay_;
   settings.tool = tool_;
   settings.predict = predict_;

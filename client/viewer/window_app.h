@@ -3,10 +3,12 @@
 
 #include <optional>
 
+#include "client/viewer/pictures/path_recorder.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/viewing/viewing.h"
 #include "client/viewer/window/app_window.h"
 #include "client/viewer/window/hud.h"
+#include "client/viewer/window/hud_screen.h"
 
 namespace scree {
 
@@ -19,25 +21,39 @@ class WindowApp {
   Result<void> frame();
   /// The current settings, to be kept.
   Settings settings() const;
+  /// Where the panels stood in the last frame.
+  const PanelRectangles& panels() const { return hud_.panels().rectangles(); }
 
  private:
   void follow_path(double now_s);
   Result<void> act(const AppInput& input, double now_s);
   Result<void> choose(const MethodEntry& method);
+  void act_on_view(Action action);
+  Result<void> act_on_files(Action action, double now_s);
+  void record_path(double now_s);
+  void end_path(double now_s);
+  void say(const std::string& text, double now_s);
+  std::vector<std::string> messages(double now_s) const;
   /// Lines over the world: the shape of the next strike, other persons, the overlay.
   LineList lines(double now_s);
   Result<void> draw_hud(const FrameParts& parts, double now_s);
 
   AppWindow& window_;
   Viewing& viewing_;
+  HudScreen screen_;
   Hud hud_;
   HudChoice choice_;
+  bool hidden_ = false;  ///< all of the HUD
+  HandChoice hand_;
   OverlayChoice overlay_;
   Tool tool_;
   GridShape grid_;
   bool predict_;
   FactFinder facts_;
   std::optional<double> path_begun_s_;
+  std::optional<PathRecorder> recorder_;
+  std::string said_;  ///< by this program to the person, until some moment
+  double said_until_s_ = 0.0;
 };
 
 }  // namespace scree

@@ -74,7 +74,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
   for (const std::string broken :
        {"{\"width\": 12", "[]", R"({"width": "wide"})", R"({"width": -5})", R"({"method": "magic"})",
-        R"({"tool": "spoon"})", R"({"pattern": "authored"})", R"({"help": 1})", R"({"radius_m": 1e30})",
+        R"({"tool": "spoon"})", R"({"pattern": "authored"})", R"({"panel": 1})", R"({"radius_m": 1e30})",
         R"({"grid_resolution": 33})", R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
@@ -94,7 +94,8 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.method = all_methods().front().name;
   settings.grid = {64, 4, GridSpacing::growing};
   settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
-  settings.hud = {false, true, false};
+  settings.hud = {Telling::all, true, true, false};
+  settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
   settings.predict = false;
   const Result<Settings> again = parse_settings(to_text(settings));

@@ -1,11 +1,13 @@
 // The viewer's window, on an X server of the test's own that shows nothing to anyone (Xvfb).
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
+#include "client/viewer/pictures/png.h"
 #include "client/viewer/window_app.h"
 #include "server/app/live_server.h"
 #include "shared/base/timing.h"
@@ -79,7 +81,7 @@ class ViewerWindow : public testing::Test {
     ASSERT_TRUE(viewing) << viewing.error().message;
     viewing_ = std::move(*viewing);
     Settings settings;
-    settings.hud = {true, true, true};
+    settings.hud = {Telling::all, true, true, true};
     settings.overlay.shown = true;
     app_ = std::make_unique<WindowApp>(*window_, *viewing_, settings);
   }
@@ -132,6 +134,79 @@ TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
   OverlayChoice choice;
   viewing_->add_overlay(lines, choice, steady_now_s());
   EXPECT_TRUE(lines.vertices().empty()) << "nothing is shown that was not asked for";
+}
+
+/// Sends a key or a click to the window as a person's hand would, and lets the app take it in.
+class ViewerHand : public ViewerWindow {
+ protected:
+  void hand(const std::string& what) {
+    ASSERT_EQ(std::system(("xdotool " + what).c_str()), 0) << "xdotool (package xdotool)";
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(app_->frame());
+  }
+  bool shown(PanelPlace place) const { return app_->panels()[static_cast<size_t>(place)] != Rectangle{}; }
+};
+
+TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
+  open(640, 360);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  hand("mousemove 320 330");
+  for (const PanelPlace place : {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right,
+                                 PanelPlace::lower_right, PanelPlace::bottom})
+    EXPECT_TRUE(shown(place)) << static_cast<int>(place);
+  for (size_t i = 0; i < panel_places; ++i)
+    for (size_t j = 0; j < i; ++j) EXPECT_FALSE(intersect(app_->panels()[i], app_->panels()[j]));
+  hand("key F1");
+  EXPECT_EQ(app_->panels(), PanelRectangles{}) << "all of it is hidden";
+  hand("key Escape");
+  EXPECT_TRUE(window_->asks_to_end());
+  EXPECT_TRUE(shown(PanelPlace::bottom)) << "the question is seen all the same";
+  hand("key m");
+  EXPECT_FALSE(window_->asks_to_end()) << "any other key says no";
+  EXPECT_EQ(app_->settings().method, options_.method->name) << "and does nothing else";
+  EXPECT_FALSE(window_->should_close());
+  hand("key F1 key g key p key h");
+  EXPECT_FALSE(shown(PanelPlace::lower_right));
+  EXPECT_FALSE(shown(PanelPlace::upper_right));
+  EXPECT_FALSE(shown(PanelPlace::lower_left)) << "after all the help comes none";
+  hand("key Escape key Return");
+  EXPECT_TRUE(window_->should_close());
+}
+
+TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  hand("key p key h key g mousemove 160 120 click 1");
+  EXPECT_TRUE(window_->holds_mouse());
+  EXPECT_FALSE(shown(PanelPlace::bottom)) << "nothing to be said any more";
+  hand("click 1");
+  run_until([&] { return viewing_->session.carved(); }, "what the strike broke");
+  const float text = app_->settings().hand.text_scale, view = app_->settings().hand.field_of_view_degrees;
+  hand("key Prior key comma key Tab");
+  EXPECT_GT(app_->settings().hand.text_scale, text);
+  EXPECT_LT(app_->settings().hand.field_of_view_degrees, view);
+  EXPECT_FALSE(window_->holds_mouse());
+}
+
+TEST_F(ViewerHand, takes_pictures_and_records_paths_into_this_folder) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scree_hand",
+                              before = std::filesystem::current_path();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::filesystem::current_path(folder);
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  hand("mousemove 160 100 key F12 key k");
+  hand("key k");
+  std::filesystem::current_path(before);
+  size_t pictures = 0, paths = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().string();
+    pictures += file.ends_with(".png") && read_png(file) ? 1 : 0;
+    paths += file.ends_with(".json") && CameraPath::read(file) ? 1 : 0;
+  }
+  EXPECT_EQ(pictures, 1U);
+  EXPECT_EQ(paths, 1U);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(ViewerWindow, opengl_that_is_too_old_is_said_with_the_way_out) {

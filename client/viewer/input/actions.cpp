@@ -2,44 +2,67 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace scree {
 namespace {
 
 constexpr std::array table{
-    Binding{Action::sphere, GLFW_KEY_1, unbound, "1", "tool: sphere"},
-    Binding{Action::box, GLFW_KEY_2, unbound, "2", "tool: box"},
-    Binding{Action::tunnel, GLFW_KEY_3, unbound, "3", "tool: tunnel"},
-    Binding{Action::next_tool, unbound, GLFW_GAMEPAD_BUTTON_A, "pad A", "next tool"},
-    Binding{Action::larger, GLFW_KEY_EQUAL, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "=  pad RB", "larger"},
-    Binding{Action::smaller, GLFW_KEY_MINUS, GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "-  pad LB", "smaller"},
-    Binding{Action::stronger, GLFW_KEY_X, GLFW_GAMEPAD_BUTTON_DPAD_UP, "X  pad up", "stronger blast"},
-    Binding{Action::weaker, GLFW_KEY_Z, GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "Z  pad down", "weaker blast"},
-    Binding{Action::next_pattern, GLFW_KEY_R, GLFW_GAMEPAD_BUTTON_X, "R  pad X", "pattern of the cracks"},
-    Binding{Action::more_seeds, GLFW_KEY_RIGHT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "]  pad right",
+    Binding{Action::sphere, GLFW_KEY_1, unbound, "1", "", "tool: sphere"},
+    Binding{Action::box, GLFW_KEY_2, unbound, "2", "", "tool: box"},
+    Binding{Action::tunnel, GLFW_KEY_3, unbound, "3", "", "tool: tunnel"},
+    Binding{Action::next_tool, unbound, GLFW_GAMEPAD_BUTTON_A, "", "pad A", "next tool"},
+    Binding{Action::larger, GLFW_KEY_EQUAL, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "=", "pad RB", "larger"},
+    Binding{Action::smaller, GLFW_KEY_MINUS, GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "-", "pad LB", "smaller"},
+    Binding{Action::stronger, GLFW_KEY_X, GLFW_GAMEPAD_BUTTON_DPAD_UP, "X", "pad up", "stronger blast"},
+    Binding{Action::weaker, GLFW_KEY_Z, GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "Z", "pad down", "weaker blast"},
+    Binding{Action::next_pattern, GLFW_KEY_R, GLFW_GAMEPAD_BUTTON_X, "R", "pad X", "pattern of the cracks"},
+    Binding{Action::more_seeds, GLFW_KEY_RIGHT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "]", "pad right",
             "more pieces"},
-    Binding{Action::fewer_seeds, GLFW_KEY_LEFT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "[  pad left",
+    Binding{Action::fewer_seeds, GLFW_KEY_LEFT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "[", "pad left",
             "fewer pieces"},
-    Binding{Action::next_method, GLFW_KEY_M, GLFW_GAMEPAD_BUTTON_Y, "M  pad Y", "draw by the next method"},
-    Binding{Action::overlay, GLFW_KEY_O, unbound, "O", "borders, interest, bodies and contacts"},
-    Binding{Action::graphs, GLFW_KEY_G, unbound, "G", "graphs"},
-    Binding{Action::panel, GLFW_KEY_P, GLFW_GAMEPAD_BUTTON_START, "P  pad start",
+    Binding{Action::next_method, GLFW_KEY_M, GLFW_GAMEPAD_BUTTON_Y, "M", "pad Y", "draw by the next method"},
+    Binding{Action::narrower_view, GLFW_KEY_COMMA, unbound, ",", "", "narrower view (as a longer lens)"},
+    Binding{Action::wider_view, GLFW_KEY_PERIOD, unbound, ".", "", "wider view"},
+    Binding{Action::slower_mouse, GLFW_KEY_SEMICOLON, unbound, ";", "", "slower mouse"},
+    Binding{Action::faster_mouse, GLFW_KEY_APOSTROPHE, unbound, "'", "", "faster mouse"},
+    Binding{Action::smaller_text, GLFW_KEY_PAGE_DOWN, unbound, "Page Down", "", "smaller text"},
+    Binding{Action::larger_text, GLFW_KEY_PAGE_UP, unbound, "Page Up", "", "larger text"},
+    Binding{Action::picture, GLFW_KEY_F12, unbound, "F12", "", "take a picture (a PNG in this folder)"},
+    Binding{Action::copy_place, GLFW_KEY_V, unbound, "V", "", "copy the camera's place as --camera"},
+    Binding{Action::record_path, GLFW_KEY_K, unbound, "K", "", "record a camera path for --path, or end it"},
+    Binding{Action::overlay, GLFW_KEY_O, unbound, "O", "", "borders, interest, bodies and contacts"},
+    Binding{Action::figures, GLFW_KEY_I, unbound, "I", "", "more figures, or fewer"},
+    Binding{Action::graphs, GLFW_KEY_G, unbound, "G", "", "graphs"},
+    Binding{Action::panel, GLFW_KEY_P, GLFW_GAMEPAD_BUTTON_START, "P", "pad start",
             "panel of methods and tools (free the mouse to use it)"},
-    Binding{Action::help, GLFW_KEY_H, GLFW_GAMEPAD_BUTTON_BACK, "H  pad back", "this help"},
-    Binding{Action::free_mouse, GLFW_KEY_TAB, unbound, "Tab", "free the mouse, or take it"},
-    Binding{Action::end, GLFW_KEY_ESCAPE, unbound, "Esc", "end"},
+    Binding{Action::help, GLFW_KEY_H, GLFW_GAMEPAD_BUTTON_BACK, "H", "pad back", "more help, or none"},
+    Binding{Action::hide, GLFW_KEY_F1, unbound, "F1", "", "hide all of this, or show it"},
+    Binding{Action::full_screen, GLFW_KEY_F11, unbound, "F11", "", "full screen, or a window"},
+    Binding{Action::free_mouse, GLFW_KEY_TAB, unbound, "Tab", "", "free the mouse, or take it"},
+    Binding{Action::end, GLFW_KEY_ESCAPE, unbound, "Esc", "", "end (asks first)"},
 };
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> motions{{
-    {"W A S D  pad left stick", "fly (Shift or left trigger: faster)"},
-    {"Space C  pad stick presses", "up, down"},
-    {"mouse  pad right stick", "look"},
-    {"left click  pad right trigger", "strike; the wheel sets the size"},
+/// What no single key does.
+struct Motion {
+  std::string_view by_hand;
+  std::string_view by_gamepad;
+  std::string_view does;
+};
+
+constexpr std::array<Motion, 4> motions{{
+    {"W A S D", "pad left stick", "fly (Shift or left trigger: faster)"},
+    {"Space C", "pad stick presses", "up, down"},
+    {"mouse", "pad right stick", "look"},
+    {"left click", "pad right trigger", "strike; the wheel sets the size"},
 }};
 
-constexpr size_t column = 32;
+/// What a newcomer needs; the help says where the rest is.
+constexpr std::array basics{Action::next_method, Action::panel, Action::help, Action::free_mouse,
+                            Action::end};
+
+constexpr size_t column = 12, gamepad_column = 20;
 
 }  // namespace
 
@@ -47,13 +70,19 @@ std::span<const Binding> bindings() {
   return table;
 }
 
-std::string describe_controls() {
+std::string describe_controls(Telling telling, bool gamepad) {
   std::string text;
-  const auto add = [&](std::string_view named, std::string_view does) {
-    text.append(named).append(column - named.size(), ' ').append(does).append("\n");
+  if (telling == Telling::nothing) return text;
+  const auto add = [&](std::string_view key, std::string_view button, std::string_view does) {
+    if (key.empty() && !gamepad) return;
+    text.append(key).append(column - key.size(), ' ');
+    if (gamepad) text.append(button).append(gamepad_column - button.size(), ' ');
+    text.append(does).append("\n");
   };
-  for (const auto& [named, does] : motions) add(named, does);
-  for (const Binding& binding : table) add(binding.named, binding.does);
+  for (const Motion& motion : motions) add(motion.by_hand, motion.by_gamepad, motion.does);
+  for (const Binding& binding : table)
+    if (telling == Telling::all || std::ranges::find(basics, binding.action) != basics.end())
+      add(binding.key_name, binding.button_name, binding.does);
   return text;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/base/kind_table.h"
+
 namespace scree {
 
 enum class Action : uint8_t {
@@ -21,10 +23,22 @@ enum class Action : uint8_t {
   next_pattern,
   more_seeds,
   fewer_seeds,
+  narrower_view,
+  wider_view,
+  slower_mouse,
+  faster_mouse,
+  smaller_text,
+  larger_text,
+  picture,
+  copy_place,
+  record_path,
   overlay,
+  figures,
   graphs,
   panel,
   help,
+  hide,
+  full_screen,
   free_mouse,
   end,
 };
@@ -35,13 +49,37 @@ struct Binding {
   Action action;
   int key = unbound;     ///< of GLFW
   int button = unbound;  ///< of GLFW's gamepads
-  std::string_view named;
+  std::string_view key_name;
+  std::string_view button_name;
   std::string_view does;
 };
 
+/// How much of the controls is told; a key goes through them, round.
+enum class Telling : uint8_t { nothing = 0, basics = 1, all = 2 };
+
+struct TellingRow {
+  std::string_view name;
+};
+
+constexpr TellingRow row_of(Telling telling) {
+  switch (telling) {
+    case Telling::nothing:
+      return {.name = "nothing"};
+    case Telling::basics:
+      return {.name = "basics"};
+    case Telling::all:
+      return {.name = "all"};
+  }
+  return {};
+}
+
 std::span<const Binding> bindings();
 
-/// A description of all controls by keys, mouse and gamepad, one line each.
-std::string describe_controls();
+constexpr Telling after(Telling telling) {
+  return static_cast<Telling>((static_cast<size_t>(telling) + 1) % kind_count<Telling>);
+}
+
+/// A description of the controls by keys and mouse, and by gamepad if wanted, one line each.
+std::string describe_controls(Telling telling, bool gamepad);
 
 }  // namespace scree

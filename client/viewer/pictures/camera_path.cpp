@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -45,6 +47,17 @@ Result<Camera> camera_of(const std::array<float, 5>& values) {
   if (std::max(away.x, away.z) > limits::world_half_width_m || away.y > limits::world_half_height_m)
     return fail("the place is outside the world (limits.world_half_width_m, world_half_height_m)");
   return camera;
+}
+
+std::string camera_text(const Camera& camera) {
+  // A yaw that went round several times is told as one turn.
+  const double degrees = static_cast<double>(glm::degrees(camera.yaw));
+  const double yaw = degrees - 360.0 * static_cast<double>(static_cast<long>(degrees / 360.0));
+  char text[128];
+  std::snprintf(text, sizeof text, "%.2f,%.2f,%.2f,%.1f,%.1f", static_cast<double>(camera.eye_m.x),
+                static_cast<double>(camera.eye_m.y), static_cast<double>(camera.eye_m.z), yaw,
+                static_cast<double>(glm::degrees(camera.pitch)));
+  return text;
 }
 
 Result<CameraPath> CameraPath::parse(const std::string& text) {

@@ -21,7 +21,8 @@ View::~View() = default;
 
 Result<void> View::follow(const SessionStep& step, ViewerSession& session, const Camera& camera,
                           double now_s) {
-  if (step.new_world) {
+  if (step.new_mirror) {
+    if (step.other_world) methods_.forget_world();
     methods_.begin_world();
     renderer_->set_terrain(session.mirror()->terrain());
   }

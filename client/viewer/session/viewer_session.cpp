@@ -47,7 +47,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   SessionStep step;
   if (!connection_) {
     if (!connecting_.valid() && !gave_up_ && now_s >= next_try_s_) begin_connecting(eye_m);
-    step.new_world = finish_connecting(now_s);
+    finish_connecting(now_s, step);
   }
   if (connection_) receive(now_s, step);
   if (predictions_ && !(connection_ && predict_)) predictions_->take_back();
@@ -77,21 +77,23 @@ void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   });
 }
 
-bool ViewerSession::finish_connecting(double now_s) {
+void ViewerSession::finish_connecting(double now_s, SessionStep& step) {
   if (!connecting_.valid() || connecting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return false;
+    return;
   Attempt attempt = connecting_.get();
-  if (!attempt.connection) {
-    lose(now_s, attempt.end);
-    return false;
-  }
+  if (!attempt.connection) return lose(now_s, attempt.end);
   connection_ = std::move(attempt.connection);
   connected_since_s_ = now_s;
   predictions_.reset();
   mirror_ = rejoin_.begin(*connection_);
   predictions_ = std::make_unique<Predictions>(*mirror_);
   asked_s_.clear();
-  playback_.start(connection_->welcome());
+  const WelcomeMessage& welcome = connection_->welcome();
+  step.new_mirror = true;
+  step.other_world = std::exchange(world_, welcome.world) != welcome.world;
+  tick_rate_hz_ = welcome.tick_rate_hz;
+  pace_.start(tick_rate_hz_);
+  playback_.start(welcome);
   pieces_.clear();
   trouble_.clear();
   acknowledged_ = 0;
@@ -101,7 +103,6 @@ bool ViewerSession::finish_connecting(double now_s) {
   saw_pieces_ = false;
   rate_since_s_ = now_s;
   rate_bytes_ = 0;
-  return true;
 }
 
 void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
@@ -127,6 +128,8 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
     rate_bytes_ += received.bytes;
     if (const auto* reply = std::get_if<ReplyMessage>(&received.message))
       measure(*reply, seconds_of(received.arrived));
+    if (const auto* frame = std::get_if<FrameMessage>(&received.message))
+      pace_.note(frame->tick, seconds_of(received.arrived));
     playback_.push(std::move(received.message), seconds_of(received.arrived));
   }
   for (const ServerMessage& message : playback_.take_due(now_s)) {

@@ -18,13 +18,15 @@
 #include "client/mirror/predictions.h"
 #include "client/render/scene/draw_method.h"
 #include "client/viewer/input/tool.h"
+#include "client/viewer/session/pace.h"
 #include "client/viewer/session/playback.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 
 struct SessionStep {
-  bool new_world = false;  ///< the mirror is another one; nothing of the last one's holds
+  bool new_mirror = false;   ///< the mirror is another one; nothing of the last one's holds
+  bool other_world = false;  ///< and it is not of the world that was shown before
   MirrorChanges changes;
 };
 
@@ -75,6 +77,11 @@ class ViewerSession {
   std::string description() const;
   std::string notice(double now_s) const;
   double received_bytes_per_s() const { return bytes_per_s_; }
+  /// Of the world's time; and its rate.
+  const Pace& pace() const { return pace_; }
+  double tick_rate_hz() const { return tick_rate_hz_; }
+  /// Whether the server plays a recording.
+  bool is_replay() const { return connection_ && connection_->welcome().replay; }
   /// Memory of received messages that wait, bytes.
   size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
 
@@ -86,7 +93,7 @@ class ViewerSession {
   };
 
   void begin_connecting(glm::vec3 eye_m);
-  bool finish_connecting(double now_s);
+  void finish_connecting(double now_s, SessionStep& step);
   void receive(double now_s, SessionStep& step);
   void measure(const ReplyMessage& reply, double arrived_s);
   void foresee(const CarveMessage& carve, double now_s);
@@ -105,6 +112,9 @@ class ViewerSession {
   std::unique_ptr<Predictions> predictions_;  ///< over the mirror
   bool predict_ = true;
   Playback playback_;
+  Pace pace_;
+  double tick_rate_hz_ = 60.0;
+  uint64_t world_ = 0;  ///< that the mirror is of; 0: none
   ScenePieces pieces_;
   std::string trouble_;   ///< the reason for the missing connection
   bool gave_up_ = false;  ///< the server refused for a reason that stays (may_come_again)

@@ -1,5 +1,6 @@
 #include "client/viewer/viewing/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -72,6 +73,39 @@ T merged(const T& loaded, const T& start, const T& end) {
 
 }  // namespace
 
+void change(HandChoice& choice, Action action) {
+  constexpr float degrees = 5.0F, step = 1.25F;
+  const auto scale = [](float& value, float factor, float min, float max) {
+    value = std::clamp(value * factor, min, max);
+  };
+  const auto turn = [&](float by_degrees) {
+    choice.field_of_view_degrees = std::clamp(choice.field_of_view_degrees + by_degrees,
+                                              field_of_view_min_degrees, field_of_view_max_degrees);
+  };
+  switch (action) {
+    case Action::narrower_view:
+      turn(-degrees);
+      break;
+    case Action::wider_view:
+      turn(degrees);
+      break;
+    case Action::slower_mouse:
+      scale(choice.mouse_speed, 1.0F / step, mouse_speed_min, mouse_speed_max);
+      break;
+    case Action::faster_mouse:
+      scale(choice.mouse_speed, step, mouse_speed_min, mouse_speed_max);
+      break;
+    case Action::smaller_text:
+      scale(choice.text_scale, 1.0F / step, text_scale_min, text_scale_max);
+      break;
+    case Action::larger_text:
+      scale(choice.text_scale, step, text_scale_min, text_scale_max);
+      break;
+    default:
+      break;
+  }
+}
+
 std::string settings_file() {
   const std::string folder = xdg_folder("XDG_CONFIG_HOME", ".config");
   return folder.empty() ? folder : folder + "/viewer.json";
@@ -95,9 +129,14 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.number("grid_scale", settings.grid.scale, 1, limits::grid_scale_max);
   reader.choice("grid_spacing", settings.grid.spacing, grid_spacings);
   if (!is_valid(settings.grid)) reader.wrong("grid_resolution or grid_scale", "is no such multiple");
-  reader.flag("help", settings.hud.help);
+  reader.choice("controls", settings.hud.help, all_kinds<Telling>);
+  reader.flag("figures", settings.hud.figures);
   reader.flag("graphs", settings.hud.graphs);
   reader.flag("panel", settings.hud.panel);
+  reader.number("field_of_view_degrees", settings.hand.field_of_view_degrees, field_of_view_min_degrees,
+                field_of_view_max_degrees);
+  reader.number("mouse_speed", settings.hand.mouse_speed, mouse_speed_min, mouse_speed_max);
+  reader.number("text_scale", settings.hand.text_scale, text_scale_min, text_scale_max);
   reader.flag("overlay", settings.overlay.shown);
   reader.flag("overlay_interest", settings.overlay.interest);
   reader.flag("overlay_chunks", settings.overlay.chunks);
@@ -121,9 +160,13 @@ std::string to_text(const Settings& settings) {
                   {"grid_resolution", settings.grid.resolution},
                   {"grid_scale", settings.grid.scale},
                   {"grid_spacing", name_of(settings.grid.spacing)},
-                  {"help", settings.hud.help},
+                  {"controls", name_of(settings.hud.help)},
+                  {"figures", settings.hud.figures},
                   {"graphs", settings.hud.graphs},
                   {"panel", settings.hud.panel},
+                  {"field_of_view_degrees", settings.hand.field_of_view_degrees},
+                  {"mouse_speed", settings.hand.mouse_speed},
+                  {"text_scale", settings.hand.text_scale},
                   {"overlay", settings.overlay.shown},
                   {"overlay_interest", settings.overlay.interest},
                   {"overlay_chunks", settings.overlay.chunks},
@@ -177,6 +220,7 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);
   kept.predict = merged(loaded_.predict, start.predict, end.predict);
   kept.hud = end.hud;
+  kept.hand = end.hand;
   kept.overlay = end.overlay;
   kept.tool = end.tool;
   if (const Result<void> written = write_text(file_, to_text(kept)); !written)

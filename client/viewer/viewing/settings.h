@@ -11,12 +11,32 @@
 namespace scree {
 
 struct HudChoice {
-  bool help = true;
+  Telling help = Telling::basics;
+  bool figures = false;  ///< all of them
   bool graphs = false;
   bool panel = true;
 
   bool operator==(const HudChoice&) const = default;
 };
+
+inline constexpr float field_of_view_min_degrees = 20.0F;  ///< vertical
+inline constexpr float field_of_view_max_degrees = 110.0F;
+inline constexpr float mouse_speed_min = 0.1F;
+inline constexpr float mouse_speed_max = 10.0F;
+inline constexpr float text_scale_min = 0.5F;
+inline constexpr float text_scale_max = 4.0F;
+
+/// How a person looks and reads.
+struct HandChoice {
+  float field_of_view_degrees = 60.0F;
+  float mouse_speed = 1.0F;  ///< 1: a seventh of a degree a pixel
+  float text_scale = 1.0F;
+
+  bool operator==(const HandChoice&) const = default;
+};
+
+/// Changes the choice, if the action concerns it.
+void change(HandChoice& choice, Action action);
 
 struct Settings {
   int width = 1280;
@@ -25,6 +45,7 @@ struct Settings {
   float view_radius_m = 96.0F;
   GridShape grid;
   HudChoice hud;
+  HandChoice hand;
   OverlayChoice overlay;
   Tool tool;
   bool predict = true;

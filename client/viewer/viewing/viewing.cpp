@@ -69,13 +69,13 @@ Moment Viewing::moment(double now_s) {
   return moment;
 }
 
-Result<Image> Viewing::picture(double now_s) {
+Result<Image> Viewing::picture(double now_s, int width, int height) {
   LineList lines;
   if (options.overlay.shown) {
     add_overlay(lines, options.overlay, now_s);
     add_cursors(lines, session.cursors());
   }
-  return view->renderer().draw_image(*view->methods().shown(), camera, options.width, options.height, lines);
+  return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
 }
 
 void Viewing::add_overlay(LineList& lines, const OverlayChoice& choice, double now_s) {

@@ -22,8 +22,9 @@ class Viewing {
   Result<void> step(double now_s);
   /// Takes the screenshots that are due.
   Result<void> take_due(double now_s);
-  /// The picture of this moment; with --overlay, all of the overlay in it.
-  Result<Image> picture(double now_s);
+  /// The picture of this moment, of --size or of so many pixels; with --overlay, all of the overlay in it.
+  Result<Image> picture(double now_s) { return picture(now_s, options.width, options.height); }
+  Result<Image> picture(double now_s, int width, int height);
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
   /// Writes the trace, if one was asked for.

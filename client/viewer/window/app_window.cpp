@@ -38,11 +38,10 @@ struct AppWindowEvents {
   }
 
   static void on_key(GLFWwindow* window, int key, int, int action, int) {
-    if (action != GLFW_PRESS) return;
-    for (const Binding& binding : bindings())
-      if (binding.key == key) of(window).act(binding.action);
+    if (action == GLFW_PRESS) of(window).press(key);
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
+    if (action == GLFW_PRESS && std::exchange(of(window).asks_to_end_, false)) return;
     if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
     // The panel takes clicks on it.
     if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse) return;
@@ -98,13 +97,50 @@ void AppWindow::hold_mouse(bool hold) {
   glfwGetCursorPos(window_, &mouse_.x, &mouse_.y);
 }
 
+void AppWindow::copy(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
+}
+
+void AppWindow::turn_full_screen() {
+  if (windowed_) {
+    glfwSetWindowMonitor(window_, nullptr, windowed_->x, windowed_->y, windowed_->z, windowed_->w,
+                         GLFW_DONT_CARE);
+    windowed_.reset();
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+  if (mode == nullptr) return;
+  glm::ivec4 place(0);
+  glfwGetWindowPos(window_, &place.x, &place.y);
+  glfwGetWindowSize(window_, &place.z, &place.w);
+  windowed_ = place;
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void AppWindow::press(int key) {
+  if (std::exchange(asks_to_end_, false)) {
+    if (key == GLFW_KEY_ESCAPE || key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)
+      glfwSetWindowShouldClose(window_, GLFW_TRUE);
+    return;
+  }
+  for (const Binding& binding : bindings())
+    if (binding.key == key) act(binding.action);
+}
+
 void AppWindow::act(Action action) {
-  if (action == Action::end) {
-    glfwSetWindowShouldClose(window_, GLFW_TRUE);
-  } else if (action == Action::free_mouse) {
-    hold_mouse(!holds_mouse_);
-  } else {
-    actions_.push_back(action);
+  switch (action) {
+    case Action::end:
+      asks_to_end_ = true;
+      break;
+    case Action::free_mouse:
+      hold_mouse(!holds_mouse_);
+      break;
+    case Action::full_screen:
+      turn_full_screen();
+      break;
+    default:
+      actions_.push_back(action);
   }
 }
 
@@ -141,7 +177,8 @@ void AppWindow::poll_gamepad(AppInput& input) {
   int pad = GLFW_JOYSTICK_1;
   while (pad <= GLFW_JOYSTICK_LAST && glfwJoystickIsGamepad(pad) != GLFW_TRUE) ++pad;
   GLFWgamepadstate state;
-  if (pad > GLFW_JOYSTICK_LAST || glfwGetGamepadState(pad, &state) != GLFW_TRUE) return;
+  has_gamepad_ = pad <= GLFW_JOYSTICK_LAST && glfwGetGamepadState(pad, &state) == GLFW_TRUE;
+  if (!has_gamepad_) return;
   PadState now{state.axes[GLFW_GAMEPAD_AXIS_LEFT_X],
                state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y],
                state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],
@@ -160,6 +197,7 @@ bool AppWindow::minimised() const {
 }
 
 std::pair<int, int> AppWindow::window_size() const {
+  if (windowed_) return {windowed_->z, windowed_->w};
   std::pair<int, int> size;
   glfwGetWindowSize(window_, &size.first, &size.second);
   return size;

@@ -2,7 +2,9 @@
 // on the main thread only.
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +24,7 @@ struct AppInput {
   float elapsed_s = 0.0F;
   float wheel = 0.0F;   ///< notches, up is positive
   bool strike = false;  ///< left button went down, with the mouse held by the window; or the right trigger
-  std::vector<Action> actions;  ///< in order; free_mouse and end are the window's own
+  std::vector<Action> actions;  ///< in order; without those that are the window's own (AppWindow::act)
 };
 
 class AppWindow {
@@ -36,11 +38,17 @@ class AppWindow {
   bool should_close() const;
   AppInput poll();
   bool holds_mouse() const { return holds_mouse_; }
+  bool has_gamepad() const { return has_gamepad_; }
+  /// The person wants to end, and is asked whether that is so: Escape or Enter say yes, any other key or
+  /// button no.
+  bool asks_to_end() const { return asks_to_end_; }
+  /// Puts a text where other programs paste it from.
+  void copy(const std::string& text);
   /// Pixels; nothing while minimised.
   int width() const { return width_; }
   int height() const { return height_; }
   bool minimised() const;
-  /// Size in the desktop's units, those of --size.
+  /// Size in the desktop's units, those of --size; of the window that was, on a full screen.
   std::pair<int, int> window_size() const;
   /// Shows the frame; while minimised, waits a little instead.
   void show_frame();
@@ -51,6 +59,8 @@ class AppWindow {
  private:
   explicit AppWindow(GLFWwindow* window);
   void hold_mouse(bool hold);
+  void press(int key);
+  void turn_full_screen();
   void act(Action action);
   void poll_keys(AppInput& input);
   void poll_gamepad(AppInput& input);
@@ -61,6 +71,9 @@ class AppWindow {
   double last_s_ = 0.0;
   glm::dvec2 mouse_{0.0};
   bool holds_mouse_ = false;
+  bool has_gamepad_ = false;
+  bool asks_to_end_ = false;
+  std::optional<glm::ivec4> windowed_;  ///< place and size before the screen was full
   float wheel_ = 0.0F;
   bool strike_ = false;
   std::vector<Action> actions_;

@@ -1,40 +1,36 @@
 #include "client/viewer/window/hud.h"
 
-#include <imgui/backends/imgui_impl_glfw.h>
-#include <imgui/backends/imgui_impl_opengl3.h>
-
-#include "client/viewer/window/hud_style.h"
+#include <imgui/imgui.h>
 
 namespace scree {
+namespace {
 
-Hud::Hud(const AppWindow& window) {
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;
-  ImGui::StyleColorsDark();
-  ImGui::GetStyle().WindowRounding = 4.0F;
-  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
-  ImGui_ImplOpenGL3_Init();
+const ImVec4 warning_colour(1.0F, 0.75F, 0.4F, 1.0F);
+constexpr float progress_width_in_text = 24.0F;  ///< heights of the text
+
+glm::vec2 screen_size() {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  return {size.x, size.y};
 }
 
-Hud::~Hud() {
-  ImGui_ImplOpenGL3_Shutdown();
-  ImGui_ImplGlfw_Shutdown();
-  ImGui::DestroyContext();
+/// A line of the middle's strips, broken where the window ends.
+void say(const std::string& text, const ImVec4& colour) {
+  const float wrap = screen_size().x - 2.0F * (panel_margin + ImGui::GetStyle().WindowPadding.x);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(std::max(wrap, 1.0F));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
 }
+
+}  // namespace
 
 void Hud::begin(bool mouse_is_free) {
-  mouse_is_free_ = mouse_is_free;
-  ImGuiIO& io = ImGui::GetIO();
-  io.ConfigFlags =
-      mouse_is_free ? ImGuiConfigFlags_None : ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
-  ImGui::NewFrame();
+  panels_.begin_frame(screen_size(), mouse_is_free);
 }
 
 void Hud::crosshair() {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const ImVec2 c(size.x * 0.5F, size.y * 0.5F);
+  const glm::vec2 c = screen_size() * 0.5F;
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const ImU32 colour = IM_COL32(255, 255, 255, 190);
   list->AddLine(ImVec2(c.x - 9, c.y), ImVec2(c.x - 3, c.y), colour, 1.5F);
@@ -44,20 +40,34 @@ void Hud::crosshair() {
 }
 
 void Hud::banner(const std::string& text) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  begin_overlay("banner", ImVec2(size.x * 0.5F, size.y * 0.25F), ImVec2(0.5F, 0.5F));
-  ImGui::TextColored(ImVec4(1.0F, 0.75F, 0.4F, 1.0F), "%s", text.c_str());
-  ImGui::End();
+  panels_.begin(PanelPlace::top);
+  say(text, warning_colour);
+  panels_.end();
 }
 
-void Hud::help() {
-  begin_overlay("help", ImVec2(12.0F, ImGui::GetIO().DisplaySize.y - 12.0F), ImVec2(0.0F, 1.0F));
-  ImGui::TextUnformatted(describe_controls().c_str());
-  ImGui::End();
+void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines) {
+  if (!facts.preparing && facts.notice.empty() && lines.empty()) return;
+  panels_.begin(PanelPlace::bottom);
+  if (const auto& preparing = facts.preparing) {
+    const std::string text = preparing->method + ": " + std::to_string(preparing->done) + " of " +
+                             std::to_string(preparing->done + preparing->waiting) + " blocks";
+    ImGui::ProgressBar(preparing->share(), ImVec2(progress_width_in_text * ImGui::GetFontSize(), 0.0F),
+                       text.c_str());
+  }
+  if (!facts.notice.empty()) say(facts.notice, warning_colour);
+  for (const std::string& line : lines) say(line, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  panels_.end();
+}
+
+void Hud::help(Telling telling, bool gamepad) {
+  if (telling == Telling::nothing) return;
+  panels_.begin(PanelPlace::lower_left);
+  ImGui::TextUnformatted(describe_controls(telling, gamepad).c_str());
+  panels_.end();
 }
 
 void Hud::names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const glm::vec2 size = screen_size();
   for (const PlayerCursor& cursor : cursors) {
     const glm::vec4 place = view_projection * glm::vec4(cursor.aim_m, 1.0F);
     if (place.w <= 0.0F) continue;
@@ -66,11 +76,6 @@ void Hud::names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_
     const std::string name = cursor.name.empty() ? "client " + std::to_string(cursor.session) : cursor.name;
     ImGui::GetBackgroundDrawList()->AddText(at, IM_COL32(120, 240, 255, 255), name.c_str());
   }
-}
-
-void Hud::end() {
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
 }  // namespace scree

@@ -1,11 +1,14 @@
-// Figures, graphs, a panel of methods and tools, help and messages over the picture, by Dear ImGui. Needs the
-// window's GL context current.
+// Figures, graphs, a panel of methods and tools, help and messages over the picture, by Dear ImGui: what they
+// say and how; hud_panels.h says where. Within a frame of a HudScreen.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "client/viewer/viewing/settings.h"
-#include "client/viewer/window/app_window.h"
 #include "client/viewer/window/history.h"
 #include "client/viewer/window/hud_facts.h"
+#include "client/viewer/window/hud_panels.h"
 
 namespace scree {
 
@@ -16,36 +19,47 @@ struct FrameParts {
   float draw_ms = 0.0F;    ///< the main thread's part of drawing
 };
 
+/// What the panel shows and changes.
+struct PanelValues {
+  Tool& tool;
+  OverlayChoice& overlay;
+  GridShape& grid;
+  bool& predict;
+  HandChoice& hand;
+};
+
 class Hud {
  public:
-  explicit Hud(const AppWindow& window);
-  ~Hud();
-  Hud(const Hud&) = delete;
-  Hud& operator=(const Hud&) = delete;
-
-  /// Begins a frame, before any other of these. The panel takes the mouse while the window does not hold it.
+  /// Begins a frame, before any other of these. Panels take the mouse while the window does not hold it.
   void begin(bool mouse_is_free);
   /// Remembers a frame for the graphs, shown or not.
   void note(const HudFacts& facts, const FrameParts& parts);
-  void figures(const HudFacts& facts);
+  /// A few lines; with `all`, everything that is known.
+  void figures(const HudFacts& facts, bool all);
   void graphs(const HudFacts& facts);
-  /// The chosen method; null if none was chosen. Sliders and boxes change the others.
-  const MethodEntry* panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid,
-                           bool& predict);
+  /// The chosen method; null if none was chosen. Sliders and boxes change the values.
+  const MethodEntry* panel(const MethodEntry& chosen, const PanelValues& values);
+  void help(Telling telling, bool gamepad);
+  /// Above everything: what must not be overlooked.
+  void banner(const std::string& text);
+  /// Below everything: a method that is being made ready, and what there is to say now, a line each. Nothing
+  /// when there is nothing.
+  void messages(const HudFacts& facts, const std::vector<std::string>& lines);
   /// The persons' names, where their cursors are in the picture.
   void names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection);
-  void help();
   void crosshair();
-  void banner(const std::string& text);
-  void end();
+
+  const HudPanels& panels() const { return panels_; }
+  /// By how much text should be smaller, so that the columns fit beside each other: 1 or less.
+  float fit() const { return panels_.fit(); }
 
  private:
+  HudPanels panels_;
   History frame_;
   History update_;
   History draw_;
   History network_;
   History tick_;
-  bool mouse_is_free_ = false;
 };
 
 }  // namespace scree

@@ -1,8 +1,25 @@
 #include "client/viewer/window/hud_facts.h"
 
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+
 #include "client/viewer/base/limits.h"
 
 namespace scree {
+namespace {
+
+std::string place_of(const Camera& camera) {
+  char text[96];
+  const auto degrees = [](float radians) { return static_cast<double>(glm::degrees(radians)); };
+  std::snprintf(text, sizeof text, "at %.1f, %.1f, %.1f m, yaw %.0f, pitch %.0f degrees",
+                static_cast<double>(camera.eye_m.x), static_cast<double>(camera.eye_m.y),
+                static_cast<double>(camera.eye_m.z), std::remainder(degrees(camera.yaw), 360.0),
+                degrees(camera.pitch));
+  return text;
+}
+
+}  // namespace
 
 HudFacts FactFinder::find(Viewing& viewing, double now_s) {
   ViewerSession& session = viewing.session;
@@ -19,9 +36,15 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
   facts.latency = session.latency();
   facts.predictions = session.predictions();
   facts.driver = viewing.view->renderer().description();
+  facts.camera = place_of(viewing.camera);
+  facts.tick_rate_hz = session.tick_rate_hz();
+  facts.pace = session.pace().factor();
+  facts.lost_ticks = session.pace().lost_ticks();
+  facts.is_replay = session.is_replay();
   if (mirror != nullptr) {
     facts.tick = mirror->tick();
-    facts.pieces = mirror->pieces().size();
+    facts.voxel_size_m = mirror->terrain().voxel_size_m;
+    facts.pieces_near = mirror->pieces().size();
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }
@@ -30,6 +53,10 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
     facts.draw = method->stats();
     facts.gpu_times = viewing.view->renderer().gpu_times();
     facts.memory = facts.draw.memory;
+  }
+  if (DrawMethod* method = viewing.view->methods().preparing()) {
+    const DrawStats stats = method->stats();
+    facts.preparing = {std::string(method->name()), stats.kept, stats.waiting};
   }
   facts.memory.insert(facts.memory.end(), mirror_memory_.begin(), mirror_memory_.end());
   return facts;

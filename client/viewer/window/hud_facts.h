@@ -9,11 +9,29 @@
 
 namespace scree {
 
+/// A drawing method that is not shown yet: its blocks of triangles, or bricks.
+struct Preparing {
+  std::string method;
+  size_t done = 0;
+  size_t waiting = 0;
+
+  float share() const {
+    return done + waiting == 0 ? 0.0F : static_cast<float>(done) / static_cast<float>(done + waiting);
+  }
+};
+
 struct HudFacts {
   std::string connection;  ///< one line
-  bool lost = false;       ///< the connection is gone: shown in large letters
+  bool lost = false;       ///< the connection is gone: shown above everything
+  std::string camera;      ///< place and direction, one line
   Tick tick = 0;
-  size_t pieces = 0;
+  double tick_rate_hz = 60.0;
+  double pace = 1.0;        ///< of the world's time, 1: as the clock's
+  uint64_t lost_ticks = 0;  ///< by which the world is behind the clock
+  bool is_replay = false;
+  float voxel_size_m = 1.0F;
+  size_t pieces_near = 0;  ///< that the server shows to this viewer
+  std::optional<Preparing> preparing;
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;
   uint64_t mismatches = 0;

@@ -1,14 +1,21 @@
 // The HUD's figures and graphs.
+#include <algorithm>
 #include <cfloat>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
+#include <imgui/imgui.h>
 
 #include "client/viewer/window/hud.h"
-#include "client/viewer/window/hud_style.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 namespace {
 
+const ImVec4 slow_colour(1.0F, 0.6F, 0.4F, 1.0F);
+constexpr double pace_worth_a_word = 0.98;
+constexpr float line_width_in_text = 34.0F;   ///< heights of the text, before a long line is broken
+constexpr float graph_width_in_text = 18.0F;  ///< likewise
 constexpr double kib = 1024.0;
 constexpr double mib = 1024.0 * 1024.0;
 
@@ -16,16 +23,38 @@ double as_mib(size_t bytes) {
   return static_cast<double>(bytes) / mib;
 }
 
-void show_ledger(const StatusMessage& status) {
+/// The server's pieces, all of one moment: made = alive + merged + those of the last number.
+void show_pieces(const StatusMessage& status) {
+  const uint64_t ended = status.pieces_made - std::min<uint64_t>(status.pieces_made, status.pieces);
+  const uint64_t other = ended - std::min(ended, status.pieces_merged);
+  ImGui::Text("pieces: %u alive, %" PRIu64 " merged, %" PRIu64 " broke", status.pieces, status.pieces_merged,
+              other);
+}
+
+void show_ledger(const HudFacts& facts, const StatusMessage& status) {
+  const double voxel_m3 = std::pow(static_cast<double>(facts.voxel_size_m), 3.0);
+  const auto row = [&](const char* name, int64_t units) {
+    ImGui::Text("%-8s %+14.3f m3", name, static_cast<double>(units) * voxel_m3 / units_per_voxel);
+  };
+  row("terrain", status.ledger_terrain);
+  row("pieces", status.ledger_pieces);
+  row("dust", status.ledger_dust);
+  row("poured", status.ledger_poured);
   const int64_t error =
       status.ledger_terrain + status.ledger_pieces + status.ledger_dust - status.ledger_poured;
-  ImGui::Text("terrain  %+14" PRId64, status.ledger_terrain);
-  ImGui::Text("pieces   %14" PRId64, status.ledger_pieces);
-  ImGui::Text("dust     %14" PRId64, status.ledger_dust);
-  ImGui::Text("poured   %14" PRId64, status.ledger_poured);
-  ImGui::Text("error    %14" PRId64, error);
-  ImGui::Text("made %" PRIu64 ", merged %" PRIu64 ", alive %u", status.pieces_made, status.pieces_merged,
-              status.pieces);
+  ImGui::Text("error    %14" PRId64 " units", error);
+}
+
+/// A world that is slower than the clock is everybody's business.
+void show_pace(const HudFacts& facts) {
+  const bool slow = !facts.is_replay && (facts.pace < pace_worth_a_word || facts.lost_ticks > 0);
+  ImGui::PushStyleColor(ImGuiCol_Text, slow ? slow_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  ImGui::Text("time x %.2f", facts.pace);
+  if (!facts.is_replay) {
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::Text(", %" PRIu64 " ticks lost", facts.lost_ticks);
+  }
+  ImGui::PopStyleColor();
 }
 
 /// Shows the work of the server's ticks against their budget, and the work that did not fit.
@@ -49,7 +78,8 @@ double as_ms(uint32_t us) {
 /// The way of one's own last request, and of all clients' in the last second, by stages.
 void show_latency(const HudFacts& facts) {
   if (facts.latency) {
-    ImGui::Text("your request: %.1f ms, network %.1f", facts.latency->total_ms, facts.latency->network_ms());
+    ImGui::Text("your request: %.1f ms", facts.latency->total_ms);
+    ImGui::Text("  network %.1f", facts.latency->network_ms());
     for (const LatencyStageRow& stage : latency_stages) {
       ImGui::SameLine(0.0F, 0.0F);
       ImGui::Text(", %s %.1f", stage.name.data(), as_ms(facts.latency->server.*stage.us));
@@ -76,34 +106,26 @@ void show_graph(const char* name, const History& history, const char* unit) {
   std::snprintf(text, sizeof text, "%.2f %s, worst %.1f", static_cast<double>(history.mean()), unit,
                 static_cast<double>(history.worst()));
   ImGui::PlotLines(name, history.data(), static_cast<int>(History::length), history.offset(), text, 0.0F,
-                   FLT_MAX, ImVec2(240.0F, 38.0F));
+                   FLT_MAX, ImVec2(graph_width_in_text * ImGui::GetFontSize(), 3.0F * ImGui::GetFontSize()));
 }
 
 /// A bar for each stage of the server's tick, against the tick's length.
-void show_stages(const StatusMessage& status) {
-  constexpr float tick_ms = 1000.0F / 60.0F;
+void show_stages(const StatusMessage& status, double tick_rate_hz) {
+  const auto tick_ms = static_cast<float>(1000.0 / tick_rate_hz);
   for (const StageTime& stage : status.stages) {
     char text[48];
     std::snprintf(text, sizeof text, "%.3f ms", static_cast<double>(stage.ms));
-    ImGui::ProgressBar(stage.ms / tick_ms, ImVec2(240.0F, 14.0F), text);
+    ImGui::ProgressBar(stage.ms / tick_ms, ImVec2(graph_width_in_text * ImGui::GetFontSize(), 0.0F), text);
     ImGui::SameLine();
     ImGui::TextUnformatted(stage.name.c_str());
   }
 }
 
-}  // namespace
-
-void Hud::figures(const HudFacts& facts) {
-  begin_overlay("figures", ImVec2(12.0F, 12.0F), ImVec2(0.0F, 0.0F));
-  ImGui::TextUnformatted(facts.connection.c_str());
-  ImGui::Text("tick %" PRIu64 "   pieces %zu", facts.tick, facts.pieces);
-  const auto frame_ms = static_cast<double>(frame_.mean());
-  ImGui::Text("%.1f ms a frame (%.0f Hz)", frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0);
-  ImGui::Text("%.1f KiB/s received", facts.bytes_per_s / kib);
-  if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
+/// What a developer or an operator wants to know beside.
+void show_all(const HudFacts& facts) {
   ImGui::Separator();
   if (facts.status) {
-    show_ledger(*facts.status);
+    show_ledger(facts, *facts.status);
     show_work(facts.status->work);
   }
   show_latency(facts);
@@ -112,12 +134,29 @@ void Hud::figures(const HudFacts& facts) {
               facts.edited_bricks);
   show_memory(facts.memory);
   ImGui::Separator();
-  ImGui::Text("%s: %zu draws, %zu k triangles, %zu pieces", facts.method.c_str(), facts.draw.draws,
-              facts.draw.triangles / 1000, facts.draw.pieces);
-  ImGui::Text("%zu blocks or bricks kept", facts.draw.kept);
-  if (facts.draw.waiting > 0) ImGui::Text("%zu waiting", facts.draw.waiting);
-  if (!facts.notice.empty()) ImGui::TextColored(ImVec4(1.0F, 0.6F, 0.4F, 1.0F), "%s", facts.notice.c_str());
-  ImGui::End();
+  ImGui::Text("%s: %zu draws, %zu k triangles, %zu of %zu pieces", facts.method.c_str(), facts.draw.draws,
+              facts.draw.triangles / 1000, facts.draw.pieces, facts.pieces_near);
+  ImGui::Text("%zu blocks or bricks kept, %zu waiting", facts.draw.kept, facts.draw.waiting);
+}
+
+}  // namespace
+
+void Hud::figures(const HudFacts& facts, bool all) {
+  panels_.begin(PanelPlace::upper_left);
+  ImGui::PushTextWrapPos(line_width_in_text * ImGui::GetFontSize());
+  ImGui::TextUnformatted(facts.connection.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(facts.camera.c_str());
+  const auto frame_ms = static_cast<double>(frame_.mean());
+  ImGui::Text("%.1f ms a frame (%.0f Hz), %.1f KiB/s", frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
+              facts.bytes_per_s / kib);
+  ImGui::Text("tick %" PRIu64 ",", facts.tick);
+  ImGui::SameLine();
+  show_pace(facts);
+  if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
+  if (facts.status) show_pieces(*facts.status);
+  if (all) show_all(facts);
+  panels_.end();
 }
 
 void Hud::note(const HudFacts& facts, const FrameParts& parts) {
@@ -129,9 +168,10 @@ void Hud::note(const HudFacts& facts, const FrameParts& parts) {
 }
 
 void Hud::graphs(const HudFacts& facts) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  begin_overlay("graphs", ImVec2(size.x - 12.0F, size.y - 12.0F), ImVec2(1.0F, 1.0F));
+  panels_.begin(PanelPlace::lower_right);
+  ImGui::PushTextWrapPos(line_width_in_text * ImGui::GetFontSize());
   ImGui::TextUnformatted(facts.driver.c_str());
+  ImGui::PopTextWrapPos();
   show_graph("frame", frame_, "ms");
   show_graph("update", update_, "ms");
   show_graph("draw", draw_, "ms");
@@ -139,8 +179,8 @@ void Hud::graphs(const HudFacts& facts) {
   show_graph("server tick", tick_, "ms");
   for (const GpuTime& time : facts.gpu_times)
     ImGui::Text("GPU %-9s %7.2f ms", std::string(time.name).c_str(), time.ms);
-  if (facts.status) show_stages(*facts.status);
-  ImGui::End();
+  if (facts.status) show_stages(*facts.status, facts.tick_rate_hz);
+  panels_.end();
 }
 
 }  // namespace scree

@@ -2,14 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <imgui/imgui.h>
 
 #include "client/viewer/base/limits.h"
 #include "client/viewer/window/hud.h"
-#include "client/viewer/window/hud_style.h"
 #include "shared/base/limits.h"
 
 namespace scree {
 namespace {
+
+constexpr float slider_width_in_text = 11.5F;  ///< heights of the text
 
 template <typename E, size_t n>
 void choose(E& value, const std::array<E, n>& all) {
@@ -52,11 +54,10 @@ void choose_grid(GridShape& grid) {
 
 }  // namespace
 
-const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoice& overlay, GridShape& grid,
-                              bool& predict) {
-  begin_overlay("panel", ImVec2(ImGui::GetIO().DisplaySize.x - 12.0F, 12.0F), ImVec2(1.0F, 0.0F),
-                mouse_is_free_);
-  ImGui::PushItemWidth(150.0F);
+const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
+  auto& [tool, overlay, grid, predict, hand] = values;
+  panels_.begin(PanelPlace::upper_right);
+  ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
   if (chosen.name == "grid") choose_grid(grid);
   ImGui::Separator();
@@ -68,6 +69,11 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoi
   const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
   if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
+  ImGui::Separator();
+  ImGui::SliderFloat("field of view", &hand.field_of_view_degrees, field_of_view_min_degrees,
+                     field_of_view_max_degrees, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat("mouse", &hand.mouse_speed, mouse_speed_min, mouse_speed_max, "x %.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
   ImGui::PopItemWidth();
   ImGui::Checkbox("show own carves at once", &predict);
   ImGui::Separator();
@@ -80,7 +86,7 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, Tool& tool, OverlayChoi
   ImGui::Checkbox("pieces", &overlay.pieces);
   ImGui::Checkbox("bodies, contacts, islands (by the server)", &overlay.physics);
   ImGui::EndDisabled();
-  ImGui::End();
+  panels_.end();
   return picked;
 }
 
