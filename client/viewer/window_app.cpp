@@ -1,5 +1,6 @@
 #include "client/viewer/window_app.h"
 
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -14,7 +15,23 @@
 namespace scree {
 namespace {
 
-constexpr LineColour preview_colour{255, 236, 170, 150};
+/// Of the shape in the person's hand.
+LineColour preview_colour(const Tool& tool) {
+  constexpr uint8_t opacity = 150;
+  switch (tool.use) {
+    case ToolUse::carve:
+      break;
+    case ToolUse::fill:
+      return {170, 255, 190, opacity};
+    case ToolUse::paint: {
+      const auto& [r, g, b] = traits_of(tool.material).albedo;
+      const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
+      return {bright(r), bright(g), bright(b), opacity};
+    }
+  }
+  return {255, 236, 170, opacity};
+}
+
 constexpr double said_s = 6.0;
 
 /// "scree-2026-11-22-203015.png", with a number before the ending if there is such a file.
@@ -140,7 +157,7 @@ LineList WindowApp::lines(double now_s) {
   LineList lines;
   const glm::vec3 direction = viewing_.camera.forward();
   if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
-    lines.shape(shape_of(tool_, *hit_m, direction), preview_colour);
+    lines.shape(shape_of(tool_, *hit_m, direction), preview_colour(tool_));
   add_cursors(lines, viewing_.session.cursors());
   viewing_.add_overlay(lines, overlay_, now_s);
   return lines;

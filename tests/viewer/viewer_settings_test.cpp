@@ -93,7 +93,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.width = 801;
   settings.method = all_methods().front().name;
   settings.grid = {64, 4, GridSpacing::growing};
-  settings.tool = {ToolKind::box, 3.25F, 12.0F, SeedPattern::uniform, 40};
+  settings.tool = {ToolKind::box, ToolUse::paint, Material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {Telling::all, true, true, false};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
@@ -140,14 +140,31 @@ TEST(Tool, every_shape_is_within_the_servers_limits) {
       Tool tool;
       tool.kind = kind;
       tool.radius_m = radius_m;
-      const CarveMessage carve =
-          strike_with(tool, {1.0F, 2.0F, 3.0F}, glm::normalize(glm::vec3(1, -2, 3)), 7);
+      const glm::vec3 direction = glm::normalize(glm::vec3(1, -2, 3));
+      const auto carve = std::get<CarveRequest>(request_of(tool, {1.0F, 2.0F, 3.0F}, direction, 7));
       EXPECT_TRUE(validate(carve.shape));
       EXPECT_LE(reach_of(carve.shape), limits::edit_reach_max_m + 1e-4F) << name_of(kind) << " " << radius_m;
       EXPECT_GE(reach_of(carve.shape), limits::edit_reach_min_m);
       EXPECT_LT(distance(carve.shape, carve.impact_m), 0.0F) << "the surface is opened";
       EXPECT_LE(carve.seeds, limits::seeds_max);
     }
+}
+
+TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
+  const glm::vec3 hit_m(1.0F, 2.0F, 3.0F), down(0.0F, -1.0F, 0.0F);
+  Tool tool;
+  change(tool, Action::next_use);
+  const auto fill = std::get<FillRequest>(request_of(tool, hit_m, down, 1));
+  EXPECT_LT(distance(fill.shape, hit_m), 0.0F) << "it touches";
+  EXPECT_GT(centre_of(fill.shape).y, hit_m.y) << "and is mostly outside";
+  change(tool, Action::next_use);
+  change(tool, Action::next_material);
+  const auto paint = std::get<PaintRequest>(request_of(tool, hit_m, down, 1));
+  EXPECT_EQ(paint.material, tool.material);
+  EXPECT_NE(paint.material, Tool{}.material);
+  EXPECT_LT(distance(paint.shape, hit_m), 0.0F);
+  change(tool, Action::next_use);
+  EXPECT_EQ(tool.use, ToolUse::carve);
 }
 
 TEST(Tool, actions_stay_within_the_ranges) {

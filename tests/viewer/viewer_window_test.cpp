@@ -187,6 +187,28 @@ TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
   EXPECT_FALSE(window_->holds_mouse());
 }
 
+TEST_F(ViewerHand, fills_and_paints) {
+  open(320, 200);
+  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  const auto poured = [&] {
+    const auto& status = viewing_->session.mirror()->status();
+    return status && status->ledger_poured > 0;
+  };
+  hand("key p key h key g mousemove 160 120 click 1 key f click 1");
+  run_until(poured, "what was poured");
+  hand("key f key b click 1");
+  EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
+  const auto painted = [&] {
+    Field& field = viewing_->session.mirror()->field();
+    for (const ChunkCoord chunk : field.edited_chunks())
+      for (const BrickCoord brick : field.edited_bricks(chunk))
+        if (field.painted(brick) == app_->settings().tool.material) return true;
+    return false;
+  };
+  run_until(painted, "what was painted");
+  EXPECT_FALSE(viewing_->session.carved());
+}
+
 TEST_F(ViewerHand, takes_pictures_and_records_paths_into_this_folder) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scree_hand",
                               before = std::filesystem::current_path();

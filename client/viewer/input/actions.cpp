@@ -13,6 +13,9 @@ constexpr std::array table{
     Binding{Action::box, GLFW_KEY_2, unbound, "2", "", "tool: box"},
     Binding{Action::tunnel, GLFW_KEY_3, unbound, "3", "", "tool: tunnel"},
     Binding{Action::next_tool, unbound, GLFW_GAMEPAD_BUTTON_A, "", "pad A", "next tool"},
+    Binding{Action::next_use, GLFW_KEY_F, GLFW_GAMEPAD_BUTTON_B, "F", "pad B",
+            "carve, fill or paint with it"},
+    Binding{Action::next_material, GLFW_KEY_B, unbound, "B", "", "material to paint with"},
     Binding{Action::larger, GLFW_KEY_EQUAL, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "=", "pad RB", "larger"},
     Binding{Action::smaller, GLFW_KEY_MINUS, GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "-", "pad LB", "smaller"},
     Binding{Action::stronger, GLFW_KEY_X, GLFW_GAMEPAD_BUTTON_DPAD_UP, "X", "pad up", "stronger blast"},
@@ -59,8 +62,8 @@ constexpr std::array<Motion, 4> motions{{
 }};
 
 /// What a newcomer needs; the help says where the rest is.
-constexpr std::array basics{Action::next_method, Action::panel, Action::help, Action::free_mouse,
-                            Action::end};
+constexpr std::array basics{Action::next_use, Action::next_method, Action::panel,
+                            Action::help,     Action::free_mouse,  Action::end};
 
 constexpr size_t column = 12, gamepad_column = 20;
 

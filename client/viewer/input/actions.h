@@ -16,6 +16,8 @@ enum class Action : uint8_t {
   box,
   tunnel,
   next_tool,
+  next_use,
+  next_material,
   larger,
   smaller,
   stronger,

@@ -32,7 +32,7 @@ uint32_t scaled(uint32_t seeds, float factor) {
 }  // namespace
 
 Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
-  const glm::vec3 centre_m = hit_m + direction * (tool.radius_m * carve_depth_in_radii);
+  const glm::vec3 centre_m = hit_m + direction * (tool.radius_m * traits_of(tool.use).depth_in_radii);
   switch (tool.kind) {
     case ToolKind::sphere:
       return sphere(centre_m, tool.radius_m);
@@ -55,13 +55,21 @@ uint32_t seeds_of(const Tool& tool) {
   return std::clamp(static_cast<uint32_t>(wanted), seeds_by_volume_min, seeds_by_volume_max);
 }
 
-CarveMessage strike_with(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t request) {
-  CarveMessage carve;
-  carve.request = request;
-  carve.shape = shape_of(tool, hit_m, direction);
+Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number) {
+  const Shape shape = shape_of(tool, hit_m, direction);
+  switch (tool.use) {
+    case ToolUse::carve:
+      break;
+    case ToolUse::fill:
+      return FillRequest{shape};
+    case ToolUse::paint:
+      return PaintRequest{shape, tool.material};
+  }
+  CarveRequest carve;
+  carve.shape = shape;
   carve.pattern = tool.pattern;
   carve.seeds = seeds_of(tool);
-  carve.random_seed = request * 0x9E3779B1U;
+  carve.random_seed = number * 0x9E3779B1U;
   carve.impact_m = hit_m;
   carve.blast_speed_m_s = tool.blast_speed_m_s;
   return carve;
@@ -87,6 +95,12 @@ void change(Tool& tool, Action action) {
       break;
     case Action::next_tool:
       tool.kind = next(all_kinds<ToolKind>, tool.kind);
+      break;
+    case Action::next_use:
+      tool.use = next(all_kinds<ToolUse>, tool.use);
+      break;
+    case Action::next_material:
+      tool.material = next(all_kinds<Material>, tool.material);
       break;
     case Action::next_pattern:
       tool.pattern = next(tool_patterns, tool.pattern);

@@ -1,4 +1,4 @@
-// The tool of a strike: the shape that it carves, and the pattern of the pieces.
+// The tool in a person's hand: a shape, what is done with it, and the pattern of the pieces that it carves.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,31 @@
 #include "client/viewer/input/actions.h"
 #include "proto/messages.h"
 #include "shared/base/kind_table.h"
+#include "shared/field/material.h"
 
 namespace scree {
 
 enum class ToolKind : uint8_t { sphere = 0, box = 1, tunnel = 2 };
+
+/// What a click does with the tool's shape.
+enum class ToolUse : uint8_t { carve = 0, fill = 1, paint = 2 };
+
+struct UseRow {
+  std::string_view name;
+  float depth_in_radii;  ///< of the shape's centre in the rock, from the point that was hit
+};
+
+constexpr UseRow row_of(ToolUse use) {
+  switch (use) {
+    case ToolUse::carve:
+      return {.name = "carve", .depth_in_radii = carve_depth_in_radii};
+    case ToolUse::fill:
+      return {.name = "fill", .depth_in_radii = -0.5F};  // it stands on what it touches
+    case ToolUse::paint:
+      return {.name = "paint", .depth_in_radii = 0.0F};
+  }
+  return {};
+}
 
 /// A tunnel's length, the rounded ends included.
 inline constexpr float tunnel_length_in_radii = 6.0F;
@@ -35,7 +56,9 @@ constexpr ToolRow row_of(ToolKind kind) {
 
 struct Tool {
   ToolKind kind = ToolKind::sphere;
-  float radius_m = 2.0F;  ///< of a box: half its side; a tunnel is six times as long
+  ToolUse use = ToolUse::carve;
+  Material material = Material::rock;  ///< to paint with
+  float radius_m = 2.0F;               ///< of a box: half its side; a tunnel is six times as long
   float blast_speed_m_s = 6.0F;
   SeedPattern pattern = SeedPattern::radial;
   uint32_t seeds = 0;  ///< 0: by the volume, so that pieces are about as large at any size
@@ -51,15 +74,15 @@ inline constexpr uint32_t tool_seeds_max = 256;
 /// A hand gives no points.
 inline constexpr auto tool_patterns = pointless_patterns;
 
-/// The shape of a strike along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
+/// The shape of a use along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
 /// direction; boxes stand upright.
 Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
 
 /// Number of seeds of a strike.
 uint32_t seeds_of(const Tool& tool);
 
-/// The request for such a strike.
-CarveMessage strike_with(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t request);
+/// What a click along `direction` (unit) that meets rock at `hit_m` asks for; `number` tells it from others.
+Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number);
 
 /// Larger by that many notches of the wheel.
 void grow(Tool& tool, float notches);

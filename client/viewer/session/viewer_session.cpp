@@ -241,17 +241,22 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   if (!connection_) return;
   const std::optional<glm::vec3> hit_m = aim(from_m, direction);
   if (!hit_m) return;
-  const CarveMessage carve = strike_with(tool, *hit_m, direction, ++requests_);
-  connection_->send(carve);
+  const Request asked = request_of(tool, *hit_m, direction, ++requests_);
+  std::visit(Overloaded{[&](const auto& request) {
+                          connection_->send(Asked<std::decay_t<decltype(request)>>{request, requests_});
+                        },
+                        [](const SettingsRequest&) {}},  // no tool's
+             asked);
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
-  asked_s_[carve.request] = now_s;
-  if (predict_) foresee(carve, now_s);
+  asked_s_[requests_] = now_s;
+  if (predict_) foresee(asked, requests_, now_s);
 }
 
-/// Where everything that the carve reads has arrived, and where it can be hoped to be carried out.
-void ViewerSession::foresee(const CarveMessage& carve, double now_s) {
+/// Where everything that the request reads has arrived, and where it can be hoped to be carried out.
+void ViewerSession::foresee(const Request& asked, uint32_t number, double now_s) {
   const WelcomeMessage& welcome = connection_->welcome();
-  if (welcome.replay || !may_act_as(welcome.role, Role::carver)) return;
+  const Role role = std::holds_alternative<CarveRequest>(asked) ? Role::carver : Role::builder;
+  if (welcome.replay || !may_act_as(welcome.role, role)) return;
   const float radius_m = std::min(interest_radius_m_, welcome.interest_radius_m);
   const float side_m = static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m;
   const auto known = [&](ChunkCoord chunk) {
@@ -261,7 +266,7 @@ void ViewerSession::foresee(const CarveMessage& carve, double now_s) {
     const glm::vec3 nearest_m = glm::clamp(reported_eye_m_, lo_m, lo_m + side_m);
     return glm::distance(reported_eye_m_, nearest_m) <= radius_m;
   };
-  predictions_->foresee(carve.request, Request(static_cast<const CarveRequest&>(carve)), now_s, known);
+  predictions_->foresee(number, asked, now_s, known);
 }
 
 std::string ViewerSession::description() const {

@@ -59,7 +59,7 @@ class ViewerSession {
 
   /// The point at which a ray (unit direction) meets rock within reach, metres.
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
-  /// Requests a carve by the tool at the point where the ray meets rock; does nothing if it meets none.
+  /// Requests what the tool does at the point where the ray meets rock; does nothing if it meets none.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s);
   /// The way of the last request that was answered, by stages; none before the first.
   const std::optional<RequestLatency>& latency() const { return latency_; }
@@ -96,7 +96,7 @@ class ViewerSession {
   void finish_connecting(double now_s, SessionStep& step);
   void receive(double now_s, SessionStep& step);
   void measure(const ReplyMessage& reply, double arrived_s);
-  void foresee(const CarveMessage& carve, double now_s);
+  void foresee(const Request& asked, uint32_t number, double now_s);
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);

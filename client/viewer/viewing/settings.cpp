@@ -143,6 +143,8 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("overlay_pieces", settings.overlay.pieces);
   reader.flag("overlay_physics", settings.overlay.physics);
   reader.choice("tool", settings.tool.kind, all_kinds<ToolKind>);
+  reader.choice("use", settings.tool.use, all_kinds<ToolUse>);
+  reader.choice("material", settings.tool.material, all_kinds<Material>);
   reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
   reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
   reader.choice("pattern", settings.tool.pattern, tool_patterns);
@@ -173,6 +175,8 @@ std::string to_text(const Settings& settings) {
                   {"overlay_pieces", settings.overlay.pieces},
                   {"overlay_physics", settings.overlay.physics},
                   {"tool", name_of(settings.tool.kind)},
+                  {"use", name_of(settings.tool.use)},
+                  {"material", name_of(settings.tool.material)},
                   {"radius_m", settings.tool.radius_m},
                   {"blast_speed_m_s", settings.tool.blast_speed_m_s},
                   {"pattern", name_of(settings.tool.pattern)},

@@ -52,6 +52,18 @@ void choose_grid(GridShape& grid) {
   choose(grid.spacing, grid_spacings);
 }
 
+/// What a carve breaks into, or what is painted.
+void choose_use(Tool& tool) {
+  if (tool.use == ToolUse::paint) choose(tool.material, all_kinds<Material>);
+  if (tool.use != ToolUse::carve) return;
+  ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
+  choose(tool.pattern, tool_patterns);
+  auto seeds = static_cast<int>(tool.seeds);
+  const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
+  if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
+    tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
+}
+
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
@@ -61,14 +73,10 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& valu
   const MethodEntry* picked = choose_method(chosen);
   if (chosen.name == "grid") choose_grid(grid);
   ImGui::Separator();
+  choose(tool.use, all_kinds<ToolUse>);
   choose(tool.kind, all_kinds<ToolKind>);
   ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
-  ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
-  choose(tool.pattern, tool_patterns);
-  auto seeds = static_cast<int>(tool.seeds);
-  const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
-  if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
-    tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
+  choose_use(tool);
   ImGui::Separator();
   ImGui::SliderFloat("field of view", &hand.field_of_view_degrees, field_of_view_min_degrees,
                      field_of_view_max_degrees, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp);
