@@ -110,7 +110,7 @@ Result<void> WindowApp::act_on_files(Action action, double now_s) {
     if (recorder_) {
       end_path(now_s);
     } else {
-      recorder_.emplace();
+      recorder_.emplace().add(now_s, viewing_.camera);
     }
   }
   return {};

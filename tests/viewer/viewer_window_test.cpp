@@ -136,68 +136,78 @@ TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
   EXPECT_TRUE(lines.vertices().empty()) << "nothing is shown that was not asked for";
 }
 
-/// Sends a key or a click to the window as a person's hand would, and lets the app take it in.
+/// Sends keys and clicks to the window as a person's hand would. They arrive in order, some time later.
 class ViewerHand : public ViewerWindow {
  protected:
-  void hand(const std::string& what) {
+  static void hand(const std::string& what) {
     ASSERT_EQ(std::system(("xdotool " + what).c_str()), 0) << "xdotool (package xdotool)";
-    for (int i = 0; i < 3; ++i) ASSERT_TRUE(app_->frame());
   }
   bool shown(PanelPlace place) const { return app_->panels()[static_cast<size_t>(place)] != Rectangle{}; }
+  void join(int width, int height) {
+    open(width, height);
+    run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+    hand("mousemove " + std::to_string(width / 2) + " " + std::to_string(height * 2 / 3));
+  }
+  /// Takes the mouse, with nothing on the screen that a click could meet.
+  void take_mouse() {
+    hand("key p key h key g click 1");
+    run_until([&] { return window_->holds_mouse() && !shown(PanelPlace::bottom); },
+              "the mouse, and nothing to be said any more");
+  }
 };
 
 TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
-  open(640, 360);
-  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
-  hand("mousemove 320 330");
-  for (const PanelPlace place : {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right,
-                                 PanelPlace::lower_right, PanelPlace::bottom})
-    EXPECT_TRUE(shown(place)) << static_cast<int>(place);
+  join(640, 360);
+  run_until(
+      [&] {
+        return shown(PanelPlace::upper_left) && shown(PanelPlace::lower_left) &&
+               shown(PanelPlace::upper_right) && shown(PanelPlace::lower_right) && shown(PanelPlace::bottom);
+      },
+      "everything");
   for (size_t i = 0; i < panel_places; ++i)
     for (size_t j = 0; j < i; ++j) EXPECT_FALSE(intersect(app_->panels()[i], app_->panels()[j]));
   hand("key F1");
-  EXPECT_EQ(app_->panels(), PanelRectangles{}) << "all of it is hidden";
+  run_until([&] { return app_->panels() == PanelRectangles{}; }, "the picture alone");
   hand("key Escape");
-  EXPECT_TRUE(window_->asks_to_end());
-  EXPECT_TRUE(shown(PanelPlace::bottom)) << "the question is seen all the same";
+  run_until([&] { return window_->asks_to_end() && shown(PanelPlace::bottom); },
+            "the question, seen all the same");
   hand("key m");
-  EXPECT_FALSE(window_->asks_to_end()) << "any other key says no";
-  EXPECT_EQ(app_->settings().method, options_.method->name) << "and does nothing else";
+  run_until([&] { return !window_->asks_to_end(); }, "no");
   EXPECT_FALSE(window_->should_close());
   hand("key F1 key g key p key h");
-  EXPECT_FALSE(shown(PanelPlace::lower_right));
-  EXPECT_FALSE(shown(PanelPlace::upper_right));
-  EXPECT_FALSE(shown(PanelPlace::lower_left)) << "after all the help comes none";
+  run_until(
+      [&] {
+        return shown(PanelPlace::upper_left) && !shown(PanelPlace::lower_right) &&
+               !shown(PanelPlace::upper_right) && !shown(PanelPlace::lower_left);
+      },
+      "figures alone: after all the help comes none");
+  EXPECT_EQ(app_->settings().method, options_.method->name) << "the key that said no did nothing else";
   hand("key Escape key Return");
-  EXPECT_TRUE(window_->should_close());
+  run_until([&] { return window_->should_close(); }, "the end");
 }
 
 TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
-  open(320, 200);
-  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
-  hand("key p key h key g mousemove 160 120 click 1");
-  EXPECT_TRUE(window_->holds_mouse());
-  EXPECT_FALSE(shown(PanelPlace::bottom)) << "nothing to be said any more";
+  join(320, 200);
+  take_mouse();
+  EXPECT_FALSE(viewing_->session.carved());
   hand("click 1");
   run_until([&] { return viewing_->session.carved(); }, "what the strike broke");
-  const float text = app_->settings().hand.text_scale, view = app_->settings().hand.field_of_view_degrees;
+  const HandChoice before = app_->settings().hand;
   hand("key Prior key comma key Tab");
-  EXPECT_GT(app_->settings().hand.text_scale, text);
-  EXPECT_LT(app_->settings().hand.field_of_view_degrees, view);
-  EXPECT_FALSE(window_->holds_mouse());
+  run_until([&] { return !window_->holds_mouse(); }, "the mouse's freedom");
+  EXPECT_GT(app_->settings().hand.text_scale, before.text_scale);
+  EXPECT_LT(app_->settings().hand.field_of_view_degrees, before.field_of_view_degrees);
 }
 
 TEST_F(ViewerHand, fills_and_paints) {
-  open(320, 200);
-  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
+  join(320, 200);
+  take_mouse();
   const auto poured = [&] {
     const auto& status = viewing_->session.mirror()->status();
     return status && status->ledger_poured > 0;
   };
-  hand("key p key h key g mousemove 160 120 click 1 key f click 1");
+  hand("key f click 1");
   run_until(poured, "what was poured");
-  hand("key f key b click 1");
-  EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
   const auto painted = [&] {
     Field& field = viewing_->session.mirror()->field();
     for (const ChunkCoord chunk : field.edited_chunks())
@@ -205,30 +215,30 @@ TEST_F(ViewerHand, fills_and_paints) {
         if (field.painted(brick) == app_->settings().tool.material) return true;
     return false;
   };
+  hand("key f key b click 1");
   run_until(painted, "what was painted");
+  EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
   EXPECT_FALSE(viewing_->session.carved());
 }
 
 TEST_F(ViewerHand, takes_pictures_and_records_paths_into_this_folder) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scree_hand",
-                              before = std::filesystem::current_path();
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  std::filesystem::current_path(folder);
-  open(320, 200);
-  run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
-  hand("mousemove 160 100 key F12 key k");
-  hand("key k");
-  std::filesystem::current_path(before);
-  size_t pictures = 0, paths = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string file = entry.path().string();
-    pictures += file.ends_with(".png") && read_png(file) ? 1 : 0;
-    paths += file.ends_with(".json") && CameraPath::read(file) ? 1 : 0;
-  }
-  EXPECT_EQ(pictures, 1U);
-  EXPECT_EQ(paths, 1U);
-  std::filesystem::remove_all(folder);
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "scree_hand", before = fs::current_path();
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  fs::current_path(folder);
+  const auto file = [&](const char* ending) {
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ending) return entry.path().string();
+    return std::string();
+  };
+  join(320, 200);
+  hand("key F12 key k key k");
+  run_until([&] { return !file(".json").empty(); }, "the path's file");
+  fs::current_path(before);
+  EXPECT_TRUE(read_png(file(".png")));
+  EXPECT_TRUE(CameraPath::read(file(".json")));
+  fs::remove_all(folder);
 }
 
 TEST_F(ViewerWindow, opengl_that_is_too_old_is_said_with_the_way_out) {
