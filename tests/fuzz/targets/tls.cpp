@@ -137,17 +137,21 @@ class Ends {
     bool moved = server_.received() + client_.received() != received;  // it had arrived already
     moved = server_link_->pump(bytes) || moved;
     moved = client_link_->pump(bytes) || moved;
-    hand_over(*server_link_, *client_link_);
-    hand_over(*client_link_, *server_link_);
+    hand_over(*server_link_, *client_link_, to_client_);
+    hand_over(*client_link_, *server_link_, to_server_);
     return moved;
   }
-  void hand_over(MemoryTransport& from, MemoryTransport& to) {
+  /// Damage leaves the first bytes alone, by which the server tells what a stream is: without them it takes
+  /// the rest for a plain one's.
+  void hand_over(MemoryTransport& from, MemoryTransport& to, size_t& carried) {
     std::vector<uint8_t> bytes = from.take();
-    if (!bytes.empty() && damage_ != 0) {
-      bytes[damage_ % bytes.size()] ^= damage_;
+    const size_t place = bytes.empty() ? 0 : damage_ % bytes.size();
+    if (!bytes.empty() && damage_ != 0 && carried + place >= tls_greeting_bytes) {
+      bytes[place] ^= damage_;
       damage_ = 0;
       whole_ = false;
     }
+    carried += bytes.size();
     to.send(bytes);
   }
 
@@ -158,6 +162,7 @@ class Ends {
   bool plain_;
   bool whole_ = true;
   uint8_t damage_ = 0;
+  size_t to_client_ = 0, to_server_ = 0;  ///< bytes carried
 };
 
 }  // namespace
