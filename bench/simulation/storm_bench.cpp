@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <thread>
 
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
@@ -137,13 +138,14 @@ void report_storm(BenchReport& report, const std::string& when, const std::vecto
                            alive_wanted, crowded_p99_ms));
 }
 
-void storm(BenchReport& report, bool merging, const BenchOptions& options) {
-  const std::string when = merging ? "stamp" : "off";
+/// On one thread, or with `threads` 0 on all cores.
+std::vector<StormTick> storm(BenchReport& report, bool merging, size_t threads, const BenchOptions& options) {
+  const std::string when = std::string(merging ? "stamp" : "off") + (threads == 1 ? "" : "_all_cores");
   const Tick ticks_max = merging ? 3600 : 900;
   const int rounds = options.quick ? 1 : 3;
   std::vector<StormTick> ticks;
   for (int round = 0; round < rounds; ++round) {
-    World world(storm_config(merging));
+    World world(storm_config(merging), threads);
     std::vector<StormTick> again = rage(world, ticks_max);
     if (round == 0)
       ticks = std::move(again);
@@ -159,6 +161,18 @@ void storm(BenchReport& report, bool merging, const BenchOptions& options) {
           fmt::format("{:.2f} us a tick after, {:.2f} us before; wanted within 5 %", after_us, before_us));
   }
   report_storm(report, when, ticks);
+  return ticks;
+}
+
+/// The storm on one thread and on all cores: the hashes must be the same.
+void storms(BenchReport& report, bool merging, const BenchOptions& options) {
+  const std::vector<StormTick> alone = storm(report, merging, 1, options);
+  const std::vector<StormTick> shared = storm(report, merging, 0, options);
+  const auto differ =
+      std::ranges::mismatch(alone, shared, {}, &StormTick::state_hash, &StormTick::state_hash);
+  report.check(std::string(merging ? "stamp" : "off") + "_same_on_all_cores",
+               differ.in1 == alone.end() && differ.in2 == shared.end(),
+               fmt::format("hashes agree for {} of {} ticks", differ.in1 - alone.begin(), alone.size()));
 }
 
 /// Ticks until the given share of a blow's pieces is terrain again; blast_ticks_max when it never is.
@@ -205,9 +219,10 @@ void blast_again(BenchReport& report) {
 
 BenchReport run_storm_bench(const BenchOptions& options) {
   BenchReport report;
-  storm(report, true, options);
+  report.metric("cores", std::thread::hardware_concurrency());
+  storms(report, true, options);
   options.progress(0.4);
-  storm(report, false, options);
+  storms(report, false, options);
   options.progress(0.9);
   blast_again(report);
   options.progress(1.0);

@@ -73,7 +73,7 @@ Result<void> LiveServer::State::open() {
     config.world = replay->world;
     config.net.replay = true;
   } else {
-    auto live = live_feed(config.world);
+    auto live = live_feed(config.world, config.sim_threads);
     if (!live) return tl::unexpected(live.error());
     feed = std::move(*live);
   }

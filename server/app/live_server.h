@@ -1,8 +1,8 @@
 // A whole server in one object: ticks from the simulation or from a recording, clients, and a recorder. The
 // program scree-server adds a command line; tests and benches run the object in their own process.
 //
-// Threads: the simulation thread (unless stepped by hand), the network thread, the storage thread, and one
-// that generates terrain ahead. The owner's thread calls all public functions.
+// Threads: the simulation thread (unless stepped by hand), the network thread, those that help these two, the
+// storage thread, and one that generates terrain ahead. The owner's thread calls all public functions.
 #pragma once
 
 #include <memory>
@@ -20,6 +20,7 @@ enum class Pacing { real_time, by_hand };
 
 struct LiveConfig {
   WorldConfig world;        ///< a replay takes its recording's instead
+  size_t sim_threads = 0;   ///< that step the bodies; 0: as many as the machine has cores
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording

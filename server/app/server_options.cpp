@@ -6,12 +6,12 @@
 
 #include "proto/messages.h"
 #include "server/app/limits.h"
-#include "server/publish/limits.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
 #include "shared/base/token.h"
+#include "shared/base/workers.h"
 
 namespace scree {
 
@@ -34,17 +34,21 @@ std::string within(const std::string& unit, T min, T max) {
   return text.str();
 }
 
+void add_threads(CLI::App& app, const char* name, size_t& threads, const std::string& what) {
+  app.add_option(
+         name, threads,
+         within<size_t>("threads that " + what + "; 0: as many as there are cores", 0, Workers::threads_max))
+      ->check(CLI::Range(size_t{0}, Workers::threads_max))
+      ->capture_default_str();
+}
+
 void add_network(CLI::App& app, Raw& raw) {
   NetConfig& net = raw.options.live.net;
   net.port = default_port;
   app.add_option("-p,--port", net.port, "TCP port; 0: one that is free")->capture_default_str();
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
       ->capture_default_str();
-  app.add_option("--net-threads", net.net_threads,
-                 within<size_t>("threads that encode and send; 0: as many as there are cores", 0,
-                                limits::workers_max))
-      ->check(CLI::Range(size_t{0}, limits::workers_max))
-      ->capture_default_str();
+  add_threads(app, "--net-threads", net.net_threads, "encode and send");
 }
 
 void add_world(CLI::App& app, Raw& raw) {
@@ -60,6 +64,7 @@ void add_world(CLI::App& app, Raw& raw) {
   app.add_option("--tick-rate", world.tick_rate_hz,
                  within("ticks a second", limits::tick_rate_min_hz, limits::tick_rate_max_hz))
       ->capture_default_str();
+  add_threads(app, "--sim-threads", raw.options.live.sim_threads, "step the bodies");
 }
 
 /// Every row of the table of settings is an option.

@@ -37,8 +37,8 @@ class RecordedFeed final : public TickFeed {
 
 }  // namespace
 
-Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config) {
-  auto world = World::create(config);
+Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads) {
+  auto world = World::create(config, threads);
   if (!world) return tl::unexpected(world.error());
   return std::make_unique<LiveFeed>(std::move(*world));
 }

@@ -22,8 +22,8 @@ class TickFeed {
   virtual World* world() { return nullptr; }
 };
 
-/// Refuses a configuration that no world runs with.
-Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config);
+/// Refuses a configuration that no world runs with. `threads`: of the world (World::create).
+Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads);
 
 struct ReplayOptions {
   std::string path;  ///< empty: no replay

@@ -168,13 +168,7 @@ size_t Bodies::size() const {
 }
 
 void Bodies::State::step() {
-  for (auto& [id, body] : bodies) {
-    if (body.frozen) continue;
-    body.hulls->turn(from_bullet(body.rigid->getWorldTransform().getBasis()));
-    if (!body.rigid->isActive()) continue;
-    body.last = body.rigid->getWorldTransform();
-    find_ground(body);
-  }
+  find_ground();
   dynamics.stepSimulation(step_s, 0);
   for (auto& [id, body] : bodies)
     if (body.rigid->isActive()) settle(body);
@@ -254,6 +248,15 @@ std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
   state_->broadphase.aabbTest(to_bullet(lo_m) - slack, to_bullet(hi_m) + slack, collector);
   std::ranges::sort(collector.ids);
   return std::move(collector.ids);
+}
+
+std::vector<PieceId> Bodies::beyond(glm::vec3 half_m) const {
+  std::vector<PieceId> ids;
+  for (const auto& [id, body] : state_->bodies) {
+    const glm::vec3 at = glm::abs(from_bullet(body.rigid->getWorldTransform().getOrigin()));
+    if (at.x > half_m.x || at.y > half_m.y || at.z > half_m.z) ids.push_back(id);
+  }
+  return ids;
 }
 
 std::vector<BodyState> Bodies::states() const {

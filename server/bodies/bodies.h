@@ -1,8 +1,9 @@
 // Pieces of terrain as rigid bodies, simulated by Bullet.
 //
-// Deterministic: the same calls in the same order give the same bits, on any build. Bullet's own snapshots do
-// not restore that, so a Bodies is never copied. Not thread-safe. Metres,
-// seconds, kilograms; a body's position is its centre of mass.
+// Deterministic: the same calls in the same order give the same bits, on any build and on any number of
+// threads. Bullet's own snapshots do not restore that, so a Bodies is never copied. Not thread-safe: one
+// thread calls, and step() shares its work with others. Metres, seconds, kilograms; a body's position is its
+// centre of mass.
 #pragma once
 
 #include <cstddef>
@@ -75,6 +76,7 @@ struct BodiesConfig {
   float gravity_m_s2 = 9.81F;
   float restitution = 0.05F;  ///< rubble hardly bounces
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
+  size_t threads = 1;  ///< that step() takes, its own included; 0: as many as the machine has cores
 };
 
 class Bodies {
@@ -117,6 +119,8 @@ class Bodies {
   /// The bodies whose bounds meet that box of the world, metres, and some that lie a little beyond; ordered
   /// by id.
   std::vector<PieceId> near(glm::vec3 lo_m, glm::vec3 hi_m) const;
+  /// The bodies whose positions are farther from the origin than that along an axis; ordered by id.
+  std::vector<PieceId> beyond(glm::vec3 half_m) const;
   /// States of all bodies, ordered by id.
   std::vector<BodyState> states() const;
   /// The body must be present.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "server/bodies/limits.h"
@@ -43,6 +44,13 @@ BlowOnStatic blow_on(const btPersistentManifold& manifold, bool first) {
   return blow;
 }
 
+/// How near the ground must be for the body to touch it within the step.
+float ground_reach_m(const Body& body, float step_s) {
+  const btRigidBody& rigid = *body.rigid;
+  const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
+  return limits::contact_slack_m + speed * step_s;
+}
+
 /// For CHECK_DEBUG: a contact as a TerrainProbe must report it.
 bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_m) {
   return contact.point >= 0 && static_cast<size_t>(contact.point) < points && is_sound(contact.offset_m) &&
@@ -65,8 +73,9 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       steps_a_tick(steps_in(1.0F / static_cast<float>(c.tick_rate_hz))),
       step_s(1.0F / static_cast<float>(c.tick_rate_hz * static_cast<uint32_t>(steps_a_tick))),
       collision_configuration(sizes()),
-      dispatcher(&collision_configuration),
-      dynamics(&dispatcher, &broadphase, &solver, &collision_configuration),
+      workers(c.threads),
+      dispatcher(collision_configuration, workers),
+      dynamics(dispatcher, broadphase, collision_configuration, workers),
       terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
   CHECK(std::isfinite(step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.restitution >= 0.0F && c.restitution <= 1.0F);
@@ -89,16 +98,41 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
   info.m_splitImpulsePenetrationThreshold = 0.0F;
 }
 
-void Bodies::State::find_ground(Body& body) {
+void Bodies::State::find_ground() {
+  turning.clear();
+  for (auto& [id, body] : bodies)
+    if (!body.frozen) turning.push_back(&body);
+  workers.share(std::span(turning), limits::bodies_per_part, [&](size_t, std::span<Body*> some) {
+    std::vector<TerrainContact> found;
+    for (Body* body : some) {
+      turn(*body);
+      if (body->rigid->isActive() && !body->looks) refill_ground(*body, found);
+    }
+  });
+  std::erase_if(turning, [](const Body* body) { return !body->looks; });
+  for (Body* body : turning) body->probe->look();
+  workers.share(std::span(turning), limits::bodies_per_part, [&](size_t, std::span<Body*> some) {
+    std::vector<TerrainContact> found;
+    for (Body* body : some) refill_ground(*body, found);
+  });
+}
+
+void Bodies::State::turn(Body& body) const {
   const btRigidBody& rigid = *body.rigid;
-  const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
-  const float reach_m = limits::contact_slack_m + speed * step_s;
+  body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
+  body.looks = false;
+  if (!rigid.isActive()) return;
+  body.last = rigid.getWorldTransform();
+  body.looks = !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, step_s));
+}
+
+void Bodies::State::refill_ground(Body& body, std::vector<TerrainContact>& found) const {
   found.clear();
-  body.probe->find(from_bullet(rigid.getWorldTransform()), reach_m, found);
+  body.probe->list(found);
   CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
-    return is_sound_contact(contact, body.points_m.size(), reach_m);
+    return is_sound_contact(contact, body.points_m.size(), ground_reach_m(body, step_s));
   }));
-  refill(*body.ground, rigid, found, {terrain_field, config.restitution, step_s});
+  refill(*body.ground, *body.rigid, found, {terrain_field, config.restitution, step_s});
 }
 
 bool Bodies::State::is_sound(PieceId id, const Body& body) const {

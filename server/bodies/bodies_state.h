@@ -8,7 +8,6 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <memory>
@@ -17,9 +16,11 @@
 
 #include "server/bodies/bodies.h"
 #include "server/bodies/hull_algorithm.h"
-#include "server/bodies/piece_solver.h"
+#include "server/bodies/pair_dispatcher.h"
+#include "server/bodies/piece_world.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/terrain_collider.h"
+#include "shared/base/workers.h"
 
 namespace scree {
 
@@ -45,6 +46,7 @@ struct Body {
   btVector3 inertia_kg_m2;  ///< principal moments
   float reach_m = 0.0F;
   float spin_max_rad_s = 0.0F;
+  bool looks = false;               ///< within find_ground(): its probe must look at the terrain first
   btTransform last;                 ///< transform before the step: restored when the step's is not finite
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
@@ -65,8 +67,13 @@ inline PieceId id_of(const btCollisionObject* object) {
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c);
 
-  /// Refills the body's terrain manifold for the step.
-  void find_ground(Body& body);
+  /// Turns all hulls, and refills the terrain manifolds of the bodies that are awake, for the step. Each body
+  /// is one thread's; only the terrain is looked at by one thread for all.
+  void find_ground();
+  /// Turns the body's hulls and, if it is awake, its points. Sets Body::looks.
+  void turn(Body& body) const;
+  /// Refills the body's terrain manifold. `found`: scratch memory.
+  void refill_ground(Body& body, std::vector<TerrainContact>& found) const;
   /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a step.
   void limit_speeds(Body& body) const;
   /// Cuts how far the last step moved the body out of overlaps to limits::undo_buried_m_s.
@@ -101,19 +108,19 @@ struct Bodies::State {
   std::vector<BodyImpact> struck;  ///< in the last tick's steps but its last, by id, one a body and step
   HullAlgorithmCreator hull_algorithm;
   btDefaultCollisionConfiguration collision_configuration;
-  btCollisionDispatcher dispatcher;
+  Workers workers;
+  PairDispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  PieceSolver solver;
-  btDiscreteDynamicsWorld dynamics;
+  PieceWorld dynamics;
   btEmptyShape terrain_shape;
   btBroadphaseProxy terrain_proxy;
   btCollisionObject terrain;
   std::unique_ptr<TerrainCollider> terrain_collider;
   std::map<PieceId, Body> bodies;
-  std::vector<Bounds> freed;          ///< of bodies that were removed, which wakes their neighbours
-  std::vector<VoxelBox> changes;      ///< of the terrain, that the bodies have not been told
-  size_t frozen = 0;                  ///< number of frozen bodies
-  std::vector<TerrainContact> found;  ///< scratch memory of find_ground()
+  std::vector<Bounds> freed;      ///< of bodies that were removed, which wakes their neighbours
+  std::vector<VoxelBox> changes;  ///< of the terrain, that the bodies have not been told
+  size_t frozen = 0;              ///< number of frozen bodies
+  std::vector<Body*> turning;     ///< scratch memory of find_ground()
 };
 
 }  // namespace scree

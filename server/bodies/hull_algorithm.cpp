@@ -22,26 +22,14 @@ namespace scree {
 
 namespace {
 
-const CollisionHulls& hulls_of(const btCollisionObjectWrapper* body) {
-  CHECK_DEBUG(body->getCollisionObject()->getUserPointer() != nullptr);
-  return *static_cast<const CollisionHulls*>(body->getCollisionObject()->getUserPointer());
+const CollisionHulls& hulls_of(const btCollisionObjectWrapper& body) {
+  CHECK_DEBUG(body.getCollisionObject()->getUserPointer() != nullptr);
+  return *static_cast<const CollisionHulls*>(body.getCollisionObject()->getUserPointer());
 }
 
-/// Hands contacts on, none deeper than `told_m`.
-struct ShallowerResult final : btDiscreteCollisionDetectorInterface::Result {
-  ShallowerResult(btManifoldResult& to, float told) : result(to), told_m(told) {}
-  void setShapeIdentifiersA(int part, int index) override { result.setShapeIdentifiersA(part, index); }
-  void setShapeIdentifiersB(int part, int index) override { result.setShapeIdentifiersB(part, index); }
-  void addContactPoint(const btVector3& normal_on_b, const btVector3& on_b, btScalar distance) override {
-    result.addContactPoint(normal_on_b, on_b, std::max(distance, -told_m));
-  }
-
-  btManifoldResult& result;
-  float told_m;
-};
-
+// Bullet's globals that this reads are constants and callbacks that nobody sets: threads may be here at once.
 void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
-                const btTransform& at_b, ShallowerResult& result) {
+                const btTransform& at_b, btDiscreteCollisionDetectorInterface::Result& result) {
   btVoronoiSimplexSolver simplex;
   btGjkEpaPenetrationDepthSolver depth;
   btGjkPairDetector detector(&a, &b, &simplex, &depth);
@@ -55,8 +43,8 @@ void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btCon
 
 /// A pair of parts of two bodies.
 struct HullAlgorithm::Meeting {
-  const btCollisionObjectWrapper* object_a;
-  const btCollisionObjectWrapper* object_b;
+  const btCollisionObjectWrapper& object_a;
+  const btCollisionObjectWrapper& object_b;
   const CollisionHulls::Part& a;
   const CollisionHulls::Part& b;
   glm::vec3 a_from_b;  ///< centre of body a relative to that of body b
@@ -66,6 +54,24 @@ struct HullAlgorithm::Meeting {
     const float reach = a.reach_m + b.reach_m + limits::contact_slack_m;
     return off.x * off.x + off.y * off.y + off.z * off.z > reach * reach;
   }
+};
+
+struct HullAlgorithm::Taker final : btDiscreteCollisionDetectorInterface::Result {
+  Taker(btManifoldResult* to, std::vector<Contact>& without, float told)
+      : result(to), first(without), told_m(told) {}
+  void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
+  void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
+  void addContactPoint(const btVector3& normal_on_b, const btVector3& on_b, btScalar distance) override {
+    const float shallower_m = std::max(distance, -told_m);
+    if (result != nullptr)
+      result->addContactPoint(normal_on_b, on_b, shallower_m);
+    else
+      first.push_back({normal_on_b, on_b, shallower_m});
+  }
+
+  btManifoldResult* result;  ///< null: there is no manifold yet
+  std::vector<Contact>& first;
+  float told_m;
 };
 
 void CollisionHulls::add(const btConvexHullShape& shape) {
@@ -90,14 +96,23 @@ HullAlgorithm::~HullAlgorithm() {
 }
 
 void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                                     const btDispatcherInfo& info, btManifoldResult* result) {
+                                     const btDispatcherInfo& info, btManifoldResult* /*result*/) {
+  find(*a, *b, info.m_timeStep);
+  if (must_keep()) keep(*a, *b);
+}
+
+void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s) {
   const glm::vec3 a_from_b =
-      from_bullet(a->getWorldTransform().getOrigin() - b->getWorldTransform().getOrigin());
+      from_bullet(a.getWorldTransform().getOrigin() - b.getWorldTransform().getOrigin());
   const auto &parts_a = hulls_of(a).parts(), &parts_b = hulls_of(b).parts();
   const size_t pairs = parts_a.size() * parts_b.size();
   CHECK_DEBUG(pairs > 0);
   if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
-  result->setPersistentManifold(manifold_);
+  first_.clear();
+  btManifoldResult result(&a, &b);
+  result.setPersistentManifold(manifold_);
+  Taker taker(manifold_ == nullptr ? nullptr : &result, first_,
+              told_overlap_m(limits::undo_pieces_m_s, step_s));
   size_t pair = 0;
   for (const CollisionHulls::Part& part_a : parts_a)
     for (const CollisionHulls::Part& part_b : parts_b) {
@@ -108,36 +123,40 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
       if (meeting.is_far())
         nearest.count = 0;
       else
-        meet(meeting, nearest, info.m_timeStep, *result);
+        meet(meeting, nearest, taker);
     }
-  if (manifold_ == nullptr) return;
-  result->refreshContactPoints();
+  if (manifold_ != nullptr) result.refreshContactPoints();
+}
+
+void HullAlgorithm::keep(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  if (manifold_ == nullptr) {
+    manifold_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
+    btManifoldResult result(&a, &b);
+    result.setPersistentManifold(manifold_);
+    for (const Contact& contact : first_)
+      result.addContactPoint(contact.normal_on_b, contact.on_b, contact.distance_m);
+    result.refreshContactPoints();
+  }
   if (manifold_->getNumContacts() > 0) return;
   m_dispatcher->releaseManifold(manifold_);
   manifold_ = nullptr;
 }
 
-void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, float step_s,
-                         btManifoldResult& result) {
+void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Taker& to) {
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;
   const HullDistance found =
       distance_between(a.corners, b.corners, meeting.a_from_b, margins + limits::contact_slack_m, nearest);
   if (found.kind == HullDistance::Kind::apart) return;
-  if (manifold_ == nullptr)
-    manifold_ = m_dispatcher->getNewManifold(meeting.object_a->getCollisionObject(),
-                                             meeting.object_b->getCollisionObject());
-  result.setPersistentManifold(manifold_);
-  ShallowerResult told(result, told_overlap_m(limits::undo_pieces_m_s, step_s));
-  const btTransform& at_b = meeting.object_b->getWorldTransform();
+  const btTransform& at_b = meeting.object_b.getWorldTransform();
   if (found.kind == HullDistance::Kind::overlapping) {
-    find_depth(*a.shape, meeting.object_a->getWorldTransform(), *b.shape, at_b, told);
+    find_depth(*a.shape, meeting.object_a.getWorldTransform(), *b.shape, at_b, to);
     return;
   }
   CHECK_DEBUG(is_unit(found.normal) && is_sound(found.on_b));
   const btVector3 normal = to_bullet(found.normal), on_b = to_bullet(found.on_b);
-  told.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
+  to.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
 }
 
 /// Never earlier than the tick's end: speeds are limited, so that continuous collision is not needed.

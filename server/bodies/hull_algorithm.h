@@ -35,7 +35,8 @@ class CollisionHulls {
   std::vector<Part> parts_;
 };
 
-/// The user pointers of both objects must be their CollisionHulls, turned to their present poses.
+/// The user pointers of both objects must be their CollisionHulls, turned to their present poses. A step is
+/// find(), then keep(): what Bullet's processCollision() does in one.
 class HullAlgorithm final : public btCollisionAlgorithm {
  public:
   using btCollisionAlgorithm::btCollisionAlgorithm;
@@ -43,15 +44,30 @@ class HullAlgorithm final : public btCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
+  /// Finds the contacts; those of a pair that has no manifold yet wait for keep(). Changes this pair alone:
+  /// threads may look at different pairs at once.
+  void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
+  /// Whether keep() has anything to do.
+  bool must_keep() const { return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0; }
+  /// Makes the manifold for the first contacts; releases the one that has none any more.
+  void keep(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
  private:
   struct Meeting;
-  void meet(const Meeting& meeting, NearestCorners& nearest, float step_s, btManifoldResult& result);
+  struct Contact {
+    btVector3 normal_on_b;
+    btVector3 on_b;
+    float distance_m;
+  };
+  /// Hands contacts on, none deeper than `told_m`: to the manifold, or to `first_`.
+  struct Taker;
+  static void meet(const Meeting& meeting, NearestCorners& nearest, Taker& to);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
+  std::vector<Contact> first_;                ///< contacts found while there is no manifold
   NearestCorners nearest_;                    ///< of the first pair of parts
   std::vector<NearestCorners> of_others_;     ///< of all other pairs of parts, in order
 };

@@ -2,6 +2,9 @@
 // limit.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace scree::limits {
 
 /// Farthest that any point of a piece may travel in one step, voxels. The narrow band is 3 voxels wide, so a
@@ -63,6 +66,16 @@ inline constexpr float struck_speed_min_m_s = 1.0F;
 
 /// Iterations of the contact solver. Heaps of rubble need no exact stacking; each costs a tenth of a step.
 inline constexpr int solver_iterations = 8;
+
+/// Bodies, or pairs of bodies, that a thread looks at before it takes the next ones: some 30 µs of work, as
+/// much as it costs to wake a thread. As few in all are left to one thread.
+inline constexpr size_t bodies_per_part = 32;
+inline constexpr size_t pairs_per_part = 64;
+
+/// Cost of solving that is worth a thread, in bodies without contacts: groups of joined bodies that cost less
+/// are solved together. A manifold costs as much as so many bodies.
+inline constexpr uint32_t solver_group_cost = 256;
+inline constexpr uint32_t bodies_per_manifold = 6;
 
 /// Least of a body's moments of inertia, as a share of its greatest: thinner splinters spin up without bound.
 inline constexpr float inertia_ratio_min = 0.25F;

@@ -18,22 +18,32 @@ class FieldProbe final : public TerrainProbe {
   FieldProbe(Field& field, std::vector<glm::vec3> points_m)
       : codes_(field), voxel_size_m_(field.source().voxel_size_m), points_(std::move(points_m)) {}
 
-  void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) override {
+  bool turn(const Pose& pose, float reach_m) override {
     points_.turn(pose);
-    codes_.look(points_.lo_m() / voxel_size_m_, points_.hi_m() / voxel_size_m_);
+    position_m_ = pose.position_m;
+    reach_m_ = reach_m;
+    return codes_.has(lo(), hi());
+  }
+
+  void look() override { codes_.look(lo(), hi()); }
+
+  void list(std::vector<TerrainContact>& out) const override {
     if (codes_.all_air()) return;
-    for (int point = 0; point < points_.count(); ++point) test(pose, point, reach_m, out);
+    for (int point = 0; point < points_.count(); ++point) test(point, out);
   }
 
   void terrain_changed(const VoxelBox& box) override { codes_.terrain_changed(box); }
 
  private:
-  void test(const Pose& pose, int point, float reach_m, std::vector<TerrainContact>& out) const {
+  glm::vec3 lo() const { return points_.lo_m() / voxel_size_m_; }
+  glm::vec3 hi() const { return points_.hi_m() / voxel_size_m_; }
+
+  void test(int point, std::vector<TerrainContact>& out) const {
     const glm::vec3 offset_m = points_.offset_m(point);
-    const FieldSample at = sample_covered(codes_.codes(), (pose.position_m + offset_m) / voxel_size_m_);
+    const FieldSample at = sample_covered(codes_.codes(), (position_m_ + offset_m) / voxel_size_m_);
     CHECK_DEBUG(at.distance_voxels >= -1.01F * band_voxels);
     const float distance_m = at.distance_voxels * voxel_size_m_;
-    if (distance_m >= reach_m) return;
+    if (distance_m >= reach_m_) return;
     const float slope = std::sqrt(glm::dot(at.gradient, at.gradient));
     if (slope < gradient_min) {
       if (distance_m < 0.0F) out.push_back({point, offset_m, glm::vec3(0.0F, 1.0F, 0.0F), distance_m});
@@ -45,6 +55,8 @@ class FieldProbe final : public TerrainProbe {
   NearbyCodes codes_;
   float voxel_size_m_;
   BodyPoints points_;
+  glm::vec3 position_m_{0.0F};  ///< of the last turn()
+  float reach_m_ = 0.0F;
 };
 
 class FieldCollider final : public TerrainCollider {

@@ -16,17 +16,30 @@ class MeshProbe final : public TerrainProbe {
   MeshProbe(TerrainMesh& mesh, float voxel_size_m, std::vector<glm::vec3> points_m)
       : mesh_(mesh), voxel_size_m_(voxel_size_m), points_(std::move(points_m)) {}
 
-  void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) override {
+  bool turn(const Pose& pose, float reach_m) override {
     points_.turn(pose);
-    const float reach = std::max(reach_m / voxel_size_m_, limits::mesh_depth_voxels);
-    look(points_.lo_m() / voxel_size_m_ - reach, points_.hi_m() / voxel_size_m_ + reach);
+    position_m_ = pose.position_m;
+    reach_m_ = reach_m;
+    reach_ = std::max(reach_m / voxel_size_m_, limits::mesh_depth_voxels);
+    const VoxelBox needed = bounds();
+    const VoxelBox& box = triangles_.box();
+    return needed.lo.x >= box.lo.x && needed.lo.y >= box.lo.y && needed.lo.z >= box.lo.z &&
+           needed.hi.x <= box.hi.x && needed.hi.y <= box.hi.y && needed.hi.z <= box.hi.z;
+  }
+
+  void look() override {
+    const VoxelBox wider = bounds().grown(limits::probe_slack_voxels);
+    triangles_ = TriangleBins(mesh_.near(wider), wider);
+  }
+
+  void list(std::vector<TerrainContact>& out) const override {
     if (triangles_.empty()) return;
     for (int point = 0; point < points_.count(); ++point) {
       const glm::vec3 offset_m = points_.offset_m(point);
-      const auto nearest = triangles_.nearest((pose.position_m + offset_m) / voxel_size_m_, reach);
+      const auto nearest = triangles_.nearest((position_m_ + offset_m) / voxel_size_m_, reach_);
       if (!nearest || nearest->distance < -limits::mesh_depth_voxels) continue;
       const float distance_m = nearest->distance * voxel_size_m_;
-      if (distance_m < reach_m) out.push_back({point, offset_m, nearest->normal, distance_m});
+      if (distance_m < reach_m_) out.push_back({point, offset_m, nearest->normal, distance_m});
     }
   }
 
@@ -36,21 +49,17 @@ class MeshProbe final : public TerrainProbe {
   }
 
  private:
-  /// Makes triangles_ cover the bounds.
-  void look(glm::vec3 lo, glm::vec3 hi) {
-    const VoxelBox bounds = box_around(lo, hi);
-    const VoxelBox& box = triangles_.box();
-    if (bounds.lo.x >= box.lo.x && bounds.lo.y >= box.lo.y && bounds.lo.z >= box.lo.z &&
-        bounds.hi.x <= box.hi.x && bounds.hi.y <= box.hi.y && bounds.hi.z <= box.hi.z)
-      return;
-    const VoxelBox wider = bounds.grown(limits::probe_slack_voxels);
-    triangles_ = TriangleBins(mesh_.near(wider), wider);
+  VoxelBox bounds() const {
+    return box_around(points_.lo_m() / voxel_size_m_ - reach_, points_.hi_m() / voxel_size_m_ + reach_);
   }
 
   TerrainMesh& mesh_;
   float voxel_size_m_;
   BodyPoints points_;
   TriangleBins triangles_;
+  glm::vec3 position_m_{0.0F};  ///< of the last turn()
+  float reach_m_ = 0.0F;
+  float reach_ = 0.0F;  ///< voxels; at least as far as triangles are looked for behind the surface
 };
 
 class MeshCollider final : public TerrainCollider {

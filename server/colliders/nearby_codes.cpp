@@ -9,7 +9,7 @@ namespace scree {
 
 void NearbyCodes::look(glm::vec3 lo, glm::vec3 hi) {
   CHECK_DEBUG(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z);
-  if (covers(codes_, lo) && covers(codes_, hi)) return;
+  if (has(lo, hi)) return;
   codes_ = gather(field_, box_around(lo, hi).grown(limits::probe_slack_voxels));
   all_air_ = std::ranges::all_of(codes_.codes, [](Code code) { return code == code_air; });
 }

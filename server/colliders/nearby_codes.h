@@ -11,7 +11,9 @@ class NearbyCodes {
   /// `field` must outlive this object.
   explicit NearbyCodes(Field& field) : field_(field) {}
 
-  /// Makes codes() cover the bounds, for sampling anywhere between `lo` and `hi`.
+  /// Whether codes() covers the bounds, for sampling anywhere between `lo` and `hi`.
+  bool has(glm::vec3 lo, glm::vec3 hi) const { return covers(codes_, lo) && covers(codes_, hi); }
+  /// Makes codes() cover the bounds. Reads the field.
   void look(glm::vec3 lo, glm::vec3 hi);
   /// Drops the copy if it overlaps this box.
   void terrain_changed(const VoxelBox& box);

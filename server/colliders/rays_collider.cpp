@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "server/colliders/body_points.h"
 #include "server/colliders/limits.h"
@@ -57,34 +58,51 @@ class RaysProbe final : public TerrainProbe {
   RaysProbe(Field& field, std::vector<glm::vec3> points_m)
       : codes_(field), voxel_size_m_(field.source().voxel_size_m), points_(std::move(points_m)) {}
 
-  void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) override {
+  bool turn(const Pose& pose, float reach_m) override {
     points_.turn(pose);
-    const LooseGround ground = cast(pose, reach_m / voxel_size_m_);
+    position_m_ = pose.position_m;
+    reach_m_ = reach_m;
+    const auto [lo, hi] = cast_bounds();
+    return codes_.has(lo, hi);
+  }
+
+  void look() override {
+    const auto [lo, hi] = cast_bounds();
+    codes_.look(lo, hi);
+  }
+
+  void list(std::vector<TerrainContact>& out) const override {
+    if (codes_.all_air()) return;
+    const LooseGround ground = cast();
     if (!ground.any) return;
     for (int point = 0; point < points_.count(); ++point) {
       const glm::vec3 offset_m = points_.offset_m(point);
-      const glm::vec3 p = (pose.position_m + offset_m) / voxel_size_m_;
+      const glm::vec3 p = (position_m_ + offset_m) / voxel_size_m_;
       const LooseGround::At below = ground.at(p.x, p.z);
       const float distance_m = (p.y - below.height) * below.normal.y * voxel_size_m_;
-      if (below.known && distance_m < reach_m) out.push_back({point, offset_m, below.normal, distance_m});
+      if (below.known && distance_m < reach_m_) out.push_back({point, offset_m, below.normal, distance_m});
     }
   }
 
   void terrain_changed(const VoxelBox& box) override { codes_.terrain_changed(box); }
 
  private:
-  /// Casts rays vertically down from the height of the body's centre, over its whole footprint.
-  LooseGround cast(const Pose& pose, float reach) {
+  /// Two corners of a box around all that the rays may read.
+  std::pair<glm::vec3, glm::vec3> cast_bounds() const {
     const glm::vec3 lo = points_.lo_m() / voxel_size_m_, hi = points_.hi_m() / voxel_size_m_;
-    const float top = pose.position_m.y / voxel_size_m_;
+    return {{lo.x, lo.y - reach_m_ / voxel_size_m_ - 1.0F, lo.z},
+            {std::max(hi.x, lo.x + step_min * side), position_m_.y / voxel_size_m_,
+             std::max(hi.z, lo.z + step_min * side)}};
+  }
+
+  /// Casts rays vertically down from the height of the body's centre, over its whole footprint.
+  LooseGround cast() const {
+    const glm::vec3 lo = points_.lo_m() / voxel_size_m_, hi = points_.hi_m() / voxel_size_m_;
+    const float top = position_m_.y / voxel_size_m_;
     LooseGround ground;
-    ground.corner = {lo.x, lo.y - reach - 1.0F, lo.z};
+    ground.corner = cast_bounds().first;
     ground.cell_x = std::max((hi.x - lo.x) / static_cast<float>(side - 1), step_min);
     ground.cell_z = std::max((hi.z - lo.z) / static_cast<float>(side - 1), step_min);
-    const glm::vec3 far_end(std::max(hi.x, lo.x + step_min * side), top,
-                            std::max(hi.z, lo.z + step_min * side));
-    codes_.look(ground.corner, far_end);
-    if (codes_.all_air()) return ground;
     for (int i = 0; i < side; ++i)
       for (int k = 0; k < side; ++k) {
         const glm::vec3 from(lo.x + ground.cell_x * static_cast<float>(i), top,
@@ -115,6 +133,8 @@ class RaysProbe final : public TerrainProbe {
   NearbyCodes codes_;
   float voxel_size_m_;
   BodyPoints points_;
+  glm::vec3 position_m_{0.0F};  ///< of the last turn()
+  float reach_m_ = 0.0F;
 };
 
 class RaysCollider final : public TerrainCollider {

@@ -1,5 +1,5 @@
 // The interface of the terrain colliders: how a body finds the terrain that it touches.
-// Lengths in metres, world axes. Not thread-safe.
+// Lengths in metres, world axes. Not thread-safe, but for TerrainProbe::turn() and list().
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,25 @@ struct TerrainContact {
   float distance_m = 0.0F;   ///< to the ground's surface, negative inside
 };
 
-/// One body's view of the terrain.
+/// One body's view of the terrain: a copy of what lies around it.
 class TerrainProbe {
  public:
   virtual ~TerrainProbe() = default;
 
-  /// Appends to `out` the points of the body, at `pose`, that are nearer to the ground than `reach_m`.
-  virtual void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) = 0;
+  /// Appends to `out` the points of the body, at `pose`, that are nearer to the ground than `reach_m`:
+  /// turn(), look() if it is wanted, and list().
+  void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) {
+    if (!turn(pose, reach_m)) look();
+    list(out);
+  }
+
+  /// Turns the points to the pose, and tells whether the copy covers what list() will read; if not, look()
+  /// comes first. Reads and changes this probe alone: threads may turn different probes at once.
+  virtual bool turn(const Pose& pose, float reach_m) = 0;
+  /// Copies the terrain around the pose. Reads the field and what all probes share.
+  virtual void look() = 0;
+  /// Appends the points that are nearer to the ground than the reach. Reads this probe alone, as turn() does.
+  virtual void list(std::vector<TerrainContact>& out) const = 0;
 
   /// Drops the copies of the terrain within this box (voxels).
   virtual void terrain_changed(const VoxelBox& box) = 0;

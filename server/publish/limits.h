@@ -72,9 +72,6 @@ inline constexpr double offer_wait_s = 1.0;
 /// Seconds after which an offer is forgotten, if not all that was wanted has come before.
 inline constexpr double offer_seconds_max = 60.0;
 
-/// Threads that encode and send, the network thread included; more would wait for each other.
-inline constexpr size_t workers_max = 64;
-
 /// Sessions that a thread serves before it takes the next: about 0.2 ms of work, several times what it costs
 /// to wake a thread.
 inline constexpr size_t sessions_per_part = 32;

@@ -28,7 +28,7 @@
 #include "server/publish/ground_stream.h"
 #include "server/publish/limits.h"
 #include "server/publish/tick_clock.h"
-#include "server/publish/workers.h"
+#include "shared/base/workers.h"
 #include "shared/operation/per_operation.h"
 
 namespace scree {

@@ -1,7 +1,6 @@
 #include "server/world/world.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "server/world/buried_stage.h"
 #include "server/world/cut_stage.h"
@@ -20,19 +19,16 @@ namespace scree {
 
 namespace {
 
-bool outside_world(glm::vec3 p) {
-  return std::abs(p.x) > limits::world_half_width_m || std::abs(p.z) > limits::world_half_width_m ||
-         std::abs(p.y) > limits::world_half_height_m;
-}
+constexpr glm::vec3 world_half_m(limits::world_half_width_m, limits::world_half_height_m,
+                                 limits::world_half_width_m);
 
 void step_bodies(World::State& state, TickDelta& delta) {
   state.bodies.step();
   state.work.stepped(state.bodies);
 
-  for (const BodyState& body : state.bodies.states()) {
-    if (!outside_world(body.pose.position_m)) continue;
-    const Applied applied = state.apply_and_record(DiscardOperation{body.id}, delta);
-    state.bodies.remove(body.id);
+  for (const PieceId id : state.bodies.beyond(world_half_m)) {
+    const Applied applied = state.apply_and_record(DiscardOperation{id}, delta);
+    state.bodies.remove(id);
     state.ledger.pieces -= applied.dust;
     state.ledger.dust += applied.dust;
   }
@@ -133,14 +129,14 @@ void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
 
 }  // namespace
 
-Result<std::unique_ptr<World>> World::create(const WorldConfig& config) {
+Result<std::unique_ptr<World>> World::create(const WorldConfig& config, size_t threads) {
   if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
-  return std::make_unique<World>(config);
+  return std::make_unique<World>(config, threads);
 }
 
-World::World(const WorldConfig& config) {
+World::World(const WorldConfig& config, size_t threads) {
   CHECK(validate(config).has_value());
-  state_ = std::make_unique<State>(config);
+  state_ = std::make_unique<State>(config, threads);
 }
 World::~World() = default;
 

@@ -1,7 +1,8 @@
 // The simulation: field, pieces, bodies and ledger, advanced tick by tick.
 //
 // A pure function of its configuration and of the commands by tick: the same input gives the same hashes, in
-// any build. It reads a clock for StageTimes only. One thread calls step(); all results are in the TickDelta.
+// any build and on any number of threads. It reads a clock for StageTimes only. One thread calls step(),
+// which shares the bodies' work with others of its own; all results are in the TickDelta.
 #pragma once
 
 #include <memory>
@@ -18,10 +19,11 @@ inline constexpr Tick ticks_per_watch = 6;
 
 class World {
  public:
-  /// Refuses a configuration beyond its limits.
-  static Result<std::unique_ptr<World>> create(const WorldConfig& config);
+  /// Refuses a configuration beyond its limits. `threads`: that step() takes, its caller's included; 0: as
+  /// many as the machine has cores.
+  static Result<std::unique_ptr<World>> create(const WorldConfig& config, size_t threads = 1);
   /// Of a configuration that validate() takes: it is checked.
-  explicit World(const WorldConfig& config);
+  explicit World(const WorldConfig& config, size_t threads = 1);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

@@ -13,10 +13,11 @@ namespace scree {
 
 namespace {
 
-BodiesConfig bodies_config(const WorldConfig& config) {
+BodiesConfig bodies_config(const WorldConfig& config, size_t threads) {
   BodiesConfig out;
   out.tick_rate_hz = config.tick_rate_hz;
   out.terrain_collider = config.methods.collider;
+  out.threads = threads;
   return out;
 }
 
@@ -51,10 +52,10 @@ Loose left_by(const Operation& operation) {
 
 }  // namespace
 
-World::State::State(const WorldConfig& world_config)
+World::State::State(const WorldConfig& world_config, size_t threads)
     : config(world_config),
       field(config.terrain),
-      bodies(field, bodies_config(config)),
+      bodies(field, bodies_config(config, threads)),
       rest(RestConfig{}, config.tick_rate_hz),
       work(config.tick_rate_hz),
       requests(limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz)) {

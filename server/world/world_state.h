@@ -47,7 +47,7 @@ struct PendingCut {
 };
 
 struct World::State {
-  explicit State(const WorldConfig& world_config);
+  State(const WorldConfig& world_config, size_t threads);
 
   /// Applies a valid operation. Enters the terrain's gain in the ledger; the caller enters the other side.
   Applied apply_and_record(const Operation& operation, TickDelta& delta,

@@ -33,15 +33,16 @@ TEST(ServerOptions, defaults_listen_on_this_machine_only) {
 }
 
 TEST(ServerOptions, flags_are_taken) {
-  const auto parsed = parse({"--port",      "0",       "--host",   "0.0.0.0",       "--terrain",
-                             "noise",       "--seed",  "9",        "--voxel-size",  "0.5",
-                             "--tick-rate", "30",      "--record", "a.scree",       "--impacts",
-                             "false",       "--dents", "false",    "--net-threads", "3"});
+  const auto parsed = parse({"--port",        "0",       "--host",        "0.0.0.0", "--terrain",   "noise",
+                             "--seed",        "9",       "--voxel-size",  "0.5",     "--tick-rate", "30",
+                             "--record",      "a.scree", "--impacts",     "false",   "--dents",     "false",
+                             "--net-threads", "3",       "--sim-threads", "2"});
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
   EXPECT_EQ(live.net.port, 0);
   EXPECT_EQ(live.net.bind, "0.0.0.0");
   EXPECT_EQ(live.net.net_threads, 3U);
+  EXPECT_EQ(live.sim_threads, 2U);
   EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
   EXPECT_EQ(live.world.tick_rate_hz, 30U);
   EXPECT_EQ(live.record_path, "a.scree");
@@ -62,6 +63,7 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
   EXPECT_EQ(exit_code({"--loop"}), 2);
   EXPECT_EQ(exit_code({"--net-threads", "65"}), 2);
+  EXPECT_EQ(exit_code({"--sim-threads", "65"}), 2);
   EXPECT_EQ(exit_code({"--impacts", "perhaps"}), 2);
   EXPECT_EQ(exit_code({"--admin-token", "short"}), 2);
   EXPECT_EQ(exit_code({"--admin-token-file", "/no/such/file"}), 2);
@@ -89,7 +91,7 @@ TEST(ServerOptions, support_without_islands_is_a_mistake_in_either_order) {
 TEST(ServerOptions, flag_wins_over_file_over_environment) {
   const auto path =
       std::filesystem::temp_directory_path() / ("scree_options_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(path) << "sessions-max = 7\ntick-rate = 20\nislands = false\n";
+  std::ofstream(path) << "sessions-max = 7\ntick-rate = 20\nislands = false\nsim-threads = 3\n";
   ::setenv("SCREE_PORT", "5002", 1);
   ::setenv("SCREE_SESSIONS_MAX", "3", 1);
   ::setenv("SCREE_DENTS", "false", 1);
@@ -104,6 +106,7 @@ TEST(ServerOptions, flag_wins_over_file_over_environment) {
   EXPECT_EQ(live.world.service.sessions_max, 7U);
   EXPECT_EQ(live.net.port, 5002);
   EXPECT_EQ(live.world.tick_rate_hz, 40U);
+  EXPECT_EQ(live.sim_threads, 3U);
   EXPECT_FALSE(live.world.methods.islands);
   EXPECT_FALSE(live.world.methods.dents);
   EXPECT_TRUE(live.world.methods.impacts);

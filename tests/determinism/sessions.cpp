@@ -1,6 +1,6 @@
 // Plays one session under every value of every setting, one varied at a time, each twice side by side in this
-// process, or once with the argument `once`; prints the hashes, a line for every so many ticks and one over
-// all of them. The output must be the same from every compiler at every optimisation
+// process, on one thread and on two, or once with the argument `once`; prints the hashes, a line for every so
+// many ticks and one over all of them. The output must be the same from every compiler at every optimisation
 // (tests/determinism/CMakeLists.txt).
 //
 // Fails when two worlds with the same commands part, when the session lacks something that methods are for,
@@ -85,7 +85,7 @@ bool play(const std::string& name, WorldConfig config, bool twins, Played& playe
   config.terrain = terrain;
   World one(config);
   std::optional<World> other;
-  if (twins) other.emplace(config);
+  if (twins) other.emplace(config, 2);
   const auto commands_by_tick = script();
   for (Tick tick = 1; tick <= ticks; ++tick) {
     const auto found = commands_by_tick.find(tick);

@@ -83,7 +83,7 @@ TEST(material, soil_lies_on_rock_and_ice_on_the_heights) {
 }
 
 TEST(impact, a_piece_weighs_what_its_material_weighs_and_its_children_do_too) {
-  World::State state(flat_world());
+  World::State state(flat_world(), 1);
   TickDelta delta;
   const Applied cut = state.apply_and_record(
       CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 0.8F), SeedPattern::uniform, 1, 1, {}, 1}, delta);
@@ -151,7 +151,7 @@ void throw_block(World::State& state, TickDelta& delta) {
 }
 
 TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
-  World::State state(flat_world());
+  World::State state(flat_world(), 1);
   TickDelta delta;
   throw_block(state, delta);
   state.config.methods.dents = false;
@@ -171,7 +171,7 @@ TEST(impact, children_carry_on_the_momentum_and_spin_of_the_piece) {
 }
 
 TEST(impact, pieces_of_a_dent_take_their_momentum_and_energy_from_the_blow) {
-  World::State state(flat_world());
+  World::State state(flat_world(), 1);
   state.config.methods.impacts = false;
   TickDelta delta;
   throw_block(state, delta);
@@ -264,7 +264,7 @@ PieceId throw_heaviest(World::State& state, TickDelta& delta) {
 }
 
 TEST(impact, a_piece_whose_ancestors_broke_often_enough_holds) {
-  World::State state(flat_world());
+  World::State state(flat_world(), 1);
   state.config.methods.dents = false;
   TickDelta delta;
   const Shape block = box({0.0F, 12.0F, 0.0F}, glm::vec3(3.0F));

@@ -219,7 +219,7 @@ TEST(work, what_is_cut_is_the_same_every_time_and_reported) {
 
 TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
   const WorldConfig config = flat_world();
-  World::State state(config);
+  World::State state(config, 1);
   TickDelta delta;
   const glm::vec3 centre_m(0.0F, 0.0F, 0.0F);
   const Applied cut = state.apply_and_record(

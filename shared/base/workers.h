@@ -22,8 +22,9 @@ namespace scree {
 
 class Workers {
  public:
-  /// So many threads, the owner's included; 0: as many as the machine has cores. At most
-  /// limits::workers_max.
+  static constexpr size_t threads_max = 64;  ///< more would wait for each other
+
+  /// So many threads, the owner's included; 0: as many as the machine has cores. At most threads_max.
   explicit Workers(size_t threads);
   ~Workers();
   Workers(const Workers&) = delete;

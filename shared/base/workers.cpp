@@ -1,15 +1,14 @@
-#include "server/publish/workers.h"
+#include "shared/base/workers.h"
 
 #include <algorithm>
 
-#include "server/publish/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 Workers::Workers(size_t threads) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  threads = std::min(threads, limits::workers_max);
+  threads = std::min(threads, threads_max);
   helpers_.reserve(threads - 1);
   while (helpers_.size() + 1 < threads) helpers_.emplace_back([this] { help(); });
 }
@@ -38,7 +37,8 @@ void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
     next_part_ = 0;
     if (!alone) ++round_;
   }
-  if (!alone) called_.notify_all();
+  for (size_t helper = 0; !alone && helper < std::min(helpers_.size(), parts - 1); ++helper)
+    called_.notify_one();
   take_parts();
   {
     std::unique_lock lock(mutex_);

@@ -1,13 +1,11 @@
-// Work shared among threads: every part is done once, and what a client gets does not depend on how many
-// threads there are, nor on what becomes of the sessions beside it.
-#include "server/publish/workers.h"
-
+// Clients served by several threads: what a client gets does not depend on how many there are, nor on what
+// becomes of the sessions beside it.
 #include <gtest/gtest.h>
 #include <map>
-#include <numeric>
 
 #include "server/net/flush_rate.h"
 #include "shared/base/random.h"
+#include "shared/base/workers.h"
 #include "tests/support/net_server_fixture.h"
 #include "tests/support/publisher_fixture.h"
 
@@ -15,40 +13,6 @@ namespace scree {
 namespace {
 
 constexpr std::initializer_list<size_t> thread_counts{1, 2, 4};
-
-TEST(Workers, do_every_part_once_and_see_what_was_written_before) {
-  for (const size_t threads : thread_counts) {
-    Workers workers(threads);
-    EXPECT_EQ(workers.threads(), threads);
-    std::vector<uint32_t> done(257);
-    for (uint32_t round = 1; round <= 200; ++round) {
-      const size_t parts = (round * 37) % done.size();
-      std::vector<uint32_t> before = done;
-      workers.run(parts, [&](size_t part) {
-        EXPECT_TRUE(workers.at_work());
-        done[part] = before[part] + round;
-      });
-      for (size_t part = 0; part < done.size(); ++part)
-        ASSERT_EQ(done[part], before[part] + (part < parts ? round : 0)) << threads;
-      EXPECT_FALSE(workers.at_work());
-    }
-  }
-}
-
-TEST(Workers, share_all_items_out_in_parts_of_a_size_that_does_not_depend_on_the_threads) {
-  for (const size_t threads : thread_counts) {
-    Workers workers(threads);
-    for (const size_t count : {0U, 1U, 31U, 32U, 33U, 100U}) {
-      std::vector<size_t> items(count), sizes(Workers::parts_of(count, 32));
-      workers.share(std::span(items), 32, [&](size_t part, std::span<size_t> some) {
-        sizes[part] = some.size();
-        for (size_t& item : some) ++item;
-      });
-      EXPECT_EQ(std::accumulate(items.begin(), items.end(), size_t{0}), count);
-      for (size_t part = 0; part + 1 < sizes.size(); ++part) EXPECT_EQ(sizes[part], 32U);
-    }
-  }
-}
 
 TEST(FlushRate, sends_with_every_tick_while_that_is_quick_and_less_often_when_it_is_not) {
   const auto sent_in = [](FlushRate& rate, double seconds, bool more) {
