@@ -1,7 +1,9 @@
 #include "server/bodies/pair_dispatcher.h"
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <algorithm>
 #include <span>
+#include <utility>
 
 #include "server/bodies/hull_algorithm.h"
 #include "server/bodies/limits.h"
@@ -10,52 +12,57 @@ namespace scree {
 
 namespace {
 
+btCollisionObject* first_of(const btBroadphasePair& pair) {
+  return static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+}
+btCollisionObject* second_of(const btBroadphasePair& pair) {
+  return static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+}
+
 /// Calls use(first body, second body, the pair's algorithm).
 template <typename F>
 void with_bodies(const btBroadphasePair& pair, F&& use) {
-  const auto* a = static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-  const auto* b = static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const btCollisionObject *a = first_of(pair), *b = second_of(pair);
   const btCollisionObjectWrapper of_a(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1);
   const btCollisionObjectWrapper of_b(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
   use(of_a, of_b, static_cast<HullAlgorithm*>(pair.m_algorithm));
 }
 
-/// Lists the pairs of which a body is awake, and gives each its algorithm, in Bullet's order.
-struct AwakePairs final : btOverlapCallback {
-  AwakePairs(PairDispatcher& to, std::vector<btBroadphasePair*>& list) : dispatcher(to), pairs(list) {}
-  bool processOverlap(btBroadphasePair& pair) override {
-    if (!dispatcher.needsCollision(static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject),
-                                   static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject)))
-      return false;
-    if (pair.m_algorithm == nullptr)
-      with_bodies(pair, [&](const auto& a, const auto& b, HullAlgorithm* /*none*/) {
-        pair.m_algorithm = dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-      });
-    pairs.push_back(&pair);
-    return false;
-  }
-
-  PairDispatcher& dispatcher;
-  std::vector<btBroadphasePair*>& pairs;
-};
+/// Bullet's order of pairs, the newest bodies first.
+bool comes_before(const btBroadphasePair* a, const btBroadphasePair* b) {
+  const auto key = [](const btBroadphasePair* pair) {
+    return std::pair(pair->m_pProxy0->m_uniqueId, pair->m_pProxy1->m_uniqueId);
+  };
+  return key(a) > key(b);
+}
 
 }  // namespace
 
 void PairDispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* pairs, const btDispatcherInfo& info,
-                                               btDispatcher* dispatcher) {
+                                               btDispatcher* /*dispatcher*/) {
+  btBroadphasePairArray& all = pairs->getOverlappingPairArray();
   awake_.clear();
-  AwakePairs awake(*this, awake_);
-  pairs->processAllOverlappingPairs(&awake, dispatcher, info);
+  for (int i = 0; i < all.size(); ++i) {
+    btBroadphasePair& pair = all[i];
+    if (!needsCollision(first_of(pair), second_of(pair))) continue;
+    if (pair.m_algorithm == nullptr)
+      with_bodies(pair, [&](const auto& a, const auto& b, HullAlgorithm* /*none*/) {
+        pair.m_algorithm = findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+      });
+    awake_.push_back(&pair);
+  }
   workers_.share(std::span(awake_), limits::pairs_per_part, [&](size_t, std::span<btBroadphasePair*> some) {
     for (const btBroadphasePair* pair : some)
       with_bodies(*pair, [&](const auto& a, const auto& b, HullAlgorithm* algorithm) {
         algorithm->find(a, b, info.m_timeStep);
       });
   });
+  std::erase_if(awake_, [](const btBroadphasePair* pair) {
+    return !static_cast<HullAlgorithm*>(pair->m_algorithm)->must_keep();
+  });
+  std::ranges::sort(awake_, comes_before);
   for (const btBroadphasePair* pair : awake_)
-    if (static_cast<HullAlgorithm*>(pair->m_algorithm)->must_keep())
-      with_bodies(*pair,
-                  [&](const auto& a, const auto& b, HullAlgorithm* algorithm) { algorithm->keep(a, b); });
+    with_bodies(*pair, [](const auto& a, const auto& b, HullAlgorithm* algorithm) { algorithm->keep(a, b); });
 }
 
 }  // namespace scree

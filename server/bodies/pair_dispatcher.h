@@ -1,7 +1,7 @@
 // Bullet's dispatcher of pairs whose bounds meet, on several threads: contacts are found in any order, each
 // pair by one thread; manifolds, which all pairs share a pool and a list of, are made and released
-// afterwards, in the order of the pairs. So the result is the same for any number of threads. Private to this
-// folder.
+// afterwards, in the order of their bodies. So the result is the same for any number of threads. Private to
+// this folder.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
