@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bench/support/bench.h"
+#include "shared/base/option_check.h"
 
 namespace {
 
@@ -84,7 +85,8 @@ int main(int argc, char** argv) {
   bool quick = false;
   run_command->add_option("name", name, "which one")->required();
   run_command->add_flag("--quick", quick, "fewer rounds: to see that it runs");
-  run_command->add_option("--json", json_file, "write the report to this file as JSON");
+  run_command->add_option("--json", json_file, "write the report to this file as JSON")
+      ->check(scree::check_writable, "FILE");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cache/limits.h"
+#include "shared/base/option_check.h"
 #include "shared/base/xdg_folder.h"
 
 namespace scree {
@@ -14,9 +15,9 @@ CacheOptions::CacheOptions(CLI::App& app, CacheConfig& config, size_t mib) : con
                  "time")
       ->envname("SCREE_CACHE")
       ->capture_default_str();
-  app.add_option("--cache-mib", mib_, "MiB that may be kept there; 0: no files")
+  bounded(app.add_option("--cache-mib", mib_, "MiB that may be kept there; 0: no files"),
+          whole_within(0, limits::cache_mib_max))
       ->envname("SCREE_CACHE_MIB")
-      ->check(CLI::Range(size_t{0}, limits::cache_mib_max))
       ->capture_default_str();
 }
 

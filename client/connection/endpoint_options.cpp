@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "proto/limits.h"
+#include "shared/base/option_check.h"
 #include "shared/base/token.h"
 
 namespace scree {
@@ -13,9 +14,8 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
   app.add_option("--host", endpoint.host, "server's name or address")
       ->envname("SCREE_HOST")
       ->capture_default_str();
-  app.add_option("--port", endpoint.port, "its TCP port")
+  bounded(app.add_option("--port", endpoint.port, "its TCP port"), whole_within(1, 65535))
       ->envname("SCREE_PORT")
-      ->check(CLI::Range(1, 65535))
       ->capture_default_str();
   app.add_flag("--tls", endpoint.tls,
                "encrypted, to a server whose certificate is for its name and from an "

@@ -1,7 +1,11 @@
 #include "server/app/server_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "proto/messages.h"
@@ -10,6 +14,7 @@
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
+#include "shared/base/option_check.h"
 #include "shared/base/token.h"
 #include "shared/base/workers.h"
 
@@ -26,26 +31,17 @@ struct Raw {
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
 
-/// For the help; the world itself says no.
-template <typename T>
-std::string within(const std::string& unit, T min, T max) {
-  std::ostringstream text;
-  text << unit << ", " << min << " to " << max;
-  return text.str();
-}
-
 void add_threads(CLI::App& app, const char* name, size_t& threads, const std::string& what) {
-  app.add_option(
-         name, threads,
-         within<size_t>("threads that " + what + "; 0: as many as there are cores", 0, Workers::threads_max))
-      ->check(CLI::Range(size_t{0}, Workers::threads_max))
+  bounded(app.add_option(name, threads, "threads that " + what + "; 0: as many as there are cores"),
+          whole_within(0, static_cast<double>(Workers::threads_max)))
       ->capture_default_str();
 }
 
 void add_network(CLI::App& app, Raw& raw) {
   NetConfig& net = raw.options.live.net;
   net.port = default_port;
-  app.add_option("-p,--port", net.port, "TCP port; 0: one that is free")->capture_default_str();
+  bounded(app.add_option("-p,--port", net.port, "TCP port; 0: one that is free"), whole_within(0, 65535))
+      ->capture_default_str();
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
       ->capture_default_str();
   add_threads(app, "--net-threads", net.net_threads, "encode and send");
@@ -57,12 +53,14 @@ void add_world(CLI::App& app, Raw& raw) {
   app.add_option("--terrain", raw.terrain, listed(terrains))
       ->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
       ->capture_default_str();
-  app.add_option("--seed", world.terrain.random_seed, "of the terrain")->capture_default_str();
-  app.add_option("--voxel-size", world.terrain.voxel_size_m,
-                 within("metres", limits::voxel_size_min_m, limits::voxel_size_max_m))
+  bounded(app.add_option("--seed", world.terrain.random_seed, "of the terrain"),
+          whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
-  app.add_option("--tick-rate", world.tick_rate_hz,
-                 within("ticks a second", limits::tick_rate_min_hz, limits::tick_rate_max_hz))
+  bounded(app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres"),
+          {limits::voxel_size_min_m, limits::voxel_size_max_m})
+      ->capture_default_str();
+  bounded(app.add_option("--tick-rate", world.tick_rate_hz, "ticks a second"),
+          whole_within(limits::tick_rate_min_hz, limits::tick_rate_max_hz))
       ->capture_default_str();
   add_threads(app, "--sim-threads", raw.options.live.sim_threads, "step the bodies");
 }
@@ -125,25 +123,33 @@ void add_recordings(CLI::App& app, Raw& raw) {
   CLI::Option* record = app.add_option("--record", live.record_path, "records the session to this new file");
   CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
   replay->excludes(record);
-  app.add_option("--from", live.replay.from, "tick of the recording to start after")->needs(replay);
-  app.add_option("--speed", live.replay.speed, "of the replay, times real time")
-      ->check(CLI::Range(limits::replay_speed_min, limits::replay_speed_max))
+  bounded(app.add_option("--from", live.replay.from, "tick of the recording to start after"),
+          whole_within(0, whole_most))
+      ->needs(replay);
+  bounded(app.add_option("--speed", live.replay.speed, "of the replay, times real time"),
+          {limits::replay_speed_min, limits::replay_speed_max})
       ->needs(replay);
   app.add_flag("--loop", live.replay.loop, "starts the replay over at its end")->needs(replay);
 }
 
 void add_run(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
-  app.add_option("--ticks", live.ticks_max, "ends after so many ticks; 0: does not")->capture_default_str();
-  app.add_option("--duration", live.seconds_max, "ends after so many seconds; 0: does not")
-      ->check(CLI::Range(0.0, 1.0e9))
+  bounded(app.add_option("--ticks", live.ticks_max, "ends after so many ticks; 0: does not"),
+          whole_within(0, whole_most))
       ->capture_default_str();
-  app.add_option("--wait-clients", live.wait_clients, "the first tick waits until so many have joined")
+  bounded(app.add_option("--duration", live.seconds_max, "ends after so many seconds; 0: does not"),
+          {0.0, 1.0e9})
       ->capture_default_str();
-  app.add_option("--report", raw.options.report_path, "writes what happened to this file at the end (JSON)");
+  bounded(
+      app.add_option("--wait-clients", live.wait_clients, "the first tick waits until so many have joined"),
+      whole_within(0, std::numeric_limits<uint32_t>::max()))
+      ->capture_default_str();
+  app.add_option("--report", raw.options.report_path, "writes what happened to this file at the end (JSON)")
+      ->check(check_writable, "FILE");
   app.add_option(
-      "--trace", live.trace_path,
-      "writes what took how long to this file at the end; chrome://tracing and ui.perfetto.dev open it");
+         "--trace", live.trace_path,
+         "writes what took how long to this file at the end; chrome://tracing and ui.perfetto.dev open it")
+      ->check(check_writable, "FILE");
   app.add_option("--log", raw.options.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
@@ -181,14 +187,7 @@ void name_environment(CLI::App& app) {
   }
 }
 
-}  // namespace
-
-std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
-  CLI::App app("A dedicated server for terrain that breaks, falls, and is terrain again.", "scree-server");
-  Raw raw;
-  app.set_version_flag("--version", SCREE_VERSION);
-  app.set_config("--config", "", "a TOML file with these options, by the same names");
-  app.allow_config_extras(CLI::config_extras_mode::error);
+void declare(CLI::App& app, Raw& raw) {
   add_network(app, raw);
   add_world(app, raw);
   add_settings(app, raw);
@@ -196,6 +195,54 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   add_access(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
+}
+
+/// What is wrong with this entry of the file, taken as an option alone; empty: nothing.
+std::string fault_of(const CLI::ConfigItem& item) {
+  CLI::App app;
+  Raw raw;
+  declare(app, raw);
+  const std::string flag = "--" + item.fullname();
+  if (app.get_option_no_throw(flag) == nullptr) return "there is no option '" + item.fullname() + "'";
+  std::vector<std::string> arguments;  // the last comes first
+  for (const std::string& input : item.inputs) arguments.push_back(flag + "=" + input);
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::RequiresError&) {  // other lines may have them
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Of a file that was refused, the first entry that is at fault, with file and line; empty if none is by
+/// itself.
+std::string fault_in_file(const std::string& path) {
+  std::ifstream file(path);
+  size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    std::istringstream entry(line);
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(entry)) {
+      const bool section = item.name == "++" || item.name == "--";
+      const std::string fault = section ? "options stand in no section" : fault_of(item);
+      if (!fault.empty()) return path + ":" + std::to_string(number) + ": " + fault;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
+  CLI::App app("A dedicated server for terrain that breaks, falls, and is terrain again.", "scree-server");
+  Raw raw;
+  app.set_version_flag("--version", SCREE_VERSION);
+  const CLI::Option* file =
+      app.set_config("--config", "", "a TOML file with these options, by the same names");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  declare(app, raw);
   name_environment(app);
   try {
     app.parse(argc, argv);
@@ -203,7 +250,11 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     take_anonymous(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : usage_error;
+    const bool mistaken = error.get_exit_code() != 0 && file->count() > 0;
+    const std::string fault = mistaken ? fault_in_file(file->as<std::string>()) : std::string();
+    if (fault.empty()) return app.exit(error) == 0 ? 0 : usage_error;
+    std::fprintf(stderr, "scree-server: %s\n", fault.c_str());
+    return usage_error;
   }
   return raw.options;
 }

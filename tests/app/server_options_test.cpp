@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "proto/messages.h"
+#include "tests/support/holds.h"
+#include "tests/support/test_folder.h"
 
 namespace scree {
 namespace {
@@ -163,6 +165,49 @@ TEST(ServerOptions, unknown_name_in_the_file_is_a_mistake) {
   const std::string file = path.string();
   EXPECT_EQ(exit_code({"--config", file.c_str()}), 2);
   std::filesystem::remove(path);
+}
+
+/// What a mistake is told by.
+std::string words_for(std::vector<const char*> arguments) {
+  ::testing::internal::CaptureStderr();
+  const int code = exit_code(std::move(arguments));
+  std::string words = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(code, 2) << words;
+  return words;
+}
+
+TEST(ServerOptions, what_is_no_number_is_refused_at_the_start_by_its_range) {
+  EXPECT_TRUE(holds(words_for({"--duration", "nan"}), "'nan' is not a number, 0 to 1000000000"));
+  EXPECT_TRUE(holds(words_for({"--ticks", "-1"}), "--ticks: '-1' is not a whole number, 0 to "));
+  EXPECT_TRUE(holds(words_for({"--port", "70000"}), "--port: '70000' is not a whole number, 0 to 65535"));
+  for (const char* option : {"--wait-clients", "--seed", "--net-threads"})
+    EXPECT_TRUE(holds(words_for({option, "-1"}), "'-1' is not a whole number")) << option;
+  EXPECT_EQ(exit_code({"--replay", "r", "--speed", "nan"}), 2);
+  EXPECT_EQ(exit_code({"--replay", "r", "--from", "-1"}), 2);
+}
+
+TEST(ServerOptions, reports_and_traces_are_tried_at_the_start) {
+  for (const char* option : {"--report", "--trace"}) {
+    const std::string words = words_for({option, "/no/such/folder/file.json"});
+    EXPECT_TRUE(holds(words, std::string(option) + ": /no/such/folder/file.json cannot be written: No such"))
+        << words;
+  }
+}
+
+TEST(ServerOptions, a_mistake_in_the_file_is_told_with_file_and_line) {
+  const TestFolder folder;
+  const std::string file = folder / "server.toml";
+  const auto words = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return words_for({"--config", file.c_str()});
+  };
+  EXPECT_TRUE(holds(words("tick-rate = 30\n\nprot = 5001\n"), file + ":3: there is no option 'prot'"));
+  EXPECT_TRUE(holds(words("# a comment\nport = 70000\n"), file + ":2: --port: '70000' is not"));
+  EXPECT_TRUE(holds(words("dents = true\nimpacts = perhaps\n"), file + ":2: "));
+  EXPECT_TRUE(holds(words("voxel-size = nan\n"), file + ":1: --voxel-size"));
+  EXPECT_TRUE(holds(words("port = 1\n[server]\nseed = 3\n"), file + ":2: options stand in no section"));
+  const std::string together = words("support = true\nislands = false\n");
+  EXPECT_TRUE(holds(together, "support needs islands")) << "no line by itself: " << together;
 }
 
 }  // namespace

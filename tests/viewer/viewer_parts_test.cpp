@@ -102,30 +102,30 @@ TEST(Screenshots, orders_are_understood_or_refused_by_name) {
   EXPECT_EQ(parse_screenshot("a.png@settled")->when, ScreenshotOrder::When::settled);
   EXPECT_EQ(parse_screenshot("a.png@pieces>=40")->pieces, 40U);
   for (const char* bad : {"", "@joined", "a.png@", "a.png@soon", "a.png@pieces>=", "a.png@pieces>=0",
-                          "a.png@pieces>=4x", "a.png@pieces>=-4"})
+                          "a.png@pieces>=4x", "a.png@pieces>=-4", "a.jpg", "a", "a.png.jpg@joined"})
     EXPECT_FALSE(parse_screenshot(bad)) << bad;
 }
 
 TEST(Screenshots, each_waits_for_its_own_moment) {
-  ScreenshotQueue queue(
-      {*parse_screenshot("1@joined"), *parse_screenshot("2@pieces>=5"), *parse_screenshot("3@settled")});
+  ScreenshotQueue queue({*parse_screenshot("1.png@joined"), *parse_screenshot("2.png@pieces>=5"),
+                         *parse_screenshot("3.png@settled")});
   Moment moment;
   moment.current = true;
   EXPECT_TRUE(queue.take_due(moment).empty());
   moment.joined = true;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "1");
+  EXPECT_EQ(queue.take_due(moment).at(0).file, "1.png");
   moment.now_s = 100.0;
   EXPECT_TRUE(queue.take_due(moment).empty()) << "settled, though nothing was ever carved";
   moment.pieces = 6;
   moment.carved = moment.alive = true;
   EXPECT_TRUE(queue.take_due(moment).empty()) << "the pieces have had no time to fly";
   moment.now_s += limits::flight_s + 0.01;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "2");
+  EXPECT_EQ(queue.take_due(moment).at(0).file, "2.png");
   moment.pieces = 0;
   moment.alive = false;
   EXPECT_TRUE(queue.take_due(moment).empty());
   moment.now_s += limits::settled_s + 0.01;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "3");
+  EXPECT_EQ(queue.take_due(moment).at(0).file, "3.png");
   EXPECT_TRUE(queue.empty());
 }
 

@@ -9,6 +9,7 @@
 #include "client/admin/admin.h"
 #include "client/connection/endpoint_options.h"
 #include "proto/limits.h"
+#include "shared/base/option_check.h"
 
 namespace {
 
@@ -120,8 +121,9 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   CLI::App* banned = add("ban", "refuses an address, and ends the sessions from there");
   banned->add_option("WHOM", options.whom, "an IPv4 or IPv6 address, or the number of a session from there")
       ->required();
-  banned->add_option("--minutes", options.minutes, "after which it ends; 0: when it is lifted")
-      ->check(CLI::Range(0U, scree::limits::ban_minutes_max))
+  scree::bounded(
+      banned->add_option("--minutes", options.minutes, "after which it ends; 0: when it is lifted"),
+      scree::whole_within(0, scree::limits::ban_minutes_max))
       ->capture_default_str();
   for (CLI::App* command : {kicked, banned})
     command->add_option("--reason", options.reason, "told to who is sent away");
@@ -146,8 +148,8 @@ int main(int argc, char** argv) {
                "scree-admin");
   app.require_subcommand(1);
   scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
-  app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers")
-      ->check(CLI::Range(0.1, 3600.0))
+  scree::bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers"),
+                 {0.1, 3600.0})
       ->capture_default_str();
   app.add_flag("--json", options.json, "prints JSON");
   app.fallthrough();

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -9,6 +10,7 @@
 #include "client/cache/cache_options.h"
 #include "client/connection/endpoint_options.h"
 #include "shared/base/limits.h"
+#include "shared/base/option_check.h"
 
 namespace {
 
@@ -34,33 +36,39 @@ struct Options {
 
 void add_interest(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
-  app.add_option("--interest", bot.interest_radius_m, "metres around the centre that the bot follows")
+  scree::bounded(
+      app.add_option("--interest", bot.interest_radius_m, "metres around the centre that the bot follows"),
+      {0.0, scree::limits::interest_radius_max_m})
       ->envname("SCREE_INTEREST")
-      ->check(CLI::Range(0.0F, scree::limits::interest_radius_max_m))
       ->capture_default_str();
-  app.add_option("--reconnects", bot.reconnects_max, "connections to make anew before giving up")
+  scree::bounded(
+      app.add_option("--reconnects", bot.reconnects_max, "connections to make anew before giving up"),
+      scree::whole_within(0, 1e6))
       ->envname("SCREE_RECONNECTS")
       ->capture_default_str();
 }
 
 void add_carving(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
-  app.add_option("--carves", bot.carves, "carves to ask for; 0 checks that the server answers")
+  scree::bounded(
+      app.add_option("--carves", bot.carves, "carves to ask for; 0 checks that the server answers"),
+      scree::whole_within(0, 1e6))
       ->envname("SCREE_CARVES")
-      ->check(CLI::Range(0U, 1000000U))
       ->capture_default_str();
-  app.add_option("--seed", bot.random_seed, "of the random choices")
+  scree::bounded(app.add_option("--seed", bot.random_seed, "of the random choices"),
+                 scree::whole_within(0, scree::whole_most))
       ->envname("SCREE_SEED")
       ->capture_default_str();
-  app.add_option("--rate", bot.rate_hz, "carves a second; 0: as fast as the replies come")
+  scree::bounded(app.add_option("--rate", bot.rate_hz, "carves a second; 0: as fast as the replies come"),
+                 {0.0, 1000.0})
       ->envname("SCREE_RATE")
-      ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  // A radius over the server's limit is allowed, to show the server's refusal.
-  app.add_option("--radius", bot.carver.radius_m, "of a carve, metres")
+  // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
+  scree::bounded(app.add_option("--radius", bot.carver.radius_m, "of a carve, metres"), {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();
-  app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into")
+  scree::bounded(app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into"),
+                 scree::whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->envname("SCREE_SEEDS")
       ->capture_default_str();
   std::vector<std::string> patterns = names_of<scree::SeedPattern>();
@@ -72,10 +80,14 @@ void add_carving(CLI::App& app, Options& options) {
       ->envname("SCREE_PATTERN")
       ->check(CLI::IsMember(patterns))
       ->capture_default_str();
-  app.add_option("--centre", options.centre_m, "x and z around which to carve, metres")->expected(2);
-  app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres")
+  constexpr double world_m = scree::limits::world_half_width_m;
+  scree::bounded(app.add_option("--centre", options.centre_m, "x and z around which to carve, metres"),
+                 {-world_m, world_m})
+      ->expected(2);
+  scree::bounded(
+      app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres"),
+      {0.0, world_m})
       ->envname("SCREE_AREA")
-      ->check(CLI::Range(0.0F, scree::limits::world_half_width_m))
       ->capture_default_str();
   app.add_option("--paint", options.paint,
                  "paint the rock of each carve before: " + scree::listed(scree::kind_names<scree::Material>))
@@ -89,12 +101,13 @@ void add_ending(CLI::App& app, Options& options) {
       ->envname("SCREE_LINGER");
   app.add_flag("--check-hash", bot.check_hash, "fail unless the edits' hash equals the server's in the end")
       ->envname("SCREE_CHECK_HASH");
-  app.add_option("--timeout", bot.timeout_s, "seconds after which all this has failed")
+  scree::bounded(app.add_option("--timeout", bot.timeout_s, "seconds after which all this has failed"),
+                 {0.1, 86400.0})
       ->envname("SCREE_TIMEOUT")
-      ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   app.add_option("--report", options.report, "file for the report, JSON; - is the standard output")
-      ->envname("SCREE_REPORT");
+      ->envname("SCREE_REPORT")
+      ->check([](const std::string& path) { return path == "-" ? "" : scree::check_writable(path); }, "FILE");
   app.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 

@@ -25,6 +25,8 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
   ScreenshotOrder order;
   order.file = text.substr(0, at);
   if (order.file.empty()) return fail("--screenshot: the file's name is missing");
+  if (!order.file.ends_with(".png"))
+    return fail("--screenshot: '" + order.file + "' is no name of a PNG: it must end in .png");
   if (at == std::string_view::npos) return order;
   const std::string_view when = text.substr(at + 1);
   if (when == "joined") return order;

@@ -11,6 +11,7 @@
 #include "client/connection/endpoint_options.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
+#include "shared/base/option_check.h"
 
 namespace scree {
 namespace {
@@ -64,20 +65,23 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_CAMERA");
   app.add_option("--method", texts.method, "How it is drawn:\n" + describe_methods())
       ->envname("SCREE_METHOD");
-  app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres")
-      ->envname("SCREE_VIEW_RADIUS")
-      ->check(CLI::Range(limits::view_radius_min_m, limits::view_radius_max_m));
-  app.add_option("--render-scale", options.render_scale,
-                 "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast")
-      ->envname("SCREE_RENDER_SCALE")
-      ->check(CLI::Range(limits::render_scale_min, limits::render_scale_max));
-  app.add_option("--grid-resolution", options.grid.resolution,
-                 "Of grid: cells along a side, a multiple of " + std::to_string(limits::grid_resolution_step))
-      ->envname("SCREE_GRID_RESOLUTION")
-      ->check(CLI::Range(limits::grid_resolution_min, limits::grid_resolution_max));
-  app.add_option("--grid-scale", options.grid.scale, "Of grid: voxels between two points, a power of two")
-      ->envname("SCREE_GRID_SCALE")
-      ->check(CLI::Range(1, limits::grid_scale_max));
+  bounded(app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres"),
+          {limits::view_radius_min_m, limits::view_radius_max_m})
+      ->envname("SCREE_VIEW_RADIUS");
+  bounded(app.add_option(
+              "--render-scale", options.render_scale,
+              "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast"),
+          {limits::render_scale_min, limits::render_scale_max})
+      ->envname("SCREE_RENDER_SCALE");
+  bounded(app.add_option(
+              "--grid-resolution", options.grid.resolution,
+              "Of grid: cells along a side, a multiple of " + std::to_string(limits::grid_resolution_step)),
+          whole_within(limits::grid_resolution_min, limits::grid_resolution_max))
+      ->envname("SCREE_GRID_RESOLUTION");
+  bounded(app.add_option("--grid-scale", options.grid.scale,
+                         "Of grid: voxels between two points, a power of two"),
+          whole_within(1, limits::grid_scale_max))
+      ->envname("SCREE_GRID_SCALE");
   app.add_option("--grid-spacing", texts.grid_spacing,
                  "Of grid: uniform, or growing with the distance from the camera, to eight times as much")
       ->envname("SCREE_GRID_SPACING");
@@ -103,9 +107,9 @@ void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_PATH");
   app.add_option("--frames", options.frames, "Offscreen: DIR for every frame of the path, as PNG")
       ->envname("SCREE_FRAMES");
-  app.add_option("--fps", options.frames_per_s, "Offscreen: frames a second of the path")
-      ->envname("SCREE_FPS")
-      ->check(CLI::Range(1.0, 1000.0));
+  bounded(app.add_option("--fps", options.frames_per_s, "Offscreen: frames a second of the path"),
+          {1.0, 1000.0})
+      ->envname("SCREE_FPS");
   app.add_flag("--timedemo", options.time_demo,
                "Offscreen: draw the path's frames as fast as possible, print their times as a line of JSON")
       ->envname("SCREE_TIMEDEMO");
@@ -113,10 +117,10 @@ void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Offscreen: PNG to compare the screenshot with; prints the difference, exits with 3 above "
                  "--threshold")
       ->envname("SCREE_REFERENCE");
-  app.add_option("--threshold", options.threshold,
-                 "Root mean square of the difference of all colour values, 0 (equal) to 1")
-      ->envname("SCREE_THRESHOLD")
-      ->check(CLI::Range(0.0, 1.0));
+  bounded(app.add_option("--threshold", options.threshold,
+                         "Root mean square of the difference of all colour values, 0 (equal) to 1"),
+          {0.0, 1.0})
+      ->envname("SCREE_THRESHOLD");
 }
 
 void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
@@ -126,14 +130,15 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_flag("--overlay", options.overlay.shown,
                "Show borders, interest, bodies, contacts and other persons' cursors over the picture")
       ->envname("SCREE_OVERLAY");
-  app.add_option("--timeout", options.timeout_s,
-                 "Offscreen: seconds to wait for the next picture or frame before giving up")
-      ->envname("SCREE_TIMEOUT")
-      ->check(CLI::PositiveNumber);
+  bounded(app.add_option("--timeout", options.timeout_s,
+                         "Offscreen: seconds to wait for the next picture or frame before giving up"),
+          {0.001, 86400.0})
+      ->envname("SCREE_TIMEOUT");
   app.add_option(
          "--trace", options.trace_file,
          "FILE to write what took how long to, at the end; chrome://tracing and ui.perfetto.dev open it")
-      ->envname("SCREE_TRACE");
+      ->envname("SCREE_TRACE")
+      ->check(check_writable, "FILE");
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
       ->envname("SCREE_GL_DEBUG");
   app.footer("Keys, mouse and gamepad:\n" + describe_controls(Telling::all, true));
@@ -173,6 +178,8 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
     if (!order) return fail(order.error().message);
+    if (Result<void> writable = can_be_written(order->file); !writable)
+      return fail("--screenshot: " + writable.error().message);
     options.screenshots.push_back(std::move(*order));
   }
   return understand_pictures(options);

@@ -1,0 +1,39 @@
+// Checks of what a program is told by its options, before it does anything: for CLI::Option::check(). Each
+// says what is wrong, or nothing.
+#pragma once
+
+#include <string>
+
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// The text is a finite number within the bounds: no "nan", which no comparison refuses, and no sign that a
+/// number without one would take for a very large one.
+struct NumberWithin {
+  double least = 0.0;
+  double most = 0.0;
+  bool whole = false;
+
+  std::string operator()(const std::string& text) const;
+  /// For the help.
+  std::string says() const;
+};
+
+/// A whole number within the bounds. `whole_most`: those of 64 bits, as far as a double counts exactly.
+NumberWithin whole_within(double least, double most);
+inline constexpr double whole_most = 9007199254740992.0;
+
+/// Adds the check to a CLI::Option.
+template <typename Option>
+Option* bounded(Option* option, const NumberWithin& check) {
+  return option->check(check, check.says());
+}
+
+/// A file can be written where the path says. What is there stays, and nothing is left behind.
+Result<void> can_be_written(const std::string& path);
+
+/// The same, for an option.
+std::string check_writable(const std::string& path);
+
+}  // namespace scree
