@@ -26,6 +26,7 @@ inline constexpr size_t link_flight_max_bytes = size_t{4} << 20;
 /// What may be said of a simulated link; beyond: refused by name.
 inline constexpr double link_delay_max_s = 10.0;
 inline constexpr double link_rate_min_bytes_per_s = 125.0;
+inline constexpr double link_rate_max_bytes_per_s = 1.25e9;
 inline constexpr double link_bytes_max = 1e12;
 
 /// Buffers that one write to a socket gathers. Above: the rest is taken next time.

@@ -193,6 +193,9 @@ TEST(LinkText, describes_both_directions_or_one) {
   EXPECT_EQ(link->up.cut_bytes, 2000U);
   EXPECT_FALSE(link->down.cut_bytes);
   EXPECT_EQ(link->random_seed, 7U);
+  EXPECT_EQ(*read_link("seed=7,up.cut=2000,down.rate=100kbit,buffer=16kB,rate=1Mbit,jitter=20ms,delay=50ms"),
+            *link)
+      << "in any order";
   EXPECT_EQ(*read_link(""), LinkConfig{});
   EXPECT_EQ(read_link("half-open=5kB")->down.half_open_bytes, 5000U);
   EXPECT_EQ(buffer_of(read_link("rate=1Mbit")->up), static_cast<size_t>(125000.0 * limits::link_buffer_s));
@@ -208,9 +211,17 @@ TEST(LinkText, what_is_wrong_is_named_with_the_way_to_write_it) {
   EXPECT_TRUE(holds(error("delay=3"), "a time as 50ms or 0.2s, at most 10s, not '3'"));
   EXPECT_TRUE(holds(error("delay"), "not by 'delay'"));
   EXPECT_TRUE(holds(error("delay=1ms,,"), "not by ''"));
+  EXPECT_TRUE(holds(error("delay=1ms,"), "not by ''")) << "nothing follows the comma";
+  EXPECT_TRUE(holds(error("delay=1ms,rate=1Mbit,delay=2ms"), "told twice what its delay is"));
+  EXPECT_TRUE(holds(error("up.cut=1,up.cut=2"), "told twice what its up.cut is"));
+  EXPECT_TRUE(holds(error("down.seed=3"), "one seed for both ways: write seed=3, not 'down.seed=3'"));
+  EXPECT_TRUE(holds(error("rate=10001Mbit"), "1kbit to 10000Mbit, not '10001Mbit'"));
+  EXPECT_TRUE(holds(error("cut=1e13"), "at most 1000000MB"));
+  EXPECT_TRUE(holds(error("down.up.rate=1Mbit"), "no 'up.rate'"));
   for (const char* wrong :
-       {"delay=-1ms", "delay=11s", "jitter=nan", "rate=0kbit", "rate=5", "buffer=1", "buffer=2MB", "cut=-1",
-        "cut=x", "seed=x", "seed=1.5", "left.delay=3ms", "up.seed=3", "rate=1e99Mbit"})
+       {"delay=-1ms", "delay=11s", "jitter=nan", "rate=0kbit",      "rate=5",    "buffer=1",     "buffer=2MB",
+        "cut=-1",     "cut=x",     "cut=0.5",    "buffer=2.0001kB", "seed=x",    "seed=-1",      "seed=",
+        "=3",         "=",         "seed=1.5",   "left.delay=3ms",  "up.seed=3", "rate=1e99Mbit"})
     EXPECT_NE(error(wrong), "") << wrong;
 }
 
