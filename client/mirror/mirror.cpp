@@ -118,6 +118,7 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
   for (const ChunkCoord chunk : frame.dropped_chunks) {
     forget_chunk(chunk, changes);
     held_.erase(chunk);
+    repairs_awaited_.erase(chunk);
     ++counters_.dropped_chunks;
   }
   for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);

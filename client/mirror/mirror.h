@@ -143,7 +143,7 @@ class Mirror {
   std::optional<StatusMessage> status_;
   std::map<ChunkCoord, Mismatch> mismatched_;  ///< not requested yet
   std::unordered_map<ChunkCoord, Tick, CoordHash>
-      repairs_awaited_;  ///< requested, with the tick of the check
+      repairs_awaited_;  ///< requested, of held chunks, with the tick of the check
   MirrorCounters counters_;
 };
 

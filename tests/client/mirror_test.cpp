@@ -360,5 +360,28 @@ TEST(Mirror, what_a_hostile_server_sends_is_an_error_and_not_a_crash) {
   EXPECT_TRUE(refuses(RefusalMessage{"enough"})) << "a refusal";
 }
 
+TEST(Mirror, a_chunk_that_is_dropped_is_no_longer_awaited) {
+  Pair pair;
+  FrameMessage frame = pair.frame({pair.carve()});
+  frame.check ^= 1U;
+  ASSERT_TRUE(pair.mirror.apply(frame));
+  const auto first = pair.mirror.take_repair_request();
+  ASSERT_TRUE(first);
+  frame = pair.frame({});
+  frame.dropped_chunks = pair.source.field().edited_chunks();
+  ASSERT_TRUE(pair.mirror.apply(frame));
+  const auto delta = pair.source.step({});
+  frame = {};
+  frame.tick = delta->tick;
+  for (const ChunkCoord chunk : pair.source.field().edited_chunks())
+    for (const BrickPatch& patch : pair.chunk(chunk).bricks) frame.patches.push_back(patch);
+  frame.has_check = true;
+  frame.check = fold(pair.source.field().hash()) ^ 1U;
+  ASSERT_TRUE(pair.mirror.apply(frame));
+  const auto again = pair.mirror.take_repair_request();
+  ASSERT_TRUE(again) << "it comes anew, and nobody has asked for it yet";
+  EXPECT_EQ(again->chunks.size(), first->chunks.size());
+}
+
 }  // namespace
 }  // namespace scree
