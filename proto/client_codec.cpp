@@ -55,6 +55,7 @@ struct Writing {
   void operator()(const GroundRequest& from) const {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
+  void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
 };
@@ -132,6 +133,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});
     case wire::ClientMessage::kOffer:
       return checked(read_offer(from.offer(), check));
+    case wire::ClientMessage::kGoodbye:
+      return GoodbyeMessage{};
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

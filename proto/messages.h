@@ -124,9 +124,12 @@ struct GroundRequest {
   std::vector<ChunkCoord> chunks;
 };
 
-using ClientMessage =
-    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairRequest,
-                 AckMessage, AdminMessage, CursorMessage, WatchMessage, GroundRequest, OfferMessage>;
+/// The client leaves for good. Nothing follows.
+struct GoodbyeMessage {};
+
+using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
+                                   RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage,
+                                   GroundRequest, OfferMessage, GoodbyeMessage>;
 
 // ---- server to client
 

@@ -75,6 +75,9 @@ RecordedCommand read_command(uint64_t session, const std::string& bytes, FieldCh
                    return RecordedCommand{session, admin.request,
                                           SettingsRequest{settings == nullptr ? SettingValues() : *settings}};
                  },
+                 [&](const GoodbyeMessage&) {
+                   return RecordedCommand{session, 0, LeaveRequest{}};
+                 },
                  [&](const auto&) {
                    check.refuse("a message that asks for nothing stands where a request should");
                    return RecordedCommand{};
@@ -89,7 +92,8 @@ ClientMessage message_of(const RecordedCommand& command) {
                                },
                                [&](const SettingsRequest& settings) {
                                  return ClientMessage(AdminMessage{command.request, {}, settings.settings});
-                               }},
+                               },
+                               [](const LeaveRequest&) { return ClientMessage(GoodbyeMessage{}); }},
                     command.body);
 }
 

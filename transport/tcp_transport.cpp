@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <asio/buffer.hpp>
+#include <cerrno>
 #include <sys/socket.h>
 #include <vector>
 
@@ -17,6 +18,10 @@ Moved moved(const asio::error_code& error, size_t bytes) {
   return tl::unexpected(StreamEnd{error == asio::error::eof, error.message()});
 }
 
+bool goes_later(int error) {
+  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR || error == ENOBUFS;
+}
+
 }  // namespace
 
 TcpTransport::TcpTransport(asio::ip::tcp::socket socket) : socket_(std::move(socket)) {
@@ -29,18 +34,23 @@ TcpTransport::TcpTransport(asio::ip::tcp::socket socket) : socket_(std::move(soc
 }
 
 void TcpTransport::read_some(std::span<uint8_t> into, Done done) {
-  socket_.async_read_some(asio::buffer(into.data(), into.size()),
-                          [self = shared_from_this(), done = std::move(done)](
-                              const asio::error_code& error, size_t bytes) { done(moved(error, bytes)); });
+  socket_.async_read_some(
+      asio::buffer(into.data(), into.size()),
+      [self = shared_from_this(), done = std::move(done)](const asio::error_code& error, size_t bytes) {
+        const bool told_before = error == asio::error::eof && self->broke_;
+        done(moved(told_before ? self->broke_ : error, bytes));
+      });
 }
 
 void TcpTransport::write_some(Buffers buffers, Done done) {
   std::vector<asio::const_buffer> gathered;
   gathered.reserve(buffers.size());
   for (const std::span<const uint8_t> bytes : buffers) gathered.emplace_back(bytes.data(), bytes.size());
-  socket_.async_write_some(gathered,
-                           [self = shared_from_this(), done = std::move(done)](
-                               const asio::error_code& error, size_t bytes) { done(moved(error, bytes)); });
+  socket_.async_write_some(gathered, [self = shared_from_this(), done = std::move(done)](
+                                         const asio::error_code& error, size_t bytes) {
+    if (error) self->broke_ = error;
+    done(moved(error, bytes));
+  });
 }
 
 /// The system call itself: Asio would queue a handler for what is done already.
@@ -53,7 +63,9 @@ size_t TcpTransport::write_now(Buffers buffers) {
   message.msg_iov = gathered.data();
   message.msg_iovlen = count;
   const ssize_t sent = sendmsg(socket_.native_handle(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
-  return sent < 0 ? 0 : static_cast<size_t>(sent);
+  if (sent >= 0) return static_cast<size_t>(sent);
+  if (!goes_later(errno)) broke_ = asio::error_code(errno, asio::system_category());
+  return 0;
 }
 
 void TcpTransport::finish_sending() {

@@ -14,6 +14,11 @@ class Talk {
  public:
   Talk(std::unique_ptr<Connection> connection, Clock::time_point until)
       : connection_(std::move(connection)), until_(until) {}
+  Talk(Talk&&) = default;
+  Talk& operator=(Talk&&) = default;
+  ~Talk() {
+    if (connection_) connection_->leave();
+  }
 
   void send(const ClientMessage& message) { connection_->send(message); }
 
@@ -101,7 +106,9 @@ Result<void> done_by(const AdminServer& server, AdminAct act) {
 Result<StatusMessage> read_status(const AdminServer& server) {
   Result<Talk> talk = join(server);
   if (!talk) return tl::unexpected(talk.error());
-  return status_of(*talk);
+  Result<StatusMessage> status = status_of(*talk);
+  if (status && status->clients > 0) --status->clients;  // the others: this program is one while it asks
+  return status;
 }
 
 Result<SettingValues> read_settings(const AdminServer& server) {

@@ -31,10 +31,14 @@ Bot::Bot(BotConfig config, Log log)
 
 Bot::~Bot() {
   rejoin_.finish(mirror_.get());
+  if (connection_) connection_->leave();
 }
 
-void Bot::log(const std::string& line) const {
-  if (log_) log_(line);
+/// A hostile server cannot fill the disk.
+void Bot::log(std::string_view kind, const std::string& line) {
+  if (!log_) return;
+  const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  if (const auto more = log_limit_.take(kind, now_s)) log_(line + *more);
 }
 
 Result<void> Bot::join() {
@@ -58,8 +62,8 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
     const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
     set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
   }
-  log("connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) + " as " +
-      std::string(name_of(report_.welcome.role)));
+  log("connected", "connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) +
+                       " as " + std::string(name_of(report_.welcome.role)));
   return {};
 }
 
@@ -81,7 +85,7 @@ Result<void> Bot::reconnect(const ConnectionEnd& end) {
   ConnectionEnd last = end;
   for (uint32_t tries = 1; report_.connections + tries - 1 <= config_.reconnects_max; ++tries) {
     if (!may_come_again(last.refusal)) break;
-    log("connection lost (" + last.message + "): trying again");
+    log("lost", "connection lost (" + last.message + "): trying again");
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::bot_retry_ms * tries));
     const auto connected = connect();
     if (connected) return {};
@@ -112,8 +116,8 @@ Result<void> Bot::receive(const Received& received) {
   if (!applied) return tl::unexpected(applied.error());
   rejoin_.after(received.message, *mirror_, *connection_);
   while (const auto repair = mirror_->take_repair_request()) {
-    log("a check failed at tick " + std::to_string(repair->tick) + ": asking for " +
-        std::to_string(repair->chunks.size()) + " chunks");
+    log("check", "a check failed at tick " + std::to_string(repair->tick) + ": asking for " +
+                     std::to_string(repair->chunks.size()) + " chunks");
     connection_->send(*repair);
   }
   std::visit(Overloaded{[&](const FrameMessage& frame) { receive_frame(frame, received.arrived); },
@@ -155,11 +159,11 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
     ++report_.carves_refused;
     ++report_.refusals[reply.refusal_name];
     unseen_.erase(request->second.random_seed);
-    log("carve " + std::to_string(reply.request) + " was refused (" + reply.refusal_name +
-        "): " + reply.refusal);
+    log("refused", "carve " + std::to_string(reply.request) + " was refused (" + reply.refusal_name +
+                       "): " + reply.refusal);
   }
   requests_.erase(request);
-  if (report_.carves_asked == config_.carves && requests_.empty()) log("all carves are answered");
+  if (report_.carves_asked == config_.carves && requests_.empty()) log("answered", "all carves are answered");
 }
 
 void Bot::receive_status(const StatusMessage& status) {
@@ -172,7 +176,7 @@ void Bot::receive_status(const StatusMessage& status) {
   const bool was_settled = report_.settled;
   report_.settled = at_rest && rest_hash_ == status.field_hash;
   rest_hash_ = at_rest ? std::optional(status.field_hash) : std::nullopt;
-  if (report_.settled && !was_settled) log("settled at tick " + std::to_string(status.tick));
+  if (report_.settled && !was_settled) log("settled", "settled at tick " + std::to_string(status.tick));
   if (!scripted_work_done()) return;
   ++final_statuses_;
   compared_ = report_.hash.equal || final_statuses_ >= limits::bot_final_statuses_max;

@@ -18,6 +18,7 @@
 #include "client/cache/rejoin.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
+#include "shared/base/log_limit.h"
 
 namespace scree {
 
@@ -78,10 +79,11 @@ class Bot {
   void ask(Clock::time_point now);
   void acknowledge(Clock::time_point now);
   bool scripted_work_done() const;
-  void log(const std::string& line) const;
+  void log(std::string_view kind, const std::string& line);
 
   BotConfig config_;
   Log log_;
+  LogLimit log_limit_;
   Carver carver_;
   glm::vec3 eye_m_;
   Rejoin rejoin_;

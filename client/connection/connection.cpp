@@ -21,16 +21,12 @@
 
 namespace scree {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-using asio::ip::tcp;
-
-}  // namespace
-
 /// The network thread alone uses the members that `mutex` does not guard. Until the welcome, connect() runs
 /// the context on its caller's thread; then `thread` runs it.
 struct Connection::Impl {
+  using Clock = std::chrono::steady_clock;
+  using tcp = asio::ip::tcp;
+
   struct Waiting {
     Received received;
     size_t memory = 0;
@@ -51,6 +47,7 @@ struct Connection::Impl {
   size_t outbox_bytes = 0;
   bool reading = false;  ///< a read is under way
   bool paused = false;   ///< by pause_reading
+  bool leaving = false;  ///< ends when all is sent
   bool ended = false;    ///< the socket is closed
   std::optional<WelcomeMessage> welcome;
   asio::steady_timer silence{context};
@@ -79,6 +76,7 @@ struct Connection::Impl {
   void push(std::vector<uint8_t> bytes);
   void note_sent(size_t bytes);
   void write();
+  void leave();
   std::vector<Received> take_all();
 };
 
@@ -260,6 +258,7 @@ void Connection::Impl::write() {
       // The server may have sent its reason before it closed: unread bytes say more than this error.
       outbox.clear();
       outbox_bytes = front_sent_bytes = 0;
+      if (leaving) end("closed here");
       return;
     }
     front_sent_bytes += *moved;
@@ -267,8 +266,20 @@ void Connection::Impl::write() {
     outbox_bytes -= outbox.front().size();
     outbox.pop_front();
     front_sent_bytes = 0;
-    if (!outbox.empty()) write();
+    if (!outbox.empty()) return write();
+    if (leaving) end("closed here");
   });
+}
+
+/// Ends when the goodbye, and all before it, is sent, or cannot be sent in time.
+void Connection::Impl::leave() {
+  if (ended || leaving) return;
+  silence.expires_after(std::chrono::milliseconds(limits::goodbye_ms_max));
+  silence.async_wait([this](const asio::error_code& error) {
+    if (!error) end("closed here");
+  });
+  leaving = true;
+  push(encode(ClientMessage(GoodbyeMessage{})));
 }
 
 std::vector<Received> Connection::Impl::take_all() {
@@ -363,7 +374,13 @@ ConnectionCounters Connection::counters() const {
 }
 
 void Connection::close() {
-  asio::post(impl_->context, [impl = impl_.get()] { impl->end("closed here"); });
+  asio::post(impl_->context, [impl = impl_.get()] {
+    if (!impl->leaving) impl->end("closed here");
+  });
+}
+
+void Connection::leave() {
+  asio::post(impl_->context, [impl = impl_.get()] { impl->leave(); });
 }
 
 void Connection::pause_reading(bool pause) {

@@ -66,7 +66,10 @@ class Connection {
   std::string close_reason() const { return end().message; }
   ConnectionCounters counters() const;
 
+  /// Closes; the server takes it for a lost connection, to which the client may come back by its ticket.
   void close();
+  /// Says goodbye and closes: the session is over, and its place is free.
+  void leave();
 
   /// For tests: pause_reading() stops reading the socket, as a stuck client does; cut() ends the connection
   /// without closing it in order, as a lost link does.

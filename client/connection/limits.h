@@ -19,6 +19,9 @@ inline constexpr size_t unsent_bytes_max = size_t{1} << 20;
 /// the connection counts as lost: a machine that went away, or a router that forgot it, tells nobody.
 inline constexpr double silent_seconds_max = 10.0;
 
+/// Milliseconds that a goodbye may take to be handed to the socket. Above: the connection is closed without.
+inline constexpr int goodbye_ms_max = 250;
+
 /// Bytes read from the socket at once.
 inline constexpr size_t read_bytes = size_t{64} << 10;
 

@@ -47,7 +47,8 @@ std::optional<Operation> operation_of(const Request& asked) {
                                [](const PaintRequest& paint) -> Made {
                                  return PaintOperation{paint.shape, paint.material};
                                },
-                               [](const SettingsRequest&) -> Made { return std::nullopt; }},
+                               [](const SettingsRequest&) -> Made { return std::nullopt; },
+                               [](const LeaveRequest&) -> Made { return std::nullopt; }},
                     asked);
 }
 

@@ -111,7 +111,8 @@ Role role_for(const Request& request) {
   return std::visit(Overloaded{[](const CarveRequest&) { return Role::carver; },
                                [](const FillRequest&) { return Role::builder; },
                                [](const PaintRequest&) { return Role::builder; },
-                               [](const SettingsRequest&) { return Role::admin; }},
+                               [](const SettingsRequest&) { return Role::admin; },
+                               [](const LeaveRequest&) { return Role::viewer; }},
                     request);
 }
 

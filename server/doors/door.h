@@ -13,8 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "server/doors/rate_limit.h"
 #include "server/work/refusal.h"
+#include "shared/base/rate_limit.h"
 
 namespace scree {
 

@@ -56,10 +56,6 @@ inline constexpr size_t departed_max = 4096;
 inline constexpr double place_kept_seconds_max = 15.0;
 inline constexpr double places_kept_part = 0.25;
 
-/// Lines of one kind in the log, a second and at once; the rest is counted.
-inline constexpr double log_lines_per_second = 2.0;
-inline constexpr double log_lines_burst = 8.0;
-
 /// Bytes from one client, per second and at once; refused and closed.
 inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
 inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;

@@ -1,30 +1,38 @@
 // Which sessions share the server as one party (server/work/command.h): those with the same token, or,
-// without one, of the same address. By more connections nobody gets more. A party is known by the number of
+// without one, of the same address. By more connections nobody gets more. Programs on the server's own
+// machine are a party each, as many as are there at once; who comes next takes over the party, and with it
+// the debts, that was left last, so that nobody gains by coming and going. A party is known by the number of
 // its first session, so recordings hold neither addresses nor tokens. Not thread-safe.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
-#include <unordered_map>
 
 namespace scree {
 
 class Parties {
  public:
-  /// The party of a session with this in common with others. Seconds of any origin.
+  /// The party of a session with this in common with others, not empty. Seconds of any origin.
   uint64_t join(const std::string& common, uint64_t session, double now_s);
-  /// One of its sessions has ended. The number stays the party's for limits::party_memory_s after the last
-  /// has, so that nobody becomes another party by coming again while his requests still wait.
-  void leave(const std::string& common, double now_s);
+  /// The party of a session that shares with none that is there. `before`: the session's own, if it goes on
+  /// after a lost connection; else 0. It shares with who has taken that one over since.
+  uint64_t join_apart(uint64_t session, uint64_t before, double now_s);
+  /// One of the party's sessions has ended. The number stays the party's for limits::party_memory_s after the
+  /// last has, so that nobody becomes another party by coming again while his requests still wait.
+  void leave(uint64_t party, double now_s);
 
  private:
   struct Party {
-    uint64_t number = 0;
+    std::string common;  ///< empty: of a session apart
     size_t sessions = 0;
     double left_s = 0.0;  ///< when the last session ended
   };
-  std::unordered_map<std::string, Party> parties_;
+
+  void forget_the_old(double now_s);
+  uint64_t enter(uint64_t party, const std::string& common);
+
+  std::map<uint64_t, Party> parties_;
 };
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "crypto/signing_key.h"
 #include "proto/limits.h"
@@ -26,14 +27,14 @@ std::string bytes_of(uint64_t number) {
 }  // namespace
 
 std::string Tickets::issue(uint64_t session) {
-  forget(session);
+  departed_.erase(session);
   const std::string& secret = secrets_[session] = bytes_of(random_number()) + bytes_of(random_number());
   return bytes_of(session) + secret;
 }
 
 void Tickets::forget(uint64_t session) {
-  secrets_.erase(session);
   departed_.erase(session);
+  if (secrets_.erase(session) != 0) over_(session);
 }
 
 std::optional<uint64_t> Tickets::session_of(const std::string& ticket) const {
@@ -65,11 +66,10 @@ void Tickets::expire(double now_s) {
 }
 
 void Tickets::forget_departed(const std::function<bool(const Departed&)>& unwanted) {
-  std::erase_if(departed_, [&](const auto& entry) {
-    if (!unwanted(entry.second)) return false;
-    secrets_.erase(entry.first);
-    return true;
-  });
+  std::vector<uint64_t> sessions;
+  for (const auto& [session, departed] : departed_)
+    if (unwanted(departed)) sessions.push_back(session);
+  for (const uint64_t session : sessions) forget(session);
 }
 
 size_t Tickets::places_kept(double now_s) const {

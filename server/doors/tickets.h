@@ -12,7 +12,7 @@
 #include <string>
 
 #include "server/doors/access.h"
-#include "server/doors/rate_limit.h"
+#include "shared/base/rate_limit.h"
 
 namespace scree {
 
@@ -23,12 +23,16 @@ struct Departed {
   std::string ip;  ///< from which it was connected
   RateLimit requests;
   double joined_s = 0.0;
+  uint64_t party = 0;  ///< Parties
   double departed_s = 0.0;
   bool keeps_place = false;  ///< in a full server, for limits::place_kept_seconds_max
 };
 
 class Tickets {
  public:
+  /// `over` is told of each session that had a ticket and cannot go on any more.
+  explicit Tickets(std::function<void(uint64_t session)> over = [](uint64_t) {}) : over_(std::move(over)) {}
+
   /// A ticket for the session; the one before does not hold any more.
   std::string issue(uint64_t session);
   /// The session of a ticket that holds.
@@ -47,6 +51,7 @@ class Tickets {
   size_t places_kept(double now_s) const;
 
  private:
+  std::function<void(uint64_t session)> over_;
   std::map<uint64_t, std::string> secrets_;  ///< by session
   std::map<uint64_t, Departed> departed_;    ///< likewise, those of them without a connection
 };

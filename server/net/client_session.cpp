@@ -48,12 +48,13 @@ void ClientSession::read_failed(bool orderly, const std::string& why) {
     cut_for_ = Refusal::tls_failed;
     return close(why);
   }
-  if (orderly && reader_.buffered_bytes() != 0)
-    return refuse({Refusal::message_cut_short, "the connection ended in the middle of a message, after " +
-                                                   std::to_string(reader_.buffered_bytes()) +
-                                                   " bytes of it"});
-  was_lost_ = !orderly;
-  close(orderly ? "left" : why);
+  const std::string cut_short = "the connection ended in the middle of a message, after " +
+                                std::to_string(reader_.buffered_bytes()) + " bytes of it";
+  const bool within_message = orderly && reader_.buffered_bytes() != 0;
+  if (within_message && phase_ == Phase::hello) return refuse({Refusal::message_cut_short, cut_short});
+  was_lost_ = true;
+  if (within_message) return cut_off(Refusal::message_cut_short, cut_short);
+  close(orderly ? "its end of the connection is closed" : why);
 }
 
 void ClientSession::read_done(size_t bytes) {
@@ -153,11 +154,11 @@ void ClientSession::write() {
   offered_bytes_ = gathered.bytes;
   offered_s_ = times_.now_s();
   transport_->write_some(gathered.all(), [self = shared_from_this()](const Moved& moved) {
+    // The connection is over: nothing more is written. What came before its end, a goodbye perhaps, is still
+    // read, and then its end.
+    if (!moved) return;
     self->writing_ = false;
-    if (self->phase_ == Phase::closed) return;
-    self->was_lost_ = !moved;
-    if (!moved) return self->close(moved.error().why);
-    self->write_done(*moved);
+    if (self->phase_ != Phase::closed) self->write_done(*moved);
   });
 }
 
@@ -225,12 +226,17 @@ void ClientSession::finish_sending() {
 void ClientSession::close(const std::string& reason) {
   if (phase_ == Phase::closed) return;
   const auto self = shared_from_this();
-  may_go_on_ = phase_ == Phase::joined;
+  may_go_on_ = phase_ == Phase::joined && !left_;
   phase_ = Phase::closed;
   transport_->close();
   outbox_.clear();
   backlog_bytes_ = 0;
   host_.closed(*this, reason);
+}
+
+void ClientSession::leave() {
+  left_ = true;
+  close("left");
 }
 
 void ClientSession::check_time(double now_s) {

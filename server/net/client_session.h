@@ -17,11 +17,11 @@
 #include "proto/frame_reader.h"
 #include "proto/limits.h"
 #include "proto/messages.h"
-#include "server/doors/rate_limit.h"
 #include "server/net/reading_pace.h"
 #include "server/publish/encode_cache.h"
 #include "server/publish/publisher.h"
 #include "server/work/refusal.h"
+#include "shared/base/rate_limit.h"
 #include "shared/base/timing.h"
 #include "transport/limits.h"
 #include "transport/transport.h"
@@ -73,6 +73,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void refuse(const Refused& refused);
   /// Closes at once.
   void close(const std::string& reason);
+  /// Closes at once: the client has said goodbye, and does not go on.
+  void leave();
   /// Ends the session if the client sent no hello, or has not read, for too long. Call a few times a second.
   void check_time(double now_s);
 
@@ -97,8 +99,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   Backlog backlog() const { return {backlog_bytes_, pace_.bytes_max()}; }
   /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
-  /// Of a closed one: whether it had joined and was not refused; and whether its connection was lost, rather
-  /// than ended by either side.
+  /// Of a closed one: whether it had joined, was not refused and did not leave; and whether its connection
+  /// ended by itself, in order or not, rather than by the server.
   bool may_go_on() const { return may_go_on_; }
   bool was_lost() const { return was_lost_; }
 
@@ -150,6 +152,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   double offered_s_ = 0.0;
   bool writing_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
+  bool left_ = false;
   bool may_go_on_ = false;
   bool was_lost_ = false;
 };

@@ -40,10 +40,12 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
     : config_(config),
       service_(config.service),
       commands_(commands),
+      departures_(commands),
       entrance_(context_, config.door, *this),
       timer_(context_),
       flush_rate_(config.tick_rate_hz),
       flush_timer_(context_),
+      tickets_([this](uint64_t session) { departures_.gone(session); }),
       world_(std::max<uint64_t>(1, random_number())),
       workers_(config.net_threads),
       publisher_(publisher_config(config), workers_) {}
@@ -139,6 +141,7 @@ void NetHost::tick_timer() {
     for (const auto& session : sessions) session->check_time(now_s);
     end_lapsed_grants();
     tickets_.expire(now_s);
+    departures_.tell();
     if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
       for (const auto& session : sessions) session->close("the server stops");
       return;
@@ -174,6 +177,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const OfferMessage& offer) -> Done {
             if (offer.world == world_) publisher_.offer(session.id(), offer);
+            return {};
+          },
+          [&](const GoodbyeMessage&) -> Done {
+            session.leave();
             return {};
           },
           // On TCP the bytes that wait for a client say how far behind it is.
@@ -214,10 +221,11 @@ tl::expected<void, Refused> NetHost::follow(ClientSession& session, const Intere
   return {};
 }
 
-void NetHost::request(ClientSession& session, const Command& command) {
+bool NetHost::request(ClientSession& session, const Command& command) {
   ++counts_.requests;
   const auto refused = [&](Refusal reason, const std::string& message) {
     refuse_request(session, command.request, {reason, message});
+    return false;
   };
   if (config_.replay)
     return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
@@ -230,7 +238,9 @@ void NetHost::request(ClientSession& session, const Command& command) {
     return refused(Refusal::commands_waiting,
                    "the server is busy: " + std::to_string(commands_.commands_max()) +
                        " commands wait already (limits.commands_waiting_max); try again");
+  departures_.asked(session.id());
   request_times_.received(session.id(), command.request, now_s);
+  return true;
 }
 
 void NetHost::refuse_request(ClientSession& session, uint32_t request, const Refused& refused) {
@@ -262,8 +272,9 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
   }
   std::string changes;
   for (const SettingValue& setting : *settings) changes += " " + setting.name + "=" + setting.value;
-  spdlog::info("session {}: {} sets{}", session.id(), session.peer(), changes);
-  request(session, {session.id(), message.request, SettingsRequest{*settings}});
+  if (request(session, {session.id(), message.request, SettingsRequest{*settings}}))
+    settings_asked_[{session.id(), message.request}] =
+        fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
   return {};
 }
 
@@ -297,8 +308,8 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   request_times_.forget(session.id());
   remember(session);
   outsiders_.erase(session.id());
-  if (const Entry& entry = sessions_.at(session.id()); !entry.in_common.empty())
-    parties_.leave(entry.in_common, steady_now_s());
+  if (const Entry& entry = sessions_.at(session.id()); entry.party != 0)
+    parties_.leave(entry.party, steady_now_s());
   sessions_.erase(session.id());
   update_stats();
 }

@@ -18,13 +18,14 @@
 
 #include "server/doors/bans.h"
 #include "server/doors/entrance.h"
-#include "server/doors/log_limit.h"
 #include "server/doors/parties.h"
 #include "server/doors/tickets.h"
 #include "server/net/client_session.h"
+#include "server/net/departures.h"
 #include "server/net/flush_rate.h"
 #include "server/net/net_server.h"
 #include "server/net/request_times.h"
+#include "shared/base/log_limit.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
@@ -66,9 +67,8 @@ class NetHost final : public SessionHost, public EntranceHost {
     Grant grant{};       ///< of a joined session
     std::string program{};
     double joined_s = 0.0;
-    std::string in_common{};  ///< with the sessions of its party (Parties); empty: it shares with none
-    uint64_t party = 0;       ///< as of Command
-    bool unflushed = false;   ///< in unflushed_
+    uint64_t party = 0;      ///< as of Command; 0: an administrator, in none of Parties
+    bool unflushed = false;  ///< in unflushed_
   };
 
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override;
@@ -86,7 +86,9 @@ class NetHost final : public SessionHost, public EntranceHost {
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
   void tick_timer();
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
-  void request(ClientSession& session, const Command& command);
+  /// Whether it is on its way to the world; else it is refused.
+  bool request(ClientSession& session, const Command& command);
+  void log_settings(const TickDelta& delta);
   std::shared_ptr<ClientSession> queue(Outgoing&& outgoing);
   void answer(const TickDelta& delta, const TickSpan& span);
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
@@ -108,7 +110,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   tl::expected<void, Refused> check_admin_token(const ClientSession& session, const std::string& token);
   tl::expected<Grant, Refused> grant_to(const ClientSession& session, const HelloMessage& hello);
   void end_lapsed_grants();
-  std::string in_common(const ClientSession& session, const Grant& grant);
+  uint64_t join_party(const ClientSession& session, const Grant& grant, uint64_t before);
   tl::expected<void, Refused> may(const ClientSession& session, Role needed) const;
   void ask(ClientSession& session, const Command& command);
   void administer_sessions(ClientSession& session, const AdminMessage& message);
@@ -124,6 +126,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   const NetConfig config_;
   ServiceLimits service_;  ///< as they stand
   CommandQueue& commands_;
+  Departures departures_;
   asio::io_context context_;
   Entrance entrance_;
   asio::steady_timer timer_;
@@ -146,6 +149,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   Workers workers_;
   Publisher publisher_;
   RequestTimes request_times_;
+  /// Lines for the log, by session and request, of settings that the world has not answered yet.
+  std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
   std::atomic<bool> watched_{false};
   ThreadCheck network_thread_;
   NetStats counts_;

@@ -96,10 +96,14 @@ tl::expected<Grant, Refused> NetHost::grant_to(const ClientSession& session, con
 }
 
 /// Who has no token shares with its address. Programs on this machine, and administrators, share with nobody.
-std::string NetHost::in_common(const ClientSession& session, const Grant& grant) {
-  if (grant.token_id != 0) return "token " + std::to_string(grant.token_id);
-  if (grant.role == Role::admin || entrance_.door().is_free(session.address())) return {};
-  return session.address();
+/// `before`: the party that the session had, if it goes on.
+uint64_t NetHost::join_party(const ClientSession& session, const Grant& grant, uint64_t before) {
+  const double now_s = steady_now_s();
+  if (grant.token_id != 0)
+    return parties_.join("token " + std::to_string(grant.token_id), session.id(), now_s);
+  if (grant.role == Role::admin) return 0;
+  if (entrance_.door().is_free(session.address())) return parties_.join_apart(session.id(), before, now_s);
+  return parties_.join(session.address(), session.id(), now_s);
 }
 
 /// Tokens expire and are revoked while their sessions last.
@@ -123,7 +127,10 @@ tl::expected<void, Refused> NetHost::may(const ClientSession& session, Role need
 /// Requests beyond the session's role never reach the world.
 void NetHost::ask(ClientSession& session, const Command& command) {
   const auto may_ask = may(session, role_for(command.body));
-  if (may_ask) return request(session, command);
+  if (may_ask) {
+    request(session, command);
+    return;
+  }
   ++counts_.requests;
   refuse_request(session, command.request, may_ask.error());
 }

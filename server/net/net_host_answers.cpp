@@ -1,4 +1,6 @@
 // NetHost: a tick's messages and replies on their way to the sessions.
+#include <spdlog/spdlog.h>
+
 #include "server/net/net_host.h"
 #include "shared/base/timing.h"
 
@@ -25,6 +27,15 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
   for (const auto& session : answered) session->settle();
   const std::scoped_lock lock(stats_mutex_);
   latency_ = request_times_.counts();
+}
+
+/// What was asked for is logged once it is so.
+void NetHost::log_settings(const TickDelta& delta) {
+  if (settings_asked_.empty()) return;
+  for (const Reply& reply : delta.replies) {
+    const auto asked = settings_asked_.extract({reply.session, reply.request});
+    if (!asked.empty() && reply.refusal.empty()) spdlog::info("{}", asked.mapped());
+  }
 }
 
 LatencyCounts NetHost::latency() const {

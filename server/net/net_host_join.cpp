@@ -39,8 +39,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   Entry& entry = enter(session, before ? before->session : session.id());
   publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels, hello.world == world_);
   entry.grant = *grant;
-  entry.in_common = in_common(session, *grant);
-  if (!entry.in_common.empty()) entry.party = parties_.join(entry.in_common, session.id(), steady_now_s());
+  entry.party = join_party(session, *grant, before ? before->party : 0);
   entry.name = grant->name;
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : steady_now_s();
@@ -91,8 +90,8 @@ std::optional<Departed> NetHost::resume(const std::string& ticket, const Grant& 
 void NetHost::remember(const ClientSession& session) {
   if (!session.may_go_on()) return tickets_.forget(session.id());
   const Entry& entry = sessions_.at(session.id());
-  tickets_.depart({session.id(), entry.grant, session.ip(), entry.requests, entry.joined_s, steady_now_s(),
-                   session.was_lost()});
+  tickets_.depart({session.id(), entry.grant, session.ip(), entry.requests, entry.joined_s, entry.party,
+                   steady_now_s(), session.was_lost()});
 }
 
 /// The session is one of those that have joined, from now on under this number.

@@ -32,6 +32,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
     if (!std::exchange(entry.unflushed, true)) unflushed_.push_back(entry.session);
     entry.session->queue(std::move(outgoing.bytes));
   }
+  log_settings(delta);
   answer(delta, span);
   if (flush_rate_.due(more))
     flush();

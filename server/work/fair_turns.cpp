@@ -28,6 +28,10 @@ void FairTurns::charge(uint64_t charged_ns, Then then) {
   if (then == Then::is_passed_over) passed_over_.insert({start_ns + charged_ns, who});
 }
 
+void FairTurns::leave(uint64_t who) {
+  CHECK(turns_.erase({charged_ns_.at(who), who}) == 1);
+}
+
 void FairTurns::pass_over() {
   CHECK(!turns_.empty());
   passed_over_.insert(*turns_.begin());

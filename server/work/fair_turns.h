@@ -22,6 +22,8 @@ class FairTurns {
   enum class Then : uint8_t { leaves, waits, is_passed_over };
   /// Charges the next one, which waits for another turn or does not.
   void charge(uint64_t charged_ns, Then then);
+  /// One that waits, and was not passed over, does not wait any more; what it was charged stands.
+  void leave(uint64_t who);
   /// Leaves the next one out until bring_back().
   void pass_over();
   void bring_back();

@@ -29,6 +29,7 @@ struct Pricing {
   float operator()(const FillRequest& request) const { return edit_price_us(request.shape, field); }
   float operator()(const PaintRequest& request) const { return edit_price_us(request.shape, field); }
   float operator()(const SettingsRequest&) const { return 0.0F; }
+  float operator()(const LeaveRequest&) const { return 0.0F; }
 };
 
 }  // namespace

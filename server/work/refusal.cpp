@@ -24,6 +24,7 @@ constexpr Row rows[] = {
     {Refusal::pieces_share, "pieces_share"},
     {Refusal::requests_waiting, "requests_waiting"},
     {Refusal::memory_max, "memory_max"},
+    {Refusal::session_over, "session_over"},
     {Refusal::replay, "replay"},
     {Refusal::requests_per_second, "requests_per_second"},
     {Refusal::commands_waiting, "commands_waiting"},

@@ -88,13 +88,32 @@ void RequestQueue::pass_over() {
   if (sessions.empty()) turns_.pass_over();
 }
 
-void RequestQueue::begin_tick() {
-  turns_.bring_back();
-  turns_.forget_the_idle();
-  for (auto& [id, party] : parties_) {
-    party.turns.bring_back();
-    party.turns.forget_the_idle();  // or a party whose sessions come and go would grow for ever
+std::vector<Command> RequestQueue::drop(uint64_t session) {
+  bring_back();
+  std::vector<Command> dropped;
+  for (auto& [id, party] : parties_) {  // it may have come again as one of another party
+    const auto found = party.sessions.find(session);
+    if (found == party.sessions.end()) continue;
+    for (WaitingRequest& request : found->second.requests) dropped.push_back(std::move(request.command));
+    party.requests -= found->second.requests.size();
+    size_ -= found->second.requests.size();
+    party.sessions.erase(found);
+    party.turns.leave(session);
+    if (party.requests == 0) turns_.leave(id);
   }
+  return dropped;
+}
+
+void RequestQueue::bring_back() {
+  turns_.bring_back();
+  for (auto& [id, party] : parties_) party.turns.bring_back();
+}
+
+void RequestQueue::begin_tick() {
+  bring_back();
+  turns_.forget_the_idle();
+  for (auto& [id, party] : parties_)
+    party.turns.forget_the_idle();  // or a party whose sessions come and go would grow for ever
   std::erase_if(parties_, [](const auto& entry) { return entry.second.requests == 0; });
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <vector>
 
 #include "server/work/command.h"
 #include "server/work/fair_turns.h"
@@ -37,6 +38,9 @@ class RequestQueue {
   void pop(float charged_us);
   /// Leaves the next request's session out until the next begin_tick().
   void pass_over();
+  /// Removes all requests of a session, and returns them in order. They cost nothing. Call before
+  /// begin_tick(): who was passed over comes back.
+  std::vector<Command> drop(uint64_t session);
   void begin_tick();
 
   /// Number of requests that wait.
@@ -58,6 +62,7 @@ class RequestQueue {
   /// By name, if no more of this party's requests, or this session's, may wait.
   Result<void> may_wait(const WaitingRequest& request) const;
   bool waits(uint64_t party) const;
+  void bring_back();
 
   float client_us_per_s_;
   std::map<uint64_t, Party> parties_;  ///< those with requests, or with sessions ahead of the others

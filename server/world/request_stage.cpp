@@ -44,17 +44,17 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
   if (seeds > pieces_max)
     return {Refusal::pieces_max,
             "a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
-                " pieces (pieces_max): ask for " + limit + " seeds at most, or have the limit raised to " +
+                " pieces (pieces-max): ask for " + limit + " seeds at most, or have the limit raised to " +
                 all + " (--pieces-max)"};
   if (grant.contested)
     return {
         Refusal::pieces_share,
-        "other clients share this server's room for pieces (pieces_max): of " + std::to_string(alive) +
+        "other clients share this server's room for pieces (pieces-max): of " + std::to_string(alive) +
             " alive " + std::to_string(state.shares.of(party)) + " are this client's: " +
             (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
   return {Refusal::pieces_max,
           std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
-              "; this server's limit is " + limit + " (pieces_max): wait until " +
+              "; this server's limit is " + limit + " (pieces-max): wait until " +
               std::to_string(wanted - pieces_max) + " have settled, " +
               (grant.pieces_most > 0 ? "ask for " + most + " seeds at most, " : std::string()) +
               "or have the limit raised to " + all + " (--pieces-max)"};
@@ -145,6 +145,7 @@ struct Checking {
       return refuse(Refusal::settings_invalid, done.error().message);
     return {};
   }
+  Checked operator()(const LeaveRequest&) const { return {}; }
 };
 
 CarveRequest at_rest(CarveRequest request) {
@@ -218,6 +219,7 @@ struct Executing {
   Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
+  Outcome operator()(const LeaveRequest&) const { return 0U; }  // take_in() has done it
 };
 
 /// The pieces that a request may make, if it is a carve.
@@ -284,7 +286,8 @@ const Shape* shape_of(const Request& request) {
   return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
                                [](const FillRequest& fill) { return &fill.shape; },
                                [](const PaintRequest& paint) { return &paint.shape; },
-                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); }},
+                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
+                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
                     request);
 }
 
@@ -306,7 +309,7 @@ Checked check_memory(const World::State& state, const Command& command) {
   return refuse(
       Refusal::memory_max,
       "the terrain takes about " + whole(used_bytes) + " of " + std::to_string(max_mb) +
-          " MB (memory_max) and this edit may add " + whole(added_bytes) +
+          " MB (memory-max) and this edit may add " + whole(added_bytes) +
           " MB: edit where terrain has been edited before, or have the limit raised (--memory-max)");
 }
 
@@ -325,6 +328,13 @@ Checked enqueue(World::State& state, const Command& command) {
   return {};
 }
 
+/// Refuses what waits for a session that cannot go on.
+void drop(World::State& state, uint64_t session, TickDelta& delta) {
+  for (const Command& dropped : state.requests.drop(session))
+    answer(dropped, refuse(Refusal::session_over, "the session ended before its request was carried out"),
+           delta);
+}
+
 }  // namespace
 
 void publish_settings(const World::State& state, TickDelta& delta) {
@@ -334,8 +344,12 @@ void publish_settings(const World::State& state, TickDelta& delta) {
 
 void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands)
-    if (const Checked taken = enqueue(state, command); !taken)
-      answer(command, tl::unexpected(taken.error()), delta);
+    std::visit(Overloaded{[&](const LeaveRequest&) { drop(state, command.session, delta); },
+                          [&](const auto&) {
+                            if (const Checked taken = enqueue(state, command); !taken)
+                              answer(command, tl::unexpected(taken.error()), delta);
+                          }},
+               command.body);
 }
 
 void carry_out(World::State& state, TickDelta& delta) {

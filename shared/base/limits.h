@@ -64,6 +64,11 @@ inline constexpr size_t setting_value_bytes_max = 64;
 inline constexpr size_t token_bytes_min = 8;
 inline constexpr size_t token_bytes_max = 128;
 
+/// Lines of one kind in a log, a second and at once, where the other side of a connection causes them; above:
+/// counted (log_limit.h).
+inline constexpr double log_lines_per_second = 2.0;
+inline constexpr double log_lines_burst = 8.0;
+
 /// Radius of interest that a client may ask for, metres; more is cut to this.
 inline constexpr float interest_radius_max_m = 256.0F;
 

@@ -46,6 +46,12 @@ struct SettingsRequest {
   bool operator==(const SettingsRequest&) const = default;
 };
 
-using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest>;
+/// The session cannot go on: its requests that still wait are dropped. Asked for by the network side, never
+/// by a client, and not answered.
+struct LeaveRequest {
+  bool operator==(const LeaveRequest&) const = default;
+};
+
+using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest>;
 
 }  // namespace scree

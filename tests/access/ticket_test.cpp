@@ -168,5 +168,60 @@ TEST_F(TicketTest, a_full_server_keeps_the_place_of_who_lost_his_connection) {
   EXPECT_TRUE(back.welcome.resumed);
 }
 
+TEST_F(TicketTest, who_says_goodbye_frees_his_place_at_once_and_does_not_go_on) {
+  config.service.sessions_max = 4;
+  start();
+  std::vector<Joined> others;
+  for (int i = 0; i < 3; ++i) {
+    others.push_back(come(""));
+    ASSERT_TRUE(others.back().client->send(AckMessage{1}));
+  }
+  Joined first = come("");
+  ASSERT_TRUE(first.client->send(AckMessage{1}));
+  first.client->finish_sending();  // an end in order, but no goodbye
+  ASSERT_TRUE(first.client->closed_within(patience));
+  EXPECT_TRUE(holds(refusal(hello("")), "the server is full")) << "his place is kept";
+  Joined again = come("", first.welcome.ticket);
+  EXPECT_TRUE(again.welcome.resumed);
+  ASSERT_TRUE(again.client->send(GoodbyeMessage{}));
+  ASSERT_TRUE(again.client->closed_within(patience));
+  const Joined other = come("", again.welcome.ticket);
+  expect_fresh(other, again);
+  EXPECT_EQ(tickets_void(), 1U);
+}
+
+TEST_F(TicketTest, what_he_asked_for_waits_as_long_as_he_may_go_on) {
+  start();
+  const auto next_commands = [&] {
+    std::vector<Command> asked;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (asked.empty() && std::chrono::steady_clock::now() < end) asked = commands.drain();
+    return asked;
+  };
+  const auto leaves = [](const std::vector<Command>& asked, uint64_t session) {
+    return asked.size() == 1 && asked[0].session == session &&
+           std::holds_alternative<LeaveRequest>(asked[0].body);
+  };
+  Joined asker = come(token(Role::builder));
+  ASSERT_TRUE(asker.client->send(FillMessage{{sphere({}, 1.0F)}, 1}));
+  ASSERT_EQ(next_commands().size(), 1U);
+  leave(asker);
+  EXPECT_TRUE(commands.drain().empty()) << "his connection is lost: he may come again";
+  Joined again = come(token(Role::builder), asker.welcome.ticket);
+  ASSERT_TRUE(again.welcome.resumed);
+  ASSERT_TRUE(again.client->send(GoodbyeMessage{}));
+  EXPECT_TRUE(leaves(next_commands(), asker.welcome.session));
+  Joined lost = come(token(Role::builder));
+  ASSERT_TRUE(lost.client->send(FillMessage{{sphere({}, 1.0F)}, 1}));
+  ASSERT_EQ(next_commands().size(), 1U);
+  leave(lost);
+  ASSERT_TRUE(kick_session(admin(the_admin_token), {lost.welcome.session, ""}));
+  EXPECT_TRUE(leaves(next_commands(), lost.welcome.session));
+  const Joined silent = come(token(Role::builder));
+  ASSERT_TRUE(silent.client->send(GoodbyeMessage{}));
+  ASSERT_TRUE(silent.client->closed_within(patience));
+  EXPECT_TRUE(commands.drain().empty()) << "he asked for nothing";
+}
+
 }  // namespace
 }  // namespace scree

@@ -333,6 +333,7 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
   ASSERT_TRUE(status) << status.error().message;
   const auto budget_us = static_cast<uint32_t>(limits::work_share * 1e6F / 60.0F);
   EXPECT_EQ(status->work.budget_us, budget_us);
+  EXPECT_EQ(status->clients, 0U) << "who asks does not count itself";
   EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": " + std::to_string(budget_us)));
   EXPECT_TRUE(holds(status_lines(*status), "work.budget_us             " + std::to_string(budget_us) + "\n"));
   StatusMessage told = *status;

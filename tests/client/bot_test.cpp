@@ -3,6 +3,7 @@
 #include "client/bot/bot.h"
 
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "client/bot/limits.h"
@@ -186,6 +187,19 @@ TEST(Bot, quantiles_are_values_of_the_list) {
   EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.0), 1.0);
   EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
   EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 1.0), 3.0);
+}
+
+TEST_F(BotTest, a_server_that_refuses_without_end_cannot_fill_its_log) {
+  std::map<std::string, int> lines;
+  BotConfig refused = config(200);
+  refused.carver.radius_m = 1000.0F;  // over every server's limit
+  Bot bot(refused, [&](const std::string& line) { ++lines[line.substr(0, line.find(' '))]; });
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_refused == 200; }));
+  EXPECT_GE(lines["carve"], static_cast<int>(limits::log_lines_burst));
+  EXPECT_LE(lines["carve"], static_cast<int>(limits::log_lines_burst + 62 * limits::log_lines_per_second));
+  EXPECT_LT(lines["carve"], 150) << "200 were refused";
+  EXPECT_EQ(lines["connected"], 1);
 }
 
 }  // namespace

@@ -262,5 +262,26 @@ TEST(Connection, a_cut_is_seen_at_both_ends) {
   EXPECT_FALSE(server.receive());
 }
 
+TEST(Connection, goodbye_is_said_by_who_leaves_and_by_nobody_else) {
+  RawServer server;
+  auto connection = welcomed(server);
+  ASSERT_TRUE(connection);
+  connection->send(AckMessage{1});
+  connection->leave();
+  EXPECT_TRUE(server.receive()) << "what was sent before";
+  const auto last = server.receive();
+  ASSERT_TRUE(last);
+  EXPECT_TRUE(std::holds_alternative<GoodbyeMessage>(*last));
+  EXPECT_FALSE(server.receive());
+  wait_for_close(*connection);
+  connection->leave();  // harmless
+
+  RawServer other;
+  connection = welcomed(other);
+  ASSERT_TRUE(connection);
+  connection.reset();
+  EXPECT_FALSE(other.receive()) << "it may come again";
+}
+
 }  // namespace
 }  // namespace scree

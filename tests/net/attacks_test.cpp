@@ -12,6 +12,7 @@
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "shared/base/random.h"
+#include "tests/support/holds.h"
 #include "tests/support/net_server_fixture.h"
 #include "tests/support/patience.h"
 #include "tests/support/wire_samples.h"
@@ -85,6 +86,11 @@ class AttackTest : public NetServerTest {
       std::this_thread::yield();
     }
     EXPECT_GE(count(), at_least) << name_of(reason);
+  }
+  /// What was logged; the server is stopped for it.
+  std::string logged() {
+    server->stop();
+    return log_.str();
   }
 
  private:
@@ -186,7 +192,8 @@ TEST_F(AttackTest, half_a_hello_from_each_of_many) {
 TEST_F(AttackTest, floods_of_every_kind_of_message) {
   open([](NetConfig& config) { config.admin_token = "a token of some length"; });
   for (const ClientMessage& message : samples::client_messages()) {
-    if (std::holds_alternative<HelloMessage>(message)) continue;
+    const bool ends = std::holds_alternative<GoodbyeMessage>(message);  // nothing after it is read
+    if (ends || std::holds_alternative<HelloMessage>(message)) continue;
     RawClient client(server->port());
     ASSERT_TRUE(client.send(hello()));
     const std::vector<uint8_t> one = encode(message);
@@ -258,8 +265,10 @@ TEST_F(AttackTest, valid_messages_in_every_wrong_order) {
   for (int i = 0; i < 60; ++i) {
     RawClient client(server->port());
     ASSERT_TRUE(client.send(hello()));
-    for (int sent = 0; sent < 30; ++sent)
-      client.send(messages[1 + random.below(static_cast<uint32_t>(messages.size() - 1))]);
+    for (int sent = 0; sent < 30; ++sent) {
+      const ClientMessage& next = messages[1 + random.below(static_cast<uint32_t>(messages.size() - 1))];
+      if (!std::holds_alternative<GoodbyeMessage>(next)) client.send(next);
+    }
     client.send(hello());
     const auto refusal = client.receive_as<RefusalMessage>();
     ASSERT_TRUE(refusal);
@@ -285,6 +294,30 @@ TEST_F(AttackTest, readers_so_slow_that_nothing_new_reaches_them) {
   server->publish(loud);
   expect_refused_as(Refusal::reading_stalled, 12);
   expect_honest_served();
+}
+
+TEST_F(AttackTest, settings_that_the_world_refuses_are_not_logged_as_set) {
+  open([](NetConfig& config) { config.admin_token = "the-admin-token"; });
+  RawClient admin(server->port());
+  HelloMessage as_admin = hello();
+  as_admin.token = "the-admin-token";
+  ASSERT_TRUE(admin.send(as_admin));
+  const auto welcome = admin.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome);
+  ASSERT_TRUE(admin.send(AdminMessage{1, "", SettingValues{{"dents", "false"}}}));
+  ASSERT_TRUE(admin.send(AdminMessage{2, "", SettingValues{{"pieces-max", "0"}}}));
+  size_t taken = 0;
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (taken < 2 && std::chrono::steady_clock::now() < end) taken += commands.drain().size();
+  ASSERT_EQ(taken, 2U);
+  auto delta = std::make_shared<TickDelta>(*source.step());
+  delta->replies.push_back({welcome->session, 1, "", 0});
+  delta->replies.push_back({welcome->session, 2, "too few", 0, Refusal::settings_invalid});
+  server->publish(delta);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(admin.receive_as<ReplyMessage>());
+  const std::string log = logged();
+  EXPECT_TRUE(holds(log, "sets dents=false")) << log;
+  EXPECT_FALSE(holds(log, "pieces-max")) << log;
 }
 
 }  // namespace

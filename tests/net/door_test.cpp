@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/doors/limits.h"
-#include "server/doors/log_limit.h"
+#include "shared/base/log_limit.h"
 
 namespace scree {
 namespace {

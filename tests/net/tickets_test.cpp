@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <set>
+#include <vector>
 
 #include "server/doors/limits.h"
 
@@ -10,7 +11,7 @@ namespace scree {
 namespace {
 
 Departed departed(uint64_t session, double at_s, bool keeps_place = false) {
-  return {session, {},         "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0,
+  return {session, {},         "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0, 0,
           at_s,    keeps_place};
 }
 
@@ -84,6 +85,25 @@ TEST(Tickets, the_place_of_a_lost_connection_is_kept_for_a_while) {
   EXPECT_EQ(tickets.places_kept(100.1 + limits::place_kept_seconds_max), 0U);
   tickets.forget(1);
   EXPECT_EQ(tickets.places_kept(100.0), 1U);
+}
+
+TEST(Tickets, tell_once_of_each_session_that_cannot_go_on) {
+  std::vector<uint64_t> over;
+  Tickets tickets([&](uint64_t session) { over.push_back(session); });
+  for (const uint64_t id : {1U, 2U, 3U}) tickets.issue(id);
+  tickets.issue(1);
+  tickets.depart(departed(1, 100.0));
+  tickets.depart(departed(2, 150.0));
+  tickets.issue(2);  // it goes on
+  EXPECT_TRUE(over.empty());
+  tickets.expire(101.0 + limits::ticket_seconds_max);
+  EXPECT_EQ(over, std::vector<uint64_t>{1});
+  tickets.forget(3);
+  tickets.forget(3);
+  tickets.forget(77);  // never had one
+  tickets.depart(departed(2, 200.0));
+  tickets.forget_departed([](const Departed&) { return true; });
+  EXPECT_EQ(over, (std::vector<uint64_t>{1, 3, 2}));
 }
 
 }  // namespace

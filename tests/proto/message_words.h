@@ -166,6 +166,9 @@ inline Lines describe(const CursorMessage& m) {
 inline Lines describe(const WatchMessage& m) {
   return {fmt::format("watch: physics {}", m.physics)};
 }
+inline Lines describe(const GoodbyeMessage&) {
+  return {"goodbye"};
+}
 inline Lines describe(const GroundRequest& m) {
   return {fmt::format("ground: {}", words(m.chunks))};
 }

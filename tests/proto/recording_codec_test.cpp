@@ -54,5 +54,15 @@ TEST(RecordingCodec, parties_without_their_commands_are_refused) {
   EXPECT_NE(read.error().message.find("parties and requests differ in number"), std::string::npos);
 }
 
+TEST(RecordingCodec, that_a_session_cannot_go_on_is_kept_among_the_commands) {
+  const std::vector<RecordedCommand> commands = {{4, 1, PaintRequest{sphere({}, 1.0F), Material::ice}, 1},
+                                                 {4, 0, LeaveRequest{}, 0}};
+  const auto read = decode_recorded_commands(encode(commands));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ(read->at(1).session, 4U);
+  EXPECT_TRUE(std::holds_alternative<LeaveRequest>(read->at(1).body));
+}
+
 }  // namespace
 }  // namespace scree

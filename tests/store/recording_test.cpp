@@ -155,5 +155,40 @@ TEST_F(RecordingTest, recording_where_nothing_can_be_written_is_refused) {
       << recorder.error().message;
 }
 
+TEST_F(RecordingTest, verify_agrees_on_what_was_dropped_when_a_session_left) {
+  WorldConfig config = small_world();
+  config.pieces_max = 4000;
+  World world(config);
+  size_t dropped = 0;
+  for (Tick tick = 1; tick <= 120; ++tick) {
+    std::vector<Command> commands;
+    for (uint32_t i = 0; tick == 1 && i < 24; ++i) {
+      Command command = carve_at(static_cast<float>(i) - 12.0F, i);
+      command.session = 3 + i % 2;
+      std::get<CarveRequest>(command.body).shape = sphere({static_cast<float>(i) - 12.0F, 0.0F, 0.0F}, 2.0F);
+      std::get<CarveRequest>(command.body).seeds = 64;
+      commands.push_back(command);
+    }
+    if (tick == 3) commands = {{3, 0, LeaveRequest{}}};
+    deltas.push_back(world.step(commands));
+    for (const Reply& reply : deltas.back()->replies)
+      dropped += reply.reason == Refusal::session_over ? 1 : 0;
+    commands_by_tick.push_back(std::move(commands));
+  }
+  EXPECT_GT(dropped, 0U);
+  record(config);
+  const auto agrees = [&] {
+    auto reader = RecordingReader::open(path);
+    const auto report = reader ? verify(**reader) : tl::unexpected(reader.error());
+    EXPECT_TRUE(report) << report.error().message;
+    return report && report->agrees();
+  };
+  EXPECT_TRUE(agrees());
+  commands_by_tick[2].clear();
+  path = (folder / "without.scree").string();
+  record(config);
+  EXPECT_FALSE(agrees()) << "it is a part of the commands";
+}
+
 }  // namespace
 }  // namespace scree

@@ -185,7 +185,8 @@ inline std::vector<ClientMessage> client_messages() {
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
           WatchMessage{true},
           GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
-          OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}}};
+          OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
+          GoodbyeMessage{}};
 }
 
 /// The message without its length prefix.

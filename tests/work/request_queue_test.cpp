@@ -160,5 +160,40 @@ TEST(request_queue, others_wait_counts_others_alone) {
   EXPECT_TRUE(queue.others_wait(2)) << "one that was passed over waits as well";
 }
 
+TEST(request_queue, what_is_dropped_leaves_turns_and_places_to_the_others) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 3; ++number) {
+    for (const uint64_t session : {11U, 12U})
+      ASSERT_TRUE(queue.push(from_party(11, session, number, 100.0F)));
+    ASSERT_TRUE(queue.push(from(20, number, 100.0F)));
+  }
+  queue.pass_over();  // session 11
+  const std::vector<Command> dropped = queue.drop(12);
+  ASSERT_EQ(dropped.size(), 3U);
+  for (uint32_t number = 0; number < 3; ++number) {
+    EXPECT_EQ(dropped[number].session, 12U);
+    EXPECT_EQ(dropped[number].request, number) << "in order";
+  }
+  EXPECT_TRUE(queue.drop(12).empty());
+  EXPECT_TRUE(queue.drop(99).empty());
+  EXPECT_EQ(queue.size(), 6U);
+  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{11, 20, 11, 20, 11, 20}));
+  ASSERT_TRUE(queue.push(from(20, 7, 100.0F)));
+  EXPECT_EQ(queue.drop(20).size(), 1U);
+  EXPECT_EQ(queue.next(), nullptr) << "the party of the last one waits no more";
+  EXPECT_FALSE(queue.others_wait(1));
+  ASSERT_TRUE(queue.push(from(20, 8, 100.0F))) << "and may ask again";
+  queue.begin_tick();
+  EXPECT_EQ(serve_all(queue), std::vector<uint64_t>{20});
+}
+
+TEST(request_queue, a_session_is_dropped_from_every_party_that_it_was_in) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from_party(5, 5, 1, 100.0F)));
+  ASSERT_TRUE(queue.push(from_party(6, 5, 2, 100.0F)));
+  EXPECT_EQ(queue.drop(5).size(), 2U);
+  EXPECT_EQ(queue.size(), 0U);
+}
+
 }  // namespace
 }  // namespace scree

@@ -264,5 +264,30 @@ TEST(work, without_merging_what_rests_is_frozen_and_thaws_for_the_next_blow) {
   EXPECT_TRUE(delta->pieces.empty()) << "what was frozen merges when that is switched on again";
 }
 
+TEST(work, what_waits_for_a_session_that_leaves_is_dropped_and_refused_by_name) {
+  World world({});
+  std::vector<Command> asked = blows(world, 4, 64);
+  for (Command& command : asked) command.session = command.request % 2 == 0 ? 3 : 4;
+  const auto first = step(world, asked);
+  const auto waiting = first->work.requests_waiting;
+  ASSERT_GT(waiting, 2U);
+  auto delta = step(world, {{3, 0, LeaveRequest{}}});
+  uint32_t dropped = 0;
+  for (const Reply& reply : delta->replies) {
+    if (reply.reason != Refusal::session_over) continue;
+    ++dropped;
+    EXPECT_EQ(reply.session, 3U);
+  }
+  EXPECT_GT(dropped, 0U);
+  for (int tick = 0; tick < 300 && delta->work.requests_waiting > 0; ++tick) {
+    delta = step(world);
+    for (const Reply& reply : delta->replies) {
+      EXPECT_EQ(reply.session, 4U);
+      EXPECT_EQ(reply.refusal, "");
+    }
+  }
+  EXPECT_EQ(delta->work.requests_waiting, 0U);
+}
+
 }  // namespace
 }  // namespace scree

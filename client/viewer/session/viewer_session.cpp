@@ -40,6 +40,7 @@ ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std
 ViewerSession::~ViewerSession() {
   if (connecting_.valid()) connecting_.wait();
   rejoin_.finish(connection_ ? mirror_.get() : nullptr);
+  if (connection_) connection_->leave();
 }
 
 SessionStep ViewerSession::step(double now_s, const Camera& camera) {

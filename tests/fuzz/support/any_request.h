@@ -100,13 +100,15 @@ inline SettingValues any_settings(FuzzInput& input) {
 }
 
 inline Request any_request(FuzzInput& input) {
-  switch (input.below(6)) {
+  switch (input.below(7)) {
     case 0:
       return FillRequest{any_shape(input)};
     case 1:
       return PaintRequest{any_shape(input), any_number_as<Material>(input)};
     case 2:
       return SettingsRequest{any_settings(input)};
+    case 3:
+      return LeaveRequest{};
     default:
       return any_carve(input);
   }

@@ -109,7 +109,7 @@ AdminMessage any_admin(FuzzInput& input) {
 }
 
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
-  switch (input.below(11)) {
+  switch (input.below(12)) {
     case 0:
       return any_hello(input, server);
     case 1:
@@ -131,6 +131,8 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       return any_admin(input);
     case 8:
       return any_offer(input, server);
+    case 9:
+      return GoodbyeMessage{};
     default: {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();

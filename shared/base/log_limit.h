@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "server/doors/limits.h"
-#include "server/doors/rate_limit.h"
+#include "shared/base/limits.h"
+#include "shared/base/rate_limit.h"
 
 namespace scree {
 

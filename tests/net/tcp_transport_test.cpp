@@ -1,0 +1,76 @@
+// How a TCP stream says that it ended: in order, or not.
+#include "transport/tcp_transport.h"
+
+#include <array>
+#include <asio/connect.hpp>
+#include <asio/io_context.hpp>
+#include <gtest/gtest.h>
+#include <optional>
+
+namespace scree {
+namespace {
+
+/// Two ends on loopback; nothing happens on either but what the test asks for.
+struct TcpPair {
+  asio::io_context context;
+  std::shared_ptr<TcpTransport> here, there;
+  std::array<uint8_t, 64> buffer{};
+  std::optional<Moved> read;
+
+  TcpPair() {
+    asio::ip::tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
+    asio::ip::tcp::socket near(context);
+    near.connect(acceptor.local_endpoint());
+    here = std::make_shared<TcpTransport>(std::move(near));
+    there = std::make_shared<TcpTransport>(acceptor.accept());
+  }
+  size_t write_now() {
+    static constexpr std::array<uint8_t, 3> bytes{1, 2, 3};
+    const std::span<const uint8_t> all(bytes);
+    return here->write_now({&all, 1});
+  }
+  const Moved& next_read() {
+    read.reset();
+    here->read_some(buffer, [this](const Moved& moved) { read = moved; });
+    context.restart();
+    while (!read) context.run_one();
+    return *read;
+  }
+};
+
+TEST(TcpTransports, that_the_other_side_finished_ended_in_order) {
+  TcpPair pair;
+  EXPECT_EQ(pair.write_now(), 3U);
+  pair.there->finish_sending();
+  const Moved& end = pair.next_read();
+  ASSERT_FALSE(end);
+  EXPECT_TRUE(end.error().orderly);
+}
+
+TEST(TcpTransports, that_were_reset_say_so_to_the_reader_though_a_write_met_the_reset_first) {
+  for (const bool writes_first : {false, true}) {
+    TcpPair pair;
+    pair.there->cut();
+    if (writes_first) {
+      EXPECT_EQ(pair.write_now(), 0U);
+    }
+    const Moved& end = pair.next_read();
+    ASSERT_FALSE(end);
+    EXPECT_FALSE(end.error().orderly) << end.error().why;
+    EXPECT_EQ(end.error().why, "Connection reset by peer");
+  }
+}
+
+TEST(TcpTransports, give_out_what_came_before_the_reset) {
+  TcpPair pair;
+  const std::array<uint8_t, 4> goodbye{4, 3, 2, 1};
+  const std::span<const uint8_t> all(goodbye);
+  EXPECT_EQ(pair.there->write_now({&all, 1}), goodbye.size());
+  EXPECT_EQ(pair.write_now(), 3U);  // unread by the other side: its end is a reset
+  pair.there->close();
+  EXPECT_EQ(pair.next_read().value_or(0), goodbye.size());
+  EXPECT_FALSE(pair.next_read());
+}
+
+}  // namespace
+}  // namespace scree
