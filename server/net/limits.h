@@ -47,9 +47,9 @@ inline constexpr size_t commands_waiting_max = 1024;
 /// Above: their replies say nothing of stages, and the oldest answers are forgotten.
 inline constexpr size_t requests_timed_max = 4096;
 
-/// Part of a tick's time that handing its messages to the sockets may take, on average. Above: those of
-/// several ticks go out together, by one write for each session, for a write costs more than all else; the
-/// other half is for what selects them.
+/// Part of a tick's time that handing messages to the sockets may take, on average. Above: those of several
+/// ticks go out together, by one write for each session, for a write costs more than all else, and the
+/// sessions take turns; the other half is for what selects them.
 inline constexpr double flush_share_max = 0.5;
 
 /// Ticks whose messages go out together at most, for that reason or because the network thread lags. They

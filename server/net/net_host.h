@@ -95,6 +95,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
   void fit_descriptors();
+  void flush_some(Tick tick, bool more);
+  void flush(size_t count);
   void flush_later();
 
   // ---- who joins, or goes on after a lost connection (net_host_join.cpp)
@@ -135,7 +137,11 @@ class NetHost final : public SessionHost, public EntranceHost {
   double stop_deadline_s_ = 0.0;
   uint64_t next_session_ = 1;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
-  std::vector<std::shared_ptr<ClientSession>> unflushed_;  ///< have messages that are only queued; once each
+  struct Unflushed {
+    std::shared_ptr<ClientSession> session;
+    Tick since = 0;
+  };
+  std::vector<Unflushed> unflushed_;  ///< have messages that are only queued; once each, by since
   FlushRate flush_rate_;
   asio::steady_timer flush_timer_;
   std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused

@@ -1,5 +1,7 @@
 // NetHost's part of a tick: its messages are composed, queued, and handed to the sockets.
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -29,16 +31,23 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
       found = sessions_.find(outgoing.session);
     if (found == sessions_.end()) continue;
     Entry& entry = found->second;
-    if (!std::exchange(entry.unflushed, true)) unflushed_.push_back(entry.session);
+    if (!std::exchange(entry.unflushed, true)) unflushed_.push_back({entry.session, delta.tick});
     entry.session->queue(std::move(outgoing.bytes));
   }
   log_settings(delta);
   answer(delta, span);
-  if (flush_rate_.due(more))
-    flush();
-  else if (!more)
-    flush_later();
+  flush_some(delta.tick, more);
   update_stats();
+}
+
+/// Those whose turn it is: they wait in the order in which they began to. A recording's ticks may go back.
+void NetHost::flush_some(Tick tick, bool more) {
+  const auto waits_still = [&](const Unflushed& one) {
+    return one.since <= tick && tick - one.since + 1 < limits::ticks_per_flush_max;
+  };
+  const auto waited = std::ranges::find_if(unflushed_, waits_still) - unflushed_.begin();
+  flush(flush_rate_.due(unflushed_.size(), static_cast<size_t>(waited), more));
+  if (!more && !unflushed_.empty()) flush_later();
 }
 
 /// In case that no tick follows soon.
@@ -51,18 +60,26 @@ void NetHost::flush_later() {
 }
 
 void NetHost::flush() {
+  flush(unflushed_.size());
+}
+
+/// The first `count` that wait.
+void NetHost::flush(size_t count) {
+  CHECK(count <= unflushed_.size());
   flush_timer_.cancel();
   const double begin_s = steady_now_s();
-  using Session = std::shared_ptr<ClientSession>;
-  workers_.share(std::span(unflushed_), limits::sessions_per_part, [](size_t, std::span<Session> sessions) {
-    for (const Session& session : sessions) session->send_now();
+  const auto end = unflushed_.begin() + static_cast<std::ptrdiff_t>(count);
+  std::vector<Unflushed> turn(std::make_move_iterator(unflushed_.begin()), std::make_move_iterator(end));
+  unflushed_.erase(unflushed_.begin(), end);
+  workers_.share(std::span(turn), limits::sessions_per_part, [](size_t, std::span<Unflushed> some) {
+    for (const Unflushed& one : some) one.session->send_now();
   });
-  for (const Session& session : std::exchange(unflushed_, {})) {
+  for (const auto& [session, since] : turn) {
     if (const auto found = sessions_.find(session->id()); found != sessions_.end())
       found->second.unflushed = false;
     session->settle();
   }
-  flush_rate_.flushed(steady_now_s() - begin_s);
+  flush_rate_.flushed(count, steady_now_s() - begin_s);
 }
 
 }  // namespace scree

@@ -1,5 +1,6 @@
 // Clients served by several threads: what a client gets does not depend on how many there are, nor on what
 // becomes of the sessions beside it.
+#include <deque>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -14,25 +15,53 @@ namespace {
 
 constexpr std::initializer_list<size_t> thread_counts{1, 2, 4};
 
-TEST(FlushRate, sends_with_every_tick_while_that_is_quick_and_less_often_when_it_is_not) {
-  const auto sent_in = [](FlushRate& rate, double seconds, bool more) {
-    int sent = 0;
-    for (int tick = 0; tick < 240; ++tick) {
-      if (!rate.due(more)) continue;
-      rate.flushed(seconds);
-      ++sent;
-    }
-    return sent;
-  };
+/// Sessions that are sent messages in each of so many ticks, when one's write takes so long and all are
+/// queued some in every tick; `longest`: ticks that any of them waited.
+struct Turns {
+  size_t least = SIZE_MAX, most = 0;
+  uint64_t longest = 0;
+};
+
+Turns take_turns(FlushRate& rate, size_t sessions, double session_s, bool more) {
+  std::deque<uint64_t> waiting;  // since when
+  Turns turns;
+  for (uint64_t tick = 0; tick < 240; ++tick) {
+    while (waiting.size() < sessions) waiting.push_back(tick);
+    size_t waited = 0;
+    while (waited < sessions && tick - waiting[waited] + 1 >= limits::ticks_per_flush_max) ++waited;
+    const size_t sent = rate.due(sessions, waited, more);
+    rate.flushed(sent, static_cast<double>(sent) * session_s);
+    if (sent > 0) turns.longest = std::max(turns.longest, tick - waiting.front());
+    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(sent));
+    if (tick < 120) continue;  // the average has come near
+    turns.least = std::min(turns.least, sent);
+    turns.most = std::max(turns.most, sent);
+  }
+  return turns;
+}
+
+TEST(FlushRate, sends_to_all_with_every_tick_while_that_is_quick_and_else_by_turns) {
   FlushRate rate(60);
-  EXPECT_EQ(sent_in(rate, 0.001, false), 240);
-  EXPECT_EQ(sent_in(rate, 0.001, true), 60) << "while the next tick waits: every limits.ticks_per_flush_max";
-  EXPECT_EQ(sent_in(rate, 0.008, false), 240) << "less than half of 1/60 s";
-  EXPECT_EQ(sent_in(rate, 0.012, false), 120) << "more than half";
-  sent_in(rate, 1.0, false);
-  EXPECT_EQ(sent_in(rate, 1.0, false), 60) << "never less often";
-  sent_in(rate, 0.001, false);
-  EXPECT_EQ(sent_in(rate, 0.001, false), 240);
+  const Turns quick = take_turns(rate, 1000, 8e-6, false);  // 8 ms, less than half of a tick
+  EXPECT_EQ(quick.least, 1000U);
+  EXPECT_EQ(quick.longest, 0U);
+  const Turns slower = take_turns(rate, 1000, 12e-6, false);
+  EXPECT_EQ(slower.least, 500U) << "half of them with each tick";
+  EXPECT_EQ(slower.most, 500U);
+  EXPECT_EQ(slower.longest, 1U);
+  const Turns slow = take_turns(rate, 1000, 1e-3, false);
+  EXPECT_EQ(slow.least, 250U) << "limits.ticks_per_flush_max";
+  EXPECT_EQ(slow.most, 250U);
+  EXPECT_EQ(slow.longest, limits::ticks_per_flush_max - 1);
+  EXPECT_EQ(take_turns(rate, 10, 1e-6, false).least, 10U) << "quick again";
+}
+
+TEST(FlushRate, a_tick_that_the_next_one_follows_at_once_waits_for_it_but_not_for_ever) {
+  FlushRate rate(60);
+  const Turns lagging = take_turns(rate, 1000, 1e-6, true);
+  EXPECT_EQ(lagging.least, 0U);
+  EXPECT_EQ(lagging.most, 1000U);
+  EXPECT_EQ(lagging.longest, limits::ticks_per_flush_max - 1);
 }
 
 /// Every message to every session of a crowd, and the counts: near and far eyes, some that move, some without
