@@ -1,7 +1,9 @@
 // One session by each of many simulated links, all at once on this machine: what a slow, long or torn link
 // leaves of the present. Each client applies all that it gets; in the end its hash is the server's.
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <deque>
 #include <fmt/format.h>
 #include <thread>
 
@@ -9,9 +11,11 @@
 #include "bench/support/scenes.h"
 #include "bench/wire/drains.h"
 #include "client/connection/connection.h"
+#include "client/connection/limits.h"
 #include "client/mirror/mirror.h"
 #include "server/net/net_server.h"
 #include "server/world/world.h"
+#include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 #include "transport/limits.h"
 
@@ -24,7 +28,6 @@ constexpr Tick ticks_per_blow = 60;
 constexpr uint32_t seeds_per_blow = 48;
 constexpr double quiet_seconds_max = 60.0;
 constexpr double wanted_beyond_ms = 250.0;
-constexpr double message_bytes = 4096.0;
 
 struct Link {
   double delay_ms;
@@ -41,10 +44,10 @@ struct Link {
     if (cut_bytes != 0) link.down.cut_bytes = cut_bytes;
     return link;
   }
-  /// What the link itself makes of a frame's age: the way, a full bottleneck, and one largest message of the
-  /// stream before it.
+  /// What the link itself makes of a frame's age: the way, a full bottleneck, and the kernel's receive buffer
+  /// in front of it.
   double own_ms() const {
-    const double bytes = static_cast<double>(buffer_of(config().down)) + message_bytes;
+    const double bytes = static_cast<double>(buffer_of(config().down)) + 2.0 * limits::link_receive_bytes;
     return delay_ms + jitter_ms + bytes / (kbit_s * 125.0) * 1000.0;
   }
   std::string name() const {
@@ -63,6 +66,48 @@ std::vector<Link> all_links(bool quick) {
   for (const uint64_t cut_bytes : {100, 5000, 40000}) links.push_back({50.0, 20.0, 1000.0, cut_bytes});
   return links;
 }
+
+/// Kinds of messages, by what a frame may have to wait behind.
+constexpr std::array<const char*, 5> kinds = {"frames", "chunks", "pieces", "status", "others"};
+
+size_t kind_of(const ServerMessage& message) {
+  return std::visit(
+      Overloaded{[](const FrameMessage&) { return size_t{0}; }, [](const ChunkMessage&) { return size_t{1}; },
+                 [](const PieceMessage&) { return size_t{2}; },
+                 [](const StatusMessage&) { return size_t{3}; }, [](const auto&) { return size_t{4}; }},
+      message);
+}
+
+/// What stands before frames: the bytes that a link delivers between the end of a frame's tick and the frame,
+/// itself included, wherever they waited.
+class BytesBefore {
+ public:
+  /// A message that has come; `before_s`: what was delivered later than that stood before it.
+  void arrived(const Received& received, double now_s) {
+    recent_.push_back({now_s, kind_of(received.message), received.bytes});
+    if (recent_.size() > recent_max) recent_.pop_front();
+  }
+  void frame(double before_s) {
+    ++frames_;
+    for (const Arrival& arrival : recent_)
+      if (arrival.at_s > before_s) bytes_[arrival.kind] += static_cast<double>(arrival.bytes);
+  }
+  /// Of a kind, before a frame on average.
+  double mean_bytes(size_t kind) const {
+    return frames_ == 0 ? 0.0 : bytes_[kind] / static_cast<double>(frames_);
+  }
+
+ private:
+  static constexpr size_t recent_max = 1024;
+  struct Arrival {
+    double at_s;
+    size_t kind;
+    size_t bytes;
+  };
+  std::deque<Arrival> recent_;
+  std::array<double, kinds.size()> bytes_{};
+  uint64_t frames_ = 0;
+};
 
 /// A viewer at the far end of one link, on a thread of its own.
 class FarViewer {
@@ -90,6 +135,7 @@ class FarViewer {
   size_t connections() const { return connections_; }
   uint64_t bytes() const { return bytes_; }
   const MirrorCounters& seen() const { return seen_; }
+  const BytesBefore& before() const { return before_; }
   const std::string& failure() const { return failure_; }
 
  private:
@@ -119,8 +165,12 @@ class FarViewer {
   void take(const Received& received, Mirror& mirror, Connection& connection) {
     if (const auto applied = mirror.apply(received.message); !applied) failure_ = applied.error().message;
     while (const auto repair = mirror.take_repair_request()) connection.send(*repair);
-    if (const auto* frame = std::get_if<FrameMessage>(&received.message); frame && counting_)
-      ages_.add(steady_now_s() - times_.of(frame->tick));
+    const double now_s = steady_now_s();
+    before_.arrived(received, now_s);
+    if (const auto* frame = std::get_if<FrameMessage>(&received.message); frame && counting_) {
+      ages_.add(now_s - times_.of(frame->tick));
+      before_.frame(times_.of(frame->tick) + link_.delay_ms / 1000.0);
+    }
     if (const auto* status = std::get_if<StatusMessage>(&received.message))
       if (status->tick == mirror.tick() && status->field_hash == mirror.field().hash())
         equal_hash_ = status->field_hash;
@@ -138,6 +188,7 @@ class FarViewer {
   size_t connections_ = 0;
   uint64_t bytes_ = 0;
   MirrorCounters seen_;
+  BytesBefore before_;
   std::string failure_;
 };
 
@@ -192,6 +243,8 @@ void report_viewer(BenchReport& report, const FarViewer& viewer, bool equal, dou
   report.metric(name + "_patched_bricks", static_cast<double>(viewer.seen().patched_bricks));
   report.metric(name + "_chunks", static_cast<double>(viewer.seen().chunks));
   report.metric(name + "_resets", static_cast<double>(viewer.seen().resets));
+  for (size_t kind = 0; kind < kinds.size(); ++kind)
+    report.metric(fmt::format("{}_{}_before_bytes", name, kinds[kind]), viewer.before().mean_bytes(kind));
   const size_t wanted_connections = link.cut_bytes != 0 ? 2 : 1;
   report.check(name,
                equal && viewer.failure().empty() && viewer.ages().count() > 0 &&
