@@ -176,12 +176,18 @@ struct FrameMessage {
   uint32_t check = 0;
 };
 
-/// All edited bricks of a chunk: they replace the client's edits there; from now on the client follows it.
+/// All edited bricks of a chunk: they replace the client's edits there; from now on the client follows it. Or
+/// a part of them, by a slow link: they are put over the edits there, and with the last part the client
+/// follows the chunk.
 struct ChunkMessage {
   ChunkCoord chunk;
   Tick version = 0;
   std::vector<BrickPatch> bricks;
-  uint64_t hash = 0;  ///< Σ brick_hash
+  uint64_t hash = 0;    ///< Σ brick_hash of all edited bricks; 0 when more parts come
+  uint64_t edited = 0;  ///< of a part: bit i is set for every edited brick i (index_in_chunk); 0: no part
+  bool more = false;    ///< a part, and not the last one
+
+  bool is_part() const { return edited != 0; }
 };
 
 /// In place of as many ChunkMessages: chunks that the client offered, and has as they are.

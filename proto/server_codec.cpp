@@ -141,6 +141,8 @@ struct Writing {
     chunk.set_version(from.version);
     chunk.set_bricks(to_string(encode_bricks(from.bricks)));
     chunk.set_hash(from.hash);
+    chunk.set_edited(from.edited);
+    chunk.set_more(from.more);
   }
   void operator()(const GroundMessage& from) const {
     wire::Ground& ground = *to.mutable_ground();
@@ -207,6 +209,14 @@ ChunkMessage read(const wire::Chunk& from, FieldChecker& check) {
   chunk.version = from.version();
   chunk.bricks = bricks_within(chunk.chunk, from.bricks(), check);
   chunk.hash = from.hash();
+  chunk.edited = from.edited();
+  chunk.more = from.more();
+  if (chunk.more && !chunk.is_part()) check.refuse("a chunk of which more comes, but is no part");
+  if (chunk.more && chunk.hash != 0) check.refuse("a part of a chunk with a hash, before the last one");
+  if (chunk.is_part())
+    for (const BrickPatch& patch : chunk.bricks)
+      if (((chunk.edited >> index_in_chunk(patch.coord)) & 1U) == 0)
+        check.refuse("a brick of a part that is not among the chunk's edited ones");
   return chunk;
 }
 

@@ -18,6 +18,7 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
   void write_some(Buffers buffers, Done done) override;
   size_t write_now(Buffers buffers) override { return decided_ ? chosen_->write_now(buffers) : 0; }
   void send_rest() override { chosen_->send_rest(); }
+  size_t unsent_bytes() override { return chosen_->unsent_bytes(); }
   void finish_sending() override { chosen_->finish_sending(); }
   void close() override { chosen_->close(); }
   void cut() override { chosen_->cut(); }

@@ -4,6 +4,8 @@
 #include <array>
 #include <asio/buffer.hpp>
 #include <cerrno>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <vector>
 
@@ -66,6 +68,12 @@ size_t TcpTransport::write_now(Buffers buffers) {
   if (sent >= 0) return static_cast<size_t>(sent);
   if (!goes_later(errno)) broke_ = asio::error_code(errno, asio::system_category());
   return 0;
+}
+
+size_t TcpTransport::unsent_bytes() {
+  int unsent = 0;
+  if (ioctl(socket_.native_handle(), SIOCOUTQNSD, &unsent) != 0 || unsent < 0) return 0;
+  return static_cast<size_t>(unsent);
 }
 
 void TcpTransport::finish_sending() {

@@ -16,6 +16,7 @@ class TcpTransport final : public Transport, public std::enable_shared_from_this
   void read_some(std::span<uint8_t> into, Done done) override;
   void write_some(Buffers buffers, Done done) override;
   size_t write_now(Buffers buffers) override;
+  size_t unsent_bytes() override;
   void finish_sending() override;
   void close() override;
   void cut() override;

@@ -21,6 +21,9 @@ class TlsTransport final : public Transport, public std::enable_shared_from_this
   void write_some(Buffers buffers, Done done) override;
   size_t write_now(Buffers buffers) override;
   void send_rest() override;
+  size_t unsent_bytes() override {
+    return below_->unsent_bytes() + plain_.size() + unsent_.size() - unsent_from_;
+  }
   void finish_sending() override;
   void close() override;
   void cut() override;

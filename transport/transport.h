@@ -41,6 +41,8 @@ class Transport {
   virtual size_t write_now(Buffers /*buffers*/) { return 0; }
   /// Goes on with the bytes that write_now() took and could not send.
   virtual void send_rest() {}
+  /// Bytes that were taken from the writer, and wait on this machine to be sent, as far as it is known.
+  virtual size_t unsent_bytes() { return 0; }
   /// Tells the other side that no more comes. No write is under way, and none follows.
   virtual void finish_sending() = 0;
   virtual void close() = 0;

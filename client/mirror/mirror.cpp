@@ -28,6 +28,7 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   transforms += other.transforms;
   transform_bytes += other.transform_bytes;
   chunks += other.chunks;
+  chunk_parts += other.chunk_parts;
   chunks_kept += other.chunks_kept;
   dropped_chunks += other.dropped_chunks;
   pieces_made += other.pieces_made;
@@ -86,8 +87,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
 }
 
 Result<void> Mirror::within_limits() const {
-  if (held_.size() > limits::mirror_chunks_max)
-    return fail(std::to_string(held_.size()) + " edited chunks are over this client's " +
+  if (const size_t chunks = held_.size() + incomplete_.size(); chunks > limits::mirror_chunks_max)
+    return fail(std::to_string(chunks) + " edited chunks are over this client's " +
                 std::to_string(limits::mirror_chunks_max) +
                 " (limits.mirror_chunks_max); ask for a smaller radius of interest");
   if (motions_.size() > limits::mirror_pieces_max)
@@ -119,6 +120,7 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
     forget_chunk(chunk, changes);
     held_.erase(chunk);
     repairs_awaited_.erase(chunk);
+    incomplete_.erase(chunk);
     ++counters_.dropped_chunks;
   }
   for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);
@@ -170,12 +172,8 @@ void Mirror::count(const Operation& operation) {
 
 void Mirror::apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed,
                            MirrorChanges& changes) {
-  for (const BrickPatch& patch : patches) {
-    field_.set_brick(patch.coord, patch.brick);
-    field_.paint_brick(patch.coord, patch.paint);
-    changed.insert(chunk_of(patch.coord));
-    changes.bricks.push_back(patch.coord);
-  }
+  set_bricks(patches, changes);
+  for (const BrickPatch& patch : patches) changed.insert(chunk_of(patch.coord));
   counters_.patched_bricks += patches.size();
 }
 
@@ -247,6 +245,11 @@ void Mirror::move_piece(PieceMotion& motion, const Pose& to, Tick tick) const {
 
 void Mirror::replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes) {
   forget_chunk(chunk, changes);
+  set_bricks(bricks, changes);
+  incomplete_.erase(chunk);
+}
+
+void Mirror::set_bricks(const std::vector<BrickPatch>& bricks, MirrorChanges& changes) {
   for (const BrickPatch& patch : bricks) {
     field_.set_brick(patch.coord, patch.brick);
     field_.paint_brick(patch.coord, patch.paint);
@@ -255,6 +258,7 @@ void Mirror::replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bric
 }
 
 Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& changes) {
+  if (message.is_part()) return apply_part(message, changes);
   replace_chunk(message.chunk, message.bricks, changes);
   if (field_.chunk_hash(message.chunk) != message.hash)
     return fail("chunk (" + std::to_string(message.chunk.x) + ", " + std::to_string(message.chunk.y) + ", " +
@@ -264,6 +268,40 @@ Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& cha
   counters_.repairs_arrived += repairs_awaited_.erase(message.chunk);
   ++counters_.chunks;
   return {};
+}
+
+/// Bricks that the server takes for right here may be wrong: then the hash that follows the last part is
+/// sent, and the chunk comes again.
+Result<void> Mirror::apply_part(const ChunkMessage& message, MirrorChanges& changes) {
+  const ChunkCoord chunk = message.chunk;
+  forget_all_but(message.edited, chunk, changes);
+  set_bricks(message.bricks, changes);
+  mismatched_.erase(chunk);
+  ++counters_.chunk_parts;
+  if (message.more) {
+    held_.erase(chunk);
+    incomplete_.insert(chunk);
+    return {};
+  }
+  incomplete_.erase(chunk);
+  held_.insert(chunk);
+  counters_.repairs_arrived += repairs_awaited_.erase(chunk);
+  ++counters_.chunks;
+  if (field_.chunk_hash(chunk) == message.hash) return {};
+  ++counters_.mismatches;
+  mismatched_[chunk] = {tick_, field_.chunk_hash(chunk)};
+  return {};
+}
+
+void Mirror::forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& changes) {
+  std::vector<BrickPatch> kept;
+  const std::vector<BrickCoord> before = field_.edited_bricks(chunk);
+  for (const BrickCoord brick : before)
+    if (((edited >> index_in_chunk(brick)) & 1U) != 0)
+      kept.push_back({brick, field_.brick(brick), field_.painted(brick)});
+  if (kept.size() == before.size()) return;
+  forget_chunk(chunk, changes);
+  set_bricks(kept, changes);
 }
 
 /// Where what was kept is not what the server takes it for, its hash is sent, and the chunk comes whole.
@@ -299,6 +337,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   table_.clear();
   piece_voxels_ = 0;
   held_.clear();
+  incomplete_.clear();
   mismatched_.clear();
   repairs_awaited_.clear();
   tick_ = 0;  // a recording may go on from anywhere

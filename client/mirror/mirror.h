@@ -50,7 +50,8 @@ struct MirrorCounters {
   uint64_t patched_bricks = 0;
   uint64_t transforms = 0;  ///< poses, predicted ones too
   uint64_t transform_bytes = 0;
-  uint64_t chunks = 0;       ///< received whole
+  uint64_t chunks = 0;       ///< received whole, or their last part
+  uint64_t chunk_parts = 0;  ///< received, the last ones too
   uint64_t chunks_kept = 0;  ///< taken from what was kept
   uint64_t dropped_chunks = 0;
   uint64_t pieces_made = 0;    ///< by operations
@@ -119,11 +120,14 @@ class Mirror {
   void move_piece(PieceMotion& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
   void apply_kept(const KeptMessage& message, MirrorChanges& changes);
+  Result<void> apply_part(const ChunkMessage& message, MirrorChanges& changes);
+  void forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& changes);
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   void apply_reset(MirrorChanges& changes);
   Result<void> within_limits() const;
 
+  void set_bricks(const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   void check(const FrameMessage& frame, const ChunkSet& changed);
   void forget_chunk(ChunkCoord chunk, MirrorChanges& changes);
   void add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
@@ -138,6 +142,7 @@ class Mirror {
   KnownMotions known_motions_;              ///< by which they are predicted, of the same pieces
   size_t piece_voxels_ = 0;                 ///< of their volumes, together
   ChunkSet held_;
+  ChunkSet incomplete_;  ///< a part has come, and not the last one: not held
   Tick tick_;
   uint32_t ticks_per_transform_;
   std::optional<StatusMessage> status_;

@@ -1,7 +1,7 @@
 // How many bytes may wait for a client so that it sees the present: as many as its link takes in
 // limits::outbox_wait_s, seen from what the socket takes. A socket that takes all it is offered says nothing
-// but that there may be more; one that is full says by its pace how fast the link is. Time is an argument
-// (seconds). Not thread-safe.
+// but that there may be more, and that only when it was offered about as much as may wait; one that is full
+// says by its pace how fast the link is. Time is an argument (seconds). Not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class ReadingPace {
         set(taken_bytes_ / taken_s_ * limits::outbox_wait_s);
         taken_bytes_ = taken_s_ = 0.0;
       }
-    } else if (bytes == offered) {
+    } else if (bytes == offered && 2 * offered >= bytes_max_) {
       set(static_cast<double>(bytes_max_ + bytes));
     }
     full_ = bytes < offered;

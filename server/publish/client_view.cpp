@@ -30,6 +30,22 @@ glm::vec3 place_of(const QuantisedPose& pose) {
   return glm::vec3(pose.x, pose.y, pose.z) / pose_steps_per_m;
 }
 
+constexpr uint64_t all_bricks = ~uint64_t{0};
+static_assert(chunk_bricks * chunk_bricks * chunk_bricks == 64);
+
+uint64_t bits_of(const std::vector<const BrickState*>& bricks) {
+  uint64_t bits = 0;
+  for (const BrickState* brick : bricks) bits |= uint64_t{1} << index_in_chunk(brick->coord);
+  return bits;
+}
+
+ChunkCoord coord_of(ChunkCoord chunk) {
+  return chunk;
+}
+ChunkCoord coord_of(const std::pair<const ChunkCoord, uint64_t>& stale) {
+  return stale.first;
+}
+
 uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
   uint64_t sum = 0;
   for (const ChunkCoord chunk : chunks) {
@@ -200,7 +216,7 @@ void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tain
       changed.insert(chunk);
       continue;
     }
-    if (is_held) distrust(chunk);
+    miss(chunk, bits_of(found->second));
     if (is_held || is_near) wanted_.insert(chunk);
   }
   if (!has_kernels_) patch_credit_bricks_ -= bricks;
@@ -213,8 +229,9 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   rescan_due_ = false;
   rescanned_ = changes.delta.tick;
   const float keep_m = radius_m_ * limits::interest_keep_factor;
-  const auto drop_far = [&](ChunkSet& chunks) {
-    std::erase_if(chunks, [&](ChunkCoord chunk) {
+  const auto drop_far = [&](auto& chunks) {
+    std::erase_if(chunks, [&](const auto& entry) {
+      const ChunkCoord chunk = coord_of(entry);
       if (distance_m(chunk, changes.voxel_size_m) <= keep_m) return false;
       if (changed.contains(chunk)) {  // this frame's check covers it: the next scan drops it
         rescan_due_ = true;
@@ -230,7 +247,7 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   wanted_.clear();
   for (const auto& [chunk, published] : changes.state.chunks())
     if (!held_.contains(chunk) && near(chunk, changes.voxel_size_m)) wanted_.insert(chunk);
-  wanted_.insert(stale_.begin(), stale_.end());
+  for (const auto& [chunk, lacking] : stale_) wanted_.insert(chunk);
 }
 
 void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
@@ -277,8 +294,9 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
 bool ClientView::is_sound(const ChunkSet& changed) const {
   const auto is_held = [this](ChunkCoord chunk) { return held_.contains(chunk); };
   return std::ranges::all_of(changed, is_held) && std::ranges::none_of(wanted_, is_held) &&
-         std::ranges::none_of(stale_, is_held) &&
-         std::ranges::all_of(stale_, [this](ChunkCoord chunk) { return wanted_.contains(chunk); });
+         std::ranges::all_of(stale_, [&](const auto& stale) {
+           return !is_held(stale.first) && wanted_.contains(stale.first);
+         });
 }
 
 FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope parts) {
@@ -331,6 +349,20 @@ std::vector<PieceId> ClientView::next_pieces(const Motions& motions, size_t coun
   return pieces;
 }
 
+uint64_t ClientView::lacks(ChunkCoord chunk) const {
+  const auto stale = stale_.find(chunk);
+  return stale == stale_.end() ? all_bricks : stale->second;
+}
+
+bool ClientView::sent_bricks(ChunkCoord chunk, uint64_t bricks, uint64_t edited) {
+  CHECK(wanted_.contains(chunk) && edited != 0);
+  uint64_t& lacking = stale_.try_emplace(chunk, all_bricks).first->second;
+  lacking &= ~bricks;
+  if ((lacking & edited) != 0) return false;
+  sent_chunk(chunk);
+  return true;
+}
+
 void ClientView::sent_chunk(ChunkCoord chunk) {
   wanted_.erase(chunk);
   stale_.erase(chunk);
@@ -343,9 +375,16 @@ void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
 }
 
 void ClientView::distrust(ChunkCoord chunk) {
-  if (held_.erase(chunk) == 0) return;
-  stale_.insert(chunk);
-  wanted_.insert(chunk);
+  if (held_.contains(chunk)) miss(chunk, all_bricks);
+}
+
+void ClientView::miss(ChunkCoord chunk, uint64_t bricks) {
+  if (held_.erase(chunk) != 0) {
+    stale_[chunk] = bricks;
+    wanted_.insert(chunk);
+  } else if (const auto stale = stale_.find(chunk); stale != stale_.end()) {
+    stale->second |= bricks;
+  }
 }
 
 }  // namespace scree

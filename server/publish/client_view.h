@@ -2,7 +2,8 @@
 //
 // Invariants: `held` chunks on the client are exactly as published, once it has applied everything selected
 // so far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it.
-// An edited chunk within interest is held or wanted, never both; a stale chunk is wanted and not held.
+// An edited chunk within interest is held or wanted, never both; a stale chunk is wanted and not held, and
+// its bricks that the client does not lack are exactly as published.
 // `known` pieces are those that the client has. Lengths in metres. Not thread-safe.
 //
 // A client without kernels never gets an operation: the bricks that operations changed come as patches,
@@ -84,6 +85,12 @@ class ClientView {
   /// Up to `count` chunks (pieces) to send whole, nearest first; pieces right after a frame with poses.
   std::vector<ChunkCoord> next_chunks(const TickChanges& changes, size_t count) const;
   std::vector<PieceId> next_pieces(const Motions& motions, size_t count) const;
+  /// Bricks of a wanted chunk that the client does not have as they are: bit i for brick i (index_in_chunk),
+  /// edited or not.
+  uint64_t lacks(ChunkCoord chunk) const;
+  /// Notes that these bricks of a wanted chunk were sent. True when none of `edited` is lacking any more:
+  /// from now on the chunk is followed.
+  bool sent_bricks(ChunkCoord chunk, uint64_t bricks, uint64_t edited);
   /// Notes that a chunk (piece) was sent whole: from now on it is followed.
   void sent_chunk(ChunkCoord chunk);
   void sent_piece(PieceId piece, const QuantisedPose& pose);
@@ -116,6 +123,8 @@ class ClientView {
                          ChunkSet& changed);
   void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
                       ChunkSet& changed);
+  /// The bricks of a chunk changed, and the client is not told.
+  void miss(ChunkCoord chunk, uint64_t bricks);
   size_t patch_room(size_t most);
   void select_poses(const TickChanges& changes, FrameSelection& frame);
   void select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
@@ -135,8 +144,9 @@ class ClientView {
   bool rescan_due_ = true;
   Tick rescanned_ = 0;
   ChunkSet held_;
-  ChunkSet
-      stale_;  ///< not held, but the client has edits there, to be replaced by the whole chunk or dropped
+  /// Not held, but the client has edits there, to be completed, replaced by the whole chunk, or dropped; with
+  /// the bricks that it lacks.
+  std::unordered_map<ChunkCoord, uint64_t, CoordHash> stale_;
   ChunkSet wanted_;                                   ///< edited, within interest, not held
   boost::container::flat_map<PieceId, Known> known_;  ///< walked in every frame with poses, of every client
   /// Of a client without kernels: the last whole pose of each piece that got one since it was cut.

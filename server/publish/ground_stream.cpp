@@ -73,7 +73,7 @@ SharedBytes GroundStream::answer(ChunkCoord chunk, const ClientView& view, int& 
 }
 
 void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reader,
-                         const std::function<void(uint64_t, const SharedBytes&)>& send) {
+                         const std::function<bool(uint64_t, const SharedBytes&)>& send) {
   struct Turn {
     uint64_t session;
     Queue* queue;
@@ -97,8 +97,7 @@ void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reade
       if (work_left != work_before) served_last_ = turn.session;
       turn.queue->chunks.pop_front();
       turn.queue->credit_bytes -= static_cast<int64_t>(bytes->size());
-      send(turn.session, bytes);
-      return false;
+      return !send(turn.session, bytes);
     });
   }
   std::erase_if(queues_, [](const auto& entry) { return entry.second.chunks.empty(); });

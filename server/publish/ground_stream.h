@@ -23,10 +23,11 @@ class GroundStream {
   void leave(uint64_t session) { queues_.erase(session); }
   size_t waiting(uint64_t session) const;
 
-  /// Answers as much as a tick may: calls send(session, bytes) in the order in which each session asked.
-  /// `reader(session)`: its view, or null when it gets nothing in this tick.
+  /// Answers as much as a tick may: calls send(session, bytes) in the order in which each session asked,
+  /// until it returns false: then that session gets no more in this tick. `reader(session)`: its view, or
+  /// null when it gets nothing at all.
   void serve(const std::function<const ClientView*(uint64_t)>& reader,
-             const std::function<void(uint64_t, const SharedBytes&)>& send);
+             const std::function<bool(uint64_t, const SharedBytes&)>& send);
 
  private:
   struct Queue {

@@ -22,8 +22,9 @@ inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
 /// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
 inline constexpr size_t patch_bricks_max = 1024;
 
-/// Bytes that a patched brick takes, about; by these a slow link's room for them is reckoned.
-inline constexpr size_t patch_brick_bytes = 128;
+/// Bytes that a brick takes in a frame or in a part of a chunk, about: rubble compresses to half of its
+/// codes. By these a slow link's room for bricks is reckoned.
+inline constexpr size_t patch_brick_bytes = 256;
 
 /// Bricks sent as patches to a client without kernels, in a tick on average; what is saved up, up to
 /// patch_bricks_max, may go at once. 32 KiB of codes compress to less than chunk_bytes_per_tick. Above: whole

@@ -17,10 +17,6 @@ namespace scree {
 
 namespace {
 
-/// Chunks or pieces in one list to stream; the budget of bytes ends the streaming much earlier.
-constexpr size_t stream_batch = 64;
-static_assert(stream_batch <= limits::kept_chunks_max);
-
 SharedBytes bytes_of(const ServerMessage& message) {
   return std::make_shared<const std::vector<uint8_t>>(encode(message));
 }
@@ -33,8 +29,8 @@ Motions no_motions(const PublisherConfig& config) {
 /// then. By a slow link they have the room that is left.
 size_t patches_for(const Backlog& backlog) {
   if (!backlog.reads_along()) return 0;
-  if (backlog.soft_bytes >= limits::outbox_soft_bytes) return limits::patch_bricks_max;
-  return (backlog.soft_bytes - backlog.bytes) / limits::patch_brick_bytes;
+  if (!backlog.is_slow()) return limits::patch_bricks_max;
+  return static_cast<size_t>(std::max<int64_t>(0, backlog.room_bytes())) / limits::patch_brick_bytes;
 }
 
 int64_t size_of(const SharedBytes& bytes) {
@@ -208,11 +204,14 @@ void Publisher::serve(Client& client, const TickChanges& changes, const Backlog&
   if (!ready(client, backlog.bytes, part)) return;
   const Tick tick = changes.delta.tick;
   const bool reads_along = backlog.reads_along();
-  client.room_bytes = static_cast<int64_t>(backlog.soft_bytes) - static_cast<int64_t>(backlog.bytes);
+  client.room_bytes = backlog.room_bytes();
+  client.is_slow = backlog.is_slow();
   const bool with_poses = reads_along && has_poses(tick);
   if (!send_frame(client, changes, {with_poses, patches_for(backlog)}, part)) return;
-  if (reads_along) stream_chunks(client, changes, part);
+  // Pieces first: by a slow link, chunks take all the room there is, and what merges unknown pieces comes as
+  // bricks.
   if (with_poses) stream_pieces(client, part);
+  if (reads_along) stream_chunks(client, changes, part);
   if (status_due(client, tick)) send_status(client, part);
   if (!reads_along) return;
   if (tick % ticks_per_watch == 0) send_cursors(client, part);
@@ -241,65 +240,6 @@ bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScop
   part.stats.transform_bytes += frame.transform_bytes;
   send(client, frame.bytes, part);
   return true;
-}
-
-void Publisher::stream_chunks(Client& client, const TickChanges& changes, Part& part) {
-  client.chunk_credit_bytes =
-      std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
-  if (!client.offer.ready() || client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
-  KeptMessage kept;
-  for (const ChunkCoord coord : client.view.next_chunks(changes, stream_batch)) {
-    if (client.chunk_credit_bytes <= 0 || client.room_bytes <= 0) break;
-    const PublishedChunk& chunk = state_.chunks().at(coord);
-    client.view.sent_chunk(coord);
-    if (client.offer.answers(coord, chunk.hash)) {
-      kept.chunks.push_back(coord);
-      kept.hashes.push_back(chunk.hash);
-      continue;
-    }
-    const SharedBytes bytes = cache_.chunk(coord, chunk);
-    client.chunk_credit_bytes -= size_of(bytes);
-    part.stats.chunk_bytes += bytes->size();
-    send(client, bytes, part);
-  }
-  if (!kept.chunks.empty()) send_kept(client, kept, part);
-  if (client.view.wanted_chunks() == 0) client.offer.forget();
-}
-
-void Publisher::send_kept(Client& client, const KeptMessage& kept, Part& part) {
-  const SharedBytes bytes = bytes_of(kept);
-  client.chunk_credit_bytes -= size_of(bytes);
-  part.stats.kept_bytes += bytes->size();
-  part.stats.chunks_kept += kept.chunks.size();
-  send(client, bytes, part);
-}
-
-void Publisher::stream_pieces(Client& client, Part& part) {
-  const int64_t budget = limits::piece_bytes_per_tick * config_.ticks_per_transform;
-  client.piece_credit_bytes = std::min(client.piece_credit_bytes + budget, budget);
-  if (client.piece_credit_bytes <= 0) return;
-  for (const PieceId id : client.view.next_pieces(motions_, stream_batch)) {
-    if (client.piece_credit_bytes <= 0 || client.room_bytes <= 0) return;
-    const PublishedPiece& piece = state_.pieces().at(id);
-    const SharedBytes bytes = cache_.piece(id, piece);
-    if (bytes->size() > limits::message_bytes_max) continue;  // the client gets its merge as bricks
-    client.piece_credit_bytes -= size_of(bytes);
-    part.stats.piece_bytes += bytes->size();
-    client.view.sent_piece(id, piece.pose);
-    send(client, bytes, part);
-  }
-}
-
-void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part) {
-  const auto reader = [&](uint64_t session) -> const ClientView* {
-    const Client& client = clients_.at(session);
-    const bool reads_along = !client.stopped && backlog(session).reads_along();
-    return reads_along ? &client.view : nullptr;
-  };
-  ground_.serve(reader, [&](uint64_t session, const SharedBytes& bytes) {
-    part.stats.ground_bytes += bytes->size();
-    send(clients_.at(session), bytes, part);
-  });
 }
 
 void Publisher::send_cursors(Client& client, Part& part) {

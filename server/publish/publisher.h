@@ -5,9 +5,10 @@
 // anyway, by which it sees that time goes on. The frame of its tick comes
 // before a status.
 //
-// A slow client gets newer state, not a longer queue: while more waits for it than its link takes soon
-// (Backlog), it gets no poses and no streaming; above outbox_resync_bytes, no frames either. When it has read
-// everything, a ResetMessage tells it to forget its edits and pieces, and it joins anew.
+// A slow client gets newer state, not a longer queue: chunks come to it in parts (chunk_part.h), and while
+// more waits for it than its link takes soon (Backlog), it gets no poses and no streaming; above
+// outbox_resync_bytes, no frames either. When it has read everything, a ResetMessage tells it to forget its
+// edits and pieces, and it joins anew.
 //
 // No sockets and no clock: the owner delivers the bytes in order. One thread, the workers' owner, makes all
 // calls. Within publish() the workers serve the clients, each client on one of them: a client's part changes
@@ -70,6 +71,12 @@ struct Backlog {
   size_t soft_bytes = limits::outbox_soft_bytes;  ///< above, it does not read along
 
   bool reads_along() const { return bytes <= soft_bytes; }
+  /// Its link takes less than limits::outbox_soft_bytes in limits::outbox_wait_s.
+  bool is_slow() const { return soft_bytes < limits::outbox_soft_bytes; }
+  /// Bytes that may be streamed now: by a slow link half of what may wait, so that the next frame finds room.
+  int64_t room_bytes() const {
+    return static_cast<int64_t>(is_slow() ? soft_bytes / 2 : soft_bytes) - static_cast<int64_t>(bytes);
+  }
 };
 
 class Publisher {
@@ -125,6 +132,8 @@ class Publisher {
     int64_t chunk_credit_bytes = 0;
     int64_t piece_credit_bytes = 0;
     int64_t room_bytes = 0;  ///< that may still be streamed to it in this tick
+    bool is_slow = false;    ///< so that chunks come in parts
+    int next_brick = 0;      ///< of a chunk, where the next part begins
     bool stopped = false;    ///< gets no frames until it has read all that waits
     bool reset_due = false;
     Tick last_frame = 0;  ///< tick of the last frame that it got; 0: none
@@ -134,6 +143,9 @@ class Publisher {
     bool watches = false;
     int64_t physics_credit_bytes = 0;
     std::vector<PlayerCursor> cursors{};  ///< as the client knows them
+
+    /// Whether a slow one still has room in this tick; others have budgets.
+    bool takes_more() const { return !is_slow || room_bytes > 0; }
   };
   /// What serving some clients brings about beside what changes in them.
   struct Part {
@@ -158,6 +170,8 @@ class Publisher {
     return (tick + client.session) % config_.tick_rate_hz == 0;
   }
   void stream_chunks(Client& client, const TickChanges& changes, Part& part);
+  SharedBytes whole_chunk(Client& client, ChunkCoord coord, const PublishedChunk& chunk);
+  SharedBytes next_part(Client& client, ChunkCoord coord, const PublishedChunk& chunk);
   void send_kept(Client& client, const KeptMessage& kept, Part& part);
   void stream_pieces(Client& client, Part& part);
   void send_cursors(Client& client, Part& part);

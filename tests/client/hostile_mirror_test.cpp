@@ -73,6 +73,23 @@ TEST(HostileMirror, chunks_that_it_never_offered_are_asked_for_and_bounded) {
   }
 }
 
+TEST(HostileMirror, chunks_of_which_the_last_part_never_comes_are_bounded) {
+  Mirror mirror(flat_welcome());
+  ChunkMessage part;
+  part.edited = 1;
+  part.more = true;
+  for (size_t i = 0; i < limits::mirror_chunks_max; ++i) {
+    part.chunk = {static_cast<int>(i % 1024), 0, static_cast<int>(i / 1024)};
+    part.bricks = {{first_brick(part.chunk), solid_brick()}};
+    ASSERT_TRUE(mirror.apply(part));
+  }
+  part.chunk.y = 1;
+  part.bricks.clear();
+  const auto applied = send(mirror, part);
+  ASSERT_FALSE(applied);
+  EXPECT_NE(applied.error().message.find("limits.mirror_chunks_max"), std::string::npos);
+}
+
 TEST(HostileMirror, a_frame_of_more_work_than_a_tick_ends_the_connection_before_it_is_done) {
   Mirror mirror(flat_welcome());
   FrameMessage frame;

@@ -39,15 +39,19 @@ const decoders = {
   },
 };
 
+/** The world to which a part of a chunk came, for the next one. */
+let unfinished = null;
+
 /** Messages that change the state are applied, with their hashes and checks. Returns whether it was one. */
 function applied(bytes) {
   const message = ServerMessage.decode(bytes.subarray(4));
-  const world = new World();
+  const world = unfinished ?? new World();
   for (const id of [3, 5, 7]) world.pieces.set(id, {}); // those of the example frame
   if (message.kind === 'piece') world.pieces.clear();
   const apply = { frame: 'frame', chunk: 'chunk', piece: 'piece', ground: 'groundOf' }[message.kind];
   if (apply === undefined) return false;
   world[apply](message[message.kind]);
+  unfinished = message.chunk?.more ? world : null;
   if (world.mismatched) throw new Error('a check does not match');
   return true;
 }

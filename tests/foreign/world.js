@@ -10,6 +10,8 @@ export const chunkOf = (brick) => brick.map((number) => number >> 2);
 export const bigOf = (long) => BigInt.asUintN(64, (BigInt(long.high) << 32n) | BigInt(long.low >>> 0));
 const brickInChunk = ([x, y, z], i) => [4 * x + (i >> 4), 4 * y + ((i >> 2) & 3), 4 * z + (i & 3)];
 
+const indexInChunk = ([x, y, z]) => BigInt(16 * (x & 3) + 4 * (y & 3) + (z & 3));
+
 class Failure extends Error {}
 const demand = (holds, why) => {
   if (!holds) throw new Failure(why);
@@ -26,6 +28,7 @@ export class World {
     patched: 0,
     checks: 0,
     chunks: 0,
+    parts: 0,
     dropped: 0,
     pieces: 0,
     removed: 0,
@@ -79,15 +82,28 @@ export class World {
     if (folded(wrapped(sum)) !== check) this.mismatched = { tick: this.tick, chunks: [...changed.values()] };
   }
 
-  chunk({ chunk, bricks, hash }) {
+  /** The whole chunk, or a part: what it does not list stays, as long as the server has edits there. */
+  chunk({ chunk, bricks, hash, edited, more }) {
     const key = keyOf(unpackCoords(chunk)[0]);
-    this.edits.delete(key);
+    const isPart = bigOf(edited) !== 0n;
+    if (isPart) this.forgetAllBut(bigOf(edited), key);
+    else this.edits.delete(key);
     for (const brick of unpackBricks(bricks)) {
       demand(keyOf(chunkOf(brick.coord)) === key, 'a brick of another chunk');
       this.edit(key, brick);
     }
-    demand(this.chunkHash(key) === bigOf(hash), `chunk ${key} does not have the hash that came with it`);
+    if (isPart) this.counts.parts++;
+    if (more) return;
     this.counts.chunks++;
+    if (this.chunkHash(key) === bigOf(hash)) return;
+    demand(isPart, `chunk ${key} does not have the hash that came with it`);
+    this.mismatched = { tick: this.tick, chunks: [unpackCoords(chunk)[0]] };
+  }
+
+  forgetAllBut(edited, key) {
+    const kept = [...(this.edits.get(key)?.bricks.values() ?? [])].filter(({ coord }) => (edited >> indexInChunk(coord)) & 1n);
+    this.edits.delete(key);
+    for (const brick of kept) this.edit(key, brick);
   }
 
   groundOf({ chunk, beyond, rock, bricks, hash }) {

@@ -1,4 +1,4 @@
-// How a TCP stream says that it ended: in order, or not.
+// A TCP stream: how it says that it ended, in order or not; and what waits in it.
 #include "transport/tcp_transport.h"
 
 #include <array>
@@ -6,6 +6,8 @@
 #include <asio/io_context.hpp>
 #include <gtest/gtest.h>
 #include <optional>
+
+#include "tests/support/raw_client.h"
 
 namespace scree {
 namespace {
@@ -70,6 +72,21 @@ TEST(TcpTransports, give_out_what_came_before_the_reset) {
   pair.there->close();
   EXPECT_EQ(pair.next_read().value_or(0), goodbye.size());
   EXPECT_FALSE(pair.next_read());
+}
+
+TEST(TcpTransports, tells_how_much_waits_here_for_a_client_that_does_not_read) {
+  asio::io_context context;
+  asio::ip::tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
+  RawClient client(acceptor.local_endpoint().port(), 4096);
+  ASSERT_TRUE(client.connected());
+  const auto transport = std::make_shared<TcpTransport>(acceptor.accept());
+  EXPECT_EQ(transport->unsent_bytes(), 0U);
+  const std::vector<uint8_t> bytes(size_t{64} << 10U);
+  const std::span<const uint8_t> all(bytes);
+  size_t taken = 0;
+  while (const size_t more = transport->write_now({&all, 1})) taken += more;
+  EXPECT_GT(transport->unsent_bytes(), taken / 2);
+  EXPECT_LE(transport->unsent_bytes(), taken);
 }
 
 }  // namespace

@@ -289,6 +289,22 @@ TEST(Codec, bricks_twice_astray_or_too_many_are_refused) {
   EXPECT_FALSE(decode_bricks(encode_bricks(many), 8));
 }
 
+TEST(Codec, a_part_of_a_chunk_says_which_bricks_are_edited_and_has_its_hash_last) {
+  ChunkMessage part;
+  part.bricks = {{{0, 0, 0}, air_brick()}};
+  part.more = true;
+  EXPECT_TRUE(holds(server_refusal(part), "of which more comes, but is no part"));
+  part.edited = 0b10;
+  EXPECT_TRUE(holds(server_refusal(part), "not among the chunk's edited ones"));
+  part.edited = 0b11;
+  part.hash = 1;
+  EXPECT_TRUE(holds(server_refusal(part), "before the last one"));
+  part.more = false;
+  const std::vector<uint8_t> bytes = encode(ServerMessage(part));
+  const auto decoded = decode_server(std::span(bytes).subspan(length_prefix_bytes));
+  EXPECT_EQ(std::get<ChunkMessage>(decoded.value()).edited, part.edited);
+}
+
 TEST(Codec, a_count_that_the_bytes_cannot_hold_is_refused_before_it_is_allocated) {
   const Result<std::vector<BrickPatch>> got =
       decode_bricks(std::vector<uint8_t>{0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}, size_t{1} << 40U);

@@ -26,6 +26,7 @@ class TrustingClient {
     if (const auto* chunk = std::get_if<ChunkMessage>(&*message)) {
       chunk_bytes += bytes.size();
       chunk_order.push_back(chunk->chunk);
+      largest_chunk_bytes = std::max(largest_chunk_bytes, bytes.size());
     }
     if (std::holds_alternative<PieceMessage>(*message)) piece_bytes += bytes.size();
     std::visit([this](const auto& m) { apply(m); }, *message);
@@ -37,6 +38,8 @@ class TrustingClient {
   size_t operations = 0, patches = 0, chunks = 0, piece_messages = 0, resets = 0, drops = 0, mismatches = 0;
   size_t unchecked = 0;    ///< frames that changed something, but carried no check
   size_t chunk_bytes = 0;  ///< on the wire
+  size_t largest_chunk_bytes = 0;
+  size_t chunk_parts = 0, bricks_of_parts = 0;
   size_t piece_bytes = 0;
   std::vector<ChunkCoord> chunk_order;
   std::map<PieceId, QuantisedPose> poses;  ///< as told: whole, or by motions
@@ -94,12 +97,20 @@ class TrustingClient {
     if (frame.has_check && frame.check != check) ++mismatches;
   }
   void apply(const ChunkMessage& message) {
-    ++chunks;
-    field.forget_chunk(message.chunk);
+    if (message.is_part()) {
+      ++chunk_parts;
+      bricks_of_parts += message.bricks.size();
+      for (const BrickCoord brick : field.edited_bricks(message.chunk))
+        EXPECT_NE((message.edited >> index_in_chunk(brick)) & 1U, 0U) << "what is edited stays so here";
+    } else {
+      field.forget_chunk(message.chunk);
+    }
     for (const BrickPatch& patch : message.bricks) {
       field.set_brick(patch.coord, patch.brick);
       field.paint_brick(patch.coord, patch.paint);
     }
+    if (message.more) return;
+    ++chunks;
     EXPECT_EQ(field.chunk_hash(message.chunk), message.hash);
   }
   void apply(const KeptMessage& message) {
@@ -144,7 +155,9 @@ class PublisherTest : public ::testing::Test {
 
   void tick(const std::vector<Operation>& operations = {}) { deliver(*source.step(operations)); }
   void deliver(const TickDelta& delta) {
-    const auto backlog = [this](uint64_t id) { return Backlog{id == session ? backlog_bytes : 0}; };
+    const auto backlog = [this](uint64_t id) {
+      return id == session ? Backlog{backlog_bytes, soft_bytes} : Backlog();
+    };
     take(publisher.publish(delta, backlog));
     take(publisher.answer(delta, [this](const Reply&) { return latency; }));
   }
@@ -208,7 +221,8 @@ class PublisherTest : public ::testing::Test {
   std::map<uint64_t, TrustingClient> followers;
   std::map<uint64_t, size_t> bytes;
   std::map<uint64_t, SharedBytes> last;
-  size_t backlog_bytes = 0;
+  size_t backlog_bytes = 0;  ///< of `session`, as soft_bytes
+  size_t soft_bytes = limits::outbox_soft_bytes;
   ServerLatency latency;  ///< that replies state
 };
 

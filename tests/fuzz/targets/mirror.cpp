@@ -127,7 +127,7 @@ FrameMessage any_frame(FuzzInput& input, Ids& ids, Tick tick) {
   return frame;
 }
 
-/// Mostly with the hash of its bricks.
+/// Mostly with the hash of its bricks; half of them parts.
 ChunkMessage any_chunk(FuzzInput& input) {
   ChunkMessage chunk;
   chunk.chunk = chunk_of(any_brick_coord(input));
@@ -140,6 +140,11 @@ ChunkMessage any_chunk(FuzzInput& input) {
     chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
   }
   if (input.below(16) == 15) ++chunk.hash;
+  if (input.flag()) return chunk;
+  for (const BrickPatch& patch : chunk.bricks) chunk.edited |= uint64_t{1} << index_in_chunk(patch.coord);
+  if (input.flag()) chunk.edited |= uint64_t{1} << input.below(64);
+  chunk.more = input.flag();
+  if (chunk.more) chunk.hash = 0;
   return chunk;
 }
 
