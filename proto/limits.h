@@ -90,6 +90,9 @@ inline constexpr size_t piece_voxels_max = size_t{1} << 28;
 inline constexpr size_t refusal_counts_max = 64;
 inline constexpr size_t refusal_name_bytes_max = 32;
 
+/// Length of the word by which a status says how the world is saved, bytes. Above: refused.
+inline constexpr size_t saving_bytes_max = 32;
+
 /// A stage of a request's way through a server, microseconds: a minute, longer than any request waits. An
 /// encoder states no more; a receiver refuses more.
 inline constexpr uint32_t latency_max_us = 60'000'000;

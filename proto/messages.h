@@ -221,6 +221,7 @@ struct ReplyMessage {
   uint32_t pieces = 0;
   std::string refusal_name{};  ///< for programs, as of RefusalMessage
   ServerLatency latency{};     ///< zeroes: no tick answered it
+  Tick tick = 0;               ///< that answered it; 0: none. Saved once StatusMessage::saved_tick is as high
 };
 
 /// How long a stage of the tick took.
@@ -278,6 +279,9 @@ struct StatusMessage {
   WorkStatus work;
   std::vector<RefusalCount> refusals;  ///< since the start; reasons that were never given are left out
   LatencyStatus latency;
+  std::string
+      saving{};  ///< "tick", "second" or "off": how a world file is kept; "failed"; empty: there is none
+  Tick saved_tick = 0;  ///< what happened up to here outlives the server
 };
 
 struct PlayerCursor {

@@ -5,6 +5,7 @@
 
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
+#include "proto/recording_values.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
 #include "shared/base/check.h"
@@ -15,41 +16,6 @@
 namespace scree {
 
 namespace {
-
-constexpr size_t program_bytes_max = 128;
-
-std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message) {
-  std::vector<uint8_t> bytes(message.ByteSizeLong());
-  if (bytes.size() > INT32_MAX) return bytes;  // Protobuf writes no more; no row of a recording holds as much
-  CHECK(message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size())));
-  return bytes;
-}
-
-template <typename T>
-Result<T> parsed(std::span<const uint8_t> bytes, const char* what) {
-  T message;
-  if (bytes.size() > INT32_MAX || !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-    return fail(std::string(what) + ": not of this format");
-  return message;
-}
-
-template <typename T>
-Result<T> checked(T value, const FieldChecker& check) {
-  if (check.failed()) return tl::unexpected(check.error());
-  return value;
-}
-
-void write(recorded::Ledger& to, const RecordedLedger& from) {
-  to.set_terrain(from.terrain);
-  to.set_pieces(from.pieces);
-  to.set_dust(from.dust);
-  to.set_poured(from.poured);
-  to.set_moved(from.moved);
-}
-
-RecordedLedger read(const recorded::Ledger& from) {
-  return {from.terrain(), from.pieces(), from.dust(), from.poured(), from.moved()};
-}
 
 std::string without_length(const std::vector<uint8_t>& message) {
   CHECK(message.size() >= length_prefix_bytes);
@@ -101,14 +67,7 @@ ClientMessage message_of(const RecordedCommand& command) {
 
 std::vector<uint8_t> encode(const RecordedHeader& header) {
   recorded::Header to;
-  to.set_format(header.format);
-  to.set_program(showable(header.program, program_bytes_max));
-  to.set_terrain_kind(static_cast<uint32_t>(header.terrain.kind));
-  to.set_terrain_seed(header.terrain.random_seed);
-  to.set_voxel_size_m(header.terrain.voxel_size_m);
-  to.set_tick_rate_hz(header.tick_rate_hz);
-  to.set_merges_per_tick_max(header.merges_per_tick_max);
-  write(*to.mutable_settings(), header.settings);
+  write(to, header);
   return bytes_of(to);
 }
 
@@ -116,21 +75,7 @@ Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
   const auto from = parsed<recorded::Header>(bytes, "header of the recording");
   if (!from) return tl::unexpected(from.error());
   FieldChecker check("header of the recording");
-  RecordedHeader header;
-  header.format = from->format();
-  // In another format the fields may have another meaning: only its number is read, for the refusal.
-  if (header.format != recording_format) return header;
-  header.program = check.text(from->program(), program_bytes_max, "program");
-  header.terrain.kind = check.kind<TerrainKind>(from->terrain_kind(), "terrain_kind");
-  header.terrain.random_seed = from->terrain_seed();
-  header.terrain.voxel_size_m = check.finite(from->voxel_size_m(), "voxel_size_m");
-  if (header.terrain.voxel_size_m < limits::voxel_size_min_m ||
-      header.terrain.voxel_size_m > limits::voxel_size_max_m)
-    check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
-  header.tick_rate_hz =
-      check.within(from->tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
-  header.merges_per_tick_max = from->merges_per_tick_max();
-  header.settings = check.settings(from->settings());
+  RecordedHeader header = read(*from, check);
   return checked(std::move(header), check);
 }
 

@@ -15,7 +15,7 @@
 namespace scree {
 
 /// Version of the blobs and the tables. A reader refuses any other.
-inline constexpr uint32_t recording_format = 5;
+inline constexpr uint32_t recording_format = 6;
 
 struct RecordedHeader {
   uint32_t format = recording_format;

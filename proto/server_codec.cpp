@@ -117,6 +117,8 @@ void write(wire::Status& to, const StatusMessage& from) {
   write(*to.mutable_waiting(), from.latency, &ServerLatency::waiting_us);
   write(*to.mutable_ticking(), from.latency, &ServerLatency::tick_us);
   write(*to.mutable_sending(), from.latency, &ServerLatency::sending_us);
+  to.set_saving(showable(from.saving, limits::saving_bytes_max));
+  to.set_saved_tick(from.saved_tick);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
     added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
@@ -171,6 +173,7 @@ struct Writing {
     reply.set_waiting_us(from.latency.waiting_us);
     reply.set_tick_us(from.latency.tick_us);
     reply.set_sending_us(from.latency.sending_us);
+    reply.set_tick(from.tick);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
@@ -285,7 +288,8 @@ ReplyMessage read(const wire::Reply& from, FieldChecker& check) {
           from.pieces(),
           check.text(from.refusal_name(), limits::refusal_name_bytes_max, "name of a reason"),
           {read_latency(from.waiting_us(), check), read_latency(from.tick_us(), check),
-           read_latency(from.sending_us(), check)}};
+           read_latency(from.sending_us(), check)},
+          from.tick()};
 }
 
 StatusMessage read(const wire::Status& from, FieldChecker& check) {
@@ -318,6 +322,8 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   read(from.waiting(), &ServerLatency::waiting_us, status.latency, check);
   read(from.ticking(), &ServerLatency::tick_us, status.latency, check);
   read(from.sending(), &ServerLatency::sending_us, status.latency, check);
+  status.saving = check.text(from.saving(), limits::saving_bytes_max, "saving");
+  status.saved_tick = from.saved_tick();
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
   else

@@ -117,7 +117,8 @@ int main(int argc, char** argv) {
                    "the person's name, as others see it; without: as the person says");
   made->add_option("--expires", options.expires,
                    "time until it expires, as 30d, 12h, 45m or 90s; without: never");
-  made->add_option("--world", options.world, "name of the only world that it is for (the server's --world)");
+  made->add_option("--world", options.world,
+                   "name of the only world that it is for (the server's --world-name)");
   CLI::App* shown = app.add_subcommand("show", "prints what a token says, as JSON");
   shown->add_option("TOKEN", options.token, "the token")->required();
   shown->add_option("--key", options.key, "a public key: checks the signature");

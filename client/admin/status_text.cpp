@@ -55,7 +55,9 @@ Json json_of(const StatusMessage& status) {
       {"stage_ms", std::move(stages)},
       {"request_ms", json_of(status.latency)},
       {"work", json_of(status.work)},
-      {"refusals", std::move(refusals)}};
+      {"refusals", std::move(refusals)},
+      {"saving", status.saving.empty() ? "none" : status.saving},
+      {"saved_tick", status.saved_tick}};
 }
 
 std::string line(const std::string& name, const Json& value) {

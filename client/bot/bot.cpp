@@ -155,6 +155,7 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
                                              1000.0);
   if (reply.refusal.empty()) {
     ++report_.carves_accepted;
+    unsaved_.push_back(reply.tick);
   } else {
     ++report_.carves_refused;
     ++report_.refusals[reply.refusal_name];
@@ -167,6 +168,8 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
 }
 
 void Bot::receive_status(const StatusMessage& status) {
+  report_.carves_saved +=
+      static_cast<uint32_t>(std::erase_if(unsaved_, [&](Tick tick) { return tick <= status.saved_tick; }));
   if (status.tick == mirror_->tick()) {
     HashComparison& hash = report_.hash;
     hash = {hash.compared + 1, mirror_->field().hash() == status.field_hash, status.tick,

@@ -90,6 +90,7 @@ class Bot {
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;
   std::unordered_map<uint32_t, Request> requests_;          ///< by request number: not answered yet
+  std::vector<Tick> unsaved_;                               ///< of accepted carves that may still be lost
   std::unordered_map<uint32_t, Clock::time_point> unseen_;  ///< by random seed: not seen applied yet
   Clock::time_point started_;
   Clock::time_point acknowledged_;

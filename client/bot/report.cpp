@@ -36,11 +36,9 @@ Json stages(const BotReport& report) {
 Json carves(const BotReport& report) {
   Json refusals = Json::object();
   for (const auto& [reason, count] : report.refusals) refusals[reason] = count;
-  return {{"asked", report.carves_asked},
-          {"accepted", report.carves_accepted},
-          {"refused", report.carves_refused},
-          {"lost", report.carves_lost},
-          {"seen", report.seen.operations.of<CarveOperation>()},
+  return {{"asked", report.carves_asked},   {"accepted", report.carves_accepted},
+          {"saved", report.carves_saved},   {"refused", report.carves_refused},
+          {"lost", report.carves_lost},     {"seen", report.seen.operations.of<CarveOperation>()},
           {"refusals", std::move(refusals)}};
 }
 

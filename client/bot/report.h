@@ -60,6 +60,7 @@ struct BotReport {
 
   uint32_t carves_asked = 0;
   uint32_t carves_accepted = 0;
+  uint32_t carves_saved = 0;  ///< of the accepted: the server said that their tick outlives it
   uint32_t carves_refused = 0;
   uint32_t carves_lost = 0;                  ///< the connection was lost before the reply
   std::map<std::string, uint32_t> refusals;  ///< by the name of the reason

@@ -6,10 +6,12 @@
 #include <spdlog/spdlog.h>
 #include <thread>
 
+#include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "server/world/world_snapshot.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -31,6 +33,8 @@ struct LiveServer::State {
   explicit State(const LiveConfig& c) : config(c) {}
 
   Result<void> open();
+  Result<void> open_world();
+  Result<void> open_recorder();
   void run();
   bool step();
   bool wait_for_clients();
@@ -45,14 +49,16 @@ struct LiveServer::State {
   LiveConfig config;
   CommandQueue commands;
   std::unique_ptr<TickFeed> feed;  ///< used by the simulation thread only
-  std::unique_ptr<NetServer> net;
   std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<SavedWorld> kept;  ///< null: the world ends with the server
+  std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
   bool record_failed = false;  ///< used by the simulation thread only
+  bool saved = false;          ///< for good; used by the owner's thread only
 
   mutable std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
@@ -67,15 +73,14 @@ Result<void> LiveServer::State::open() {
   if (!config.replay.path.empty()) {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
+    if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
     auto replay = replay_feed(config.replay);
     if (!replay) return tl::unexpected(replay.error());
     feed = std::move(replay->feed);
     config.world = replay->world;
     config.net.replay = true;
-  } else {
-    auto live = live_feed(config.world, config.sim_threads);
-    if (!live) return tl::unexpected(live.error());
-    feed = std::move(*live);
+  } else if (auto opened = open_world(); !opened) {
+    return opened;
   }
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
@@ -85,14 +90,53 @@ Result<void> LiveServer::State::open() {
   auto listening = NetServer::listen(config.net, commands);
   if (!listening) return tl::unexpected(listening.error());
   net = std::move(*listening);
-  if (!config.record_path.empty()) {
-    auto recording = Recorder::create(config.record_path, {"scree-server " SCREE_VERSION, config.world});
-    if (!recording) return tl::unexpected(recording.error());
-    recorder = std::move(*recording);
-    report.record_path = config.record_path;
+  if (auto opened = open_recorder(); !opened) return opened;
+  if (kept != nullptr) {
+    KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
+    if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
+    if (auto started = kept->start(*feed->world(), std::move(keeping)); !started) return started;
   }
+  if (World* world = feed->world(); world != nullptr && world->tick() > 0)
+    net->publish(std::make_shared<const TickDelta>(world->keyframe()));
   if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
+  return {};
+}
+
+Result<void> LiveServer::State::open_world() {
+  if (config.world_path.empty()) {
+    auto live = live_feed(config.world, config.sim_threads);
+    if (!live) return tl::unexpected(live.error());
+    feed = std::move(*live);
+    return {};
+  }
+  auto opened = SavedWorld::open(config.world_path, config.world, config.sim_threads);
+  if (!opened) return tl::unexpected(opened.error());
+  kept = std::move(*opened);
+  feed = feed_of(kept->take_world());
+  config.world = feed->world()->config();
+  config.net.service = config.world.service;
+  config.net.world = kept->number();
+  config.net.first_session = kept->first_session();
+  config.net.saving = [this] {
+    const KeeperStatus status = kept->status();
+    return Saving{status.given_up ? "failed" : std::string(row_of(config.durability).name),
+                  status.saved_tick};
+  };
+  report.world_path = config.world_path;
+  return {};
+}
+
+Result<void> LiveServer::State::open_recorder() {
+  if (config.record_path.empty()) return {};
+  const RecordingHeader header{"scree-server " SCREE_VERSION, config.world};
+  World& world = *feed->world();
+  auto recording = world.tick() == 0
+                       ? Recorder::create(config.record_path, header)
+                       : Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()});
+  if (!recording) return tl::unexpected(recording.error());
+  recorder = std::move(*recording);
+  report.record_path = config.record_path;
   return {};
 }
 
@@ -141,6 +185,7 @@ bool LiveServer::State::step() {
     net->publish(delta, ran);
   }
   if (recorder) record(delta, std::move(waiting));
+  if (kept) kept->keep(*delta, *feed->world());
   const std::scoped_lock lock(mutex);
   report.add(*delta);
   last_delta = delta;
@@ -220,6 +265,11 @@ Result<void> LiveServer::stop() {
   if (state_->thread.joinable()) state_->thread.join();
   state_->end("");
   state_->net->stop();
+  if (state_->kept && !state_->saved) {
+    state_->saved = true;
+    if (const auto finished = state_->kept->finish(*state_->feed->world()); !finished)
+      state_->end(finished.error().message);
+  }
   if (state_->recorder)
     if (const auto finished = state_->recorder->finish(); !finished) state_->end(finished.error().message);
   if (state_->trace)
@@ -242,6 +292,7 @@ ServerReport LiveServer::report() const {
     report.record_waits = state_->recorder->waits();
     if (!report.error) report.error = state_->recorder->error();
   }
+  if (state_->kept) report.saving = state_->kept->status();
   return report;
 }
 

@@ -1,8 +1,10 @@
-// A whole server in one object: ticks from the simulation or from a recording, clients, and a recorder. The
-// program scree-server adds a command line; tests and benches run the object in their own process.
+// A whole server in one object: ticks from the simulation or from a recording, clients, a recorder, and the
+// file that keeps its world. The program scree-server adds a command line; tests and benches run the object
+// in their own process.
 //
-// Threads: the simulation thread (unless stepped by hand), the network thread, those that help these two, the
-// storage thread, and one that generates terrain ahead. The owner's thread calls all public functions.
+// Threads: the simulation thread (unless stepped by hand), the network thread, those that help these two, a
+// storage thread each for recording and world, and one that generates terrain ahead. The owner's thread calls
+// all public functions.
 #pragma once
 
 #include <memory>
@@ -11,6 +13,7 @@
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
 #include "server/net/net_server.h"
+#include "server/store/world_keeper.h"
 #include "server/world/world.h"
 
 namespace scree {
@@ -24,7 +27,11 @@ struct LiveConfig {
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording
-  std::string trace_path;   ///< file of the trace (shared/base/trace.h); empty: none
+  std::string
+      world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server
+  Durability durability = Durability::second;
+  double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
+  std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
   double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never
@@ -52,8 +59,8 @@ class LiveServer {
   /// Reads certificate, keys and revoked tokens again (NetServer::reload).
   Result<void> reload();
 
-  /// Stops ticking, tells every client, and finishes the recording. Returns the first error since the start.
-  /// A second call does nothing more.
+  /// Stops ticking, tells every client, saves the world, and finishes the recording. Returns the first error
+  /// since the start. A second call does nothing more.
   Result<void> stop();
 
   ServerReport report() const;

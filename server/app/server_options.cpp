@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <fstream>
@@ -27,6 +28,7 @@ constexpr int usage_error = 2;
 struct Raw {
   ServerOptions options;
   std::string token_path;
+  std::string durability = "second";
   std::string anonymous;  ///< empty: by what else is given
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
@@ -35,6 +37,19 @@ void add_threads(CLI::App& app, const char* name, size_t& threads, const std::st
   bounded(app.add_option(name, threads, "threads that " + what + "; 0: as many as there are cores"),
           whole_within(0, static_cast<double>(Workers::threads_max)))
       ->capture_default_str();
+}
+
+constexpr std::array durabilities = {Durability::tick, Durability::second, Durability::off};
+
+std::vector<std::string> names_of_durability() {
+  std::vector<std::string> names;
+  for (const Durability durability : durabilities) names.emplace_back(row_of(durability).name);
+  return names;
+}
+
+void take_durability(Raw& raw) {
+  for (const Durability durability : durabilities)
+    if (row_of(durability).name == raw.durability) raw.options.live.durability = durability;
 }
 
 void add_network(CLI::App& app, Raw& raw) {
@@ -107,7 +122,7 @@ void add_access(CLI::App& app, Raw& raw) {
                  "role of who comes without a token: viewer, carver, builder or none, who is refused; "
                  "builder unless said otherwise, with --token-key none")
       ->check(CLI::IsMember(std::vector<std::string>{"viewer", "carver", "builder", nobody}));
-  app.add_option("--world", access.world, "this server's name in tokens that are for one world only");
+  app.add_option("--world-name", access.world, "this server's name in tokens that are for one world only");
   app.add_option("--bans", access.bans_path, "file that keeps bans; without, they end with the server");
 }
 
@@ -118,9 +133,30 @@ void take_anonymous(Raw& raw) {
   if (!raw.anonymous.empty()) access.anonymous = kind_named<Role>(raw.anonymous);  // none: no role
 }
 
+/// The world's file.
+void add_keeping(CLI::App& app, Raw& raw) {
+  LiveConfig& live = raw.options.live;
+  CLI::Option* world =
+      app.add_option("--world", live.world_path,
+                     "file that keeps the world: made where there is none, else the world goes on");
+  app.add_option(
+         "--durability", raw.durability,
+         "when the world is saved: after each tick, each second, or off: at the end and every --autosave")
+      ->check(CLI::IsMember(names_of_durability()))
+      ->capture_default_str()
+      ->needs(world);
+  app.add_option("--autosave", live.autosave_s,
+                 "with --durability off: seconds between saves; 0: only at the end")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str()
+      ->needs(world);
+}
+
 void add_recordings(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
-  CLI::Option* record = app.add_option("--record", live.record_path, "records the session to this new file");
+  CLI::Option* record =
+      app.add_option("--record", live.record_path,
+                     "records the session to this new file; goes on with it where the --world does");
   CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
   replay->excludes(record);
   bounded(app.add_option("--from", live.replay.from, "tick of the recording to start after"),
@@ -193,6 +229,7 @@ void declare(CLI::App& app, Raw& raw) {
   add_settings(app, raw);
   add_admin(app, raw);
   add_access(app, raw);
+  add_keeping(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
 }
@@ -248,6 +285,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     app.parse(argc, argv);
     take_token(raw);
     take_anonymous(raw);
+    take_durability(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0 && file->count() > 0;

@@ -93,6 +93,18 @@ Json json_of(const NetStats& net) {
           {"publish_waits", net.publish_waits}};
 }
 
+Json json_of(const std::string& path, const KeeperStatus& saving) {
+  Json json{{"path", path},
+            {"saved_tick", saving.saved_tick},
+            {"saves", saving.saves},
+            {"skipped", saving.skipped},
+            {"failures", saving.failures},
+            {"bytes_written", saving.bytes_written},
+            {"save_worst_ms", saving.save_worst_ms}};
+  if (saving.error) json["error"] = *saving.error;
+  return json;
+}
+
 }  // namespace
 
 void WorkReport::add(Tick tick, const TickWork& work) {
@@ -173,6 +185,7 @@ std::string to_json(const ServerReport& report) {
   if (!report.record_path.empty())
     json["recording"] = {
         {"path", report.record_path}, {"ticks", report.ticks_recorded}, {"waits", report.record_waits}};
+  if (!report.world_path.empty()) json["world"] = json_of(report.world_path, report.saving);
   if (report.error) json["error"] = *report.error;
   return json.dump(2) + "\n";
 }

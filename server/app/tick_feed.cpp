@@ -37,10 +37,14 @@ class RecordedFeed final : public TickFeed {
 
 }  // namespace
 
+std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world) {
+  return std::make_unique<LiveFeed>(std::move(world));
+}
+
 Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads) {
   auto world = World::create(config, threads);
   if (!world) return tl::unexpected(world.error());
-  return std::make_unique<LiveFeed>(std::move(*world));
+  return feed_of(std::move(*world));
 }
 
 Result<ReplayFeed> replay_feed(const ReplayOptions& options) {

@@ -22,6 +22,7 @@ class TickFeed {
   virtual World* world() { return nullptr; }
 };
 
+std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world);
 /// Refuses a configuration that no world runs with. `threads`: of the world (World::create).
 Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads);
 

@@ -11,7 +11,6 @@
 #include "server/bodies/contact_list.h"
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
-#include "server/bodies/principal_axes.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -19,43 +18,6 @@
 namespace scree {
 
 namespace {
-
-btVector3 stable_inertia(glm::vec3 moments) {
-  const float least = std::max({moments.x, moments.y, moments.z}) * limits::inertia_ratio_min;
-  return to_bullet(glm::max(moments, glm::vec3(least)));
-}
-
-std::vector<glm::vec3> turned(std::vector<glm::vec3> points, glm::quat rotation) {
-  const glm::mat3 matrix = glm::mat3_cast(rotation);
-  for (glm::vec3& p : points) p = matrix * p;
-  return points;
-}
-
-/// The shape in axes that `axes` turns into its own.
-BodyShape in_axes(const BodyShape& shape, glm::quat axes) {
-  const glm::quat back = glm::conjugate(axes);
-  BodyShape result = shape;
-  result.hull_m = turned(shape.hull_m, back);
-  result.surface_m = turned(shape.surface_m, back);
-  for (std::vector<glm::vec3>& part : result.parts_m) part = turned(std::move(part), back);
-  return result;
-}
-
-glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
-  glm::vec3 sum(0.0F);
-  for (const glm::vec3& p : points) sum += p;
-  return sum / static_cast<float>(points.size());
-}
-
-/// Makes the shapes that collide with other bodies.
-void add_hulls(const BodyShape& shape, Body& body) {
-  body.hulls = std::make_unique<CollisionHulls>();
-  for (const std::vector<glm::vec3>& part : shape.parts_m) {
-    body.parts.push_back(make_convex_shape(part, middle_of(part)));
-    body.hulls->add(*body.parts.back());
-  }
-  if (body.parts.empty()) body.hulls->add(*body.shape);
-}
 
 bool touches(const btPersistentManifold& manifold) {
   for (int i = 0; i < manifold.getNumContacts(); ++i)
@@ -107,40 +69,16 @@ Bodies::~Bodies() {
   CHECK_EQ(state_->dispatcher.getNumManifolds(), 0);
 }
 
-void Bodies::add(const BodyShape& given, const BodyState& state) {
+void Bodies::add(BodyShape given, const BodyState& state) {
   State& s = *state_;
   CHECK(!contains(state.id));
   check_sound(given, state);
-  const PrincipalAxes principal = principal_axes(given.inertia_kg_m2);
-  const BodyShape shape = in_axes(given, principal.rotation);
-  Body& body = s.bodies[state.id];
-  body.axes = principal.rotation;
-  body.shape = make_convex_shape(shape.hull_m);
-  body.reach_m = radius_of(shape.hull_m);
-  body.mass_kg = shape.mass_kg;
-  body.inertia_kg_m2 = stable_inertia(principal.moments);
-  const float spin_travel_m = 0.2F * limits::travel_max_voxels * s.voxel_size_m / s.step_s;
-  body.spin_max_rad_s = std::min(limits::spin_max_rad_s, spin_travel_m / std::max(body.reach_m, 0.01F));
-  btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(), body.inertia_kg_m2);
-  info.m_startWorldTransform =
-      to_bullet(Pose{state.pose.position_m, state.pose.rotation * principal.rotation});
-  info.m_friction = std::sqrt(shape.friction);  // Bullet multiplies those of both bodies
-  info.m_restitution = std::sqrt(s.config.restitution);
-  info.m_linearSleepingThreshold = limits::sleep_speed_m_s;
-  info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
-  body.rigid = std::make_unique<btRigidBody>(info);
-  body.rigid->setFlags(0);  // no gyroscopic torque: it costs a solve a body, and rubble does not show it
-  add_hulls(shape, body);
-  body.rigid->setUserPointer(body.hulls.get());
-  body.rigid->setUserIndex(static_cast<int>(state.id));
+  Body& body = s.make(state.id, std::make_shared<const BodyShape>(std::move(given)));
+  body.rigid->setCenterOfMassTransform(
+      to_bullet(Pose{state.pose.position_m, state.pose.rotation * body.axes}));
   body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
-  body.touches_by_surface = !shape.surface_m.empty();
-  body.points_m = shape.surface_m.empty()
-                      ? surface_points(shape.hull_m, limits::sample_spacing_voxels * s.voxel_size_m)
-                      : shape.surface_m;
-  body.probe = s.terrain_collider->attach(body.points_m);
   s.enter(body);
   s.limit_speeds(body);
 }
@@ -346,7 +284,8 @@ void Bodies::describe(PhysicsMessage& to) const {
       const std::vector<glm::vec3> corners = corners_of(*part);
       watched.hull_m.insert(watched.hull_m.end(), corners.begin(), corners.end());
     }
-    watched.hull_m = turned(std::move(watched.hull_m), body.axes);
+    const glm::mat3 turned = glm::mat3_cast(body.axes);
+    for (glm::vec3& corner : watched.hull_m) corner = turned * corner;
     to.bodies.push_back(std::move(watched));
   }
   list_contacts(state_->dispatcher, to.contacts);

@@ -1,9 +1,9 @@
 // Pieces of terrain as rigid bodies, simulated by Bullet.
 //
 // Deterministic: the same calls in the same order give the same bits, on any build and on any number of
-// threads. Bullet's own snapshots do not restore that, so a Bodies is never copied. Not thread-safe: one
-// thread calls, and step() shares its work with others. Metres, seconds, kilograms; a body's position is its
-// centre of mass.
+// threads. Bullet's own snapshots do not restore that, so a Bodies is never copied; restore() takes up
+// motions without contacts. Not thread-safe: one thread calls, and step() shares its work with others. Metres,
+// seconds, kilograms; a body's position is its centre of mass.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +15,14 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "proto/world_value.h"
 #include "server/colliders/terrain_collider_kind.h"
 #include "shared/base/ids.h"
+#include "shared/base/result.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 
 namespace scree {
-
-/// The data of a piece that Bullet needs. `hull_m`: corners of the piece's convex hull, at least 4 and not
-/// all in one plane, relative to the centre of mass, in the volume's axes (the world's axes at birth).
-/// See server/fracture/hull.h.
-struct BodyShape {
-  std::vector<glm::vec3> hull_m;
-  float mass_kg = 0.0F;
-  glm::mat3 inertia_kg_m2{0.0F};  ///< tensor in the volume's axes; symmetric, positive definite
-  /// Coefficient of friction. A contact has the geometric mean of both sides; the terrain has that of its
-  /// material.
-  float friction = 0.7F;
-  /// Points that collide with the terrain, for a concave piece: of its own surface, in the same frame as
-  /// `hull_m`. Empty: points of the hull collide.
-  std::vector<glm::vec3> surface_m{};
-  /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
-  /// has. Empty: the hull collides.
-  std::vector<std::vector<glm::vec3>> parts_m{};
-};
 
 struct BodyState {
   PieceId id = 0;
@@ -87,10 +71,10 @@ class Bodies {
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
 
-  /// `state.id` must be new, the position finite, the rotation a unit quaternion. Speeds beyond
-  /// limits::travel_max_voxels a step are reduced to it; a body whose speed is not finite is stopped by the
-  /// next step.
-  void add(const BodyShape& given, const BodyState& state);
+  /// The shape as `BodyShape` (proto/world_value.h) says. `state.id` must be new, the position finite, the
+  /// rotation a unit quaternion. Speeds beyond limits::travel_max_voxels a step are reduced to it; a body
+  /// whose speed is not finite is stopped by the next step.
+  void add(BodyShape given, const BodyState& state);
   /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
   void remove(PieceId id);
   bool contains(PieceId id) const;
@@ -144,6 +128,16 @@ class Bodies {
   size_t pairs() const;
   /// Appends every body, and every point of contact of the last step, for display.
   void describe(PhysicsMessage& to) const;
+
+  /// The exact motions, and what the bodies have not been told yet. Which bodies sleep, and their contacts,
+  /// are left out.
+  MotionValue motions() const;
+  /// What add() was given.
+  std::shared_ptr<const BodyShape> shape(PieceId id) const;
+  /// Gives bodies the shapes and motions that shape() and motions() told, bit for bit; awake, and without
+  /// contacts. There must be no body yet, and one shape for each motion. Refuses a value that no Bodies has.
+  Result<void> restore(const std::vector<std::shared_ptr<const BodyShape>>& shapes,
+                       const MotionValue& motions);
 
   /// XXH3 of the exact transforms and velocities, in order of id.
   uint64_t state_hash() const;

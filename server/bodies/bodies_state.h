@@ -32,6 +32,7 @@ struct Bounds {
 /// A piece as a rigid body of Bullet, in its principal axes: Bullet's tensors are diagonal. Hulls and points
 /// are turned into these axes; poses that come and go are in the volume's.
 struct Body {
+  std::shared_ptr<const BodyShape> given;                 ///< in the volume's axes
   glm::quat axes{1.0F, 0.0F, 0.0F, 0.0F};                 ///< from the principal axes to the volume's
   std::unique_ptr<btConvexHullShape> shape;               ///< the hull of the whole piece
   std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< colliding parts; empty: `shape` collides
@@ -67,6 +68,10 @@ inline PieceId id_of(const btCollisionObject* object) {
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c);
 
+  /// A new body, which lies nowhere and is in no world yet.
+  Body& make(PieceId id, std::shared_ptr<const BodyShape> given);
+  /// Refuses what no Bodies has.
+  Result<void> restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape);
   /// Turns all hulls, and refills the terrain manifolds of the bodies that are awake, for the step. Each body
   /// is one thread's; only the terrain is looked at by one thread for all.
   void find_ground();

@@ -25,7 +25,7 @@ Result<void> check_together(const AccessConfig& config, const std::string& admin
         "--token-key, --admin-token-file)");
   if (config.world.size() > limits::world_name_bytes_max)
     return fail("the world's name has at most " + std::to_string(limits::world_name_bytes_max) +
-                " bytes (--world)");
+                " bytes (--world-name)");
   return {};
 }
 

@@ -43,10 +43,11 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       departures_(commands),
       entrance_(context_, config.door, *this),
       timer_(context_),
+      next_session_(config.first_session),
       flush_rate_(config.tick_rate_hz),
       flush_timer_(context_),
       tickets_([this](uint64_t session) { departures_.gone(session); }),
-      world_(std::max<uint64_t>(1, random_number())),
+      world_(config.world != 0 ? config.world : std::max<uint64_t>(1, random_number())),
       workers_(config.net_threads),
       publisher_(publisher_config(config), workers_) {}
 

@@ -135,7 +135,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   LogLimit log_;
   bool stopping_ = false;
   double stop_deadline_s_ = 0.0;
-  uint64_t next_session_ = 1;  ///< 0 is the server itself
+  uint64_t next_session_;  ///< 0 is the server itself
   std::map<uint64_t, Entry> sessions_;
   struct Unflushed {
     std::shared_ptr<ClientSession> session;

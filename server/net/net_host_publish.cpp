@@ -23,6 +23,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
     return entry == sessions_.end() ? Backlog() : entry->second.session->backlog();
   };
   if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(request_times_.take_status());
+  if (config_.saving) publisher_.set_saving(config_.saving());
   auto found = sessions_.begin();
   for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
     // Most come in the sessions' order.

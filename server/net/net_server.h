@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct NetConfig {
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
   double heartbeat_s = limits::heartbeat_s;  ///< as of PublisherConfig
+  uint64_t world = 0;                        ///< WelcomeMessage::world; 0: one is drawn
+  uint64_t first_session = 1;                ///< number of the first session; positive
+  std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
   size_t net_threads = 0;                    ///< that encode and send; 0: as many as the machine has cores
 };
 

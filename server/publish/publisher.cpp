@@ -269,7 +269,8 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
     if (client == clients_.end()) continue;
     const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
     send(client->second,
-         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply)}), replies);
+         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply), delta.tick}),
+         replies);
   }
   add(std::move(replies));
   return std::exchange(out_, {});
@@ -294,6 +295,8 @@ StatusMessage Publisher::status() const {
   status.field_hash = state_.field_hash();
   status.settings = state_.settings();
   status.latency = latency_;
+  status.saving = saving_.how;
+  status.saved_tick = saving_.tick;
   for (size_t i = 0; i < refusal_reasons; ++i) {
     const auto reason = static_cast<Refusal>(i);
     if (refusals_.of(reason) > 0)

@@ -34,6 +34,12 @@
 
 namespace scree {
 
+/// As of StatusMessage::saving and saved_tick.
+struct Saving {
+  std::string how;
+  Tick tick = 0;
+};
+
 struct PublisherConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
@@ -100,6 +106,8 @@ class Publisher {
   void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
   /// Sets the stages of the last second's requests, for the status.
   void set_latency(const LatencyStatus& latency) { latency_ = latency; }
+  /// Sets how the world is saved, for the status.
+  void set_saving(Saving saving) { saving_ = std::move(saving); }
   /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
@@ -194,6 +202,7 @@ class Publisher {
   PublisherStats stats_;
   RefusalCounts refusals_;
   LatencyStatus latency_;
+  Saving saving_;
   StatusMessage status_;  ///< of this tick
   std::vector<Outgoing> out_;
   std::vector<glm::vec3> eyes_m_;

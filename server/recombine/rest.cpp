@@ -132,4 +132,29 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   return ready;
 }
 
+RestValue RestDetector::value() const {
+  RestValue value;
+  value.put_off = put_off_;
+  for (const auto& [id, watch] : watches_) {
+    const glm::quat& q = watch.anchor.rotation;
+    value.watches.push_back({id,
+                             watch.anchor.position_m,
+                             {q.w, q.x, q.y, q.z},
+                             watch.age_ticks,
+                             watch.still_ticks,
+                             watch.terrain_ticks});
+  }
+  return value;
+}
+
+void RestDetector::restore(const RestValue& value) {
+  put_off_ = static_cast<size_t>(value.put_off);
+  watches_.clear();
+  for (const RestWatch& watch : value.watches) {
+    const auto& [w, x, y, z] = watch.anchor_rotation;
+    watches_[watch.id] = {
+        {watch.anchor_m, glm::quat(w, x, y, z)}, watch.age_ticks, watch.still_ticks, watch.terrain_ticks};
+  }
+}
+
 }  // namespace scree

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "proto/world_value.h"
 #include "shared/base/ids.h"
 #include "shared/field/piece.h"
 
@@ -53,6 +54,11 @@ class RestDetector {
   /// first of them. `hurried`: half of the rest time is enough.
   std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
                               std::span<const RestSupport> supports, size_t merges_max, bool hurried = false);
+
+  /// All that update() needs to go on.
+  RestValue value() const;
+  /// Goes on from there. Whether the ids are of living pieces does not matter.
+  void restore(const RestValue& value);
 
   /// Number of pieces at rest in the last update, on the ground or not.
   size_t at_rest() const { return at_rest_; }

@@ -189,11 +189,17 @@ Result<void> ReplaySource::seek(Tick tick) {
   if (tick > last_tick())
     return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is after its end, " +
                 std::to_string(last_tick()) + " (--from)");
+  const Tick start = state_->reader->first_tick() - 1;
+  if (tick == 0) tick = start;
+  if (tick < start)
+    return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is before its start, " +
+                std::to_string(start) + " (--from)");
   const auto keyframe = state_->reader->keyframe_before(tick);
   if (!keyframe) return tl::unexpected(keyframe.error());
   state_->restart();
   if (keyframe->has_value())
     if (auto restored = state_->restore(**keyframe); !restored) return restored;
+  if (state_->tick < start) return state_->damaged("the recording has no state to start from");
   while (state_->tick < tick)
     if (const auto delta = state_->advance(); !delta) return tl::unexpected(delta.error());
   CHECK_EQ(state_->tick, tick);

@@ -19,7 +19,7 @@ class ReplaySource {
   ~ReplaySource();
 
   const RecordingHeader& header() const;
-  Tick tick() const;  ///< the last one that was played; 0 at the start
+  Tick tick() const;  ///< the last one that was played; that before the first at the start
   Tick last_tick() const;
 
   /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
@@ -27,7 +27,8 @@ class ReplaySource {
   Result<std::shared_ptr<const TickDelta>> next();
 
   /// Continues after `tick`, starting from the nearest keyframe: the following next() returns the whole state
-  /// after `tick` as one keyframe. 0: continues with tick 1. An error beyond last_tick().
+  /// after `tick` as one keyframe. 0: plays from the start. An error beyond last_tick(), and before a start
+  /// that is not tick 1.
   Result<void> seek(Tick tick);
 
  private:

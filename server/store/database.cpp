@@ -105,6 +105,49 @@ Result<void> Database::put(const Statement& insert, uint64_t tick, std::span<con
   return {};
 }
 
+Result<void> Database::run(const Statement& prepared, uint64_t key) {
+  sqlite3_stmt* statement = prepared.get();
+  CHECK_EQ(sqlite3_bind_parameter_count(statement), 1);
+  sqlite3_reset(statement);
+  sqlite3_bind_int64(statement, 1, static_cast<int64_t>(key));
+  const int code = sqlite3_step(statement);
+  sqlite3_reset(statement);
+  if (code != SQLITE_DONE) return failure("cannot be written");
+  return {};
+}
+
+Result<void> Database::each(const std::string& select, const TakeRow& take) {
+  const auto prepared = prepare(select);
+  if (!prepared) return tl::unexpected(prepared.error());
+  sqlite3_stmt* statement = prepared->get();
+  CHECK_EQ(sqlite3_column_count(statement), 3);
+  for (;;) {
+    const int code = sqlite3_step(statement);
+    if (code == SQLITE_DONE) return {};
+    if (code != SQLITE_ROW) return failure("cannot be read");
+    const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 1));
+    const std::span<const uint8_t> bytes(data, static_cast<size_t>(sqlite3_column_bytes(statement, 1)));
+    const bool whole = sqlite3_column_int64(statement, 2) == checksum_of(bytes);
+    if (Result<void> taken = take(static_cast<uint64_t>(sqlite3_column_int64(statement, 0)), bytes, whole);
+        !taken)
+      return taken;
+  }
+}
+
+Result<void> Database::copy_to(const std::string& path) {
+  auto to = create(path);
+  if (!to) return tl::unexpected(to.error());
+  sqlite3_backup* backup = sqlite3_backup_init(to->database_.get(), "main", database_.get(), "main");
+  if (backup == nullptr) return to->failure("cannot be written");
+  sqlite3_backup_step(backup, -1);
+  if (sqlite3_backup_finish(backup) != SQLITE_OK) return to->failure("cannot be written");
+  return {};
+}
+
+bool Database::is_full() const {
+  return sqlite3_errcode(database_.get()) == SQLITE_FULL;
+}
+
 Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& select, uint64_t tick) {
   sqlite3_stmt* statement = select.get();
   CHECK_EQ(sqlite3_bind_parameter_count(statement), 1);

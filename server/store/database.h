@@ -1,8 +1,9 @@
-// A thin wrapper of SQLite: blobs by tick, each with a checksum, and errors that name the file. Internal to
-// server/store. One thread at a time.
+// A thin wrapper of SQLite: blobs by a number, each with a checksum, and errors that name the file. Internal
+// to server/store. One thread at a time.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,8 +39,19 @@ class Database {
   Result<std::string> text(const std::string& sql);
 
   Result<Statement> prepare(const std::string& sql);
-  /// Runs an insert with the parameters (tick, data, checksum).
-  Result<void> put(const Statement& insert, uint64_t tick, std::span<const uint8_t> data);
+  /// Runs an insert with the parameters (key, data, checksum). The key is a tick, or what the table is
+  /// ordered by.
+  Result<void> put(const Statement& insert, uint64_t key, std::span<const uint8_t> data);
+  /// Runs a statement with the parameter (key).
+  Result<void> run(const Statement& statement, uint64_t key);
+  /// Calls `take(key, data, whole)` for each row of a select of (key, data, checksum); `whole`: the data
+  /// matches its checksum. Ends at the first error, also one of `take`.
+  using TakeRow = std::function<Result<void>(uint64_t key, std::span<const uint8_t> data, bool whole)>;
+  Result<void> each(const std::string& select, const TakeRow& take);
+  /// Copies the whole database, as of one moment, into a new file.
+  Result<void> copy_to(const std::string& path);
+  /// Whether the last failure was that the disk has no room.
+  bool is_full() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its
   /// checksum is an error. Nothing when there is no row.
   Result<std::optional<std::vector<uint8_t>>> get(const Statement& select, uint64_t tick);

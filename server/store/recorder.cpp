@@ -1,13 +1,14 @@
 #include "server/store/recorder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
 #include "server/store/limits.h"
-#include "server/store/recording_writer.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -26,9 +27,11 @@ struct Entry {
 struct Recorder::State {
   void run();
   void write(const std::deque<Entry>& entries);
+  void commit();
   void note(const Result<void>& result);
 
   std::unique_ptr<RecordingWriter> writer;  ///< used by the storage thread only
+  Tick written = 0;                         ///< used by the storage thread only
   Clock::time_point committed = Clock::now();
   std::thread thread;
 
@@ -38,13 +41,19 @@ struct Recorder::State {
   bool stopping = false;
   std::optional<std::string> error;
   uint64_t ticks_written = 0;
+  Tick wanted = 0;     ///< to be committed at once
+  Tick safe = 0;       ///< committed
+  bool ended = false;  ///< nothing more is written
   uint64_t waits = 0;
 };
 
 void Recorder::State::note(const Result<void>& result) {
   if (result) return;
-  const std::scoped_lock lock(mutex);
-  if (!error) error = result.error().message;
+  {
+    const std::scoped_lock lock(mutex);
+    if (!error) error = result.error().message;
+  }
+  changed.notify_all();
 }
 
 void Recorder::State::write(const std::deque<Entry>& entries) {
@@ -52,9 +61,20 @@ void Recorder::State::write(const std::deque<Entry>& entries) {
     const auto added = writer->add(*entry.delta, entry.commands);
     note(added);
     if (!added) return;
+    written = entry.delta->tick;
     const std::scoped_lock lock(mutex);
     ++ticks_written;
   }
+}
+
+void Recorder::State::commit() {
+  const Result<void> committed = writer->commit();
+  note(committed);
+  {
+    const std::scoped_lock lock(mutex);
+    if (committed) safe = written;
+  }
+  changed.notify_all();
 }
 
 void Recorder::State::run() {
@@ -64,23 +84,31 @@ void Recorder::State::run() {
     std::deque<Entry> entries;
     bool last = false;
     bool failed = false;
+    bool at_once = false;
     {
       std::unique_lock lock(mutex);
-      changed.wait_until(lock, committed + period, [&] { return stopping || !queue.empty(); });
+      changed.wait_until(lock, committed + period,
+                         [&] { return stopping || !queue.empty() || (wanted > safe && !error); });
       entries.swap(queue);
       last = stopping;
       failed = error.has_value();
+      at_once = wanted > safe;
     }
     changed.notify_all();
     if (!failed) {
       write(entries);
-      if (last || Clock::now() >= committed + period) note(writer->commit());
+      if (last || at_once || Clock::now() >= committed + period) commit();
     }
     if (Clock::now() >= committed + period) committed = Clock::now();
     if (last) break;
   }
   note(writer->finish());
   writer.reset();
+  {
+    const std::scoped_lock lock(mutex);
+    ended = true;
+  }
+  changed.notify_all();
 }
 
 Recorder::Recorder(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -92,10 +120,30 @@ Recorder::~Recorder() {
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header) {
   auto writer = RecordingWriter::create(path, header);
   if (!writer) return tl::unexpected(writer.error());
+  return start(std::move(*writer));
+}
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
+                                                   const RecordingStart& from) {
+  std::error_code ignored;
+  auto writer = std::filesystem::exists(path, ignored) ? RecordingWriter::resume(path, header, from)
+                                                       : RecordingWriter::create(path, header, from);
+  if (!writer) return tl::unexpected(writer.error());
+  return start(std::move(*writer));
+}
+
+std::unique_ptr<Recorder> Recorder::start(std::unique_ptr<RecordingWriter> writer) {
   auto state = std::make_unique<State>();
-  state->writer = std::move(*writer);
+  state->writer = std::move(writer);
   state->thread = std::thread([s = state.get()] { s->run(); });
   return std::unique_ptr<Recorder>(new Recorder(std::move(state)));
+}
+
+void Recorder::commit_up_to(Tick tick) {
+  std::unique_lock lock(state_->mutex);
+  state_->wanted = std::max(state_->wanted, tick);
+  state_->changed.notify_all();
+  state_->changed.wait(lock, [&] { return state_->safe >= tick || state_->error || state_->ended; });
 }
 
 void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands) {

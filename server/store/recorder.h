@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/store/recording.h"
+#include "server/store/recording_writer.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -19,14 +20,21 @@ namespace scree {
 class Recorder {
  public:
   static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header);
+  /// Begins with that world; where the file exists, goes on with it (RecordingWriter::resume).
+  static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header,
+                                                  const RecordingStart& start);
   /// Calls finish().
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Queues the next tick, without a gap from 1 on, and the commands that it carried out. From one thread
-  /// only. Does nothing after an error or after finish().
+  /// Queues the next tick, without a gap from 1 or from the start on, and the commands that it carried out.
+  /// From one thread only. Does nothing after an error or after finish().
   void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands);
+
+  /// Waits until that tick, which was pushed, is in the file, and survives the end of this process; or until
+  /// the recording has ended. From any thread.
+  void commit_up_to(Tick tick);
 
   /// Writes all queued ticks, closes the file and joins the thread. Returns the first error since the start.
   Result<void> finish();
@@ -39,6 +47,7 @@ class Recorder {
  private:
   struct State;
   explicit Recorder(std::unique_ptr<State> state);
+  static std::unique_ptr<Recorder> start(std::unique_ptr<RecordingWriter> writer);
   std::unique_ptr<State> state_;
 };
 

@@ -1,37 +1,19 @@
 #include "server/store/recording.h"
 
-#include "server/world/settings.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 RecordedHeader to_recorded(const RecordingHeader& header) {
-  RecordedHeader out;
+  RecordedHeader out = to_recorded(header.world);
   out.program = header.program;
-  out.terrain = header.world.terrain;
-  out.tick_rate_hz = header.world.tick_rate_hz;
-  out.merges_per_tick_max = header.world.merges_per_tick_max;
-  out.settings = print(header.world);
   return out;
 }
 
 Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
-  RecordingHeader out;
-  out.program = header.program;
-  out.world.terrain = header.terrain;
-  out.world.tick_rate_hz = header.tick_rate_hz;
-  out.world.merges_per_tick_max = header.merges_per_tick_max;
-  if (Result<void> known = set_all(out.world, header.settings); !known) return tl::unexpected(known.error());
-  if (Result<void> valid = validate(out.world); !valid) return tl::unexpected(valid.error());
-  return out;
-}
-
-RecordedLedger to_recorded(const Ledger& ledger) {
-  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
-}
-
-Ledger from_recorded(const RecordedLedger& ledger) {
-  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
+  auto world = config_of(header);
+  if (!world) return tl::unexpected(world.error());
+  return RecordingHeader{header.program, std::move(*world)};
 }
 
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {

@@ -1,4 +1,4 @@
-// Converts between the simulation's types and those of a recording (proto/recording_codec.h).
+// Converts between ticks and the rows of a recording (proto/recording_codec.h).
 #pragma once
 
 #include <span>
@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "proto/recording_codec.h"
+#include "proto/world_value.h"
 #include "server/work/command.h"
 #include "server/world/published_state.h"
+#include "server/world/recorded_values.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"
@@ -19,12 +21,15 @@ struct RecordingHeader {
   WorldConfig world;
 };
 
+/// A world from which a recording begins, or goes on in another process.
+struct RecordingStart {
+  WorldSnapshot value;
+  TickDelta keyframe;  ///< World::keyframe() of that world
+};
+
 RecordedHeader to_recorded(const RecordingHeader& header);
 /// Refuses settings that this program does not know.
 Result<RecordingHeader> from_recorded(const RecordedHeader& header);
-
-RecordedLedger to_recorded(const Ledger& ledger);
-Ledger from_recorded(const RecordedLedger& ledger);
 
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands);
 std::vector<Command> from_recorded(std::span<const RecordedCommand> commands);

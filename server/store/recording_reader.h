@@ -20,14 +20,19 @@ class RecordingReader {
 
   const std::string& path() const;
   const RecordingHeader& header() const;
-  /// The recording holds the ticks 1 … last_tick() without a gap, at least one.
+  /// The recording holds the ticks first_tick() … last_tick() without a gap, at least one. Where the first is
+  /// not 1, state() has the world before it.
+  Tick first_tick() const;
   Tick last_tick() const;
   uint64_t keyframes() const;
   uint64_t bytes() const;  ///< of the file
 
-  /// `tick` within 1 … last_tick().
+  /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
+  /// it; most ticks have none.
+  Result<std::optional<std::vector<uint8_t>>> state(Tick tick);
+  /// `tick` within first_tick() … last_tick().
   Result<RecordedFrame> frame(Tick tick);
-  /// The commands of a tick within 1 … last_tick(); most ticks have none.
+  /// The commands of a tick within first_tick() … last_tick(); most ticks have none.
   Result<std::vector<Command>> commands(Tick tick);
   /// The latest keyframe up to `tick`, which is at most last_tick(); nothing when there is none: then play
   /// from tick 1.

@@ -1,7 +1,9 @@
 #include "server/store/recording_writer.h"
 
+#include "proto/world_codec.h"
 #include "server/store/database.h"
 #include "server/store/limits.h"
+#include "server/store/recording_reader.h"
 #include "server/store/schema.h"
 #include "shared/base/check.h"
 #include "shared/base/thread_check.h"
@@ -11,11 +13,14 @@ namespace scree {
 struct RecordingWriter::State {
   explicit State(Database d) : database(std::move(d)) {}
   Result<void> begin();
-  Result<void> prepare(const RecordingHeader& header);
+  Result<void> found(const RecordingHeader& header);
+  Result<void> prepare();
+  Result<void> put_start(const RecordingStart& start);
+  Result<void> put_keyframe(const TickDelta& delta);
 
   Database database;
   Statement insert_frame;
-  Statement insert_keyframe;
+  Statement put_keyframe_row;
   Statement insert_commands;
   PublishedState published;  ///< after the last tick that was added
   bool in_transaction = false;
@@ -29,28 +34,75 @@ Result<void> RecordingWriter::State::begin() {
   return begun;
 }
 
-Result<void> RecordingWriter::State::prepare(const RecordingHeader& header) {
-  const std::string settings =
-      "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
-      "PRAGMA wal_autocheckpoint = " +
-      std::to_string(limits::wal_pages_max) + ";";
-  if (auto done = database.execute(settings); !done) return done;
+/// The tables and the header of a new file.
+Result<void> RecordingWriter::State::found(const RecordingHeader& header) {
+  if (auto done = database.execute("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;"); !done)
+    return done;
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
   auto insert_header = database.prepare(schema::insert_into("header"));
   if (!insert_header) return tl::unexpected(insert_header.error());
   const std::vector<uint8_t> bytes = encode(to_recorded(header));
   if (auto done = database.put(*insert_header, 0, bytes); !done) return done;
-  if (auto done = database.execute("COMMIT"); !done) return done;
-  const auto take = [this](Statement& statement, const char* table) -> Result<void> {
-    auto prepared = database.prepare(schema::insert_into(table));
+  return database.execute("COMMIT");
+}
+
+Result<void> RecordingWriter::State::prepare() {
+  const std::string settings =
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = " +
+      std::to_string(limits::wal_pages_max) + ";";
+  if (auto done = database.execute(settings); !done) return done;
+  const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
+    auto prepared = database.prepare(sql);
     if (!prepared) return tl::unexpected(prepared.error());
     statement = std::move(*prepared);
     return {};
   };
-  if (auto done = take(insert_frame, "frames"); !done) return done;
-  if (auto done = take(insert_keyframe, "keyframes"); !done) return done;
-  return take(insert_commands, "commands");
+  if (auto done = take(insert_frame, schema::insert_into("frames")); !done) return done;
+  if (auto done = take(put_keyframe_row, schema::put_into("keyframes")); !done) return done;
+  return take(insert_commands, schema::insert_into("commands"));
 }
+
+Result<void> RecordingWriter::State::put_keyframe(const TickDelta& delta) {
+  const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(delta));
+  // A keyframe too large for a row is left out: seeking starts from an earlier one.
+  if (keyframe.size() > limits::row_bytes_max) return {};
+  CHECK_DEBUG(decode_recorded_keyframe(keyframe).has_value());
+  return database.put(put_keyframe_row, delta.tick, keyframe);
+}
+
+/// The state, and the keyframe from which a replay begins there.
+Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
+  const std::vector<uint8_t> value = encode(start.value);
+  if (value.size() > limits::row_bytes_max)
+    return fail(database.path() + ": the world takes " + std::to_string(value.size()) +
+                " bytes, too many for one row of a recording (limits.row_bytes_max)");
+  if (auto begun = begin(); !begun) return begun;
+  auto insert = database.prepare(schema::put_into("states"));
+  if (!insert) return tl::unexpected(insert.error());
+  if (auto put = database.put(*insert, start.keyframe.tick, value); !put) return put;
+  published = {};
+  published.apply(start.keyframe);
+  return put_keyframe(start.keyframe);
+}
+
+namespace {
+
+/// Whether the recording is of this world, and reaches to the tick.
+Result<void> may_resume(const std::string& path, const RecordingHeader& header, Tick tick) {
+  const auto recorded = RecordingReader::open(path);
+  if (!recorded) return tl::unexpected(recorded.error());
+  const WorldConfig& world = (*recorded)->header().world;
+  if (world.terrain != header.world.terrain || world.tick_rate_hz != header.world.tick_rate_hz ||
+      world.merges_per_tick_max != header.world.merges_per_tick_max)
+    return fail(path + " is the recording of another world: choose another name (--record)");
+  if ((*recorded)->last_tick() < tick || (*recorded)->first_tick() > tick + 1)
+    return fail(path + " holds the ticks " + std::to_string((*recorded)->first_tick()) + " to " +
+                std::to_string((*recorded)->last_tick()) + ", and the world stands at " +
+                std::to_string(tick) + ": choose another name (--record)");
+  return {};
+}
+
+}  // namespace
 
 RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
@@ -63,7 +115,36 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
   auto database = Database::create(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));
-  if (auto prepared = state->prepare(header); !prepared) return tl::unexpected(prepared.error());
+  if (auto done = state->found(header); !done) return tl::unexpected(done.error());
+  if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
+  return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
+}
+
+Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::string& path,
+                                                                 const RecordingHeader& header,
+                                                                 const RecordingStart& start) {
+  auto writer = create(path, header);
+  if (!writer) return writer;
+  if (auto put = (*writer)->state_->put_start(start); !put) return tl::unexpected(put.error());
+  return writer;
+}
+
+Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::string& path,
+                                                                 const RecordingHeader& header,
+                                                                 const RecordingStart& start) {
+  const Tick tick = start.keyframe.tick;
+  if (auto fits = may_resume(path, header, tick); !fits) return tl::unexpected(fits.error());
+  auto database = Database::open(path);
+  if (!database) return tl::unexpected(database.error());
+  auto state = std::make_unique<State>(std::move(*database));
+  if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
+  if (auto begun = state->begin(); !begun) return tl::unexpected(begun.error());
+  for (const char* table : {"frames", "keyframes", "commands", "states"})
+    if (auto done = state->database.execute(std::string("DELETE FROM ") + table + " WHERE tick > " +
+                                            std::to_string(tick));
+        !done)
+      return tl::unexpected(done.error());
+  if (auto put = state->put_start(start); !put) return tl::unexpected(put.error());
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
 
@@ -80,11 +161,7 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   }
   state.published.apply(delta);
   if (delta.tick % limits::ticks_per_keyframe != 0) return {};
-  const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(state.published.as_delta()));
-  // A keyframe too large for a row is left out: seeking starts from an earlier one.
-  if (keyframe.size() > limits::row_bytes_max) return {};
-  CHECK_DEBUG(decode_recorded_keyframe(keyframe).has_value());
-  return state.database.put(state.insert_keyframe, delta.tick, keyframe);
+  return state.put_keyframe(state.published.as_delta());
 }
 
 Result<void> RecordingWriter::commit() {

@@ -14,11 +14,21 @@ class RecordingWriter {
  public:
   static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
                                                          const RecordingHeader& header);
+  /// Begins with a world of some tick instead of an untouched one.
+  static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
+                                                         const RecordingHeader& header,
+                                                         const RecordingStart& start);
+  /// Goes on with a recording of the same world where that stood at `start`: ticks after it, which the world
+  /// has lost, are dropped. Refuses another world's, and one that ends before `start`. The file is changed
+  /// with the first commit.
+  static Result<std::unique_ptr<RecordingWriter>> resume(const std::string& path,
+                                                         const RecordingHeader& header,
+                                                         const RecordingStart& start);
   /// Commits, and ignores errors.
   ~RecordingWriter();
 
-  /// Adds the next tick, without a gap from 1 on, and the commands that it carried out. The caller stops
-  /// adding after an error.
+  /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. The
+  /// caller stops adding after an error.
   Result<void> add(const TickDelta& delta, std::span<const Command> commands);
   /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "proto/recording_codec.h"
+#include "server/store/file_kind.h"
 
 namespace scree::schema {
 
@@ -12,12 +13,19 @@ namespace scree::schema {
 /// the format.
 inline constexpr int64_t application_id = 0x53435245;
 
+inline constexpr FileKind recording{.noun = "recording",
+                                    .application_id = application_id,
+                                    .format = recording_format,
+                                    .way_out = "play it with the release that recorded it"};
+
 /// frames: one row for every tick, without a gap. commands: one row for each tick with commands. keyframes:
-/// the state after the tick. header: one row, tick 0. checksum: XXH3 of the data.
+/// what is published of the state after the tick. states: the world's whole value after the tick, from which
+/// the simulation of the next one began: at the start of a recording, and where another process went on with
+/// it. header: one row, tick 0. checksum: XXH3 of the data.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(recording_format) + ";";
-  for (const char* table : {"header", "frames", "keyframes", "commands"})
+  for (const char* table : {"header", "frames", "keyframes", "states", "commands"})
     sql += std::string("CREATE TABLE ") + table +
            " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
   return sql;
@@ -25,6 +33,10 @@ inline std::string create_tables() {
 
 inline std::string insert_into(const std::string& table) {
   return "INSERT INTO " + table + " (tick, data, checksum) VALUES (?1, ?2, ?3)";
+}
+/// Where the row may be there already: a world may be started twice at one tick.
+inline std::string put_into(const std::string& table) {
+  return "REPLACE INTO " + table + " (tick, data, checksum) VALUES (?1, ?2, ?3)";
 }
 inline std::string select_from(const std::string& table) {
   return "SELECT data, checksum FROM " + table + " WHERE tick = ?1";

@@ -53,4 +53,22 @@ void FairTurns::forget_the_idle() {
   });
 }
 
+TurnsValue FairTurns::value() const {
+  TurnsValue value{{}, served_ns_};
+  for (const auto& [who, start_ns] : charged_ns_) {
+    const Turn turn{start_ns, who};
+    value.turns.push_back({who, start_ns, turns_.contains(turn) || passed_over_.contains(turn)});
+  }
+  return value;
+}
+
+void FairTurns::restore(const TurnsValue& value) {
+  *this = FairTurns();
+  served_ns_ = value.served_ns;
+  for (const TurnsValue::Turn& turn : value.turns) {
+    charged_ns_[turn.who] = turn.start_ns;
+    if (turn.waits) turns_.insert({turn.start_ns, turn.who});
+  }
+}
+
 }  // namespace scree

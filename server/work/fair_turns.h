@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "proto/world_value.h"
+
 namespace scree {
 
 class FairTurns {
@@ -29,6 +31,9 @@ class FairTurns {
   void bring_back();
   /// Of all that wait, passed over or not.
   size_t waiting() const { return turns_.size() + passed_over_.size(); }
+  /// All of it; who was passed over waits as the others do, as he will in the next tick anyway.
+  TurnsValue value() const;
+  void restore(const TurnsValue& value);
   /// Forgets what those that do not wait were charged, as far as it makes no difference any more.
   void forget_the_idle();
 

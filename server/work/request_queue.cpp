@@ -126,4 +126,79 @@ bool RequestQueue::others_wait(uint64_t party) const {
   return turns_.waiting() > (waits(party) ? 1U : 0U);
 }
 
+RequestsValue RequestQueue::value() const {
+  RequestsValue value{turns_.value(), {}};
+  for (const auto& [id, party] : parties_) {
+    PartyValue& one = value.parties.emplace_back(PartyValue{id, party.turns.value(), {}});
+    for (const auto& [session_id, session] : party.sessions) {
+      SessionValue& waiting = one.sessions.emplace_back(SessionValue{session_id, session.waiting_us, {}});
+      for (const WaitingRequest& request : session.requests) {
+        const auto& [asker, number, body, in_common] = request.command;
+        waiting.requests.push_back({{asker, number, body, in_common}, request.cost_us, request.since});
+      }
+    }
+  }
+  return value;
+}
+
+namespace {
+
+/// Whether those with requests are those that wait for a turn.
+bool agrees(const TurnsValue& turns, const std::vector<uint64_t>& with_requests) {
+  std::vector<uint64_t> waiting;
+  for (const TurnsValue::Turn& turn : turns.turns)
+    if (turn.waits) waiting.push_back(turn.who);
+  return waiting == with_requests;
+}
+
+}  // namespace
+
+Result<void> RequestQueue::take(const PartyValue& value) {
+  if (parties_.contains(value.party)) return fail("a party's requests come twice");
+  Party party;
+  std::vector<uint64_t> with_requests;
+  for (const SessionValue& session : value.sessions) {
+    if (session.requests.empty() || !(session.waiting_us >= 0.0F))
+      return fail("a session without requests, or that waits for less than nothing");
+    Session& one = party.sessions[session.session];
+    if (!one.requests.empty()) return fail("a session's requests come twice");
+    one.waiting_us = session.waiting_us;
+    for (const auto& [recorded, cost_us, since] : session.requests) {
+      const auto& [asker, number, body, in_common] = recorded;
+      const Command command{asker, number, body, in_common};
+      if (asker != session.session || party_of(command) != value.party || !(cost_us >= 0.0F))
+        return fail("a request waits where another one's turn is");
+      one.requests.push_back({command, cost_us, since});
+    }
+    party.requests += one.requests.size();
+    with_requests.push_back(session.session);
+  }
+  if (!agrees(value.turns, with_requests))
+    return fail("sessions wait without a turn, or the other way round");
+  party.turns.restore(value.turns);
+  size_ += party.requests;
+  parties_.emplace(value.party, std::move(party));
+  return {};
+}
+
+Result<void> RequestQueue::restore(const RequestsValue& value) {
+  const auto refused = [this](const std::string& why) {
+    *this = RequestQueue(client_us_per_s_);
+    return fail(why);
+  };
+  *this = RequestQueue(client_us_per_s_);
+  std::vector<uint64_t> with_requests;
+  for (const PartyValue& party : value.parties) {
+    if (Result<void> taken = take(party); !taken) return refused(taken.error().message);
+    if (!party.sessions.empty()) with_requests.push_back(party.party);
+  }
+  if (!agrees(value.turns, with_requests))
+    return refused("parties wait without a turn, or the other way round");
+  if (size_ > limits::requests_waiting_max)
+    return refused(std::to_string(size_) + " requests wait, more than " +
+                   std::to_string(limits::requests_waiting_max) + " (limits.requests_waiting_max)");
+  turns_.restore(value.turns);
+  return {};
+}
+
 }  // namespace scree

@@ -43,6 +43,11 @@ class RequestQueue {
   std::vector<Command> drop(uint64_t session);
   void begin_tick();
 
+  /// All that waits, and whose turn it is.
+  RequestsValue value() const;
+  /// Refuses what no queue holds; then this one is empty. Whether the commands are valid the caller knows.
+  Result<void> restore(const RequestsValue& value);
+
   /// Number of requests that wait.
   size_t size() const { return size_; }
   /// Whether another party than this has requests waiting.
@@ -63,6 +68,7 @@ class RequestQueue {
   Result<void> may_wait(const WaitingRequest& request) const;
   bool waits(uint64_t party) const;
   void bring_back();
+  Result<void> take(const PartyValue& value);
 
   float client_us_per_s_;
   std::map<uint64_t, Party> parties_;  ///< those with requests, or with sessions ahead of the others

@@ -32,6 +32,12 @@ class WorkBudget {
   }
   /// Spends a request's cost. The part beyond the budget becomes debt, up to limits::debt_budgets_max.
   void spend_on_request(float cost_us);
+  float debt_us() const { return debt_us_; }
+  /// Goes on with that debt, which is finite and not negative.
+  void owe(float debt_us) {
+    CHECK(debt_us >= 0.0F);
+    debt_us_ = debt_us;
+  }
   /// Whether earlier requests cost more than their ticks had: until that is paid back, requests wait.
   bool in_debt() const { return debt_us_ > 0.0F; }
   float left_us() const { return budget_us_ - spent_us_; }

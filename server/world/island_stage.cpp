@@ -60,6 +60,26 @@ void IslandQueue::push(std::vector<BrickCoord> cut) {
   if (!cut.empty()) waiting_.push_back({std::move(cut), nullptr, 0});
 }
 
+std::vector<BrickCoord> IslandQueue::Falling::starts() const {
+  std::vector<BrickCoord> starts;
+  for (const Island& island : islands) starts.push_back(brick_of(island.start));
+  return starts;
+}
+
+std::vector<IslandCut> IslandQueue::value() const {
+  std::vector<IslandCut> value;
+  for (const Falling& falling : falling_) value.push_back({falling.starts(), 0});
+  for (const Waiting& waiting : waiting_) value.push_back({waiting.cut, waiting.restarts});
+  return value;
+}
+
+void IslandQueue::restore(const std::vector<IslandCut>& value) {
+  falling_.clear();
+  waiting_.clear();
+  for (const IslandCut& cut : value)
+    if (!cut.bricks.empty()) waiting_.push_back({cut.bricks, nullptr, cut.restarts});
+}
+
 std::vector<BrickCoord> IslandQueue::waiting() const {
   std::vector<BrickCoord> bricks;
   for (const Waiting& waiting : waiting_) bricks.insert(bricks.end(), waiting.cut.begin(), waiting.cut.end());
@@ -78,9 +98,7 @@ void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   fell(bricks);
   std::erase_if(falling_, [&](const Falling& falling) {
     if (!has_seen(*falling.search, bricks)) return false;
-    std::vector<BrickCoord> starts;
-    for (const Island& island : falling.islands) starts.push_back(brick_of(island.start));
-    push(std::move(starts));
+    push(falling.starts());
     return true;
   });
 }

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "proto/world_value.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/falling/island_search.h"
@@ -50,6 +51,9 @@ class IslandQueue {
   size_t falling() const;
   /// Whether there is no search, and no island waits to fall.
   bool idle() const { return waiting_.empty() && falling_.empty(); }
+  /// Searches that find the same again: first for the islands that wait to fall, then the unfinished ones.
+  std::vector<IslandCut> value() const;
+  void restore(const std::vector<IslandCut>& value);
   /// Bricks of unfinished searches, for display.
   std::vector<BrickCoord> waiting() const;
 
@@ -61,6 +65,9 @@ class IslandQueue {
   };
   /// The islands that a search found, the next to fall last; never empty.
   struct Falling {
+    /// Bricks in which they begin: a search around these finds them again.
+    std::vector<BrickCoord> starts() const;
+
     std::vector<Island> islands;
     std::unique_ptr<IslandSearch> search;
   };

@@ -337,6 +337,10 @@ void drop(World::State& state, uint64_t session, TickDelta& delta) {
 
 }  // namespace
 
+bool is_valid(const World::State& state, const Command& command) {
+  return std::holds_alternative<SettingsRequest>(command.body) || check(state, command).has_value();
+}
+
 void publish_settings(const World::State& state, TickDelta& delta) {
   delta.settings = print(state.config);
   delta.service = state.config.service;

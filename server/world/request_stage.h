@@ -16,6 +16,10 @@ void take_in(World::State& state, std::span<const Command> commands, TickDelta& 
 /// gets fewer pieces than it asked for, waits a little, or is refused. Each command gets one reply.
 void carry_out(World::State& state, TickDelta& delta);
 
+/// Whether a command may wait. Settings always: what others change meanwhile may refuse them when their turn
+/// comes.
+bool is_valid(const World::State& state, const Command& command);
+
 /// Enters the values of all settings in the delta.
 void publish_settings(const World::State& state, TickDelta& delta);
 

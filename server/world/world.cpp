@@ -9,7 +9,6 @@
 #include "server/world/merge_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
-#include "server/world/state_hash.h"
 #include "server/world/support_stage.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
@@ -52,22 +51,8 @@ void describe_physics(World::State& state, TickDelta& delta) {
   delta.physics = std::move(physics);
 }
 
-/// All uniform bricks of one kind are the same object.
-std::shared_ptr<const Brick> shared_copy(const Brick& brick) {
-  static const auto air = std::make_shared<const Brick>(air_brick());
-  static const auto solid = std::make_shared<const Brick>(solid_brick());
-  const Brick* const uniform = uniform_equivalent(brick);
-  if (uniform == nullptr) return std::make_shared<const Brick>(brick);
-  return uniform == &air_brick() ? air : solid;
-}
-
 void publish(World::State& state, TickDelta& delta) {
-  for (const BrickCoord coord : state.changed) {
-    std::shared_ptr<const Brick> brick = shared_copy(state.field.brick(coord));
-    const std::optional<Material> paint = state.field.painted(coord);
-    const uint64_t hash = brick_hash(coord, *brick, paint);
-    delta.bricks.push_back({coord, std::move(brick), hash, paint});
-  }
+  for (const BrickCoord coord : state.changed) delta.bricks.push_back(state.brick_state(coord));
   state.changed.clear();
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = state.ledger;
@@ -76,8 +61,7 @@ void publish(World::State& state, TickDelta& delta) {
   delta.work.memory_mb = static_cast<uint32_t>(
       state.memory.used_bytes(state.field.edited_brick_count(), state.config.memory_max_mb) / mb);
   delta.field_hash = state.field.hash();
-  delta.state_hash =
-      state_hash({state.tick, delta.field_hash, state.bodies.state_hash(), state.next_piece, state.ledger});
+  delta.state_hash = state.hash();
   CHECK_EQ(delta.pieces.size(), state.pieces.size());
   CHECK_DEBUG(is_ordered(delta));
   if (state.watched && state.tick % ticks_per_watch == 0) describe_physics(state, delta);
@@ -138,6 +122,7 @@ World::World(const WorldConfig& config, size_t threads) {
   CHECK(validate(config).has_value());
   state_ = std::make_unique<State>(config, threads);
 }
+World::World(Made, std::unique_ptr<State> state) : state_(std::move(state)) {}
 World::~World() = default;
 
 std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) {
@@ -168,12 +153,7 @@ Field& World::field() {
 }
 
 MassUnits World::measure_terrain() {
-  Field& field = state_->field;
-  MassUnits gain = 0;
-  for (const ChunkCoord chunk : field.edited_chunks())
-    for (const BrickCoord coord : field.edited_bricks(chunk))
-      gain += brick_mass(field.brick(coord)) - brick_mass(field.generated_brick(coord));
-  return gain;
+  return state_->measure_terrain();
 }
 
 }  // namespace scree

@@ -17,11 +17,20 @@ namespace scree {
 /// Ten times a second at 60 Hz: enough to look at, a small part of the tick.
 inline constexpr Tick ticks_per_watch = 6;
 
+struct WorldMoment;
+struct WorldSnapshot;
+
 class World {
  public:
   /// Refuses a configuration beyond its limits. `threads`: that step() takes, its caller's included; 0: as
   /// many as the machine has cores.
   static Result<std::unique_ptr<World>> create(const WorldConfig& config, size_t threads = 1);
+  /// The world of a value (proto/world_value.h), which may come from a file: refuses one whose parts do not
+  /// agree with each other, or that no world has. Masses and hashes are measured anew.
+  static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, size_t threads = 1);
+  /// The same of what is left of a damaged value: masses and hashes are taken as measured, what is missing is
+  /// booked as poured or as dust, and bodies without a piece, or pieces without a body, are left out.
+  static Result<std::unique_ptr<World>> salvage(WorldSnapshot value);
   /// Of a configuration that validate() takes: it is checked.
   explicit World(const WorldConfig& config, size_t threads = 1);
   ~World();
@@ -39,12 +48,23 @@ class World {
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_watch-th delta, on or off. Changes nothing else.
   void watch(bool wanted);
+  /// The state between two ticks, without the terrain: it shares what never changes, so that every tick may
+  /// be asked for it.
+  WorldMoment moment() const;
+  /// The whole state.
+  WorldSnapshot snapshot();
+  /// One delta that takes an empty PublishedState to this world: every edited brick, every piece and every
+  /// setting, without operations.
+  TickDelta keyframe();
   /// For reading between steps; only apply() changes it.
   Field& field();
 
   struct State;  ///< world_state.h, for the stages in this folder alone
 
  private:
+  struct Made {};
+  World(Made, std::unique_ptr<State> state);
+
   std::unique_ptr<State> state_;
 };
 

@@ -6,6 +6,7 @@
 #include "server/world/applied_operation.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
+#include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 
@@ -48,6 +49,15 @@ Loose left_by(const Operation& operation) {
                         [](const PaintOperation&) { return Loose::nothing; },
                     },
                     operation);
+}
+
+/// All uniform bricks of one kind are the same object.
+std::shared_ptr<const Brick> shared_copy(const Brick& brick) {
+  static const auto air = std::make_shared<const Brick>(air_brick());
+  static const auto solid = std::make_shared<const Brick>(solid_brick());
+  const Brick* const uniform = uniform_equivalent(brick);
+  if (uniform == nullptr) return std::make_shared<const Brick>(brick);
+  return uniform == &air_brick() ? air : solid;
 }
 
 }  // namespace
@@ -104,6 +114,25 @@ MassUnits World::State::mass_of_pieces() const {
   MassUnits mass = 0;
   for (const auto& [id, volume] : pieces) mass += volume->mass;
   return mass;
+}
+
+uint64_t World::State::hash() const {
+  return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger});
+}
+
+BrickState World::State::brick_state(BrickCoord coord) {
+  std::shared_ptr<const Brick> brick = shared_copy(field.brick(coord));
+  const std::optional<Material> paint = field.painted(coord);
+  const uint64_t hash = brick_hash(coord, *brick, paint);
+  return {coord, std::move(brick), hash, paint};
+}
+
+MassUnits World::State::measure_terrain() {
+  MassUnits gain = 0;
+  for (const ChunkCoord chunk : field.edited_chunks())
+    for (const BrickCoord coord : field.edited_bricks(chunk))
+      gain += brick_mass(field.brick(coord)) - brick_mass(field.generated_brick(coord));
+  return gain;
 }
 
 void World::State::check() const {

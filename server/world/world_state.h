@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "proto/world_value.h"
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
@@ -27,25 +28,6 @@
 
 namespace scree {
 
-/// Properties that a piece keeps for life.
-struct PieceTraits {
-  uint8_t generation = 0;  ///< number of breaks among its ancestors
-  bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
-  uint64_t owner = 0;      ///< party of the client whose carve it comes from (command.h); 0: of none
-};
-
-/// A piece that is still to be cut into so many (cut_stage.h).
-struct PendingCut {
-  PieceId piece = 0;
-  uint32_t pieces = 0;
-  SeedPattern pattern = SeedPattern::uniform;
-  uint32_t random_seed = 0;
-  glm::vec3 impact_m{0.0F};
-  /// The carve whose volume this is, whole: its blow throws the pieces. Null: they move on as parts of the
-  /// piece.
-  std::shared_ptr<const CarveRequest> thrown_by{};
-};
-
 struct World::State {
   State(const WorldConfig& world_config, size_t threads);
 
@@ -57,7 +39,13 @@ struct World::State {
   PieceTraits traits_of(PieceId id) const;
   /// Checks the invariants between stages. O(1).
   void check() const;
-  /// The sum of the pieces' masses; for CHECK_DEBUG.
+  /// Of all state that decides how the world goes on (state_hash.h).
+  uint64_t hash() const;
+  /// The brick as it is published.
+  BrickState brick_state(BrickCoord coord);
+  /// World::measure_terrain().
+  MassUnits measure_terrain();
+  /// The sum of the pieces' masses.
   MassUnits mass_of_pieces() const;
 
   WorldConfig config;  ///< with the current settings

@@ -141,7 +141,7 @@ TEST(ServerOptions, access_is_configured_like_everything_else) {
   ::setenv("SCREE_TLS_CERT", "c", 1);
   ::setenv("SCREE_ANONYMOUS", "carver", 1);
   const AccessConfig all = access({"--tls-key", "k", "--tls-required", "--token-key", "p", "--token-revoked",
-                                   "r", "--world", "mine", "--bans", "b"});
+                                   "r", "--world-name", "mine", "--bans", "b"});
   ::unsetenv("SCREE_TLS_CERT");
   ::unsetenv("SCREE_ANONYMOUS");
   EXPECT_EQ(all.tls_certificate_path, "c");

@@ -227,11 +227,14 @@ inline Lines describe(const ReplyMessage& m) {
   if (m.latency != ServerLatency{})
     lines.push_back(fmt::format("waiting {} µs, tick {} µs, sending {} µs", m.latency.waiting_us,
                                 m.latency.tick_us, m.latency.sending_us));
+  if (m.tick != 0) lines.push_back(fmt::format("tick {}", m.tick));
   return lines;
 }
 inline Lines describe(const StatusMessage& m) {
-  return {fmt::format("status: tick {}, {} clients, {} pieces, field hash 0x{:016x}", m.tick, m.clients,
-                      m.pieces, m.field_hash)};
+  Lines lines{fmt::format("status: tick {}, {} clients, {} pieces, field hash 0x{:016x}", m.tick, m.clients,
+                          m.pieces, m.field_hash)};
+  if (!m.saving.empty()) lines.push_back(fmt::format("saving '{}', saved tick {}", m.saving, m.saved_tick));
+  return lines;
 }
 inline Lines describe(const CursorsMessage& m) {
   Lines lines{"cursors:"};

@@ -89,7 +89,7 @@ const std::vector<Library>& libraries() {
       {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers/"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
-      {"SQLite", std::regex("sqlite3.*"), {"server/store/"}},
+      {"SQLite", std::regex("sqlite3.*"), {"server/store/", "tests/store/"}},
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/window/"}},
       {"EGL", std::regex("(epoxy/egl|EGL/).*"), {"client/render/", "client/viewer/"}},

@@ -54,7 +54,7 @@ struct Sums {
 
 Result<Sums> sum_up(RecordingReader& recording) {
   Sums sums;
-  for (Tick tick = 1; tick <= recording.last_tick(); ++tick) {
+  for (Tick tick = recording.first_tick(); tick <= recording.last_tick(); ++tick) {
     auto frame = recording.frame(tick);
     if (!frame) return tl::unexpected(frame.error());
     const auto commands = recording.commands(tick);
@@ -76,7 +76,8 @@ int info(const Options& options) {
   if (!sums) return complain(sums.error());
   const RecordingHeader& header = (*recording)->header();
   const WorldConfig& world = header.world;
-  const Tick ticks = (*recording)->last_tick();
+  const Tick first = (*recording)->first_tick();
+  const Tick ticks = (*recording)->last_tick() - first + 1;
   const Ledger ledger = from_recorded(sums->last.ledger);
   Json settings = Json::object();
   for (const SettingValue& setting : print(world)) settings[setting.name] = setting.value;
@@ -88,6 +89,7 @@ int info(const Options& options) {
             {"voxel_size_m", world.terrain.voxel_size_m},
             {"tick_rate_hz", world.tick_rate_hz},
             {"settings", settings},
+            {"first_tick", first},
             {"ticks", ticks},
             {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
             {"keyframes", (*recording)->keyframes()},
@@ -120,8 +122,9 @@ int verify_file(const Options& options) {
   Json json{{"file", options.path},
             {"agrees", report->agrees()},
             {"ticks", report->ticks},
-            {"ticks_recorded", (*recording)->last_tick()},
+            {"ticks_recorded", (*recording)->last_tick() - (*recording)->first_tick() + 1},
             {"commands", report->commands},
+            {"restarts", report->restarts},
             {"field_hash", hex(report->field_hash)},
             {"state_hash", hex(report->state_hash)},
             {"seconds", report->seconds}};

@@ -1,0 +1,53 @@
+// A world whose file keeps it: found again at the start, saved while it runs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/store/world_keeper.h"
+#include "server/store/world_lock.h"
+#include "server/world/world.h"
+
+namespace scree {
+
+class SavedWorld {
+ public:
+  /// Takes the file for this process; where it exists, reads it, checks it, and makes the world that it
+  /// holds. Start and stop are one way with a crash: nothing is read but what was saved. `threads`: of the
+  /// world (World::create).
+  static Result<std::unique_ptr<SavedWorld>> open(const std::string& path, const WorldConfig& config,
+                                                  size_t threads);
+
+  /// The world, once: the file's, or a new one of the configuration.
+  std::unique_ptr<World> take_world() { return std::move(world_); }
+  uint64_t number() const { return number_; }  ///< WelcomeMessage::world
+  uint64_t first_session() const { return first_session_; }
+  bool is_new() const { return file_ == nullptr; }
+
+  /// Writes a new world's file, and begins to save. `world` is the one that was taken, and has not ticked
+  /// yet.
+  Result<void> start(World& world, KeeperConfig config);
+  /// After each tick of the world.
+  void keep(const TickDelta& delta, const World& world);
+  /// Saves the world as it stands, and ends. Returns the last error.
+  Result<void> finish(const World& world);
+  /// From any thread, after start().
+  KeeperStatus status() const { return keeper_->status(); }
+
+ private:
+  SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
+  void complain();
+
+  std::string path_;
+  WorldLock lock_;
+  std::unique_ptr<WorldFile> file_;
+  std::unique_ptr<World> world_;
+  uint64_t number_ = 0;
+  uint64_t first_session_ = 1;
+  std::unique_ptr<WorldKeeper> keeper_;
+  std::string complaint_;  ///< the last that was logged
+};
+
+}  // namespace scree

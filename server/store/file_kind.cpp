@@ -1,0 +1,66 @@
+#include "server/store/file_kind.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::string_view sqlite_magic("SQLite format 3\0", 16);
+
+/// SQLite reads the missing end of a last page as zeros. After a crash, the log beside the file has that end.
+Result<void> check_whole_pages(const std::string& path, const std::string& start) {
+  CHECK(start.size() >= sqlite_magic.size() + 2);
+  const auto byte = [&](size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(start[at])); };
+  const unsigned stored = (byte(16) << 8U) | byte(17);  // SQLite file format, 1.3.2
+  const unsigned page_bytes = stored == 1 ? 65536 : stored;
+  std::error_code error;
+  const uint64_t bytes = std::filesystem::file_size(path, error);
+  if (page_bytes != 0 && bytes % page_bytes == 0) return {};
+  if (std::filesystem::exists(path + "-wal", error)) return {};
+  return fail(path + ": damaged or cut short: " + std::to_string(bytes) + " bytes are no whole pages");
+}
+
+}  // namespace
+
+Result<void> check_file(const std::string& path, const FileKind& kind) {
+  const std::string is_none = path + " is no " + std::string(kind.noun) + ": ";
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return fail(path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(path + " cannot be read: check its permissions");
+  std::string start(sqlite_magic.size() + 2, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (static_cast<size_t>(file.gcount()) < start.size())
+    return fail(is_none + "it has only " + std::to_string(file.gcount()) + " bytes");
+  if (!start.starts_with(sqlite_magic)) return fail(is_none + "it is not an SQLite file");
+  return check_whole_pages(path, start);
+}
+
+Result<void> check_format(Database& database, const FileKind& kind) {
+  const auto id = database.number("PRAGMA application_id");
+  if (!id) return tl::unexpected(id.error());
+  const std::string noun(kind.noun);
+  if (id->value_or(0) != kind.application_id)
+    return fail(database.path() + " is no " + noun + ": it is an SQLite file of another program");
+  const auto format = database.number("PRAGMA user_version");
+  if (!format) return tl::unexpected(format.error());
+  if (format->value_or(0) != kind.format)
+    return fail(database.path() + " is a " + noun + " of format " + std::to_string(format->value_or(0)) +
+                "; this program reads format " + std::to_string(kind.format) + ": " +
+                std::string(kind.way_out));
+  return {};
+}
+
+Result<void> check_pages(Database& database) {
+  const auto check = database.text("PRAGMA quick_check(1)");
+  if (!check) return tl::unexpected(check.error());
+  if (*check != "ok") return fail(database.path() + ": damaged or cut short: " + *check);
+  return {};
+}
+
+}  // namespace scree

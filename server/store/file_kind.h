@@ -1,0 +1,26 @@
+// Tells the kinds of our SQLite files apart, from foreign files, and from those of other releases.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "server/store/database.h"
+
+namespace scree {
+
+struct FileKind {
+  std::string_view noun;       ///< "recording"
+  int64_t application_id = 0;  ///< PRAGMA application_id
+  int64_t format = 0;          ///< PRAGMA user_version
+  std::string_view way_out;    ///< what to do with another format
+};
+
+/// Refuses, before SQLite opens it, what is no SQLite file, or is cut short.
+Result<void> check_file(const std::string& path, const FileKind& kind);
+/// Refuses another kind of file, and another format.
+Result<void> check_format(Database& database, const FileKind& kind);
+/// Refuses a file whose pages are damaged: SQLite looks at all of them.
+Result<void> check_pages(Database& database);
+
+}  // namespace scree

@@ -1,0 +1,324 @@
+#include "server/store/world_file.h"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <unistd.h>
+
+#include "proto/limits.h"
+#include "server/store/limits.h"
+#include "server/store/world_schema.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+using Rows = std::vector<std::vector<uint8_t>>;
+
+/// A rename is on the disk when its folder is.
+void sync_folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  fsync(file);
+  close(file);
+}
+
+std::vector<WorldChunk> chunks_of(const WorldSnapshot& world) {
+  std::map<ChunkCoord, WorldChunk> chunks;
+  for (const BrickPatch& patch : world.bricks) {
+    WorldChunk& chunk = chunks[chunk_of(patch.coord)];
+    chunk.chunk = chunk_of(patch.coord);
+    chunk.version = world.moment.tick;
+    chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    chunk.bricks.push_back(patch);
+  }
+  std::vector<WorldChunk> list;
+  for (auto& [coord, chunk] : chunks) list.push_back(std::move(chunk));
+  return list;
+}
+
+}  // namespace
+
+struct WorldFile::State {
+  explicit State(Database d) : database(std::move(d)) {}
+  Result<void> prepare();
+  Result<void> begin_to_save();
+  Result<void> write(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
+  Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
+
+  Database database;
+  Statement put_header, put_moment, put_chunk, put_piece, delete_piece;
+  std::set<PieceId> pieces;  ///< that have rows
+  uint64_t bytes_written = 0;
+  bool is_full = false;  ///< the last save found no room
+};
+
+Result<void> WorldFile::State::prepare() {
+  const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
+    auto prepared = database.prepare(sql);
+    if (!prepared) return tl::unexpected(prepared.error());
+    statement = std::move(*prepared);
+    return {};
+  };
+  if (auto done = take(put_header, world_schema::put_into("header")); !done) return done;
+  if (auto done = take(put_moment, world_schema::put_into("moment")); !done) return done;
+  if (auto done = take(put_chunk, world_schema::put_into("chunks")); !done) return done;
+  if (auto done = take(put_piece, world_schema::put_into("pieces")); !done) return done;
+  return take(delete_piece, world_schema::delete_from("pieces"));
+}
+
+Result<void> WorldFile::State::put(const Statement& statement, uint64_t key,
+                                   const std::vector<uint8_t>& data) {
+  if (data.size() > limits::row_bytes_max)
+    return fail(database.path() + ": a row of " + std::to_string(data.size()) +
+                " bytes is over the limit of " + std::to_string(limits::row_bytes_max) +
+                " (limits.row_bytes_max)");
+  bytes_written += data.size();
+  return database.put(statement, key, data);
+}
+
+/// The rows alone, within a transaction.
+Result<void> WorldFile::State::write(const WorldMoment& moment, const std::vector<WorldChunk>& changed) {
+  for (const WorldChunk& chunk : changed)
+    if (auto done = put(put_chunk, world_schema::chunk_key(chunk.chunk), encode(chunk)); !done) return done;
+  std::set<PieceId> alive;
+  for (const KeptPiece& piece : moment.pieces) {
+    alive.insert(piece.id);
+    if (pieces.contains(piece.id)) continue;
+    if (auto done = put(put_piece, piece.id, encode(piece)); !done) return done;
+  }
+  for (const PieceId id : pieces)
+    if (!alive.contains(id))
+      if (auto done = database.run(delete_piece, id); !done) return done;
+  return put(put_moment, 0, encode(moment));
+}
+
+WorldFile::WorldFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+WorldFile::~WorldFile() = default;
+
+Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
+                                                     const WorldSnapshot& world) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error))
+    return fail(path + " exists already: choose another name, or move it away");
+  const std::string unfinished = path + "-new";
+  std::filesystem::remove(unfinished, error);
+  const auto made = [&]() -> Result<void> {
+    auto database = Database::create(unfinished);
+    if (!database) return tl::unexpected(database.error());
+    State state(std::move(*database));
+    Database& file = state.database;
+    if (auto done = file.execute("PRAGMA page_size = 4096; PRAGMA synchronous = FULL; BEGIN;" +
+                                 world_schema::create_tables());
+        !done)
+      return done;
+    if (auto done = state.prepare(); !done) return done;
+    if (auto done = state.put(state.put_header, 0, encode(header)); !done) return done;
+    if (auto done = state.write(world.moment, chunks_of(world)); !done) return done;
+    return file.execute("COMMIT");
+  }();
+  if (!made) {
+    std::filesystem::remove(unfinished, error);
+    return tl::unexpected(made.error());
+  }
+  std::filesystem::rename(unfinished, path, error);
+  if (error) return fail(path + " cannot be made: " + error.message());
+  sync_folder_of(path);
+  return open(path);
+}
+
+Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
+  if (auto looks = check_file(path, world_schema::world); !looks) return tl::unexpected(looks.error());
+  auto database = Database::open(path);
+  if (!database) return tl::unexpected(database.error());
+  auto state = std::make_unique<State>(std::move(*database));
+  if (auto format = check_format(state->database, world_schema::world); !format)
+    return tl::unexpected(format.error());
+  return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
+}
+
+namespace {
+
+/// Reads the rows of a file, table by table.
+class Reading {
+ public:
+  Reading(Database& database, LostRows* lost) : database_(database), lost_(lost) {}
+
+  Result<WorldRows> run() {
+    if (auto done = one("header", [&](auto data) { return take(decode_world_header(data), rows_.header); });
+        !done)
+      return tl::unexpected(done.error());
+    if (auto done =
+            one("moment", [&](auto data) { return take(decode_world_moment(data), rows_.world.moment); });
+        !done) {
+      if (lost_ == nullptr) return tl::unexpected(done.error());
+      lost_->reasons.push_back(done.error().message);
+      rows_.world.moment = WorldMoment();
+      rows_.world.moment.config = rows_.header.config;
+      has_moment_ = false;
+    }
+    if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
+      return tl::unexpected(done.error());
+    if (auto done = every("chunks", [&](uint64_t key, auto data) { return chunk(key, data); }); !done)
+      return tl::unexpected(done.error());
+    std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
+    if (!has_moment_) begin_anew();
+    return std::move(rows_);
+  }
+
+ private:
+  using Bytes = std::span<const uint8_t>;
+
+  /// Ids and ticks that were given away are not given again.
+  void begin_anew() {
+    WorldMoment& moment = rows_.world.moment;
+    for (const WorldChunk& chunk : rows_.chunks) moment.tick = std::max(moment.tick, chunk.version);
+    for (const KeptPiece& piece : moment.pieces)
+      moment.next_piece = std::max(moment.next_piece, piece.id + 1);
+  }
+
+  template <typename T>
+  static Result<void> take(Result<T> decoded, T& to) {
+    if (!decoded) return tl::unexpected(decoded.error());
+    to = std::move(*decoded);
+    return {};
+  }
+
+  tl::unexpected<Error> damaged(const std::string& what) const {
+    return fail(database_.path() + ": damaged: " + what);
+  }
+
+  /// The only row of a table.
+  template <typename Take>
+  Result<void> one(const std::string& table, Take&& take_row) {
+    size_t count = 0;
+    auto read =
+        database_.each(world_schema::all_of(table), [&](uint64_t, Bytes data, bool whole) -> Result<void> {
+          ++count;
+          rows_.bytes += data.size();
+          if (!whole) return damaged("the " + table + " is not what was saved");
+          if (auto taken = take_row(data); !taken) return damaged(taken.error().message);
+          return {};
+        });
+    if (read && count != 1) return damaged("it has " + std::to_string(count) + " rows of its " + table);
+    return read;
+  }
+
+  /// All rows of a table; those that are not whole are lost, or an error.
+  template <typename Take>
+  Result<void> every(const std::string& table, Take&& take_row) {
+    auto read = database_.each(world_schema::all_of(table),
+                               [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
+                                 rows_.bytes += data.size();
+                                 const std::string name = "row " + std::to_string(key) + " of its " + table;
+                                 if (!whole) return lose(name + " is not what was saved");
+                                 if (auto taken = take_row(key, data); !taken)
+                                   return lose(name + ": " + taken.error().message);
+                                 return {};
+                               });
+    if (read || lost_ == nullptr) return read;
+    return lose("the rest of its " + table + " cannot be read (" + read.error().message + ")");
+  }
+
+  Result<void> lose(const std::string& what) {
+    if (lost_ == nullptr) return damaged(what);
+    lost_->reasons.push_back(what);
+    return {};
+  }
+
+  Result<void> piece(uint64_t key, Bytes data) {
+    auto decoded = decode_kept_piece(data);
+    if (!decoded) return tl::unexpected(decoded.error());
+    if (decoded->id != key) return fail("it is another piece's");
+    voxels_ += decoded->volume->window.codes.size();
+    if (voxels_ > limits::piece_voxels_max)
+      return fail("pieces of more than " + std::to_string(limits::piece_voxels_max) +
+                  " voxels (limits.piece_voxels_max)");
+    rows_.world.moment.pieces.push_back(std::move(*decoded));
+    return {};
+  }
+
+  Result<void> chunk(uint64_t key, Bytes data) {
+    auto decoded = decode_world_chunk(data);
+    if (!decoded) return tl::unexpected(decoded.error());
+    if (world_schema::chunk_key(decoded->chunk) != key) return fail("it is another chunk's");
+    auto& bricks = rows_.world.bricks;
+    bricks.insert(bricks.end(), decoded->bricks.begin(), decoded->bricks.end());
+    decoded->bricks.clear();
+    rows_.chunks.push_back(std::move(*decoded));
+    return {};
+  }
+
+  Database& database_;
+  LostRows* lost_;
+  WorldRows rows_;
+  size_t voxels_ = 0;
+  bool has_moment_ = true;
+};
+
+}  // namespace
+
+Result<WorldRows> WorldFile::read(LostRows* lost) {
+  Database& file = state_->database;
+  if (auto whole = check_pages(file); !whole) {
+    if (lost == nullptr) return tl::unexpected(whole.error());
+    lost->reasons.push_back(whole.error().message);
+  }
+  if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+  auto rows = Reading(file, lost).run();
+  if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
+  if (!rows) return rows;
+  state_->pieces.clear();
+  for (const KeptPiece& piece : rows->world.moment.pieces) state_->pieces.insert(piece.id);
+  return rows;
+}
+
+/// The log, and the statements, once.
+Result<void> WorldFile::State::begin_to_save() {
+  if (put_moment != nullptr) return {};
+  const std::string settings =
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = " +
+      std::to_string(limits::wal_pages_max) + ";";
+  if (auto done = database.execute(settings); !done) return done;
+  return prepare();
+}
+
+Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldChunk>& changed) {
+  Database& file = state_->database;
+  auto saved = state_->begin_to_save();
+  if (saved) saved = file.execute("BEGIN IMMEDIATE");
+  if (saved) saved = state_->write(moment, changed);
+  if (saved) saved = file.execute("COMMIT");
+  state_->is_full = !saved && file.is_full();
+  if (!saved) {
+    static_cast<void>(file.execute("ROLLBACK"));  // there may be none, or none any more
+    return saved;
+  }
+  state_->pieces.clear();
+  for (const KeptPiece& piece : moment.pieces) state_->pieces.insert(piece.id);
+  return {};
+}
+
+bool WorldFile::is_full() const {
+  return state_->is_full;
+}
+uint64_t WorldFile::bytes_written() const {
+  return state_->bytes_written;
+}
+const std::string& WorldFile::path() const {
+  return state_->database.path();
+}
+
+Result<void> WorldFile::copy_to(const std::string& path) {
+  return state_->database.copy_to(path);
+}
+
+Result<void> WorldFile::compact() {
+  return state_->database.execute("PRAGMA synchronous = FULL; VACUUM");
+}
+
+}  // namespace scree

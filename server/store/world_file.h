@@ -1,0 +1,63 @@
+// A world as a file: its terrain's edits by chunk, its pieces, and the rest of its value
+// (proto/world_value.h), all of one tick. Each save is one transaction, and on the disk when save() returns:
+// whatever crashes, the file holds the last whole one. Every byte read is checked. Nobody but one process
+// writes (world_lock.h); others may read meanwhile. One thread at a time.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "proto/world_codec.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// What a look at all rows found.
+struct WorldRows {
+  WorldHeader header;
+  WorldSnapshot world;
+  std::vector<WorldChunk> chunks;  ///< without their bricks, which are the world's
+  uint64_t bytes = 0;              ///< of all rows
+};
+
+/// Rows that were left out, and why.
+struct LostRows {
+  std::vector<std::string> reasons;
+};
+
+class WorldFile {
+ public:
+  /// Makes a file of a world; an error if there is one. It appears under its name when it is whole.
+  static Result<std::unique_ptr<WorldFile>> create(const std::string& path, const WorldHeader& header,
+                                                   const WorldSnapshot& world);
+  /// Refuses what is no world, and one of another release, by name.
+  static Result<std::unique_ptr<WorldFile>> open(const std::string& path);
+  ~WorldFile();
+
+  /// All rows, as of one moment; a damaged one is an error that names it, or, when `lost` is given, is left
+  /// out and told there: only the header must be whole. Without the moment no piece goes on. Whether they
+  /// agree with each other World::restore() says.
+  Result<WorldRows> read(LostRows* lost = nullptr);
+
+  /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
+  /// returns. After an error the file is as it was.
+  Result<void> save(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
+  /// Whether the last save failed because the disk has no room: another one may succeed.
+  bool is_full() const;
+  uint64_t bytes_written() const;  ///< in rows, since it was opened
+
+  /// Copies the file, as of one moment, into a new one, which is whole before this returns.
+  Result<void> copy_to(const std::string& path);
+  /// Gives room back that rows left behind.
+  Result<void> compact();
+
+  const std::string& path() const;
+
+ private:
+  struct State;
+  explicit WorldFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scree

@@ -1,0 +1,206 @@
+#include "server/store/world_keeper.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+using ChangedBricks = std::unordered_map<BrickCoord, BrickState, CoordHash>;
+
+/// The edited bricks of a chunk, as of the last save that was taken.
+struct Chunk {
+  std::map<BrickCoord, BrickState> bricks;
+  uint64_t hash = 0;
+};
+
+/// One save.
+struct Due {
+  WorldMoment moment;
+  ChangedBricks bricks;
+};
+
+/// Whether clients may hold a reply, or anything else than the clock moved.
+bool something_happened(const TickDelta& delta) {
+  return !delta.bricks.empty() || !delta.operations.empty() || !delta.pieces.empty() ||
+         !delta.replies.empty() || !delta.settings.empty() || delta.work.requests_waiting > 0;
+}
+
+/// Ticks between saves that are due whatever happens; 0: none.
+Tick period_of(const KeeperConfig& config) {
+  const double seconds = config.durability == Durability::off ? config.autosave_s : 1.0;
+  if (!(seconds > 0.0)) return 0;
+  return std::max<Tick>(1, static_cast<Tick>(seconds * config.tick_rate_hz));
+}
+
+}  // namespace
+
+struct WorldKeeper::State {
+  void run();
+  void write(Due due);
+  void take_over(const ChangedBricks& bricks);
+  std::vector<WorldChunk> changed_chunks(Tick tick) const;
+
+  KeeperConfig config;
+  Tick period = 0;
+
+  // Of the caller's thread.
+  ChangedBricks gathered;
+  Tick next_due = 0;  ///< 0: none by the clock
+
+  // Of the storage thread.
+  std::unique_ptr<WorldFile> file;
+  std::unordered_map<ChunkCoord, Chunk, CoordHash> chunks;
+  std::set<ChunkCoord> unsaved;
+  std::thread thread;
+
+  mutable std::mutex mutex;  ///< guards the members below
+  std::condition_variable changed;
+  std::optional<Due> waiting;
+  bool stopping = false;
+  KeeperStatus status;
+};
+
+void WorldKeeper::State::take_over(const ChangedBricks& bricks) {
+  for (const auto& [coord, state] : bricks) {
+    Chunk& chunk = chunks[chunk_of(coord)];
+    BrickState& slot = chunk.bricks[coord];
+    chunk.hash += state.hash - slot.hash;
+    slot = state;
+    unsaved.insert(chunk_of(coord));
+  }
+}
+
+std::vector<WorldChunk> WorldKeeper::State::changed_chunks(Tick tick) const {
+  std::vector<WorldChunk> list;
+  for (const ChunkCoord coord : unsaved) {
+    const Chunk& chunk = chunks.at(coord);
+    WorldChunk& kept = list.emplace_back(WorldChunk{coord, tick, chunk.hash, {}});
+    for (const auto& [brick, state] : chunk.bricks) kept.bricks.push_back({brick, *state.brick, state.paint});
+  }
+  return list;
+}
+
+void WorldKeeper::State::write(Due due) {
+  take_over(due.bricks);
+  const Tick tick = due.moment.tick;
+  if (config.before_save) config.before_save(tick);
+  Stopwatch watch;
+  const Result<void> saved = file->save(due.moment, changed_chunks(tick));
+  const double ms = watch.lap_ms();
+  if (saved) unsaved.clear();
+  const std::scoped_lock lock(mutex);
+  status.bytes_written = file->bytes_written();
+  status.save_worst_ms = std::max(status.save_worst_ms, ms);
+  status.error = saved ? std::nullopt : std::optional(saved.error().message);
+  if (saved) {
+    CHECK(tick >= status.saved_tick);
+    status.saved_tick = tick;
+    ++status.saves;
+    return;
+  }
+  ++status.failures;
+  status.given_up = !file->is_full();
+}
+
+void WorldKeeper::State::run() {
+  for (;;) {
+    std::optional<Due> due;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [this] { return stopping || waiting; });
+      due = std::exchange(waiting, std::nullopt);
+      if (!due) return;
+      if (status.given_up) continue;
+    }
+    write(std::move(*due));
+  }
+}
+
+WorldKeeper::WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, KeeperConfig config)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.config = std::move(config);
+  s.period = period_of(s.config);
+  s.next_due = s.period == 0 ? 0 : keyframe.tick + s.period;
+  s.file = std::move(file);
+  s.status.saved_tick = keyframe.tick;
+  for (const BrickState& state : keyframe.bricks) {
+    Chunk& chunk = s.chunks[chunk_of(state.coord)];
+    chunk.bricks[state.coord] = state;
+    chunk.hash += state.hash;
+  }
+  s.thread = std::thread([&s] { s.run(); });
+}
+
+WorldKeeper::~WorldKeeper() {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+bool WorldKeeper::note(const TickDelta& delta) {
+  State& s = *state_;
+  for (const BrickState& state : delta.bricks) s.gathered[state.coord] = state;
+  const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
+  if (!by_clock && !(s.config.durability == Durability::tick && something_happened(delta))) return false;
+  const std::scoped_lock lock(s.mutex);
+  if (s.status.given_up) return false;
+  if (s.waiting) {
+    ++s.status.skipped;  // due again in the next tick
+    if (s.next_due != 0) s.next_due = delta.tick + 1;
+    return false;
+  }
+  if (s.next_due != 0) s.next_due = delta.tick + s.period;
+  return true;
+}
+
+void WorldKeeper::save(WorldMoment moment) {
+  State& s = *state_;
+  {
+    const std::scoped_lock lock(s.mutex);
+    CHECK(!s.waiting && !s.stopping);
+    s.waiting = Due{std::move(moment), std::exchange(s.gathered, {})};
+  }
+  s.changed.notify_all();
+}
+
+Result<void> WorldKeeper::finish(WorldMoment moment) {
+  State& s = *state_;
+  {
+    const std::scoped_lock lock(s.mutex);
+    if (s.waiting) {  // nobody needs the older one: its bricks go with the last
+      for (auto& [coord, state] : s.gathered) s.waiting->bricks[coord] = std::move(state);
+      s.waiting->moment = std::move(moment);
+    } else {
+      s.waiting = Due{std::move(moment), std::exchange(s.gathered, {})};
+    }
+    s.stopping = true;
+  }
+  s.changed.notify_all();
+  if (s.thread.joinable()) s.thread.join();
+  s.file.reset();
+  const std::scoped_lock lock(s.mutex);
+  if (s.status.error) return fail(*s.status.error);
+  return {};
+}
+
+KeeperStatus WorldKeeper::status() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->status;
+}
+
+}  // namespace scree

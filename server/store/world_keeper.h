@@ -1,0 +1,87 @@
+// Saves a running world on a storage thread: the simulation hands over what changed, and never waits for the
+// disk.
+//
+// At most one save waits while another is written; while one waits, what changes is gathered for the next
+// (skipped saves are counted). Each is one transaction of one tick, and told as saved when it is on the disk.
+// When the disk has no room, the next save writes all that is missing. After any other error nothing is saved
+// any more: what the disk holds is not known then, and the file is looked at by the next start. The
+// simulation goes on in both cases.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/store/world_file.h"
+#include "server/world/tick_delta.h"
+
+namespace scree {
+
+/// When a world is saved: after each tick in which something happened, once a second, or at the end and every
+/// autosave.
+enum class Durability : uint8_t { tick, second, off };
+
+struct DurabilityRow {
+  std::string_view name;
+};
+
+constexpr DurabilityRow row_of(Durability durability) {
+  switch (durability) {
+    case Durability::tick:
+      return {.name = "tick"};
+    case Durability::second:
+      return {.name = "second"};
+    case Durability::off:
+      return {.name = "off"};
+  }
+  return {};
+}
+
+struct KeeperConfig {
+  Durability durability = Durability::second;
+  double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
+  uint32_t tick_rate_hz = 60;
+  /// Called on the storage thread before a tick is saved; may be empty. A recording of the world must not end
+  /// before the world does.
+  std::function<void(Tick)> before_save;
+};
+
+struct KeeperStatus {
+  Tick saved_tick = 0;   ///< on the disk
+  uint64_t saves = 0;    ///< transactions
+  uint64_t skipped = 0;  ///< saves that were due while another one waited
+  uint64_t failures = 0;
+  uint64_t bytes_written = 0;  ///< in rows
+  double save_worst_ms = 0.0;
+  bool given_up = false;
+  std::optional<std::string> error;  ///< of the last save, if it failed
+};
+
+class WorldKeeper {
+ public:
+  /// `file` holds this world, as of `tick`; `keyframe` is its terrain (World::keyframe).
+  WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, KeeperConfig config);
+  /// Writes what was handed over, and joins the thread.
+  ~WorldKeeper();
+  WorldKeeper(const WorldKeeper&) = delete;
+  WorldKeeper& operator=(const WorldKeeper&) = delete;
+
+  /// Takes what a tick changed; every tick, in order. True: the world is to be saved as of this tick now, by
+  /// save(). One thread calls this, save() and finish().
+  bool note(const TickDelta& delta);
+  void save(WorldMoment moment);
+  /// Saves the last tick, waits until it is written, and ends. Returns the last error.
+  Result<void> finish(WorldMoment moment);
+
+  /// From any thread.
+  KeeperStatus status() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scree

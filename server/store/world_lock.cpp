@@ -1,0 +1,52 @@
+#include "server/store/world_lock.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+std::string process_in(int file) {
+  std::array<char, 24> text{};
+  const ssize_t count = pread(file, text.data(), text.size() - 1, 0);
+  const std::string number(text.data(), count > 0 ? static_cast<size_t>(count) : 0);
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return "another process";
+  return "process " + number;
+}
+
+}  // namespace
+
+Result<WorldLock> WorldLock::take(const std::string& world_path) {
+  const std::string path = world_path + "-lock";
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0)
+    return fail(world_path + ": " + path + " cannot be written (" + std::strerror(errno) +
+                "): a world needs a folder that can be written");
+  WorldLock lock(file);
+  if (flock(file, LOCK_EX | LOCK_NB) != 0)
+    return fail(world_path + " is in use by " + process_in(file) +
+                ": a world belongs to one server at a time");
+  const std::string number = std::to_string(getpid());
+  if (ftruncate(file, 0) != 0 || pwrite(file, number.data(), number.size(), 0) < 0)
+    return fail(path + " cannot be written: " + std::strerror(errno));
+  return lock;
+}
+
+WorldLock::~WorldLock() {
+  if (file_ >= 0) close(file_);
+}
+
+WorldLock::WorldLock(WorldLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+
+WorldLock& WorldLock::operator=(WorldLock&& other) noexcept {
+  std::swap(file_, other.file_);
+  return *this;
+}
+
+}  // namespace scree

@@ -1,0 +1,48 @@
+// The tables of a world file: one SQLite file in WAL mode. proto/world.proto specifies the blobs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "proto/world_codec.h"
+#include "server/store/file_kind.h"
+#include "shared/field/coord.h"
+
+namespace scree::world_schema {
+
+/// "SCRW" distinguishes a world from other SQLite files.
+inline constexpr FileKind world{.noun = "world",
+                                .application_id = 0x53435257,
+                                .format = world_format,
+                                .way_out = "open it with the release that made it"};
+
+/// header and moment: one row each, key 0. chunks: the edited ones, by chunk_key(). pieces: those alive, by
+/// id. checksum: XXH3 of the data. All rows are of one tick, the moment's.
+inline std::string create_tables() {
+  std::string sql = "PRAGMA application_id = " + std::to_string(world.application_id) + ";" +
+                    "PRAGMA user_version = " + std::to_string(world.format) + ";";
+  for (const char* table : {"header", "moment", "chunks", "pieces"})
+    sql += std::string("CREATE TABLE ") + table +
+           " (key INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
+  return sql;
+}
+
+inline std::string put_into(const std::string& table) {
+  return "REPLACE INTO " + table + " (key, data, checksum) VALUES (?1, ?2, ?3)";
+}
+inline std::string delete_from(const std::string& table) {
+  return "DELETE FROM " + table + " WHERE key = ?1";
+}
+inline std::string all_of(const std::string& table) {
+  return "SELECT key, data, checksum FROM " + table + " ORDER BY key";
+}
+
+/// 21 bits a coordinate: worlds reach a few thousand chunks.
+inline uint64_t chunk_key(ChunkCoord chunk) {
+  constexpr int32_t half = 1 << 20;
+  constexpr uint64_t mask = (uint64_t{1} << 21U) - 1;
+  const auto part = [](int32_t c) { return static_cast<uint64_t>(static_cast<int64_t>(c) + half) & mask; };
+  return (part(chunk.x) << 42U) | (part(chunk.y) << 21U) | part(chunk.z);
+}
+
+}  // namespace scree::world_schema

@@ -1,0 +1,34 @@
+#include "server/world/recorded_values.h"
+
+#include "server/world/settings.h"
+
+namespace scree {
+
+RecordedLedger to_recorded(const Ledger& ledger) {
+  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
+}
+
+Ledger from_recorded(const RecordedLedger& ledger) {
+  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
+}
+
+RecordedHeader to_recorded(const WorldConfig& config) {
+  RecordedHeader out;
+  out.terrain = config.terrain;
+  out.tick_rate_hz = config.tick_rate_hz;
+  out.merges_per_tick_max = config.merges_per_tick_max;
+  out.settings = print(config);
+  return out;
+}
+
+Result<WorldConfig> config_of(const RecordedHeader& header) {
+  WorldConfig config;
+  config.terrain = header.terrain;
+  config.tick_rate_hz = header.tick_rate_hz;
+  config.merges_per_tick_max = header.merges_per_tick_max;
+  if (Result<void> known = set_all(config, header.settings); !known) return tl::unexpected(known.error());
+  if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
+  return config;
+}
+
+}  // namespace scree

@@ -1,0 +1,291 @@
+// World::moment(), snapshot() and restore().
+#include "server/world/world_snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/world/limits.h"
+#include "server/world/recorded_values.h"
+#include "server/world/request_stage.h"
+#include "server/world/world_state.h"
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Places of a hull or a surface may lie beyond the voxels that they were made from, voxels: the narrow band
+/// and a corner.
+constexpr float shape_slack_voxels = 4.0F;
+
+/// Ticks that a world may have counted: so many that no sum overflows.
+constexpr Tick tick_max = Tick{1} << 62U;
+
+/// Takes a value apart into a new state. Each step refuses what does not agree with those before it.
+class Restoring {
+ public:
+  /// `measure`: masses and hashes are not compared but taken as they are measured.
+  Restoring(World::State& state, const WorldSnapshot& value, bool measure)
+      : s_(state), value_(value), m_(value.moment), measure_(measure) {}
+
+  Result<void> run() {
+    using Step = Result<void> (Restoring::*)();
+    for (const Step step : {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::bodies,
+                            &Restoring::ledger, &Restoring::places, &Restoring::waiting, &Restoring::cuts})
+      if (Result<void> done = (this->*step)(); !done) return done;
+    s_.rest.restore(m_.rest);
+    s_.islands.restore(m_.islands);
+    s_.buried = {m_.buried.begin(), m_.buried.end()};
+    s_.sunk = {m_.sunk.begin(), m_.sunk.end()};
+    if (!measure_ && s_.hash() != m_.state_hash) return fail("its hash is not that of its parts");
+    s_.check();
+    return {};
+  }
+
+ private:
+  Result<void> clock() {
+    for (const Tick tick : {m_.cut_at, m_.island_at, m_.requested})
+      if (tick > m_.tick) return fail("something happened after its tick");
+    if (m_.tick > tick_max) return fail("its tick is beyond any");
+    s_.tick = m_.tick;
+    s_.cut_at = m_.cut_at;
+    s_.island_at = m_.island_at;
+    s_.requested = m_.requested;
+    s_.next_piece = m_.next_piece;
+    return {};
+  }
+
+  bool in_world(BrickCoord brick) const {
+    const VoxelCoord v = first_voxel(brick);
+    const auto most = static_cast<int>(2.0F * limits::world_half_width_m / s_.config.terrain.voxel_size_m);
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most;
+  }
+
+  Result<void> terrain() {
+    std::vector<BrickCoord> coords;
+    for (const BrickPatch& patch : value_.bricks) {
+      if (!coords.empty() && !(coords.back() < patch.coord)) return fail("its bricks are not in order");
+      if (!in_world(patch.coord)) return fail("a brick lies outside the world");
+      s_.field.set_brick(patch.coord, patch.brick);
+      s_.field.paint_brick(patch.coord, patch.paint);
+      coords.push_back(patch.coord);
+    }
+    s_.memory.note(coords);
+    if (!measure_ && s_.field.hash() != m_.field_hash)
+      return fail("its terrain is not the one that was saved");
+    return {};
+  }
+
+  /// A hostile hull could be so large that nothing ends.
+  bool is_within(const KeptPiece& piece, const std::vector<glm::vec3>& points_m) const {
+    const VoxelCoord size = piece.volume->window.box.size();
+    const float reach_m = (static_cast<float>(std::max({size.x, size.y, size.z})) + shape_slack_voxels) *
+                          s_.config.terrain.voxel_size_m;
+    return std::ranges::all_of(points_m, [&](glm::vec3 p) {
+      return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= reach_m;
+    });
+  }
+
+  Result<void> pieces() {
+    if (m_.pieces.size() != m_.motion.bodies.size() || m_.pieces.size() > limits::pieces_max_max)
+      return fail("it has " + std::to_string(m_.pieces.size()) + " pieces and " +
+                  std::to_string(m_.motion.bodies.size()) + " bodies; a world has at most " +
+                  std::to_string(limits::pieces_max_max) + " of each (limits.pieces_max_max)");
+    for (size_t i = 0; i < m_.pieces.size(); ++i) {
+      const KeptPiece& piece = m_.pieces[i];
+      if (piece.id != m_.motion.bodies[i].id || piece.id == 0 || piece.id >= m_.next_piece)
+        return fail("piece " + std::to_string(piece.id) + " has no body, or is none yet");
+      const auto within = [&](const std::vector<glm::vec3>& points) { return is_within(piece, points); };
+      const BodyShape& shape = *piece.shape;
+      if (!within(shape.hull_m) || !within(shape.surface_m) || !std::ranges::all_of(shape.parts_m, within))
+        return fail("the body of piece " + std::to_string(piece.id) + " reaches beyond its voxels");
+      if (!s_.pieces.emplace(piece.id, piece.volume).second)
+        return fail("piece " + std::to_string(piece.id) + " comes twice");
+      s_.traits[piece.id] = piece.traits;
+      s_.shares.add(piece.traits.owner);
+    }
+    return {};
+  }
+
+  Result<void> bodies() {
+    std::vector<std::shared_ptr<const BodyShape>> shapes;
+    for (const KeptPiece& piece : m_.pieces) shapes.push_back(piece.shape);
+    for (const VoxelBox& box : m_.motion.changes)
+      if (!is_sane(box)) return fail("terrain changed outside the world");
+    return s_.bodies.restore(shapes, m_.motion);
+  }
+
+  Result<void> ledger() {
+    s_.ledger = measure_ ? measured() : from_recorded(m_.ledger);
+    const Ledger& ledger = s_.ledger;
+    for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})
+      if (mass < 0) return fail("its ledger has less than nothing");
+    if (ledger.pieces != s_.mass_of_pieces()) return fail("its ledger does not hold the mass of its pieces");
+    if (ledger.terrain != s_.measure_terrain())
+      return fail("its ledger does not hold the mass of its terrain");
+    if (ledger.error() != 0) return fail("its ledger does not balance");
+    return {};
+  }
+
+  /// What is there, with its dust; what is missing was poured, or became dust.
+  Ledger measured() {
+    Ledger ledger = from_recorded(m_.ledger);
+    ledger.terrain = s_.measure_terrain();
+    ledger.pieces = s_.mass_of_pieces();
+    ledger.poured += ledger.error();
+    if (ledger.poured >= 0) return ledger;
+    ledger.dust -= ledger.poured;
+    ledger.poured = 0;
+    return ledger;
+  }
+
+  bool is_sane(const VoxelBox& box) const {
+    return !box.empty() && in_world(brick_of(box.lo)) && in_world(brick_of(box.hi));
+  }
+
+  Result<void> places() {
+    for (const auto* bricks : {&m_.cut, &m_.strained})
+      if (!std::ranges::all_of(*bricks, [&](BrickCoord brick) { return in_world(brick); }))
+        return fail("a changed brick lies outside the world");
+    for (const IslandCut& search : m_.islands)
+      if (!std::ranges::all_of(search.bricks, [&](BrickCoord brick) { return in_world(brick); }))
+        return fail("a searched brick lies outside the world");
+    if (!std::ranges::all_of(m_.gained, [&](const VoxelBox& box) { return is_sane(box); }))
+      return fail("terrain gained rock outside the world");
+    s_.cut = {m_.cut.begin(), m_.cut.end()};
+    s_.strained = {m_.strained.begin(), m_.strained.end()};
+    s_.gained = m_.gained;
+    return {};
+  }
+
+  Result<void> waiting() {
+    s_.work.owe(m_.debt_us);
+    for (const PartyValue& party : m_.requests.parties)
+      for (const SessionValue& session : party.sessions)
+        for (const WaitingValue& request : session.requests) {
+          const auto& [asker, number, body, in_common] = request.command;
+          if (request.since > m_.tick || !is_valid(s_, {asker, number, body, in_common}))
+            return fail("a request waits that no world takes in");
+        }
+    return s_.requests.restore(m_.requests);
+  }
+
+  Result<void> cuts() {
+    for (const PendingCut& cut : m_.cuts) {
+      if (cut.pieces < 2 || cut.pieces > limits::seeds_max)
+        return fail("a piece is to be cut into none, or too many");
+      if (cut.thrown_by != nullptr && !is_valid(s_, {0, 0, *cut.thrown_by}))
+        return fail("a cut's pieces are thrown by what is no carve");
+      s_.cuts.push_back(cut);
+    }
+    return {};
+  }
+
+  World::State& s_;
+  const WorldSnapshot& value_;
+  const WorldMoment& m_;
+  const bool measure_;
+};
+
+Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_t threads, bool measure) {
+  const auto config = config_of(value.moment.config);
+  if (!config) return tl::unexpected(config.error());
+  auto state = std::make_unique<World::State>(*config, threads);
+  if (Result<void> done = Restoring(*state, value, measure).run(); !done)
+    return fail("the world cannot go on: " + done.error().message);
+  return state;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, size_t threads) {
+  auto state = state_of(value, threads, false);
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+}
+
+Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
+  WorldMoment& moment = value.moment;
+  std::vector<KeptPiece> pieces;
+  std::vector<BodyMotion> bodies;
+  for (const KeptPiece& piece : moment.pieces) {
+    const auto body = std::ranges::find(moment.motion.bodies, piece.id, &BodyMotion::id);
+    if (body == moment.motion.bodies.end()) continue;
+    pieces.push_back(piece);
+    bodies.push_back(*body);
+  }
+  moment.pieces = std::move(pieces);
+  moment.motion.bodies = std::move(bodies);
+  auto state = state_of(value, 1, true);
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+}
+
+WorldMoment World::moment() const {
+  const State& s = *state_;
+  CHECK(s.changed.empty() && s.unswept.empty() && s.at_rest.empty());
+  WorldMoment m;
+  m.config = to_recorded(s.config);
+  m.tick = s.tick;
+  m.next_piece = s.next_piece;
+  m.ledger = to_recorded(s.ledger);
+  m.field_hash = s.field.hash();
+  m.state_hash = s.hash();
+  for (const auto& [id, volume] : s.pieces)
+    m.pieces.push_back({id, s.traits.at(id), volume, s.bodies.shape(id)});
+  m.motion = s.bodies.motions();
+  m.rest = s.rest.value();
+  m.requests = s.requests.value();
+  m.requested = s.requested;
+  m.debt_us = s.work.debt_us();
+  m.cuts = {s.cuts.begin(), s.cuts.end()};
+  m.cut_at = s.cut_at;
+  m.island_at = s.island_at;
+  m.islands = s.islands.value();
+  m.cut = {s.cut.begin(), s.cut.end()};
+  m.strained = {s.strained.begin(), s.strained.end()};
+  m.gained = s.gained;
+  m.buried = {s.buried.begin(), s.buried.end()};
+  m.sunk = {s.sunk.begin(), s.sunk.end()};
+  return m;
+}
+
+WorldSnapshot World::snapshot() {
+  WorldSnapshot value{moment(), {}};
+  Field& field = state_->field;
+  for (const ChunkCoord chunk : field.edited_chunks())
+    for (const BrickCoord coord : field.edited_bricks(chunk))
+      value.bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+  std::ranges::sort(value.bricks, {}, &BrickPatch::coord);
+  return value;
+}
+
+TickDelta World::keyframe() {
+  State& s = *state_;
+  TickDelta delta;
+  delta.tick = s.tick;
+  for (const ChunkCoord chunk : s.field.edited_chunks())
+    for (const BrickCoord coord : s.field.edited_bricks(chunk)) delta.bricks.push_back(s.brick_state(coord));
+  std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
+  for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
+  delta.ledger = s.ledger;
+  publish_settings(s, delta);
+  delta.field_hash = s.field.hash();
+  delta.state_hash = s.hash();
+  return delta;
+}
+
+uint64_t first_free_session(const WorldMoment& moment) {
+  uint64_t last = 0;
+  for (const KeptPiece& piece : moment.pieces) last = std::max(last, piece.traits.owner);
+  for (const PartyValue& party : moment.requests.parties) {
+    last = std::max(last, party.party);
+    for (const SessionValue& session : party.sessions) last = std::max(last, session.session);
+  }
+  for (const TurnsValue::Turn& turn : moment.requests.turns.turns) last = std::max(last, turn.who);
+  return last + 1;
+}
+
+}  // namespace scree

@@ -1,0 +1,94 @@
+// Real server processes that are killed at any moment: what they told as saved is there, and the recording
+// goes on.
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+#include "client/bot/bot.h"
+#include "server/replay/verify.h"
+#include "server/store/world_file.h"
+#include "server/world/world.h"
+#include "shared/base/random.h"
+#include "tests/support/patience.h"
+#include "tests/support/server_process.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+/// Kills of one run: SCREE_KILLS, or as many as a test may take time for.
+int kills_wanted() {
+  const char* const given = std::getenv("SCREE_KILLS");
+  return given == nullptr ? 2 : std::max(1, std::atoi(given));
+}
+
+/// The tick of a file that is whole: hashes as recomputed, ledger balanced.
+Tick tick_of(const std::string& path, std::string& why) {
+  const auto file = WorldFile::open(path);
+  if (!file) return why = file.error().message, 0;
+  const auto rows = (*file)->read();
+  if (!rows) return why = rows.error().message, 0;
+  const auto world = World::restore(rows->world);
+  if (!world) return why = world.error().message, 0;
+  return (*world)->tick();
+}
+
+/// A bot carves until the server has told `carves` of them as saved, and a little longer. Returns the tick
+/// that was told.
+Tick carve_until_saved(uint16_t port, uint32_t carves, uint64_t seed, int steps_more) {
+  BotConfig config;
+  config.port = port;
+  config.carves = 100000;
+  config.random_seed = seed;
+  config.rate_hz = 20.0;
+  config.reconnects_max = 0;
+  Bot bot(config);
+  if (!bot.join()) return 0;
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (bot.report().carves_saved < carves && std::chrono::steady_clock::now() < until)
+    if (!bot.step(std::chrono::milliseconds(20))) return 0;
+  for (int i = 0; i < steps_more; ++i)
+    if (!bot.step(std::chrono::milliseconds(5))) break;
+  return bot.report().carves_saved >= carves ? bot.report().status.saved_tick : 0;
+}
+
+TEST(killed_server, nothing_told_as_saved_is_missing_and_the_recording_verifies_across_kills) {
+  TestFolder folder;
+  const std::string world = folder / "world.scree", recording = folder / "session.scree";
+  const std::vector<std::string> options = {"--world",   world,  "--durability", "tick",
+                                            "--terrain", "flat", "--record",     recording};
+  const int kills = kills_wanted();
+  Random random(20261122);
+  for (int kill = 0; kill < kills; ++kill) {
+    SCOPED_TRACE(kill);
+    ServerProcess server(SCREE_SERVER_PROGRAM, options);
+    ASSERT_NE(server.port(), 0);
+    const auto more = static_cast<int>(random.unit() * 40.0F);
+    const Tick told = carve_until_saved(server.port(), 1 + static_cast<uint32_t>(kill % 3),
+                                        static_cast<uint64_t>(kill) + 1, more);
+    ASSERT_GT(told, 0U);
+    server.end(SIGKILL);
+    std::string why;
+    const Tick there = tick_of(world, why);
+    EXPECT_EQ(why, "");
+    EXPECT_GE(there, told);
+  }
+  {
+    ServerProcess server(SCREE_SERVER_PROGRAM, options);
+    ASSERT_NE(server.port(), 0);
+    ServerProcess second(SCREE_SERVER_PROGRAM, options);
+    EXPECT_EQ(second.port(), 0) << "a second server on the same world";
+    EXPECT_GT(carve_until_saved(server.port(), 1, 99, 0), 0U);
+    EXPECT_EQ(server.end(SIGTERM), 0);
+  }
+  auto reader = RecordingReader::open(recording);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  const auto report = verify(**reader);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->first_difference << ": " << report->difference;
+  EXPECT_EQ(report->restarts, static_cast<uint64_t>(kills));
+  std::string why;
+  EXPECT_EQ(tick_of(world, why), (*reader)->last_tick()) << why;
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,311 @@
+// Worlds as files: what was saved is found again, whatever happened to the process, the disk or the file.
+#include "server/store/world_file.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <thread>
+
+#include "server/store/world_keeper.h"
+#include "server/store/world_lock.h"
+#include "server/world/world.h"
+#include "tests/store/faulty_disk.h"
+#include "tests/support/recording_fixture.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+WorldHeader header_of(const WorldSnapshot& value) {
+  WorldHeader header{.world = 77, .config = value.moment.config};
+  header.config.program = "test";
+  return header;
+}
+
+/// A small world with pieces in the air, at tick 30.
+std::unique_ptr<World> busy_world() {
+  auto world = std::make_unique<World>(small_world());
+  for (Tick tick = 1; tick <= 30; ++tick) {
+    std::vector<Command> commands;
+    if (tick % 10 == 1) commands = {carve_at(static_cast<float>(tick) / 3.0F, static_cast<uint32_t>(tick))};
+    world->step(commands);
+  }
+  return world;
+}
+
+std::string refusal_of(const std::string& path) {
+  const auto file = WorldFile::open(path);
+  if (!file) return file.error().message;
+  const auto rows = (*file)->read();
+  if (!rows) return rows.error().message;
+  const auto world = World::restore(rows->world);
+  return world ? std::string() : world.error().message;
+}
+
+class WorldFileTest : public ::testing::Test {
+ protected:
+  void make() {
+    world = busy_world();
+    auto made = WorldFile::create(path, header_of(world->snapshot()), world->snapshot());
+    ASSERT_TRUE(made.has_value()) << made.error().message;
+    file = std::move(*made);
+  }
+  std::vector<uint8_t> value_in_file() {
+    auto reopened = WorldFile::open(path);
+    EXPECT_TRUE(reopened.has_value()) << reopened.error().message;
+    if (!reopened) return {};
+    const auto rows = (*reopened)->read();
+    EXPECT_TRUE(rows.has_value()) << rows.error().message;
+    return rows ? encode(rows->world) : std::vector<uint8_t>();
+  }
+
+  TestFolder folder;
+  std::string path = folder / "world.scree";
+  std::unique_ptr<World> world;
+  std::unique_ptr<WorldFile> file;
+};
+
+TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
+  make();
+  EXPECT_EQ(value_in_file(), encode(world->snapshot()));
+  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  for (Tick tick = 31; tick <= 90; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 50) commands = {carve_at(-3.0F, 50)};
+    const auto delta = world->step(commands);
+    if (keeper.note(*delta)) keeper.save(world->moment());
+  }
+  const auto finished = keeper.finish(world->moment());
+  ASSERT_TRUE(finished.has_value()) << finished.error().message;
+  EXPECT_EQ(keeper.status().saved_tick, 90U);
+  EXPECT_GT(keeper.status().saves, 1U);
+  EXPECT_EQ(value_in_file(), encode(world->snapshot()));
+  EXPECT_EQ(refusal_of(path), "");
+}
+
+TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
+  make();
+  const auto again = WorldFile::create(path, header_of(world->snapshot()), world->snapshot());
+  ASSERT_FALSE(again.has_value());
+  EXPECT_NE(again.error().message.find("exists already"), std::string::npos);
+}
+
+TEST_F(WorldFileTest, a_world_belongs_to_one_process) {
+  const auto first = WorldLock::take(path);
+  ASSERT_TRUE(first.has_value()) << first.error().message;
+  const auto second = WorldLock::take(path);
+  ASSERT_FALSE(second.has_value());
+  EXPECT_NE(second.error().message.find("process " + std::to_string(::getpid())), std::string::npos)
+      << second.error().message;
+  const auto nowhere = WorldLock::take(folder / "no folder/world");
+  ASSERT_FALSE(nowhere.has_value());
+  EXPECT_NE(nowhere.error().message.find("cannot be written"), std::string::npos);
+}
+
+TEST_F(WorldFileTest, a_save_that_finds_no_room_leaves_the_last_one_and_a_later_one_has_all) {
+  FaultyDisk disk;
+  make();
+  const auto tick = [&](uint32_t request) { world->step(std::vector<Command>{carve_at(2.0F, request)}); };
+  tick(100);
+  disk.full = true;
+  const auto refused = file->save(world->moment(), {});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_TRUE(file->is_full());
+  EXPECT_NE(refused.error().message.find("full"), std::string::npos) << refused.error().message;
+  EXPECT_EQ(refusal_of(path), "");  // the last one
+  disk.full = false;
+  file.reset();
+}
+
+TEST_F(WorldFileTest, what_a_full_disk_left_out_is_saved_when_there_is_room_again) {
+  FaultyDisk disk;
+  make();
+  disk.full = true;
+  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  const auto carve = [&](uint32_t request) {
+    const auto delta =
+        world->step(std::vector<Command>{carve_at(2.0F + static_cast<float>(request), request)});
+    if (keeper.note(*delta)) keeper.save(world->moment());
+  };
+  carve(1);
+  while (keeper.status().failures == 0) std::this_thread::yield();
+  EXPECT_FALSE(keeper.status().given_up);
+  EXPECT_EQ(keeper.status().saved_tick, 30U);
+  EXPECT_TRUE(keeper.status().error.has_value());
+  disk.full = false;
+  carve(2);
+  ASSERT_TRUE(keeper.finish(world->moment()).has_value());
+  EXPECT_EQ(keeper.status().saved_tick, 32U);
+  EXPECT_EQ(value_in_file(), encode(world->snapshot()));
+}
+
+TEST_F(WorldFileTest, after_any_other_error_nothing_is_told_as_saved_any_more) {
+  FaultyDisk disk;
+  make();
+  disk.dies_after = disk.writes + 3;
+  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  for (uint32_t i = 1; i <= 5; ++i) {
+    const auto delta = world->step(std::vector<Command>{carve_at(static_cast<float>(i), i)});
+    if (keeper.note(*delta)) keeper.save(world->moment());
+  }
+  EXPECT_FALSE(keeper.finish(world->moment()).has_value());
+  EXPECT_TRUE(keeper.status().given_up);
+  EXPECT_EQ(keeper.status().saved_tick, 30U);
+  disk.crash();
+  EXPECT_EQ(refusal_of(path), "");
+}
+
+/// A session of saves as a keeper would make them: each tick's moment, and the chunks that it changed.
+struct Saves {
+  WorldSnapshot begin;
+  std::vector<std::pair<WorldMoment, std::vector<WorldChunk>>> ticks;
+};
+
+Saves saves_of(Tick ticks) {
+  Saves saves;
+  World world(small_world());
+  saves.begin = world.snapshot();
+  for (Tick tick = 1; tick <= ticks; ++tick) {
+    world.step(std::vector<Command>{carve_at(static_cast<float>(tick), static_cast<uint32_t>(tick))});
+    std::map<ChunkCoord, WorldChunk> chunks;
+    for (const BrickPatch& patch : world.snapshot().bricks) {
+      WorldChunk& chunk = chunks[chunk_of(patch.coord)];
+      chunk.chunk = chunk_of(patch.coord);
+      chunk.version = tick;
+      chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+      chunk.bricks.push_back(patch);
+    }
+    auto& [moment, list] = saves.ticks.emplace_back(world.moment(), std::vector<WorldChunk>());
+    for (auto& [coord, chunk] : chunks) list.push_back(std::move(chunk));
+  }
+  return saves;
+}
+
+TEST_F(WorldFileTest, a_disk_that_dies_at_any_write_keeps_all_that_was_told_as_saved) {
+  const Saves saves = saves_of(4);
+  bool died = true;
+  uint64_t deaths = 0;
+  for (uint64_t writes = 1; died; ++writes) {
+    FaultyDisk disk;
+    disk.dies_after = writes;
+    Tick told = 0;
+    bool made = false;
+    {
+      auto created = WorldFile::create(path, header_of(saves.begin), saves.begin);
+      made = created.has_value();
+      for (const auto& [moment, chunks] : saves.ticks)
+        if (made && (*created)->save(moment, chunks)) told = moment.tick;
+    }
+    died = disk.dead();
+    deaths += died ? 1 : 0;
+    disk.crash();
+    if (!made) {
+      EXPECT_FALSE(std::filesystem::exists(path)) << writes;
+      continue;
+    }
+    {
+      auto opened = WorldFile::open(path);
+      ASSERT_TRUE(opened.has_value()) << opened.error().message;
+      const auto rows = (*opened)->read();
+      ASSERT_TRUE(rows.has_value()) << writes << ": " << rows.error().message;
+      const auto world = World::restore(rows->world);
+      ASSERT_TRUE(world.has_value()) << world.error().message;
+      EXPECT_GE((*world)->tick(), told) << writes;
+      if ((*world)->tick() > 0) {
+        EXPECT_EQ((*world)->moment().state_hash, saves.ticks[(*world)->tick() - 1].first.state_hash);
+      }
+    }
+    for (const char* name : {"", "-wal", "-shm"}) std::filesystem::remove(path + name);
+  }
+  EXPECT_GT(deaths, 20U);
+}
+
+TEST_F(WorldFileTest, damage_anywhere_is_refused_or_was_in_no_use) {
+  make();
+  const std::vector<uint8_t> good = encode(world->snapshot());
+  file.reset();
+  const std::vector<char> bytes = read_file(path);
+  const std::string damaged = folder / "damaged";
+  size_t refused = 0;
+  for (size_t at = 37; at < bytes.size(); at += bytes.size() / 60 + 1) {
+    std::vector<char> flipped = bytes;
+    flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
+    write_file(damaged, flipped);
+    const auto opened = WorldFile::open(damaged);
+    const auto rows = opened ? (*opened)->read() : tl::unexpected(opened.error());
+    if (!rows) {
+      ++refused;
+      EXPECT_NE(rows.error().message.find(damaged), std::string::npos) << rows.error().message;
+    } else {
+      EXPECT_EQ(encode(rows->world), good) << at;
+    }
+  }
+  EXPECT_GT(refused, 20U);
+  for (size_t length = 0; length < bytes.size(); length += 4096) {
+    write_file(damaged, {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)});
+    EXPECT_NE(refusal_of(damaged), "") << length;
+  }
+}
+
+TEST_F(WorldFileTest, foreign_files_and_other_releases_are_named) {
+  const auto expect = [&](const std::string& word) {
+    const std::string said = refusal_of(path);
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+    std::filesystem::remove(path);
+  };
+  expect("there is no such file");
+  write_file(path, std::vector<char>(5000, 'x'));
+  expect("is no world: it is not an SQLite file");
+  {
+    auto recording = Recorder::create(path, {"test", small_world()});
+    ASSERT_TRUE(recording.has_value());
+  }
+  expect("is no world: it is an SQLite file of another program");
+  make();
+  file.reset();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database && database->execute("PRAGMA user_version = 9").has_value());
+  }
+  expect("is a world of format 9");
+}
+
+TEST_F(WorldFileTest, repair_keeps_every_chunk_that_is_whole_and_says_what_was_lost) {
+  make();
+  const WorldSnapshot before = world->snapshot();
+  file.reset();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database &&
+                database
+                    ->execute("UPDATE chunks SET checksum = 0 WHERE key = (SELECT min(key) FROM chunks);"
+                              "UPDATE pieces SET checksum = 0 WHERE key = (SELECT max(key) FROM pieces)")
+                    .has_value());
+  }
+  EXPECT_NE(refusal_of(path).find("damaged"), std::string::npos);
+  file = std::move(*WorldFile::open(path));
+  LostRows lost;
+  const auto rows = file->read(&lost);
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  EXPECT_EQ(lost.reasons.size(), 2U);
+  const auto salvaged = World::salvage(rows->world);
+  ASSERT_TRUE(salvaged.has_value()) << salvaged.error().message;
+  const WorldSnapshot after = (*salvaged)->snapshot();
+  EXPECT_EQ(after.moment.pieces.size() + 1, before.moment.pieces.size());
+  EXPECT_LT(after.bricks.size(), before.bricks.size());
+  EXPECT_GT(after.bricks.size(), 0U);
+  const auto again = World::restore(after);
+  ASSERT_TRUE(again.has_value()) << again.error().message;
+  for (int tick = 0; tick < 60; ++tick) EXPECT_EQ((*again)->step({})->ledger.error(), 0);
+}
+
+TEST_F(WorldFileTest, a_backup_is_whole_while_the_world_is_saved) {
+  make();
+  ASSERT_TRUE(file->save(world->moment(), {}).has_value());
+  const std::string copy = folder / "backup";
+  const auto reader = WorldFile::open(path);
+  ASSERT_TRUE(reader.has_value() && (*reader)->copy_to(copy).has_value());
+  EXPECT_EQ(refusal_of(copy), "");
+}
+
+}  // namespace
+}  // namespace scree
