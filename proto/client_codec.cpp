@@ -1,6 +1,7 @@
 // ClientMessage to bytes and back.
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
+#include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -56,6 +57,7 @@ struct Writing {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
+  void operator()(const TileRequest& from) const { write(*to.mutable_tiles(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
 };
@@ -135,6 +137,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read_offer(from.offer(), check));
     case wire::ClientMessage::kGoodbye:
       return GoodbyeMessage{};
+    case wire::ClientMessage::kTiles:
+      return checked(read_tile_request(from.tiles(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "proto/byte_stream.h"
+#include "proto/height_wire.h"
 #include "shared/base/check.h"
 #include "shared/base/text.h"
 
@@ -80,6 +81,7 @@ void write(wire::Welcome& to, const WelcomeMessage& from) {
   to.set_world(from.world);
   to.set_ticket(from.ticket);
   to.set_resumed(from.resumed);
+  if (from.heights) write(*to.mutable_heights(), *from.heights);
 }
 
 WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
@@ -103,6 +105,7 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
   welcome.world = from.world();
   welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   welcome.resumed = from.resumed();
+  if (from.has_heights()) welcome.heights = read_heights(from.heights(), check);
   return welcome;
 }
 

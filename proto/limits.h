@@ -41,6 +41,16 @@ inline constexpr size_t ticket_bytes_max = 48;
 /// connection ends.
 inline constexpr size_t ground_chunks_max = 1024;
 
+/// Bytes of a tile of an elevation model: 65,536 that nothing compresses, and what is around them. Above:
+/// refused.
+inline constexpr size_t tile_bytes_max = size_t{72} << 10;
+
+/// Tiles that a client may ask for in one message, and wait for. Above: refused, and the connection ends.
+inline constexpr size_t tiles_wanted_max = 256;
+
+/// Tiles that a client says in one message to have kept; as many as it keeps in memory (128 MiB).
+inline constexpr size_t tiles_held_max = 2048;
+
 /// Length of a client's name, bytes.
 inline constexpr size_t client_name_bytes_max = 64;
 

@@ -70,6 +70,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const KeptMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
+                     [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ResetMessage&) { return size_t{0}; },
                      [](const ReplyMessage& m) { return m.refusal.size() + m.refusal_name.size(); },
                      [](const StatusMessage& m) {

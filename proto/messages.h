@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/base/digest.h"
 #include "shared/base/ids.h"
 #include "shared/base/latency.h"
 #include "shared/base/role.h"
@@ -127,11 +128,26 @@ struct GroundRequest {
 /// The client leaves for good. Nothing follows.
 struct GoodbyeMessage {};
 
+/// Asks for tiles of the ground's elevation model, each of which is answered by a TileMessage, and says which
+/// the client has kept from earlier.
+struct TileRequest {
+  std::vector<TileKey> wanted;
+  std::vector<TileKey> held{};
+};
+
 using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
                                    RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage,
-                                   GroundRequest, OfferMessage, GoodbyeMessage>;
+                                   GroundRequest, OfferMessage, GoodbyeMessage, TileRequest>;
 
 // ---- server to client
+
+/// A ground by heights, as far as it is known without its tiles. `top`: SHA-256 of the coarsest one.
+struct HeightGround {
+  HeightLayout layout;
+  Digest top{};
+
+  bool operator==(const HeightGround&) const = default;
+};
 
 struct WelcomeMessage {
   uint32_t protocol = protocol_version;
@@ -146,6 +162,9 @@ struct WelcomeMessage {
   uint64_t world = 0;              ///< tells worlds apart; never 0 on the wire
   std::string ticket{};            ///< for HelloMessage::ticket, once
   bool resumed = false;            ///< the session of the hello's ticket goes on
+  /// If the ground is by heights: then terrain.kind and random_seed mean nothing. Who receives it makes
+  /// terrain.heights of it.
+  std::optional<HeightGround> heights{};
 };
 
 /// The reason for which the server closes the connection.
@@ -203,6 +222,12 @@ struct GroundMessage {
   uint64_t rock = 0;    ///< bit i: brick i of the chunk (index_in_chunk) is wholly rock
   std::vector<BrickPatch> bricks{};
   uint64_t hash = 0;  ///< Σ brick_hash of all bricks
+};
+
+/// A tile of the ground's elevation model (proto/height_codec.h).
+struct TileMessage {
+  TileKey key;
+  std::vector<uint8_t> bytes;
 };
 
 /// A piece whose creating operation the client did not get.
@@ -352,7 +377,7 @@ struct PhysicsMessage {
 
 using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
                                    ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
-                                   GroundMessage, AdminListMessage, KeptMessage>;
+                                   GroundMessage, AdminListMessage, KeptMessage, TileMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -4,6 +4,7 @@
 #include "proto/admin_codec.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
+#include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
@@ -154,6 +155,7 @@ struct Writing {
     ground.set_bricks(to_string(encode_bricks(from.bricks)));
     ground.set_hash(from.hash);
   }
+  void operator()(const TileMessage& from) const { write(*to.mutable_tile(), from); }
   void operator()(const PieceMessage& from) const {
     wire::Piece& piece = *to.mutable_piece();
     piece.set_id(from.id);
@@ -353,6 +355,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read_kept(from.kept(), check));
     case wire::ServerMessage::kGround:
       return checked(read(from.ground(), check));
+    case wire::ServerMessage::kTile:
+      return checked(read_tile(from.tile(), check));
     case wire::ServerMessage::kPiece:
       return checked(read(from.piece(), check));
     case wire::ServerMessage::kReset:

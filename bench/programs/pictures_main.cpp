@@ -24,7 +24,7 @@ namespace {
 constexpr float view_radius_m = 48.0F;
 constexpr int width = 560;
 constexpr int height = 315;
-constexpr TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
+const TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
 
 Camera look(glm::vec3 from_m, glm::vec3 at_m) {
   const glm::vec3 way = glm::normalize(at_m - from_m);

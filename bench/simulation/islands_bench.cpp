@@ -15,7 +15,7 @@ namespace scree {
 
 namespace {
 
-constexpr TerrainSource terrain{TerrainKind::noise, 5, 0.25F};
+const TerrainSource terrain{TerrainKind::noise, 5, 0.25F};
 constexpr float near_half_m = 32.0F;  ///< the 64 m world, and the scene in the middle of the other
 constexpr float far_half_m = 512.0F;  ///< the 1,024 m world
 constexpr float level_enough_m = 1.5F;

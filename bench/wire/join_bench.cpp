@@ -115,7 +115,8 @@ Joined join(Rejoin& rejoin, uint16_t port, const Field& field, glm::vec3 eye_m) 
   const std::unique_ptr<Mirror> mirror = rejoin.begin(connection);
   while (joined.all_s == 0.0 && steady_now_s() < begin_s + 120.0 && joined.failure.empty()) {
     for (const Received& received : connection.wait(std::chrono::milliseconds(5))) {
-      rejoin.before(received.message, *mirror);
+      if (const auto taken = rejoin.before(received.message, *mirror); !taken)
+        joined.failure = taken.error().message;
       if (const auto applied = mirror->apply(received.message); !applied)
         joined.failure = applied.error().message;
       rejoin.after(received.message, *mirror, connection);

@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-constexpr TerrainSource plain{TerrainKind::flat, 1, 0.25F};
+const TerrainSource plain{TerrainKind::flat, 1, 0.25F};
 constexpr int boxes_a_side = 30;
 constexpr float box_half_m = 0.2F, cube_half_m = 0.75F, spacing_m = 0.6F;
 constexpr float cube_speed_m_s = 6.0F;

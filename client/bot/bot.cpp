@@ -57,14 +57,19 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
   connection_ = std::move(*connected);
   report_.welcome = connection_->welcome();
   mirror_ = rejoin_.begin(*connection_);
-  if (report_.connections++ == 0) {
-    // The ground is known from the welcome on.
-    const float ground_m = ground_height_m(report_.welcome.terrain, eye_m_.x, eye_m_.z);
-    set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
-  }
+  ++report_.connections;
+  stand_on_ground();
   log("connected", "connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) +
                        " as " + std::string(name_of(report_.welcome.role)));
   return {};
+}
+
+/// Once, when the ground is known: as a rule from the welcome on, else when its tiles have come.
+void Bot::stand_on_ground() {
+  if (stands_ || !rejoin_.has_near_ground()) return;
+  stands_ = true;
+  const float ground_m = ground_height_m(mirror_->terrain(), eye_m_.x, eye_m_.z);
+  set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
 }
 
 /// Adds the connection's counts to the report, and drops the connection.
@@ -105,13 +110,13 @@ Result<void> Bot::step(std::chrono::milliseconds wait) {
   const Clock::time_point now = Clock::now();
   ask(now);
   acknowledge(now);
-  rejoin_.tend(ms_between(started_, now) / 1000.0, *mirror_);
+  rejoin_.tend(ms_between(started_, now) / 1000.0, *mirror_, *connection_);
   return {};
 }
 
 Result<void> Bot::receive(const Received& received) {
   tally(received, report_);
-  rejoin_.before(received.message, *mirror_);
+  if (Result<void> taken = rejoin_.before(received.message, *mirror_); !taken) return taken;
   const Result<MirrorChanges> applied = mirror_->apply(received.message);
   if (!applied) return tl::unexpected(applied.error());
   rejoin_.after(received.message, *mirror_, *connection_);
@@ -186,7 +191,8 @@ void Bot::receive_status(const StatusMessage& status) {
 }
 
 void Bot::ask(Clock::time_point now) {
-  if (first_frame_ == 0) return;
+  stand_on_ground();
+  if (first_frame_ == 0 || !rejoin_.has_near_ground()) return;
   while (report_.carves_asked < config_.carves && requests_.size() < limits::bot_requests_waiting_max) {
     const double due_ms = config_.rate_hz > 0.0 ? 1000.0 * report_.carves_asked / config_.rate_hz : 0.0;
     if (ms_between(first_frame_at_, now) < due_ms) return;

@@ -71,6 +71,7 @@ class Bot {
 
   tl::expected<void, ConnectionEnd> connect();
   Result<void> reconnect(const ConnectionEnd& end);
+  void stand_on_ground();
   void leave();
   Result<void> receive(const Received& received);
   void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);
@@ -86,6 +87,7 @@ class Bot {
   LogLimit log_limit_;
   Carver carver_;
   glm::vec3 eye_m_;
+  bool stands_ = false;  ///< the interest is at the ground's height
   Rejoin rejoin_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Mirror> mirror_;

@@ -56,10 +56,15 @@ Json ledger(const StatusMessage& status) {
 }
 
 Json bytes(const BotReport& report) {
-  return {{"received", report.bytes.total()}, {"sent", report.bytes_sent},
-          {"frames", report.bytes.frames},    {"transforms", report.bytes.transforms},
-          {"chunks", report.bytes.chunks},    {"pieces", report.bytes.pieces},
-          {"other", report.bytes.other},      {"operations", report.seen.operation_bytes}};
+  return {{"received", report.bytes.total()},
+          {"sent", report.bytes_sent},
+          {"frames", report.bytes.frames},
+          {"transforms", report.bytes.transforms},
+          {"chunks", report.bytes.chunks},
+          {"pieces", report.bytes.pieces},
+          {"tiles", report.bytes.tiles},
+          {"other", report.bytes.other},
+          {"operations", report.seen.operation_bytes}};
 }
 
 Json cost(const OperationCost& cost) {

@@ -20,9 +20,10 @@ struct BytesByKind {
   uint64_t transforms = 0;
   uint64_t chunks = 0;
   uint64_t pieces = 0;
+  uint64_t tiles = 0;  ///< of the ground
   uint64_t other = 0;
 
-  uint64_t total() const { return frames + transforms + chunks + pieces + other; }
+  uint64_t total() const { return frames + transforms + chunks + pieces + tiles + other; }
 };
 
 /// Bytes of operations on the wire: their own, and an equal share of their frame's other bytes without

@@ -43,6 +43,7 @@ void tally(const Received& received, BotReport& report) {
                         },
                         [&](const ChunkMessage&) { bytes.chunks += received.bytes; },
                         [&](const KeptMessage&) { bytes.chunks += received.bytes; },
+                        [&](const TileMessage&) { bytes.tiles += received.bytes; },
                         [&](const PieceMessage&) { bytes.pieces += received.bytes; },
                         [&](const StatusMessage& status) {
                           bytes.other += received.bytes;

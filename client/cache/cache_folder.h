@@ -34,12 +34,15 @@ class CacheFolder {
   std::optional<KeptWorld> read(const std::string& address, std::optional<uint64_t> world) const;
   /// The error says why nothing can be kept there.
   Result<void> try_writing() const;
-  /// Then removes the files written longest ago, as far as all are more than the bound.
+  /// Then calls bound().
   void write(const std::string& address, const KeptWorld& kept) const;
+  /// Removes the files written longest ago, as far as all, tiles of grounds among them, are more than the
+  /// bound.
+  void bound() const;
+  const std::string& path() const { return path_; }
 
  private:
   std::string file_of(const std::string& address, uint64_t world) const;
-  void bound() const;
 
   std::string path_;
   size_t bytes_max_;

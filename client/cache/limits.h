@@ -30,6 +30,20 @@ inline constexpr double unfinished_seconds_max = 3600.0;
 /// Bytes of a server's name in a file's.
 inline constexpr size_t cache_name_bytes_max = 100;
 
+/// Tiles of the ground that are asked for at once: enough for a link of 2 MB/s and 0.2 s, and less than a
+/// server lets wait. Above: the others later.
+inline constexpr size_t tiles_asked_max = 32;
+
+/// Tiles that somebody has missed and that have not come; each is missed again as long as it is needed.
+/// Above: the others later.
+inline constexpr size_t tiles_missed_max = 4096;
+
+/// Tiles that are read from files in one call: a frame is hardly to notice. The others the next time.
+inline constexpr size_t tiles_read_at_once = 32;
+
+/// Tiles received between two times that the files are bounded.
+inline constexpr uint64_t tiles_between_bounds = 64;
+
 /// Metres beyond the radius of interest up to which chunks are offered, for who moves.
 inline constexpr float offer_margin_m = 8.0F;
 

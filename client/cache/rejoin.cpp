@@ -39,8 +39,30 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Rejoin::connect(const S
   return Connection::connect(server, std::move(hello), within, then);
 }
 
+/// Tiles that came by an earlier connection are not asked for again.
+WelcomeMessage Rejoin::with_ground(const WelcomeMessage& welcome) {
+  WelcomeMessage grounded = welcome;
+  if (!welcome.heights) {
+    tiles_.reset();
+  } else if (tiles_ == nullptr || tiles_->ground() != *welcome.heights) {
+    tiles_ = std::make_shared<ReceivedTiles>(*welcome.heights,
+                                             TileFolder(keeps() ? folder_.path() : std::string()));
+  } else {
+    tiles_->begin_session();
+  }
+  grounded.terrain.heights = tiles_;
+  return grounded;
+}
+
+void Rejoin::ask_for_tiles(Connection& connection) {
+  if (tiles_ == nullptr) return;
+  const TileRequest request = tiles_->next_request(eye_m_, radius_m_);
+  if (!request.wanted.empty() || !request.held.empty()) connection.send(request);
+}
+
 std::unique_ptr<Mirror> Rejoin::begin(Connection& connection) {
-  const WelcomeMessage& welcome = connection.welcome();
+  const WelcomeMessage welcome = with_ground(connection.welcome());
+  ask_for_tiles(connection);
   ticket_ = welcome.ticket;
   to_pack_.clear();
   if (!keeps()) return std::make_unique<Mirror>(welcome);
@@ -71,14 +93,20 @@ void Rejoin::offer(const Mirror& mirror, Connection& connection) {
   if (!offer.chunks.empty()) connection.send(offer);
 }
 
-void Rejoin::before(const ServerMessage& message, Mirror& mirror) {
-  if (!keeps()) return;
+Result<void> Rejoin::before(const ServerMessage& message, Mirror& mirror) {
+  if (const auto* tile = std::get_if<TileMessage>(&message)) {
+    if (tiles_ == nullptr) return fail("a tile of a ground that has none");
+    if (Result<void> taken = tiles_->take(*tile); !taken) return taken;
+    if (tiles_->tiles_received() % limits::tiles_between_bounds == 0) folder_.bound();
+  }
+  if (!keeps()) return {};
   if (std::holds_alternative<ResetMessage>(message)) keep(mirror);
   const auto* frame = std::get_if<FrameMessage>(&message);
-  if (frame == nullptr) return;
+  if (frame == nullptr) return {};
   if (!frame->dropped_chunks.empty()) offered_.clear();
   for (const ChunkCoord chunk : frame->dropped_chunks)
     if (mirror.held_chunks().contains(chunk)) changed_ = cache_.keep(mirror.field(), chunk) || changed_;
+  return {};
 }
 
 void Rejoin::after(const ServerMessage& message, Mirror& mirror, Connection& connection) {
@@ -94,7 +122,12 @@ void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection&
   if (keeps()) offer(mirror, connection);
 }
 
-void Rejoin::tend(double now_s, Mirror& mirror) {
+void Rejoin::tend(double now_s, Mirror& mirror, Connection& connection) {
+  ask_for_tiles(connection);
+  keep_chunks(now_s, mirror);
+}
+
+void Rejoin::keep_chunks(double now_s, Mirror& mirror) {
   if (!keeps()) return;
   for (size_t packed = 0; packed < limits::chunks_packed_at_once && !to_pack_.empty();) {
     const ChunkCoord chunk = to_pack_.back();

@@ -13,6 +13,7 @@
 
 #include "client/cache/cache_folder.h"
 #include "client/cache/chunk_cache.h"
+#include "client/cache/received_tiles.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 
@@ -38,14 +39,17 @@ class Rejoin {
   std::unique_ptr<Mirror> begin(Connection& connection);
 
   /// Call before the mirror applies the message, and after: chunks that it forgets are kept, and offered
-  /// again when they are to come again.
-  void before(const ServerMessage& message, Mirror& mirror);
+  /// again when they are to come again. The error: a tile of the ground that cannot be one; the connection is
+  /// of no more use.
+  Result<void> before(const ServerMessage& message, Mirror& mirror);
   void after(const ServerMessage& message, Mirror& mirror, Connection& connection);
   /// Sends the interest, and an offer of what is kept of what comes into it.
   void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection& connection);
-  /// Call often: packs a few chunks, and writes the file from time to time, on another thread. Seconds, of
-  /// any origin.
-  void tend(double now_s, Mirror& mirror);
+  /// Call often: asks for tiles of the ground that were missed, packs a few chunks, and writes the file from
+  /// time to time, on another thread. Seconds, of any origin.
+  void tend(double now_s, Mirror& mirror, Connection& connection);
+  /// Whether the ground within the interest is known, as far as its heights go.
+  bool has_near_ground() const { return tiles_ == nullptr || tiles_->has_near(eye_m_, radius_m_); }
   /// Keeps all that the mirror holds: its connection is lost.
   void keep(Mirror& mirror);
   /// Writes what is kept. Returns when it is written.
@@ -54,12 +58,17 @@ class Rejoin {
   void finish(Mirror* mirror);
 
   const ChunkCache& cache() const { return cache_; }
+  /// Null when the ground has no tiles.
+  const ReceivedTiles* tiles() const { return tiles_.get(); }
 
  private:
   bool keeps() const { return config_.bytes_max != 0; }
   void load(std::optional<uint64_t> world);
   OfferMessage next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held);
   void offer(const Mirror& mirror, Connection& connection);
+  WelcomeMessage with_ground(const WelcomeMessage& welcome);
+  void ask_for_tiles(Connection& connection);
+  void keep_chunks(double now_s, Mirror& mirror);
 
   CacheConfig config_;
   CacheFolder folder_;
@@ -67,6 +76,7 @@ class Rejoin {
   std::string address_;
   uint64_t world_ = 0;  ///< of the cache; 0: not known
   float voxel_size_m_ = 0.0F;
+  std::shared_ptr<ReceivedTiles> tiles_;  ///< of the ground; kept for the next connection
   std::string ticket_;
   glm::vec3 eye_m_{0.0F};
   float radius_m_ = 0.0F;

@@ -79,6 +79,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const PhysicsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.
           [](const GroundMessage&) -> Done { return {}; },
+          // For the ground (client/cache/received_tiles.h), which the field asks.
+          [](const TileMessage&) -> Done { return {}; },
       },
       message);
   if (applied) applied = within_limits();

@@ -286,7 +286,7 @@ void Renderer::set_trace(Trace* trace) {
 }
 
 void Renderer::set_terrain(const TerrainSource& terrain) {
-  parts_->layers = traits_of(terrain.kind).layers;
+  parts_->layers = layers_of(terrain);
 }
 
 const std::string& Renderer::description() const {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "ground/ground_file.h"
 #include "proto/messages.h"
 #include "server/app/limits.h"
 #include "server/world/limits.h"
@@ -30,6 +31,7 @@ struct Raw {
   std::string token_path;
   std::string durability = "second";
   std::string anonymous;  ///< empty: by what else is given
+  std::string ground;     ///< empty: generated
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
 
@@ -65,9 +67,12 @@ void add_network(CLI::App& app, Raw& raw) {
 void add_world(CLI::App& app, Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   const auto& terrains = kind_names<TerrainKind>;
-  app.add_option("--terrain", raw.terrain, listed(terrains))
-      ->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
+  CLI::Option* terrain = app.add_option("--terrain", raw.terrain, listed(terrains));
+  terrain->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
       ->capture_default_str();
+  app.add_option("--ground", raw.ground,
+                 "ground file, as scree import makes it: the terrain instead of a generated one")
+      ->excludes(terrain);
   bounded(app.add_option("--seed", world.terrain.random_seed, "of the terrain"),
           whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
@@ -207,6 +212,13 @@ void take_token(Raw& raw) {
 /// A world's own limits are the only ones. Settings come in any order, so they are compared here, at last.
 void take_world(Raw& raw) {
   WorldConfig& world = raw.options.live.world;
+  if (!raw.ground.empty()) {
+    auto file = GroundFile::open(raw.ground);
+    if (!file) throw CLI::ValidationError("--ground", file.error().message);
+    if (!raw.options.live.record_path.empty() || !raw.options.live.replay.path.empty())
+      throw CLI::ValidationError("--ground", "recordings are of generated terrain alone");
+    world.terrain.heights = std::move(*file);
+  }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
   if (Result<void> valid = validate(world); !valid) throw CLI::ValidationError(valid.error().message);
 }

@@ -203,6 +203,13 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
                                       "(limits.ground_chunks_max)",
                                       limits::ground_chunks_max));
           },
+          [&](const TileRequest& tiles) -> Done {
+            if (publisher_.ask_tiles(session.id(), tiles)) return {};
+            return refuse(Refusal::ground_waiting,
+                          fmt::format("more than {} tiles of the ground asked for and not answered "
+                                      "(limits.tiles_wanted_max)",
+                                      limits::tiles_wanted_max));
+          },
       },
       message);
 }

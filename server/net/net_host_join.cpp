@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tuple>
 
+#include "crypto/sha256.h"
 #include "server/net/net_host.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
@@ -62,6 +63,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   welcome.world = world_;
   welcome.ticket = tickets_.issue(session.id());
   welcome.resumed = before.has_value();
+  if (const auto& heights = config_.terrain.heights)
+    welcome.heights = HeightGround{heights->layout(), sha256(heights->packed(heights->layout().top()))};
   return welcome;
 }
 

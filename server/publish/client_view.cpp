@@ -58,8 +58,8 @@ uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
 }  // namespace
 
 TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const PublishedState& after,
-                         const Motions& m, float size_m)
-    : delta(d), state(after), motions(m), voxel_size_m(size_m) {
+                         const Motions& m, const TerrainSource& ground)
+    : delta(d), state(after), motions(m), voxel_size_m(ground.voxel_size_m) {
   for (const BrickState& brick : d.bricks) bricks[chunk_of(brick.coord)].push_back(&brick);
   for (const auto& [chunk, list] : bricks) {
     if (!before.chunks().contains(chunk)) fresh.insert(chunk);
@@ -77,6 +77,12 @@ TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const
     const auto unedited = [&](ChunkCoord chunk) { return !before.chunks().contains(chunk); };
     std::erase_if(needed, unedited);
     std::ranges::copy_if(operation.writes, std::back_inserter(opens.emplace_back()), unedited);
+    std::set<TileKey>& decide = tiles.emplace_back();
+    if (ground.heights == nullptr) continue;
+    for (const auto& chunks : {operation.reads, operation.writes})
+      for (const ChunkCoord chunk : chunks)
+        for (const TileKey key : tiles_of(ground.heights->layout(), chunk, ground.voxel_size_m))
+          decide.insert(key);
   }
 }
 
@@ -138,6 +144,7 @@ bool ClientView::can_apply(size_t operation, const TickChanges& changes, const C
       (std::ranges::any_of(applied.reads, is_tainted) || std::ranges::any_of(applied.writes, is_tainted)))
     return false;
   return std::ranges::all_of(changes.needs[operation], is_held) &&
+         std::ranges::includes(tiles_, changes.tiles[operation]) &&
          std::ranges::all_of(changes.ended[operation], [this](PieceId piece) { return knows(piece); });
 }
 

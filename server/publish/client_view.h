@@ -1,7 +1,8 @@
 // One client's knowledge of the world, and the selection of what to send next: no bytes, no sockets.
 //
 // Invariants: `held` chunks on the client are exactly as published, once it has applied everything selected
-// so far (TCP keeps the order). A chunk that was never edited is known to every client, which generates it.
+// so far (TCP keeps the order). A chunk that was never edited is known to every client that has the tiles of
+// the ground which decide it; a ground that is generated has none.
 // An edited chunk within interest is held or wanted, never both; a stale chunk is wanted and not held, and
 // its bricks that the client does not lack are exactly as published.
 // `known` pieces are those that the client has. Lengths in metres. Not thread-safe.
@@ -13,6 +14,7 @@
 #include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -35,11 +37,12 @@ struct TickChanges {
   std::vector<std::vector<PieceId>> ended;     ///< by each operation
   std::vector<std::vector<ChunkCoord>> needs;  ///< chunks with edits before, which each reads or writes
   std::vector<std::vector<ChunkCoord>> opens;  ///< chunks without edits before, which each writes
+  std::vector<std::set<TileKey>> tiles;        ///< of the ground, if it has any, that decide what each reads
   ChunkSet fresh;                              ///< changed for the first time in this tick
   ChunkSet orphan;                             ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
-              const Motions& motions, float voxel_size_m);
+              const Motions& motions, const TerrainSource& ground);
 };
 
 /// A frame's content, by reference into the tick. Clients with equal selections get the same bytes.
@@ -100,6 +103,10 @@ class ClientView {
   /// Notes that the client has no edits and no pieces.
   void reset();
 
+  /// Notes that the client has a tile of the ground, or gets it before what comes next.
+  void hold_tile(TileKey key) { tiles_.insert(key); }
+  bool holds_tile(TileKey key) const { return tiles_.contains(key); }
+
   const ChunkSet& held() const { return held_; }
   bool knows(PieceId piece) const {
     const auto known = known_.find(piece);
@@ -143,6 +150,7 @@ class ClientView {
   size_t patch_credit_bricks_;  ///< of a client without kernels
   bool rescan_due_ = true;
   Tick rescanned_ = 0;
+  std::set<TileKey> tiles_;  ///< of the ground
   ChunkSet held_;
   /// Not held, but the client has edits there, to be completed, replaced by the whole chunk, or dropped; with
   /// the bricks that it lacks.

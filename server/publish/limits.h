@@ -35,6 +35,10 @@ inline constexpr size_t patch_bricks_per_tick = 64;
 /// Bytes of ground sent to one client in a tick. Above: the rest waits.
 inline constexpr int64_t ground_bytes_per_tick = 16 * 1024;
 
+/// Bytes of an elevation model's tiles sent to one client in a tick, 2 MB/s at 60 Hz: the horizon stands
+/// within a second. One tile may go beyond, and is made up for. Above: the rest waits.
+inline constexpr int64_t tile_bytes_per_tick = 32 * 1024;
+
 /// Bytes of the bodies' state (PhysicsMessage) sent to one client in a tick on average: 240 KB/s at 60 Hz.
 /// Above: it gets the next message later, with the state as it is then.
 inline constexpr int64_t physics_bytes_per_tick = 4 * 1024;

@@ -48,6 +48,7 @@ PublisherStats& PublisherStats::operator+=(const PublisherStats& other) {
   chunks_kept += other.chunks_kept;
   piece_bytes += other.piece_bytes;
   ground_bytes += other.ground_bytes;
+  tile_bytes += other.tile_bytes;
   operations += other.operations;
   operation_bytes += other.operation_bytes;
   repairs += other.repairs;
@@ -60,6 +61,7 @@ Publisher::Publisher(const PublisherConfig& config, Workers& workers)
       workers_(workers),
       motions_(no_motions(config)),
       ground_(config.terrain),
+      tiles_(config.terrain.heights),
       clock_(config.tick_rate_hz) {}
 
 void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers) {
@@ -79,6 +81,7 @@ void Publisher::leave(uint64_t session) {
   clients_.erase(session);
   cursors_.erase(session);
   ground_.leave(session);
+  tiles_.leave(session);
 }
 
 void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) {
@@ -116,6 +119,11 @@ bool Publisher::ask_ground(uint64_t session, const GroundRequest& request) {
   return !clients_.contains(session) || ground_.ask(session, request.chunks);
 }
 
+bool Publisher::ask_tiles(uint64_t session, const TileRequest& request) {
+  const auto client = clients_.find(session);
+  return client == clients_.end() || tiles_.ask(session, request, client->second.view);
+}
+
 const ClientView* Publisher::view(uint64_t session) const {
   const auto client = clients_.find(session);
   return client == clients_.end() ? nullptr : &client->second.view;
@@ -132,7 +140,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   }
   // TickChanges must know the chunks edited before this tick: it reads the old state here, and refers to the
   // same object after apply(), so that no copy is needed.
-  const TickChanges changes(delta, state_, state_, motions_, config_.terrain.voxel_size_m);
+  const TickChanges changes(delta, state_, state_, motions_, config_.terrain);
   state_.apply(delta);
   motions_.track(delta, state_, has_poses(delta.tick));
   clock_.add(delta.times, delta.work);
@@ -141,10 +149,11 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   serve_all(changes, backlog);
   Part rest;
   stream_ground(backlog, rest);
+  stream_tiles(backlog, rest);
   add(std::move(rest));
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
-            stats_.ground_bytes <=
+            stats_.ground_bytes + stats_.tile_bytes <=
         stats_.sent_bytes);
   return std::exchange(out_, {});
 }

@@ -29,6 +29,7 @@
 #include "server/publish/ground_stream.h"
 #include "server/publish/limits.h"
 #include "server/publish/tick_clock.h"
+#include "server/publish/tile_stream.h"
 #include "shared/base/workers.h"
 #include "shared/operation/per_operation.h"
 
@@ -61,6 +62,7 @@ struct PublisherStats {
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
   uint64_t ground_bytes = 0;
+  uint64_t tile_bytes = 0;
   uint64_t kept_bytes = 0;
   uint64_t chunks_kept = 0;         ///< that were offered, and not sent
   OperationCounts operations;       ///< operations published
@@ -101,6 +103,8 @@ class Publisher {
   void repair(uint64_t session, const RepairRequest& request);
   /// Queues chunks whose ground the client asks for; false when too many would wait (GroundStream::ask).
   [[nodiscard]] bool ask_ground(uint64_t session, const GroundRequest& request);
+  /// Takes what the client has of the ground's tiles, and queues what it asks for (TileStream::ask).
+  [[nodiscard]] bool ask_tiles(uint64_t session, const TileRequest& request);
 
   /// Sets how often the server has refused requests and sessions, for the status.
   void set_refusals(const RefusalCounts& refusals) { refusals_ = refusals; }
@@ -189,6 +193,7 @@ class Publisher {
 
   // ---- by the owner's thread alone
   void stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part);
+  void stream_tiles(const std::function<Backlog(uint64_t)>& backlog, Part& part);
 
   PublisherConfig config_;
   Workers& workers_;
@@ -198,6 +203,7 @@ class Publisher {
   std::map<uint64_t, PlayerCursor> cursors_;
   EncodeCache cache_;
   GroundStream ground_;
+  TileStream tiles_;
   TickClock clock_;
   PublisherStats stats_;
   RefusalCounts refusals_;

@@ -22,6 +22,16 @@ int64_t size_of(const SharedBytes& bytes) {
   return static_cast<int64_t>(bytes->size());
 }
 
+/// Tells of a session its view, or null while it gets nothing.
+template <typename Clients>
+auto readers(Clients& clients, const std::function<Backlog(uint64_t)>& backlog) {
+  return [&](uint64_t session) -> ClientView* {
+    auto& client = clients.at(session);
+    const bool reads_along = !client.stopped && backlog(session).reads_along();
+    return reads_along && client.takes_more() ? &client.view : nullptr;
+  };
+}
+
 }  // namespace
 
 void Publisher::stream_chunks(Client& client, const TickChanges& changes, Part& part) {
@@ -90,13 +100,17 @@ void Publisher::stream_pieces(Client& client, Part& part) {
 }
 
 void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part) {
-  const auto reader = [&](uint64_t session) -> const ClientView* {
-    const Client& client = clients_.at(session);
-    const bool reads_along = !client.stopped && backlog(session).reads_along();
-    return reads_along && client.takes_more() ? &client.view : nullptr;
-  };
-  ground_.serve(reader, [&](uint64_t session, const SharedBytes& bytes) {
+  ground_.serve(readers(clients_, backlog), [&](uint64_t session, const SharedBytes& bytes) {
     part.stats.ground_bytes += bytes->size();
+    send(clients_.at(session), bytes, part);
+    return clients_.at(session).takes_more();
+  });
+}
+
+/// After the tick's frame, which therefore does not count on them; the next one does.
+void Publisher::stream_tiles(const std::function<Backlog(uint64_t)>& backlog, Part& part) {
+  tiles_.serve(readers(clients_, backlog), [&](uint64_t session, const SharedBytes& bytes) {
+    part.stats.tile_bytes += bytes->size();
     send(clients_.at(session), bytes, part);
     return clients_.at(session).takes_more();
   });

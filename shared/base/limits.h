@@ -36,6 +36,13 @@ inline constexpr float blast_speed_max_m_s = 30.0F;
 inline constexpr float world_half_width_m = 4096.0F;
 inline constexpr float world_half_height_m = 512.0F;
 
+/// Samples along a side of an elevation model, the distance of two, metres, and how high they may lie,
+/// metres: the largest spans a world, and its heights leave room for what flies up. Above: refused.
+inline constexpr int height_samples_max = 32768;
+inline constexpr float height_cell_min_m = 0.25F;
+inline constexpr float height_cell_max_m = 1000.0F;
+inline constexpr float height_max_m = 480.0F;
+
 /// Voxels along a side of an edit's window; bounds the memory that bytes off a wire can make us allocate.
 inline constexpr int window_side_max = 128;
 

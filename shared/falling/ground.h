@@ -1,6 +1,9 @@
 // Ground, for the searches that ask which terrain is held up: a chunk is ground when it was never edited and
-// lies below the terrain's floor, where generated terrain is only rock (floor_m).
+// lies below the terrain's floor, where unedited terrain is only rock (floor_m); or when it lies below the
+// surface of its own column of chunks, and nothing was edited from there down to the floor: rock holds it up.
 #pragma once
+
+#include <map>
 
 #include "shared/field/field.h"
 
@@ -9,20 +12,31 @@ namespace scree {
 class Ground {
  public:
   /// `field` must outlive this.
-  explicit Ground(const Field& field)
-      : field_(field),
-        top_chunk_y_(floor_to_int(floor_m(field.source()) /
-                                  (static_cast<float>(chunk_size) * field.source().voxel_size_m)) -
-                     1) {}
+  explicit Ground(const Field& field) : field_(field), floor_chunk_y_(last_below(floor_m(field.source()))) {}
 
   bool holds(BrickCoord brick) const {
     const ChunkCoord chunk = chunk_of(brick);
-    return chunk.y <= top_chunk_y_ && !field_.has_edits(chunk);
+    if (chunk.y > floor_chunk_y_ && chunk.y > column_top(chunk)) return false;
+    for (ChunkCoord below = chunk; below.y > floor_chunk_y_; --below.y)
+      if (field_.has_edits(below)) return false;
+    return chunk.y > floor_chunk_y_ || !field_.has_edits(chunk);
   }
 
  private:
+  int last_below(float height_m) const {
+    return floor_to_int(height_m / (static_cast<float>(chunk_size) * field_.source().voxel_size_m)) - 1;
+  }
+
+  /// Chunks of the column up to this y are only rock, unless they were edited.
+  int column_top(ChunkCoord chunk) const {
+    const auto [found, is_new] = column_tops_.try_emplace({chunk.x, chunk.z}, 0);
+    if (is_new) found->second = last_below(floor_m(field_.source(), chunk.x, chunk.z));
+    return found->second;
+  }
+
   const Field& field_;
-  int top_chunk_y_;  ///< chunks up to this y lie below the floor
+  int floor_chunk_y_;  ///< chunks up to this y lie below the floor
+  mutable std::map<std::pair<int, int>, int> column_tops_;
 };
 
 }  // namespace scree

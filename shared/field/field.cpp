@@ -97,7 +97,10 @@ uint64_t Field::edited_bits(ChunkCoord chunk) const {
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   if (below_ != nullptr) return below_->generated_chunk(chunk);
   const auto found = generated_.find(chunk);
-  if (found != generated_.end()) return found->second;
+  if (found != generated_.end()) {
+    if (!found->second.exact && is_here(source_, chunk)) found->second = generate_chunk(source_, chunk);
+    return found->second;
+  }
   if (generated_.size() >= generated_chunks_max_) forget_generated();
   return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
 }
@@ -124,7 +127,7 @@ const Brick& Field::generated_brick(BrickCoord coord) {
   LastChunk last = last_chunk(chunk);
   if (last.generated == nullptr) {
     last.generated = &generated_chunk(chunk);
-    last_ = last;
+    if (last.generated->exact) last_ = last;
   }
   return *last.generated->bricks[static_cast<size_t>(index_in_chunk(coord))];
 }
@@ -229,7 +232,14 @@ void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
   if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (generated_.size() >= generated_chunks_max_) forget_generated();
-  generated_.try_emplace(chunk, std::move(generated));
+  if (!generated.exact) return;
+  const auto [kept, is_new] = generated_.try_emplace(chunk, std::move(generated));
+  if (!is_new && !kept->second.exact) kept->second = std::move(generated);
+}
+
+bool Field::has_generated(ChunkCoord chunk) const {
+  const auto found = keeper().generated_.find(chunk);
+  return found != keeper().generated_.end() && found->second.exact;
 }
 
 const Brick* MapField::find_edited(BrickCoord coord) const {

@@ -64,9 +64,10 @@ class Field {
   std::vector<ChunkCoord> edited_chunks() const;
   std::vector<BrickCoord> edited_bricks(ChunkCoord chunk) const;
 
-  /// Takes a chunk that another thread generated, so that brick() need not generate it.
+  /// Takes a chunk that another thread generated, so that brick() need not generate it. One that is not exact
+  /// is as none, and brick() makes it anew once it can be (is_here).
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
-  bool has_generated(ChunkCoord chunk) const { return keeper().generated_.contains(chunk); }
+  bool has_generated(ChunkCoord chunk) const;
   /// Number of generated chunks kept; at generated_chunks_max() all are dropped.
   size_t generated_chunks() const { return keeper().generated_.size(); }
   size_t generated_chunks_max() const { return keeper().generated_chunks_max_; }

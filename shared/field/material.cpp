@@ -3,7 +3,7 @@
 namespace scree {
 
 Material material_at(const TerrainSource& source, glm::vec3 p_m) {
-  const MaterialHeights at = traits_of(source.kind).layers;
+  const MaterialHeights at = layers_of(source);
   const bool soil = p_m.y < at.soil_below_m;
   if (!soil && p_m.y <= at.ice_above_m) return Material::rock;
   if (ground_density(source, p_m) >= 0.0F) return Material::rock;

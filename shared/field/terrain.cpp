@@ -232,11 +232,74 @@ GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
   return chunk;
 }
 
+/// The part of the box in which the ground's surface can lie.
+enum class Reach { air, rock, surface };
+
+Reach reach_of(const VoxelBox& box, float voxel_size_m, double bottom_m, double top_m) {
+  if (static_cast<double>(box.lo.y) * static_cast<double>(voxel_size_m) > top_m) return Reach::air;
+  if (static_cast<double>(box.hi.y) * static_cast<double>(voxel_size_m) < bottom_m) return Reach::rock;
+  return Reach::surface;
+}
+
+VoxelBox box_around(ChunkCoord chunk) {
+  const VoxelCoord first = first_voxel(chunk);
+  return VoxelBox{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}.grown(apron);
+}
+
+double metres(int32_t height) {
+  return static_cast<double>(height) / height_steps_per_m;
+}
+
+Reach reach_of(const HeightLayout& layout, const VoxelBox& box, float voxel_size_m) {
+  return reach_of(box, voxel_size_m, metres(layout.lowest), metres(layout.highest));
+}
+
+GeneratedChunk uniform_chunk(Reach reach, bool exact) {
+  GeneratedChunk chunk = uniform_chunk(reach == Reach::air ? air_brick() : solid_brick());
+  chunk.exact = exact;
+  return chunk;
+}
+
+/// The heights above a voxel are levels of which redistancing makes distances, also where it is steep.
+GeneratedChunk chunk_of_heights(const TerrainSource& source, ChunkCoord coord) {
+  const VoxelBox box = box_around(coord);
+  const HeightModel& model = *source.heights;
+  Reach reach = reach_of(model.layout(), box, source.voxel_size_m);
+  if (reach != Reach::surface) return uniform_chunk(reach, true);
+  const VoxelCoord size = box.size();
+  const HeightPatch patch = heights_at(model, box.lo.x, box.lo.z, size.x, source.voxel_size_m);
+  reach = reach_of(box, source.voxel_size_m, patch.lowest_m, patch.highest_m);
+  if (reach != Reach::surface) return uniform_chunk(reach, patch.exact);
+  Window window(box);
+  std::vector<float> levels;
+  levels.reserve(window.codes.size());
+  for (int x = 0; x < size.x; ++x)
+    for (int y = 0; y < size.y; ++y) {
+      const double y_m = static_cast<double>(box.lo.y + y) * static_cast<double>(source.voxel_size_m);
+      for (int z = 0; z < size.z; ++z)
+        levels.push_back(static_cast<float>(y_m - patch.heights_m[static_cast<size_t>(z * size.x + x)]));
+    }
+  distances_from_levels(levels, window);
+  GeneratedChunk chunk = split_into_bricks(window, coord);
+  chunk.exact = patch.exact;
+  return chunk;
+}
+
 }  // namespace
 
+bool is_here(const TerrainSource& source, ChunkCoord chunk) {
+  if (source.heights == nullptr) return true;
+  const HeightModel& model = *source.heights;
+  if (reach_of(model.layout(), box_around(chunk), source.voxel_size_m) != Reach::surface) return true;
+  bool all = true;
+  for (const TileKey key : tiles_of(model.layout(), chunk, source.voxel_size_m))
+    all = model.tile(key) != nullptr && all;
+  return all;
+}
+
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
-  const VoxelCoord first = first_voxel(chunk);
-  const VoxelBox box = VoxelBox{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}.grown(apron);
+  if (source.heights != nullptr) return chunk_of_heights(source, chunk);
+  const VoxelBox box = box_around(chunk);
   const Heights bounds = heights(source.kind);
   if (static_cast<float>(box.lo.y) * source.voxel_size_m > bounds.top_m) return uniform_chunk(air_brick());
   if (static_cast<float>(box.hi.y) * source.voxel_size_m < bounds.bottom_m)
@@ -255,14 +318,49 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
 }
 
 float floor_m(const TerrainSource& source) {
+  if (source.heights != nullptr) return static_cast<float>(metres(source.heights->layout().lowest));
   return heights(source.kind).bottom_m;
 }
 
+float top_m(const TerrainSource& source) {
+  if (source.heights != nullptr) return static_cast<float>(metres(source.heights->layout().highest));
+  return heights(source.kind).top_m;
+}
+
+float floor_m(const TerrainSource& source, int chunk_x, int chunk_z) {
+  if (source.heights == nullptr) return floor_m(source);
+  const HeightPatch patch = heights_at(*source.heights, chunk_x * chunk_size, chunk_z * chunk_size,
+                                       chunk_size, source.voxel_size_m);
+  return static_cast<float>(patch.lowest_m);
+}
+
+MaterialHeights layers_of(const TerrainSource& source) {
+  return source.heights != nullptr ? source.heights->layout().layers : traits_of(source.kind).layers;
+}
+
+std::optional<GroundExtent> extent_of(const TerrainSource& source) {
+  if (source.heights == nullptr) return std::nullopt;
+  const HeightLayout& layout = source.heights->layout();
+  return GroundExtent{layout.half_width_m(), layout.half_depth_m()};
+}
+
+std::optional<glm::vec3> spawn_of(const TerrainSource& source) {
+  constexpr float above_m = 20.0F;
+  if (!extent_of(source)) return std::nullopt;
+  return glm::vec3(0.0F, top_m(source) + above_m, 0.0F);
+}
+
 float ground_density(const TerrainSource& source, glm::vec3 p_m) {
+  if (source.heights != nullptr)
+    return static_cast<float>(static_cast<double>(p_m.y) - height_at(*source.heights,
+                                                                     static_cast<double>(p_m.x),
+                                                                     static_cast<double>(p_m.z)));
   return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.random_seed).at(p_m.z));
 }
 
 float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
+  if (source.heights != nullptr)
+    return static_cast<float>(height_at(*source.heights, static_cast<double>(x_m), static_cast<double>(z_m)));
   constexpr float step_m = 0.25F;
   const Heights bounds = heights(source.kind);
   float y = bounds.top_m + step_m;

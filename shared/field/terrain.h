@@ -1,27 +1,24 @@
-// The generator of unedited terrain. Server and client generate the same bits; terrain crosses the wire only
-// to clients that cannot generate it.
+// The ground: unedited terrain, immutable, the same bits on server and client. A world is its ground and what
+// was edited. Everything that needs unedited terrain asks these functions, and does not know where the ground
+// is from: generated from a kind and a seed, or made from an elevation model (heights.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "shared/base/kind_table.h"
 #include "shared/field/brick.h"
+#include "shared/field/heights.h"
 
 namespace scree {
 
 /// flat: rock below y = 0. noise: the paper's repeating noise (section 2.2), with overhangs and caves.
 /// canyon: noise, with a cliff along x = 0 and an arch in front of it.
 enum class TerrainKind : uint8_t { flat = 0, noise = 1, canyon = 2 };
-
-/// Soil covers ground below the one height, ice above the other (material.h).
-struct MaterialHeights {
-  float soil_below_m = 0.0F;
-  float ice_above_m = 0.0F;
-};
 
 /// What the terrain is made of beside its form, which terrain.cpp generates.
 struct TerrainRow {
@@ -41,26 +38,53 @@ constexpr TerrainRow row_of(TerrainKind kind) {
   return {};
 }
 
+/// A handle: cheap to copy, any thread may read it.
 struct TerrainSource {
   TerrainKind kind = TerrainKind::canyon;
   uint32_t random_seed = 1;
   float voxel_size_m = 0.25F;
+  /// If there is one, the ground is made from it, and kind and seed mean nothing.
+  std::shared_ptr<const HeightModel> heights{};
 
   bool operator==(const TerrainSource&) const = default;
 };
 
-/// A chunk as generated. bricks[i] is never null; uniform bricks point to the shared ones.
+/// A chunk of the ground. bricks[i] is never null; uniform bricks point to the shared ones.
 struct GeneratedChunk {
   std::array<const Brick*, chunk_bricks * chunk_bricks * chunk_bricks> bricks;
   std::unique_ptr<Brick[]> storage;
+  /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
+  bool exact = true;
 };
+
+/// Whether generate_chunk() is exact now. Where it is not, what is missing is noted as such (HeightModel).
+/// What is there stays there.
+bool is_here(const TerrainSource& source, ChunkCoord chunk);
 
 /// A pure function of its arguments, safe to call from any thread; one-voxel steps change the distance by at
 /// most one voxel (1-Lipschitz along the axes, up to the rounding of codes).
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk);
 
-/// Height below which generated terrain is only rock. Metres.
+/// Height below which the ground is only rock, and above which it is only air. Metres.
 float floor_m(const TerrainSource& source);
+float top_m(const TerrainSource& source);
+
+/// As floor_m(), but of the columns of voxels of one column of chunks; at most as high as their surface.
+float floor_m(const TerrainSource& source, int chunk_x, int chunk_z);
+
+/// Where the ground's layers lie.
+MaterialHeights layers_of(const TerrainSource& source);
+
+/// Half of what the ground covers in x and in z, around the origin; nothing when it has no end. Metres.
+struct GroundExtent {
+  float half_width_m;
+  float half_depth_m;
+};
+std::optional<GroundExtent> extent_of(const TerrainSource& source);
+
+/// Where to begin to look at it from, metres: above the middle of what the ground covers; nothing when it has
+/// no end.
+std::optional<glm::vec3> spawn_of(const TerrainSource& source);
 
 /// Negative inside the undisturbed ground, without what stands on it (the canyon's arch). In metres, but not
 /// a distance.

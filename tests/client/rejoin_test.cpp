@@ -159,16 +159,16 @@ TEST_F(RejoinTest, while_a_session_lasts_its_chunks_are_packed_few_at_once_and_w
   const size_t held = mirror->held_chunks().size();
   ASSERT_GT(held, 2 * limits::chunks_packed_at_once);
   double now_s = 1.0;
-  rejoin.tend(now_s, *mirror);
+  rejoin.tend(now_s, *mirror, connection);
   now_s += limits::keep_interval_s;
-  rejoin.tend(now_s, *mirror);
+  rejoin.tend(now_s, *mirror, connection);
   for (size_t packed = 0; packed < held; packed += limits::chunks_packed_at_once) {
     const size_t before = rejoin.cache().chunks();
-    rejoin.tend(now_s, *mirror);
+    rejoin.tend(now_s, *mirror, connection);
     EXPECT_LE(rejoin.cache().chunks(), before + limits::chunks_packed_at_once);
   }
   EXPECT_EQ(rejoin.cache().chunks(), held);
-  rejoin.tend(now_s + limits::keep_interval_s, *mirror);
+  rejoin.tend(now_s + limits::keep_interval_s, *mirror, connection);
   rejoin.save();  // waits for the other thread
   const auto written = CacheFolder(folder_ / "cache", size_t{1} << 24U)
                            .read("127.0.0.1:" + std::to_string(server_->port()), std::nullopt);

@@ -4,6 +4,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 
 #include "shared/base/random.h"
@@ -15,6 +16,7 @@
 #include "shared/fracture/voronoi.h"
 #include "shared/operation/operation.h"
 #include "shared/recombine/stamp_method.h"
+#include "tests/support/memory_heights.h"
 
 namespace scree {
 namespace {
@@ -97,6 +99,25 @@ void print_generate() {
         digest.add(ground_height_m(source, 13.7F * static_cast<float>(i), -5.3F * static_cast<float>(i)));
       digest.print("generate_" + std::string(name_of(kind)) + "_" + std::to_string(random_seed));
     }
+  }
+}
+
+void print_heights() {
+  const auto model = std::make_shared<const MemoryHeights>(300, 200, 3.7F, rough_height);
+  for (const float voxel_m : {0.25F, 0.3F, 2.0F, 16.0F}) {
+    const TerrainSource source{TerrainKind::flat, 1, voxel_m, model};
+    Digest digest;
+    for (int x = -2; x < 2; ++x)
+      for (int y = 0; y < 4; ++y) {
+        const ChunkCoord chunk{x, y, 1 - x};
+        const GeneratedChunk generated = generate_chunk(source, chunk);
+        for (int i = 0; i < 64; ++i)
+          digest.add(brick_hash(brick_in_chunk(chunk, i), *generated.bricks[static_cast<size_t>(i)]));
+        digest.add(floor_m(source, x, y));
+      }
+    for (int i = 0; i < 8; ++i)
+      digest.add(ground_height_m(source, 113.7F * static_cast<float>(i - 4), -55.3F * static_cast<float>(i)));
+    digest.print("heights_" + std::to_string(static_cast<int>(voxel_m * 100.0F)));
   }
 }
 
@@ -330,6 +351,7 @@ void print_session(TerrainKind kind) {
 
 int main() {
   scree::print_generate();
+  scree::print_heights();
   scree::print_edits();
   scree::print_redistance();
   scree::print_sample();

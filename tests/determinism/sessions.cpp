@@ -20,7 +20,7 @@ namespace {
 
 constexpr Tick ticks = 180;
 constexpr Tick ticks_per_line = 30;
-constexpr TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
+const TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
 
 /// On the ground of the session at x.
 glm::vec3 ground(float x_m) {

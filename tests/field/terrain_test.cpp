@@ -9,7 +9,7 @@
 namespace scree {
 namespace {
 
-constexpr TerrainSource sources[] = {
+const TerrainSource sources[] = {
     {TerrainKind::flat, 1, 0.25F}, {TerrainKind::noise, 5, 0.25F}, {TerrainKind::canyon, 9, 0.5F}};
 
 TEST(terrain, one_voxel_steps_change_the_distance_by_at_most_one_voxel) {

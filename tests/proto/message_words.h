@@ -172,8 +172,26 @@ inline Lines describe(const GoodbyeMessage&) {
 inline Lines describe(const GroundRequest& m) {
   return {fmt::format("ground: {}", words(m.chunks))};
 }
+inline Lines words(const HeightGround& m) {
+  const HeightLayout& layout = m.layout;
+  return {fmt::format("heights: {} × {} samples every {} m, {} to {} / 256 m", layout.columns, layout.rows,
+                      layout.cell_m, layout.lowest, layout.highest),
+          fmt::format("soil below {} m, ice above {} m, coarsest tile {}", layout.layers.soil_below_m,
+                      layout.layers.ice_above_m, hex_of(m.top))};
+}
+inline std::string words(const std::vector<TileKey>& keys) {
+  std::string text;
+  for (const TileKey key : keys) text += fmt::format(" ({}, {}, {})", key.level, key.x, key.z);
+  return text;
+}
+inline Lines describe(const TileRequest& m) {
+  return {"tiles wanted:" + words(m.wanted), "tiles held:" + words(m.held)};
+}
+inline Lines describe(const TileMessage& m) {
+  return {fmt::format("tile{}: {} bytes", words(std::vector{m.key}), m.bytes.size())};
+}
 inline Lines describe(const WelcomeMessage& m) {
-  return {
+  Lines lines{
       fmt::format("welcome: protocol {}, session {}, tick {}, role {}", m.protocol, m.session, m.tick,
                   name_of(m.role)),
       fmt::format("{} ticks a second, transforms every {} ticks, radius {} m, replay: {}", m.tick_rate_hz,
@@ -181,6 +199,8 @@ inline Lines describe(const WelcomeMessage& m) {
       fmt::format("terrain: {}, seed {}, voxels of {} m", row_of(m.terrain.kind).name, m.terrain.random_seed,
                   m.terrain.voxel_size_m),
       fmt::format("world 0x{:016x}, ticket {}, resumed: {}", m.world, words_of_bytes(m.ticket), m.resumed)};
+  if (m.heights) append(lines, words(*m.heights));
+  return lines;
 }
 inline Lines describe(const RefusalMessage& m) {
   return {fmt::format("refusal: '{}', name '{}'", m.reason, m.name)};

@@ -6,6 +6,6 @@
 namespace scree {
 
 inline constexpr float voxel_m = 0.25F;
-inline constexpr TerrainSource flat_terrain{TerrainKind::flat, 1, voxel_m};
+inline const TerrainSource flat_terrain{TerrainKind::flat, 1, voxel_m};
 
 }  // namespace scree

@@ -48,6 +48,7 @@ class TrustingClient {
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
   std::vector<GroundMessage> grounds;
+  std::vector<TileMessage> tiles;
   TrustingClient* before = nullptr;  ///< has the chunks that this one offered
   size_t kept = 0;
 
@@ -140,6 +141,7 @@ class TrustingClient {
     motions.clear();
   }
   void apply(const GroundMessage& message) { grounds.push_back(message); }
+  void apply(const TileMessage& message) { tiles.push_back(message); }
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }

@@ -128,8 +128,11 @@ inline std::vector<ServerMessage> server_messages() {
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
+  WelcomeMessage on_heights = welcome;
+  on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}}, {1, 2, 255}};
   return {
       welcome,
+      on_heights,
       RefusalMessage{"protocol 9 is not 1", "protocol_version"},
       frame(),
       FrameMessage{},
@@ -142,6 +145,7 @@ inline std::vector<ServerMessage> server_messages() {
       physics(),
       GroundMessage{{-1, 2, 0}, false, 1ULL << 62U, {{{-4, 8, 0}, noisy_brick(5)}}, 0x123456789ABCDEF0ULL},
       GroundMessage{.chunk = {7, -8, 9}, .beyond = true},
+      TileMessage{{1, 2, 3}, {9, 8, 7}},
       KeptMessage{{{1, 2, 3}, {-4, 5, -6}}, {1, 0xFFFFFFFFFFFFFFFFULL}},
       AdminListMessage{
           3,
@@ -185,6 +189,7 @@ inline std::vector<ClientMessage> client_messages() {
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
           WatchMessage{true},
           GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
+          TileRequest{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
           GoodbyeMessage{}};
 }

@@ -92,7 +92,9 @@ bool ClipLevel::generated_around(const Field& field, ChunkCoord chunk) {
     const ChunkCoord coord = chunk + ChunkCoord{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
     if (bricks_.has_generated(field, coord)) continue;
     all = false;
-    if (generating_.size() >= limits::chunks_generating_max || !generating_.insert(coord).second) continue;
+    if (generating_.size() >= limits::chunks_generating_max || generating_.contains(coord)) continue;
+    if (!is_here(bricks_.source(), coord)) continue;  // the next time, or the one after
+    generating_.insert(coord);
     pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = bricks_.source(), coord] {
       GeneratedChunk generated = generate_chunk(source, coord);
       const std::lock_guard lock(inbox->mutex);

@@ -95,7 +95,7 @@ uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex&
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   const glm::vec3 steps(vertex.position[0], vertex.position[1], vertex.position[2]);
   const glm::vec3 p = origin + steps / surface_steps_per_voxel;
-  const MaterialHeights layers = traits_of(source.kind).layers;
+  const MaterialHeights layers = layers_of(source);
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
   if (!soil && height_m <= layers.ice_above_m) return 0;

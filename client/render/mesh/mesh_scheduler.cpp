@@ -77,7 +77,7 @@ void MeshScheduler::start(const TerrainSource& source) {
     ++levels;
   levels_.emplace(source, levels);
   forest_.emplace(ForestShape{levels, block_m(source), fine_m(source, view_radius_m_), reach_m(),
-                              floor_m(source), limits::terrain_top_m});
+                              floor_m(source), std::max(limits::terrain_top_m, top_m(source))});
 }
 
 MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
@@ -92,6 +92,7 @@ MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   }
   if (batch_ && batch_->waits_for_terrain() && !batch_->of_changes && has_changes()) give_way();
   if (!batch_) begin_batch(scene, eye_m);
+  if (batch_ && batch_->waits_for_terrain()) generate_needed();
   if (batch_ && !batch_->begun && batch_->terrain_needed.empty()) begin_meshes(scene.field);
   return update;
 }
@@ -185,8 +186,14 @@ void MeshScheduler::ask_for_terrain(Field& field) {
     const auto twice = [](VoxelCoord v) { return VoxelCoord{v.x * 2, v.y * 2, v.z * 2}; };
     need(node.level - 1, VoxelBox{twice(box.lo), twice(box.hi)}.grown(surface_nets_apron));
   }
+  generate_needed();
+}
+
+/// As far as the ground is here; the others later.
+void MeshScheduler::generate_needed() {
   for (const LevelChunk& at : batch_->terrain_needed) {
-    if (!generating_.insert(at).second) continue;
+    if (generating_.contains(at) || !is_here(levels_->source(at.level), at.chunk)) continue;
+    generating_.insert(at);
     pool_.submit(WorkPool::Urgency::load, [inbox = inbox_, source = levels_->source(at.level), at] {
       GeneratedChunk generated = generate_chunk(source, at.chunk);
       const std::lock_guard lock(inbox->mutex);

@@ -67,6 +67,7 @@ class MeshScheduler {
   void begin_changes(const Scene& scene);
   void give_way();
   void ask_for_terrain(Field& field);
+  void generate_needed();
   void begin_meshes(Field& field);
   void submit_piece(Field& field, PieceId id, const ScenePiece& piece);
 

@@ -55,7 +55,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   if (predictions_) predictions_->settle(now_s, step.changes);
   if (connection_) report(now_s, eye_m);
   if (connection_) report_cursor(now_s, camera);
-  if (connection_) rejoin_.tend(now_s, *mirror_);
+  if (connection_) rejoin_.tend(now_s, *mirror_, *connection_);
   return step;
 }
 
@@ -167,8 +167,8 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
                         [](const auto&) {}},  // the mirror's alone
              message);
-  rejoin_.before(message, *mirror_);
-  const Result<MirrorChanges> changes = mirror_->apply(message);
+  const Result<void> taken = rejoin_.before(message, *mirror_);
+  const Result<MirrorChanges> changes = taken ? mirror_->apply(message) : tl::unexpected(taken.error());
   if (!changes) {
     lose(now_s, {{"what the server sent cannot be applied: " + changes.error().message}});
     return;
@@ -261,6 +261,7 @@ void ViewerSession::foresee(const Request& asked, uint32_t number, double now_s)
   const float radius_m = std::min(interest_radius_m_, welcome.interest_radius_m);
   const float side_m = static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m;
   const auto known = [&](ChunkCoord chunk) {
+    if (!is_here(mirror_->terrain(), chunk)) return false;
     if (mirror_->held_chunks().contains(chunk)) return true;
     if (!joined(now_s)) return false;  // it may be on its way
     const glm::vec3 lo_m = glm::vec3(chunk.x, chunk.y, chunk.z) * side_m;

@@ -203,9 +203,9 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   try {
     app.parse(argc, argv);
     const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
-    options.given = {
-        given("--size"),       given("--method"),       given("--view-radius"), given("--grid-resolution"),
-        given("--grid-scale"), given("--grid-spacing"), given("--predict")};
+    options.given = {given("--size"),         given("--camera"),          given("--method"),
+                     given("--view-radius"),  given("--grid-resolution"), given("--grid-scale"),
+                     given("--grid-spacing"), given("--predict")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

@@ -26,6 +26,7 @@ struct ViewerOptions : ServerEndpoint {
   /// Options that a flag or the environment sets.
   struct Given {
     bool size = false;
+    bool camera = false;
     bool method = false;
     bool view_radius = false;
     bool grid_resolution = false;

@@ -34,9 +34,16 @@ Result<void> Viewing::step(double now_s) {
     const TraceSpan span(trace.get(), "viewer", "messages");
     return session.step(now_s, camera);
   }();
+  if (step.new_world) stand_on_ground();
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
+}
+
+/// Where a ground has a middle, and nobody said where to look from, the camera begins above it.
+void Viewing::stand_on_ground() {
+  if (std::exchange(stands_, true) || options.given.camera) return;
+  if (const auto eye_m = spawn_of(session.mirror()->terrain())) camera.eye_m = *eye_m;
 }
 
 Result<void> Viewing::check_gl_errors() {

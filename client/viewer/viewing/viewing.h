@@ -46,6 +46,9 @@ class Viewing {
   Moment moment(double now_s);
   Result<void> take(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
+  void stand_on_ground();
+
+  bool stands_ = false;  ///< the camera was placed by the first world's ground
 };
 
 }  // namespace scree

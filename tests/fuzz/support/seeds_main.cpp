@@ -24,7 +24,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
+const TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
 constexpr size_t seed_bytes_max = 4096;  // as of scripts/fuzz.sh
 constexpr int session_ticks = 150;
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Tick ticks_max = 48;
 constexpr uint64_t work_max_us = 15'000;
-constexpr TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
+const TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
 
 ChunkCoord any_chunk(FuzzInput& input) {
   const auto axis = [&] {
@@ -133,6 +133,12 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       return any_offer(input, server);
     case 9:
       return GoodbyeMessage{};
+    case 10: {
+      TileRequest request;
+      for (const ChunkCoord any : any_chunks(input)) request.wanted.push_back({any.y, any.x, any.z});
+      request.held = request.wanted;
+      return request;
+    }
     default: {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();

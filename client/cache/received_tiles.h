@@ -1,0 +1,66 @@
+// The elevation model of a server's ground, whose tiles come over the wire, or from the cache, when somebody
+// has missed them: coarse ones first, because each names the ones below it, then the nearest.
+//
+// Invariant: every tile has the hash by which the tile above, or the welcome, names it. A tile stays once it
+// has come. Any thread may call what HeightModel has, one thread the rest.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "client/cache/tile_folder.h"
+#include "proto/messages.h"
+
+namespace scree {
+
+class ReceivedTiles final : public HeightModel {
+ public:
+  ReceivedTiles(const HeightGround& ground, TileFolder folder);
+
+  const HeightGround& ground() const { return ground_; }
+  std::shared_ptr<const HeightTile> tile(TileKey key) const override;
+  std::vector<uint8_t> packed(TileKey key) const override;
+
+  /// Says what a new session may count on: all that has come so far is to be told, what was asked for is to
+  /// be asked for again.
+  void begin_session();
+  /// Takes a tile that was asked for. The error says what is wrong with it.
+  Result<void> take(const TileMessage& message);
+  /// The next request to send; reads the cache. Empty when all is asked for. Tiles around the eye, as far as
+  /// the radius, are wanted whether somebody missed them or not. Metres.
+  TileRequest next_request(glm::vec3 eye_m, float radius_m);
+  /// Whether all tiles around the eye are there.
+  bool has_near(glm::vec3 eye_m, float radius_m) const;
+
+  uint64_t tiles_received() const { return received_; }
+  uint64_t tiles_read() const { return read_; }  ///< from the cache
+
+ private:
+  struct Held {
+    std::shared_ptr<const HeightTile> tile;
+    std::vector<uint8_t> packed;
+  };
+  std::vector<TileKey> near(glm::vec3 eye_m, float radius_m) const;
+  bool has(TileKey key) const;
+  std::set<TileKey> nameable(glm::vec3 eye_m, float radius_m) const;
+  std::vector<TileKey> in_order(glm::vec3 eye_m, float radius_m) const;
+  bool is_full() const;
+  float distance_m(TileKey key, glm::vec3 eye_m) const;
+  Result<void> put(TileKey key, std::vector<uint8_t> bytes);
+  bool read(TileKey key);
+
+  const HeightGround ground_;
+  const TileFolder folder_;
+  std::map<TileKey, Digest> digests_;  ///< of all tiles that are named
+  std::set<TileKey> asked_;            ///< and not come yet
+  std::vector<TileKey> untold_;        ///< held, and the server does not know
+  uint64_t received_ = 0;
+  uint64_t read_ = 0;
+  mutable std::mutex mutex_;  ///< guards the members below
+  std::map<TileKey, Held> held_;
+  mutable std::set<TileKey> missed_;
+};
+
+}  // namespace scree

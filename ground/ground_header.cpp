@@ -1,0 +1,89 @@
+#include "ground/ground_header.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "crypto/sha256.h"
+#include "proto/byte_stream.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+constexpr uint64_t file_kind = 0x444E'4745'4552'4353ULL;  // "SCREEGND"
+constexpr uint32_t version = 1;
+
+/// All that makes the ground what it is.
+std::vector<uint8_t> fields_of(const GroundHeader& header) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  const HeightLayout& layout = header.ground.layout;
+  writer.u64(file_kind);
+  writer.u32(version);
+  writer.u32(static_cast<uint32_t>(layout.columns));
+  writer.u32(static_cast<uint32_t>(layout.rows));
+  writer.f32(layout.cell_m);
+  writer.u32(static_cast<uint32_t>(layout.lowest));
+  writer.u32(static_cast<uint32_t>(layout.highest));
+  writer.f32(layout.layers.soil_below_m);
+  writer.f32(layout.layers.ice_above_m);
+  writer.f32(header.zero_m);
+  bytes.insert(bytes.end(), header.ground.top.begin(), header.ground.top.end());
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const GroundHeader& header) {
+  std::vector<uint8_t> bytes = fields_of(header);
+  const Digest name = name_of(header);
+  bytes.insert(bytes.end(), name.begin(), name.end());
+  ByteWriter(bytes).u64(header.index_begins);
+  CHECK(bytes.size() <= header_bytes);
+  bytes.resize(header_bytes);
+  return bytes;
+}
+
+Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
+  if (bytes.size() < header_bytes) return fail("it is too short for a ground file");
+  ByteReader reader(bytes.first(header_bytes), "the header");
+  if (reader.u64("kind") != file_kind) return fail("it is no ground file: scree import makes one");
+  if (const uint32_t found = reader.u32("version"); found != version)
+    return fail("it is a ground file of version " + std::to_string(found) + ", this program reads version " +
+                std::to_string(version));
+  GroundHeader header;
+  HeightLayout& layout = header.ground.layout;
+  layout.columns = std::bit_cast<int32_t>(reader.u32("columns"));
+  layout.rows = std::bit_cast<int32_t>(reader.u32("rows"));
+  layout.cell_m = reader.f32("cell");
+  layout.lowest = std::bit_cast<int32_t>(reader.u32("lowest"));
+  layout.highest = std::bit_cast<int32_t>(reader.u32("highest"));
+  layout.layers.soil_below_m = reader.f32("soil below");
+  layout.layers.ice_above_m = reader.f32("ice above");
+  header.zero_m = reader.f32("zero");
+  std::ranges::copy(reader.take_bytes(sizeof(Digest), "hash"), header.ground.top.begin());
+  Digest name;
+  std::ranges::copy(reader.take_bytes(sizeof(Digest), "name"), name.begin());
+  header.index_begins = reader.u64("index");
+  if (reader.failed()) return tl::unexpected(reader.error());
+  if (name != name_of(header)) return fail("it is damaged: its header does not have its hash");
+  if (Result<void> valid = validate(layout); !valid) return tl::unexpected(valid.error());
+  return header;
+}
+
+Digest name_of(const GroundHeader& header) {
+  return sha256(fields_of(header));
+}
+
+size_t index_of(const HeightLayout& layout, TileKey key) {
+  size_t index = 0;
+  for (int level = 0; level < key.level; ++level)
+    index += static_cast<size_t>(HeightLayout::tiles_on(level, layout.columns)) *
+             static_cast<size_t>(HeightLayout::tiles_on(level, layout.rows));
+  return index +
+         static_cast<size_t>(key.z) * static_cast<size_t>(HeightLayout::tiles_on(key.level, layout.columns)) +
+         static_cast<size_t>(key.x);
+}
+
+}  // namespace scree

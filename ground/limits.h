@@ -1,0 +1,12 @@
+// Bounds of ground files. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Decoded tiles that a file keeps in memory: 32 MiB. Above: the one used longest ago is read again when it
+/// is needed.
+inline constexpr size_t file_tiles_kept_max = 512;
+
+}  // namespace scree::limits

@@ -1,0 +1,20 @@
+// Bounds of imports. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+namespace scree::limits {
+
+/// Samples along a side of a raster that is imported: a row of it is kept several times. Above: refused.
+inline constexpr int raster_side_max = 1 << 17;
+
+/// A height in a raster, metres, after its scale: twice the deepest sea. What is more is no height in metres.
+/// Above: refused.
+inline constexpr double raster_height_max_m = 25'000.0;
+
+/// Height between the lowest and the highest sample up to which the lowest lies at y = 0, metres; a higher
+/// model's middle does.
+inline constexpr double relief_at_zero_max_m = 448.0;
+
+/// Pixels along a side of a preview.
+inline constexpr int preview_side_max = 1024;
+
+}  // namespace scree::limits

@@ -1,0 +1,16 @@
+// Messages about elevation models to Protobuf and back. Internal to proto/.
+#pragma once
+
+#include "proto/messages.h"
+#include "proto/wire_values.h"
+
+namespace scree {
+
+void write(wire::HeightGround& to, const HeightGround& from);
+HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check);
+void write(wire::TileRequest& to, const TileRequest& from);
+TileRequest read_tile_request(const wire::TileRequest& from, FieldChecker& check);
+void write(wire::Tile& to, const TileMessage& from);
+TileMessage read_tile(const wire::Tile& from, FieldChecker& check);
+
+}  // namespace scree

@@ -1,0 +1,151 @@
+// Imports of elevation models: the demo ground's volume, resampling, holes, and what is refused in words.
+#include "import/heights_import.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+#include "ground/ground_file.h"
+#include "import/gdal/gdal_raster.h"
+#include "shared/field/terrain.h"
+#include "tests/support/test_folder.h"
+#include "tests/support/text_raster.h"
+
+namespace scree {
+namespace {
+
+void no_progress(double) {}
+
+std::shared_ptr<const GroundFile> import_and_open(Raster& raster, const std::string& path,
+                                                  const HeightsImport& how = {}) {
+  const auto imported = import_heights(raster, path, how, no_progress);
+  EXPECT_TRUE(imported) << imported.error().message;
+  const auto file = GroundFile::open(path);
+  EXPECT_TRUE(file) << file.error().message;
+  return *file;
+}
+
+std::string refusal_of_import(Raster&& raster, const HeightsImport& how = {}) {
+  const TestFolder folder;
+  const auto imported = import_heights(raster, folder / "a.ground", how, no_progress);
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "")) << "nothing is left behind";
+  return imported ? std::string() : imported.error().message;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string maunga_whau = SCREE_SOURCE_DIR "/data/maunga_whau.asc";
+
+TEST(HeightsImport, rock_of_the_demo_ground_has_the_volume_of_the_model) {
+  const TestFolder folder;
+  const auto raster = open_raster(maunga_whau);
+  ASSERT_TRUE(raster) << raster.error().message;
+  const auto model = import_and_open(**raster, folder / "m.ground");
+  FunctionRaster grid = read_grid(maunga_whau);
+  ASSERT_EQ(grid.shape().columns, 87);
+  std::vector<double> row(87);
+  // The integral by trapezoids over the rectangle between the outermost samples but five.
+  double integral_m3 = 0.0;
+  for (int z = 5; z <= 55; ++z) {
+    ASSERT_TRUE(grid.read_row(z, row));
+    for (int x = 5; x <= 81; ++x)
+      integral_m3 += (row[static_cast<size_t>(x)] - 94.0) * 100.0 * (x == 5 || x == 81 ? 0.5 : 1.0) *
+                     (z == 5 || z == 55 ? 0.5 : 1.0);
+  }
+  // Columns of voxels of 2 m, by their codes: each is as high as its crossing says.
+  const TerrainSource ground{TerrainKind::flat, 1, 2.0F, model};
+  MapField field(ground);
+  double volume_m3 = 0.0;
+  for (int z = -125; z < 125; ++z)
+    for (int x = -190; x < 190; ++x) {
+      int y = static_cast<int>(ground_height_m(ground, x * 2.0F, z * 2.0F) / 2.0F) - 3;
+      const auto code = [&](int at) {
+        const VoxelCoord v{x, at, z};
+        return static_cast<double>(
+            field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))]);
+      };
+      while (code(y + 1) < 0.0) ++y;
+      volume_m3 += 4.0 * 2.0 * (y + code(y) / (code(y) - code(y + 1)));
+    }
+  EXPECT_NEAR(volume_m3 / integral_m3, 1.0, 0.005);
+}
+
+TEST(HeightsImport, finer_samples_lie_on_the_surface_of_the_coarse_ones) {
+  const TestFolder folder;
+  FunctionRaster grid = read_grid(maunga_whau);
+  const auto coarse = import_and_open(grid, folder / "c.ground");
+  const auto fine = import_and_open(grid, folder / "f.ground", {.sample_m = 1.0});
+  EXPECT_EQ(fine->layout().columns, 861);
+  EXPECT_EQ(fine->layout().rows, 601);
+  double worst_m = 0.0;
+  for (double z_m = -290.0; z_m < 290.0; z_m += 3.7)
+    for (double x_m = -420.0; x_m < 420.0; x_m += 3.7)
+      worst_m = std::max(worst_m, std::abs(height_at(*fine, x_m, z_m) - height_at(*coarse, x_m, z_m)));
+  EXPECT_LT(worst_m, 0.05);
+}
+
+TEST(HeightsImport, cells_without_data_are_filled_and_counted) {
+  const TestFolder folder;
+  FunctionRaster holes(20, 20, 5.0, [](int x, int z) { return x == 3 && z > 4 ? NAN : 100.0 + x; });
+  const auto imported = import_heights(holes, folder / "a.ground", {}, no_progress);
+  ASSERT_TRUE(imported);
+  EXPECT_EQ(imported->nodata, 15U);
+  EXPECT_EQ(imported->header.ground.layout.lowest, 0) << "the lowest height is y = 0";
+  const auto filled = import_and_open(holes, folder / "b.ground", {.zero_m = 0.0, .nodata_m = 50.0});
+  EXPECT_EQ(filled->layout().lowest, 50 * height_steps_per_m);
+}
+
+TEST(HeightsImport, models_that_cannot_be_a_ground_are_refused_with_the_way_out) {
+  const auto level = [](int, int) { return 1.0; };
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(1, 1, 1.0, level)), "at least 2 × 2"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, std::nullopt, level)), "--cell"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(4096, 8, 30.0, level)), "limits.world_half_width_m"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(1 << 18, 8, 0.1, level)), "limits.raster_side_max"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 1.0, level), {.sample_m = 1.0e-4}),
+                  "limits.height_samples_max"));
+  EXPECT_TRUE(
+      has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return NAN; })), "without data"));
+  EXPECT_TRUE(
+      has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return 1.0e9; })), "--vertical-scale"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int x, int) { return x * 400.0; })),
+                  "limits.height_max_m"));
+  FunctionRaster broken(8, 8, 1.0, level);
+  broken.fails_at = 5;
+  EXPECT_TRUE(has(refusal_of_import(std::move(broken)), "the disk is gone"));
+}
+
+TEST(HeightsImport, files_that_are_no_rasters_are_named) {
+  const TestFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    const std::string path = folder / "a.asc";
+    std::ofstream(path) << text;
+    auto raster = open_raster(path);
+    if (!raster) return raster.error().message;
+    const auto imported = import_heights(**raster, folder / "a.ground", {}, no_progress);
+    return imported ? std::string() : imported.error().message;
+  };
+  EXPECT_TRUE(has(refusal(""), "a.asc"));
+  EXPECT_TRUE(has(refusal("hello"), "a.asc"));
+  EXPECT_FALSE(refusal("ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 10\n7\n").empty());
+  EXPECT_FALSE(refusal("ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4\n5 6").empty())
+      << "cut short";
+  EXPECT_TRUE(refusal("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4\n").empty());
+  EXPECT_FALSE(open_raster(folder / "none.tif"));
+}
+
+TEST(HeightsImport, a_preview_shades_slopes) {
+  const TestFolder folder;
+  FunctionRaster ridge(64, 40, 1.0, [](int x, int) { return 20.0 - std::abs(x - 32.0); });
+  const auto imported = import_heights(ridge, folder / "a.ground", {}, no_progress);
+  ASSERT_TRUE(imported);
+  const std::vector<uint8_t> pixels = shaded_relief(*imported);
+  ASSERT_EQ(pixels.size(), 64U * 40U);
+  EXPECT_GT(pixels[20 * 64 + 10], pixels[20 * 64 + 50]) << "the west side is lit";
+  ASSERT_TRUE(write_grey_png(folder / "a.png", 64, 40, pixels));
+  EXPECT_GT(std::filesystem::file_size(folder / "a.png"), 100U);
+}
+
+}  // namespace
+}  // namespace scree
