@@ -87,6 +87,10 @@ std::string to_json(const BotReport& report) {
   json["terrain"] = {{"kind", name_of(report.welcome.terrain.kind)},
                      {"seed", report.welcome.terrain.random_seed},
                      {"voxel_size_m", report.welcome.terrain.voxel_size_m}};
+  if (report.welcome.heights)
+    json["terrain"] = {{"kind", "heights"},
+                       {"coarsest_tile", hex_of(report.welcome.heights->top)},
+                       {"voxel_size_m", report.welcome.terrain.voxel_size_m}};
   json["duration_s"] = report.duration_s;
   json["connections"] = report.connections;
   json["settled"] = report.settled;

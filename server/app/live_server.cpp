@@ -70,6 +70,8 @@ struct LiveServer::State {
 
 Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;  // those of a recording are not this server's
+  if (config.world.terrain.heights != nullptr && !(config.record_path.empty() && config.replay.path.empty()))
+    return fail("recordings are of generated terrain alone, not of a ground file (--ground)");
   if (!config.replay.path.empty()) {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");

@@ -215,8 +215,6 @@ void take_world(Raw& raw) {
   if (!raw.ground.empty()) {
     auto file = GroundFile::open(raw.ground);
     if (!file) throw CLI::ValidationError("--ground", file.error().message);
-    if (!raw.options.live.record_path.empty() || !raw.options.live.replay.path.empty())
-      throw CLI::ValidationError("--ground", "recordings are of generated terrain alone");
     world.terrain.heights = std::move(*file);
   }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);

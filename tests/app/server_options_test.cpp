@@ -10,6 +10,7 @@
 #include "proto/messages.h"
 #include "tests/support/holds.h"
 #include "tests/support/test_folder.h"
+#include "tests/support/written_ground.h"
 
 namespace scree {
 namespace {
@@ -71,6 +72,25 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--admin-token-file", "/no/such/file"}), 2);
   EXPECT_EQ(exit_code({"--admin-token", "long enough", "--admin-token-file", "a"}), 2);
   EXPECT_EQ(exit_code({"--config", "/no/such/file.toml"}), 2);
+}
+
+TEST(ServerOptions, a_ground_file_is_the_terrain_and_what_is_none_is_a_mistake) {
+  const TestFolder folder;
+  const std::string path = folder / "hills.ground";
+  const auto written = written_ground(path, 40, 30, 2.0F);
+  const auto parsed = parse({"--ground", path.c_str(), "--voxel-size", "0.5"});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  const TerrainSource& terrain = std::get<ServerOptions>(parsed).live.world.terrain;
+  ASSERT_NE(terrain.heights, nullptr);
+  EXPECT_EQ(terrain.heights->layout(), written->layout());
+  EXPECT_EQ(terrain.voxel_size_m, 0.5F);
+  EXPECT_EQ(exit_code({"--ground", path.c_str(), "--terrain", "flat"}), 2);
+  EXPECT_EQ(exit_code({"--ground", "/no/such/file.ground"}), 2);
+  LiveConfig recorded = std::get<ServerOptions>(parsed).live;
+  recorded.record_path = folder / "a.scree";
+  const auto started = LiveServer::start(recorded);
+  ASSERT_FALSE(started);
+  EXPECT_NE(started.error().message.find("--ground"), std::string::npos);
 }
 
 TEST(ServerOptions, settings_that_are_numbers_are_options_within_their_bounds) {

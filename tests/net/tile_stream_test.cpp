@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/publisher_fixture.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/written_ground.h"
 
 namespace scree {
