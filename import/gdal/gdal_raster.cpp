@@ -38,7 +38,7 @@ void prepare() {
 
 class GdalRaster final : public Raster {
  public:
-  GdalRaster(std::string path, Dataset dataset) : path_(std::move(path)), dataset_(std::move(dataset)) {
+  explicit GdalRaster(Dataset dataset) : dataset_(std::move(dataset)) {
     band_ = dataset_->GetRasterBand(1);
     int known = 0;
     const double none = band_->GetNoDataValue(&known);
@@ -74,8 +74,7 @@ class GdalRaster final : public Raster {
     if (band_->RasterIO(GF_Read, 0, row, columns, 1, heights_m.data(), columns, 1, GDT_Float64, 0, 0,
                         nullptr) != CE_None ||
         CPLGetLastErrorType() == CE_Failure)
-      return fail(path_ + ": row " + std::to_string(row) +
-                  " cannot be read: " + gdal_words("no reason is given"));
+      return fail("row " + std::to_string(row) + " cannot be read: " + gdal_words("no reason is given"));
     for (double& height : heights_m)
       height = (none_ && height == *none_) || !std::isfinite(height)
                    ? std::numeric_limits<double>::quiet_NaN()
@@ -84,7 +83,6 @@ class GdalRaster final : public Raster {
   }
 
  private:
-  std::string path_;
   Dataset dataset_;
   GDALRasterBand* band_ = nullptr;
   std::optional<double> none_;
@@ -103,7 +101,7 @@ Result<std::unique_ptr<Raster>> open_raster(const std::string& path) {
   if (dataset->GetRasterCount() < 1) return fail(path + ": it has no band of heights");
   if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType()) != 0)
     return fail(path + ": its numbers are complex, not heights");
-  return std::make_unique<GdalRaster>(path, std::move(dataset));
+  return std::make_unique<GdalRaster>(std::move(dataset));
 }
 
 Result<void> write_grey_png(const std::string& path, int columns, int rows, std::span<const uint8_t> pixels) {
