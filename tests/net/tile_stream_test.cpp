@@ -25,7 +25,10 @@ class TileTest : public ::testing::Test {
   std::vector<SharedBytes> serve() {
     std::vector<SharedBytes> sent;
     stream_->serve([&](uint64_t) { return reads_ ? view_.get() : nullptr; },
-                   [&](uint64_t, const SharedBytes& bytes) { sent.push_back(bytes); });
+                   [&](uint64_t, const SharedBytes& bytes) {
+                     sent.push_back(bytes);
+                     return true;
+                   });
     return sent;
   }
 

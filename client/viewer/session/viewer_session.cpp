@@ -246,7 +246,8 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   std::visit(Overloaded{[&](const auto& request) {
                           connection_->send(Asked<std::decay_t<decltype(request)>>{request, requests_});
                         },
-                        [](const SettingsRequest&) {}},  // no tool's
+                        [](const SettingsRequest&) {},  // no tool's
+                        [](const LeaveRequest&) {}},
              asked);
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
   asked_s_[requests_] = now_s;

@@ -34,7 +34,7 @@ Result<void> Viewing::step(double now_s) {
     const TraceSpan span(trace.get(), "viewer", "messages");
     return session.step(now_s, camera);
   }();
-  if (step.new_world) stand_on_ground();
+  if (step.new_mirror) stand_on_ground();
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
