@@ -2,8 +2,8 @@
 //
 // Deterministic: the same calls in the same order give the same bits, on any build and on any number of
 // threads. Bullet's own snapshots do not restore that, so a Bodies is never copied; restore() takes up
-// motions without contacts. Not thread-safe: one thread calls, and step() shares its work with others. Metres,
-// seconds, kilograms; a body's position is its centre of mass.
+// motions without contacts. Not thread-safe: one thread calls, and step() shares its work with others.
+// Metres, seconds, kilograms; a body's position is its centre of mass.
 #pragma once
 
 #include <cstddef>

@@ -82,7 +82,7 @@ TEST_F(PredictingViewer, what_the_server_refuses_is_taken_back) {
   until("the refusal", true, [&] { return session_->predictions() == 0; });
   EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
   EXPECT_EQ(exact_hash(), 0U);
-  EXPECT_NE(session_->notice(steady_now_s()).find("pieces_max"), std::string::npos);
+  EXPECT_NE(session_->notice(steady_now_s()).find("pieces-max"), std::string::npos);
 }
 
 TEST_F(PredictingViewer, a_lost_server_takes_it_back_and_another_world_knows_nothing_of_it) {

@@ -204,7 +204,7 @@ TEST_F(OddInput, limit_of_pieces_reached_between_two_carves) {
   const auto delta =
       step({carve(sphere({0.0F, -0.5F, 0.0F}, 2.0F), 16), carve(sphere({9.0F, -0.5F, 0.0F}, 2.0F), 16)});
   EXPECT_EQ(delta->replies[0].pieces, 16U);
-  EXPECT_NE(delta->replies[1].refusal.find("pieces_max"), std::string::npos) << delta->replies[1].refusal;
+  EXPECT_NE(delta->replies[1].refusal.find("pieces-max"), std::string::npos) << delta->replies[1].refusal;
   EXPECT_EQ(delta->pieces.size(), 16U);
   EXPECT_EQ(mass_of(delta->spawned) + delta->ledger.dust, delta->ledger.moved);
 }

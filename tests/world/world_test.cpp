@@ -132,7 +132,7 @@ TEST(world, carves_beyond_the_most_pieces_are_refused_until_some_have_settled) {
   World world(config);
   EXPECT_TRUE(step(world, {blow(world, 12.0F, 12.0F, 16)})->replies[0].refusal.empty());
   const auto delta = step(world, {blow(world, 20.0F, 12.0F, 16)});
-  EXPECT_NE(delta->replies[0].refusal.find("pieces_max"), std::string::npos) << delta->replies[0].refusal;
+  EXPECT_NE(delta->replies[0].refusal.find("pieces-max"), std::string::npos) << delta->replies[0].refusal;
   EXPECT_EQ(delta->ledger.error(), 0);
 }
 
