@@ -70,8 +70,10 @@ struct LiveServer::State {
 
 Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;  // those of a recording are not this server's
-  if (config.world.terrain.heights != nullptr && !(config.record_path.empty() && config.replay.path.empty()))
-    return fail("recordings are of generated terrain alone, not of a ground file (--ground)");
+  // What is kept does not name the ground it belongs to.
+  const bool keeps = !(config.record_path.empty() && config.replay.path.empty() && config.world_path.empty());
+  if (config.world.terrain.heights != nullptr && keeps)
+    return fail("recordings and kept worlds are of generated terrain alone, not of a ground file (--ground)");
   if (!config.replay.path.empty()) {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");

@@ -86,11 +86,14 @@ TEST(ServerOptions, a_ground_file_is_the_terrain_and_what_is_none_is_a_mistake) 
   EXPECT_EQ(terrain.voxel_size_m, 0.5F);
   EXPECT_EQ(exit_code({"--ground", path.c_str(), "--terrain", "flat"}), 2);
   EXPECT_EQ(exit_code({"--ground", "/no/such/file.ground"}), 2);
-  LiveConfig recorded = std::get<ServerOptions>(parsed).live;
-  recorded.record_path = folder / "a.scree";
-  const auto started = LiveServer::start(recorded);
-  ASSERT_FALSE(started);
-  EXPECT_NE(started.error().message.find("--ground"), std::string::npos);
+  for (std::string LiveConfig::*kept : {&LiveConfig::record_path, &LiveConfig::world_path}) {
+    LiveConfig config = std::get<ServerOptions>(parsed).live;
+    config.*kept = folder / "a.file";
+    const auto started = LiveServer::start(config);
+    ASSERT_FALSE(started);
+    EXPECT_NE(started.error().message.find("--ground"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.file"));
+  }
 }
 
 TEST(ServerOptions, settings_that_are_numbers_are_options_within_their_bounds) {
