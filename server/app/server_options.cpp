@@ -150,9 +150,9 @@ void add_keeping(CLI::App& app, Raw& raw) {
       ->check(CLI::IsMember(names_of_durability()))
       ->capture_default_str()
       ->needs(world);
-  app.add_option("--autosave", live.autosave_s,
-                 "with --durability off: seconds between saves; 0: only at the end")
-      ->check(CLI::Range(0.0, 86400.0))
+  bounded(app.add_option("--autosave", live.autosave_s,
+                         "with --durability off: seconds between saves; 0: only at the end"),
+          {0.0, 86400.0})
       ->capture_default_str()
       ->needs(world);
 }
