@@ -271,19 +271,21 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
   if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
   auto rows = Reading(file, lost).run();
   if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
-  if (!rows) return rows;
-  state_->pieces.clear();
-  for (const KeptPiece& piece : rows->world.moment.pieces) state_->pieces.insert(piece.id);
   return rows;
 }
 
-/// The log, and the statements, once.
+/// The log, the statements, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
   const std::string settings =
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = " +
       std::to_string(limits::wal_pages_max) + ";";
   if (auto done = database.execute(settings); !done) return done;
+  const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
+    pieces.insert(id);
+    return {};
+  };
+  if (auto done = database.each(world_schema::all_of("pieces"), has_row); !done) return done;
   return prepare();
 }
 

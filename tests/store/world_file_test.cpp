@@ -73,6 +73,8 @@ TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
     if (tick == 50) commands = {carve_at(-3.0F, 50)};
     const auto delta = world->step(commands);
     if (keeper.note(*delta)) keeper.save(world->moment());
+    if (tick == 60)
+      while (keeper.status().saves == 0) std::this_thread::yield();
   }
   const auto finished = keeper.finish(world->moment());
   ASSERT_TRUE(finished.has_value()) << finished.error().message;
@@ -80,6 +82,17 @@ TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
   EXPECT_GT(keeper.status().saves, 1U);
   EXPECT_EQ(value_in_file(), encode(world->snapshot()));
   EXPECT_EQ(refusal_of(path), "");
+}
+
+TEST_F(WorldFileTest, the_first_save_after_the_file_was_made_drops_pieces_that_are_gone) {
+  make();
+  ASSERT_FALSE(world->snapshot().moment.pieces.empty());
+  const auto empty = std::make_unique<World>(small_world());
+  const auto saved = file->save(empty->moment(), {});
+  ASSERT_TRUE(saved.has_value()) << saved.error().message;
+  const auto rows = file->read();
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  EXPECT_TRUE(rows->world.moment.pieces.empty());
 }
 
 TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
