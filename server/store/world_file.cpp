@@ -27,6 +27,16 @@ void sync_folder_of(const std::string& path) {
   close(file);
 }
 
+/// Refuses what is there already, and the logs of a world that was there: SQLite would write their pages into
+/// the new one.
+Result<void> check_free(const std::string& path) {
+  std::error_code error;
+  for (const char* part : {"", "-wal", "-journal"})
+    if (std::filesystem::exists(path + part, error))
+      return fail(path + part + " exists already: choose another name, or move it away");
+  return {};
+}
+
 std::vector<WorldChunk> chunks_of(const WorldSnapshot& world) {
   std::map<ChunkCoord, WorldChunk> chunks;
   for (const BrickPatch& patch : world.bricks) {
@@ -102,9 +112,8 @@ WorldFile::~WorldFile() = default;
 
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
                                                      const WorldSnapshot& world) {
+  if (auto free = check_free(path); !free) return tl::unexpected(free.error());
   std::error_code error;
-  if (std::filesystem::exists(path, error))
-    return fail(path + " exists already: choose another name, or move it away");
   const std::string unfinished = path + "-new";
   std::filesystem::remove(unfinished, error);
   const auto made = [&]() -> Result<void> {

@@ -102,6 +102,22 @@ TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
   EXPECT_NE(again.error().message.find("exists already"), std::string::npos);
 }
 
+TEST_F(WorldFileTest, a_log_that_a_world_of_that_name_left_behind_is_not_taken_for_the_new_ones) {
+  make();
+  ASSERT_TRUE(file->save(world->moment(), {}).has_value());
+  const std::vector<char> log = read_file(path + "-wal");
+  ASSERT_FALSE(log.empty());
+  file.reset();
+  std::filesystem::remove(path);
+  write_file(path + "-wal", log);
+  World fresh(small_world());
+  const auto made = WorldFile::create(path, header_of(fresh.snapshot()), fresh.snapshot());
+  ASSERT_FALSE(made.has_value());
+  EXPECT_NE(made.error().message.find(path + "-wal exists already"), std::string::npos)
+      << made.error().message;
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST_F(WorldFileTest, a_world_belongs_to_one_process) {
   const auto first = WorldLock::take(path);
   ASSERT_TRUE(first.has_value()) << first.error().message;
@@ -227,7 +243,7 @@ TEST_F(WorldFileTest, a_disk_that_dies_at_any_write_keeps_all_that_was_told_as_s
         EXPECT_EQ((*world)->moment().state_hash, saves.ticks[(*world)->tick() - 1].first.state_hash);
       }
     }
-    for (const char* name : {"", "-wal", "-shm"}) std::filesystem::remove(path + name);
+    for (const char* name : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(path + name);
   }
   EXPECT_GT(deaths, 20U);
 }
