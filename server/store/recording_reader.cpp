@@ -52,6 +52,7 @@ Result<void> RecordingReader::State::read_extent() {
   for (const auto* number : {&first, &last, &count, &keys})
     if (!*number) return tl::unexpected(number->error());
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
+  if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
   const auto begun =
       database.number("SELECT count(*) FROM states WHERE tick = " + std::to_string(**first - 1));
   if (!begun) return tl::unexpected(begun.error());

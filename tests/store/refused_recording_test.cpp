@@ -121,6 +121,20 @@ TEST_F(RecordingTest, recording_with_missing_ticks_is_refused) {
   }
 }
 
+TEST_F(RecordingTest, ticks_before_the_first_one_are_refused) {
+  simulate(2);
+  record();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value()) << database.error().message;
+    ASSERT_TRUE(database
+                    ->execute("UPDATE frames SET tick = -9223372036854775807 - 1 WHERE tick = 1;"
+                              "UPDATE frames SET tick = 9223372036854775807 WHERE tick = 2")
+                    .has_value());
+  }
+  expect_refused("it begins at tick -9223372036854775808");
+}
+
 TEST_F(RecordingTest, data_that_is_not_what_its_checksum_says_is_refused) {
   simulate(6);
   record();
