@@ -31,7 +31,7 @@ struct Recorder::State {
   void note(const Result<void>& result);
 
   std::unique_ptr<RecordingWriter> writer;  ///< used by the storage thread only
-  Tick written = 0;                         ///< used by the storage thread only
+  Tick written = 0;                         ///< used by the storage thread only, once that runs
   Clock::time_point committed = Clock::now();
   std::thread thread;
 
@@ -120,7 +120,7 @@ Recorder::~Recorder() {
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header) {
   auto writer = RecordingWriter::create(path, header);
   if (!writer) return tl::unexpected(writer.error());
-  return start(std::move(*writer));
+  return start(std::move(*writer), 0);
 }
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
@@ -129,12 +129,13 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, cons
   auto writer = std::filesystem::exists(path, ignored) ? RecordingWriter::resume(path, header, from)
                                                        : RecordingWriter::create(path, header, from);
   if (!writer) return tl::unexpected(writer.error());
-  return start(std::move(*writer));
+  return start(std::move(*writer), from.keyframe.tick);
 }
 
-std::unique_ptr<Recorder> Recorder::start(std::unique_ptr<RecordingWriter> writer) {
+std::unique_ptr<Recorder> Recorder::start(std::unique_ptr<RecordingWriter> writer, Tick written) {
   auto state = std::make_unique<State>();
   state->writer = std::move(writer);
+  state->written = written;
   state->thread = std::thread([s = state.get()] { s->run(); });
   return std::unique_ptr<Recorder>(new Recorder(std::move(state)));
 }

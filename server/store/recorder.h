@@ -32,8 +32,8 @@ class Recorder {
   /// From one thread only. Does nothing after an error or after finish().
   void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands);
 
-  /// Waits until that tick, which was pushed, is in the file, and survives the end of this process; or until
-  /// the recording has ended. From any thread.
+  /// Waits until that tick, which was pushed or is the start's, is in the file, and survives the end of this
+  /// process; or until the recording has ended. From any thread.
   void commit_up_to(Tick tick);
 
   /// Writes all queued ticks, closes the file and joins the thread. Returns the first error since the start.
@@ -47,7 +47,8 @@ class Recorder {
  private:
   struct State;
   explicit Recorder(std::unique_ptr<State> state);
-  static std::unique_ptr<Recorder> start(std::unique_ptr<RecordingWriter> writer);
+  /// `written`: the tick from which the writer goes on; 0: from the beginning.
+  static std::unique_ptr<Recorder> start(std::unique_ptr<RecordingWriter> writer, Tick written);
   std::unique_ptr<State> state_;
 };
 

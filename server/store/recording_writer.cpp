@@ -87,18 +87,39 @@ Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
 
 namespace {
 
+bool alike(const WorldConfig& a, const WorldConfig& b) {
+  return a.terrain == b.terrain && a.tick_rate_hz == b.tick_rate_hz &&
+         a.merges_per_tick_max == b.merges_per_tick_max;
+}
+
+/// The hash of the recorded world after the tick, which is the one before the first at least; nothing when it
+/// was not recorded.
+Result<std::optional<uint64_t>> hash_after(RecordingReader& recorded, Tick tick) {
+  if (tick >= recorded.first_tick()) {
+    const auto frame = recorded.frame(tick);
+    if (!frame) return tl::unexpected(frame.error());
+    return std::optional(frame->state_hash);
+  }
+  const auto keyframe = recorded.keyframe_before(tick);
+  if (!keyframe) return tl::unexpected(keyframe.error());
+  if (!keyframe->has_value() || (*keyframe)->tick != tick) return std::optional<uint64_t>();
+  return std::optional((*keyframe)->state_hash);
+}
+
 /// Whether the recording is of this world, and reaches to the tick.
-Result<void> may_resume(const std::string& path, const RecordingHeader& header, Tick tick) {
+Result<void> may_resume(const std::string& path, const RecordingHeader& header, const TickDelta& start) {
+  const Tick tick = start.tick;
   const auto recorded = RecordingReader::open(path);
   if (!recorded) return tl::unexpected(recorded.error());
-  const WorldConfig& world = (*recorded)->header().world;
-  if (world.terrain != header.world.terrain || world.tick_rate_hz != header.world.tick_rate_hz ||
-      world.merges_per_tick_max != header.world.merges_per_tick_max)
-    return fail(path + " is the recording of another world: choose another name (--record)");
+  const auto another = fail(path + " is the recording of another world: choose another name (--record)");
+  if (!alike((*recorded)->header().world, header.world)) return another;
   if ((*recorded)->last_tick() < tick || (*recorded)->first_tick() > tick + 1)
     return fail(path + " holds the ticks " + std::to_string((*recorded)->first_tick()) + " to " +
                 std::to_string((*recorded)->last_tick()) + ", and the world stands at " +
                 std::to_string(tick) + ": choose another name (--record)");
+  const auto hash = hash_after(**recorded, tick);
+  if (!hash) return tl::unexpected(hash.error());
+  if (hash->value_or(start.state_hash) != start.state_hash) return another;
   return {};
 }
 
@@ -133,7 +154,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
                                                                  const RecordingHeader& header,
                                                                  const RecordingStart& start) {
   const Tick tick = start.keyframe.tick;
-  if (auto fits = may_resume(path, header, tick); !fits) return tl::unexpected(fits.error());
+  if (auto fits = may_resume(path, header, start.keyframe); !fits) return tl::unexpected(fits.error());
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));

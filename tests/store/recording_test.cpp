@@ -1,4 +1,6 @@
 // Recordings: what is recorded plays back as it was, verifies, and survives a crash.
+#include <chrono>
+#include <future>
 #include <gtest/gtest.h>
 
 #include "server/replay/replay_source.h"
@@ -153,6 +155,56 @@ TEST_F(RecordingTest, recording_where_nothing_can_be_written_is_refused) {
   ASSERT_FALSE(recorder.has_value());
   EXPECT_NE(recorder.error().message.find("cannot be created"), std::string::npos)
       << recorder.error().message;
+}
+
+/// A world that is carved at that place in tick 3.
+std::unique_ptr<World> carved_world(float x_m, Tick ticks, Recorder* recorder) {
+  auto world = std::make_unique<World>(small_world());
+  for (Tick tick = 1; tick <= ticks; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 3) commands = {carve_at(x_m, 1)};
+    const auto delta = world->step(commands);
+    if (recorder != nullptr) recorder->push(delta, commands);
+  }
+  return world;
+}
+
+RecordingStart start_of(World& world) {
+  return {world.snapshot(), world.keyframe()};
+}
+
+TEST_F(RecordingTest, goes_on_with_the_world_that_it_is_of_and_with_no_other) {
+  const RecordingHeader header{"test", small_world()};
+  {
+    auto recorder = Recorder::create(path, header);
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    carved_world(0.0F, 10, recorder->get());
+  }
+  {
+    auto saved = World::restore(carved_world(0.0F, 8, nullptr)->snapshot());
+    ASSERT_TRUE(saved.has_value()) << saved.error().message;
+    auto recorder = Recorder::create(path, header, start_of(**saved));
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    for (int tick = 9; tick <= 12; ++tick) (*recorder)->push((*saved)->step({}), {});
+  }
+  const auto another = Recorder::create(path, header, start_of(*carved_world(2.0F, 8, nullptr)));
+  ASSERT_FALSE(another.has_value());
+  EXPECT_NE(another.error().message.find("another world"), std::string::npos) << another.error().message;
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_EQ((*reader)->last_tick(), 12U);
+  const auto report = verify(**reader);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->first_difference << ": " << report->difference;
+}
+
+TEST_F(RecordingTest, the_tick_that_a_recording_begins_from_is_committed_before_any_other) {
+  const auto world = carved_world(0.0F, 5, nullptr);
+  auto recorder = Recorder::create(path, {"test", small_world()}, start_of(*world));
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  auto waiting = std::async(std::launch::async, [&] { (*recorder)->commit_up_to(world->tick()); });
+  EXPECT_EQ(waiting.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  ASSERT_TRUE((*recorder)->finish().has_value());  // ends the waiting in any case
 }
 
 TEST_F(RecordingTest, verify_agrees_on_what_was_dropped_when_a_session_left) {
