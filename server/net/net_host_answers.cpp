@@ -10,9 +10,8 @@ namespace scree {
 std::shared_ptr<ClientSession> NetHost::queue(Outgoing&& outgoing) {
   const auto entry = sessions_.find(outgoing.session);
   if (entry == sessions_.end()) return nullptr;
-  auto session = entry->second.session;  // queuing may end it
-  session->queue(std::move(outgoing.bytes));
-  return session;
+  entry->second.session->queue(std::move(outgoing.bytes));
+  return entry->second.session;
 }
 
 /// Who asked gets the tick first, and at once, however far this thread lags.

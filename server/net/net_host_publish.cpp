@@ -76,8 +76,10 @@ void NetHost::flush(size_t count) {
     for (const Unflushed& one : some) one.session->send_now();
   });
   for (const auto& [session, since] : turn) {
-    if (const auto found = sessions_.find(session->id()); found != sessions_.end())
-      found->second.unflushed = false;
+    const auto found = sessions_.find(session->id());
+    const bool is_its =
+        found != sessions_.end() && found->second.session == session;  // or it goes on as another
+    if (is_its) found->second.unflushed = false;
     session->settle();
   }
   flush_rate_.flushed(count, steady_now_s() - begin_s);
