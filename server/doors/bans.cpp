@@ -52,9 +52,11 @@ Result<std::string> ban_key(const std::string& address) {
 Result<Bans> Bans::open(const std::string& path) {
   Bans bans;
   bans.path_ = path;
-  if (path.empty() || !std::filesystem::exists(path)) return bans;
+  std::error_code error;
+  const bool there = !path.empty() && std::filesystem::exists(path, error);
+  if (!there && !error) return bans;
   std::ifstream file(path);
-  if (!file) return fail("the file of bans " + path + " cannot be read (--bans)");
+  if (error || !file) return fail("the file of bans " + path + " cannot be read (--bans)");
   size_t number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
