@@ -10,6 +10,14 @@ namespace scree {
 
 namespace {
 
+/// The estimated cost of a kept request, and of all of a session's, microseconds: an hour, so that sums of
+/// nanoseconds fit. Above: refused.
+constexpr float kept_cost_max_us = 3.6e9F;
+
+bool may_cost(float cost_us) {
+  return cost_us >= 0.0F && cost_us <= kept_cost_max_us;
+}
+
 std::string in_ms(float us) {
   return std::to_string(static_cast<int>(std::lround(us / 1000.0F))) + " ms";
 }
@@ -158,16 +166,16 @@ Result<void> RequestQueue::take(const PartyValue& value) {
   Party party;
   std::vector<uint64_t> with_requests;
   for (const SessionValue& session : value.sessions) {
-    if (session.requests.empty() || !(session.waiting_us >= 0.0F))
-      return fail("a session without requests, or that waits for less than nothing");
+    if (session.requests.empty() || !may_cost(session.waiting_us))
+      return fail("a session without requests, or that waits for less than nothing or too much");
     Session& one = party.sessions[session.session];
     if (!one.requests.empty()) return fail("a session's requests come twice");
     one.waiting_us = session.waiting_us;
     for (const auto& [recorded, cost_us, since] : session.requests) {
       const auto& [asker, number, body, in_common] = recorded;
       const Command command{asker, number, body, in_common};
-      if (asker != session.session || party_of(command) != value.party || !(cost_us >= 0.0F))
-        return fail("a request waits where another one's turn is");
+      if (asker != session.session || party_of(command) != value.party || !may_cost(cost_us))
+        return fail("a request waits where another one's turn is, or costs too much");
       one.requests.push_back({command, cost_us, since});
     }
     party.requests += one.requests.size();

@@ -22,6 +22,9 @@ constexpr float shape_slack_voxels = 4.0F;
 /// Ticks that a world may have counted: so many that no sum overflows.
 constexpr Tick tick_max = Tick{1} << 62U;
 
+/// Mass in a ledger, likewise.
+constexpr MassUnits mass_max = MassUnits{1} << 60U;
+
 /// Takes a value apart into a new state. Each step refuses what does not agree with those before it.
 class Restoring {
  public:
@@ -117,6 +120,9 @@ class Restoring {
   }
 
   Result<void> ledger() {
+    const Ledger said = from_recorded(m_.ledger);
+    for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved})
+      if (mass < -mass_max || mass > mass_max) return fail("its ledger has more than there can be");
     s_.ledger = measure_ ? measured() : from_recorded(m_.ledger);
     const Ledger& ledger = s_.ledger;
     for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})

@@ -195,5 +195,14 @@ TEST(request_queue, a_session_is_dropped_from_every_party_that_it_was_in) {
   EXPECT_EQ(queue.size(), 0U);
 }
 
+TEST(request_queue, a_kept_request_that_costs_more_than_any_is_refused) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from(7, 1, 100.0F)));
+  RequestsValue kept = queue.value();
+  EXPECT_TRUE(RequestQueue(us_per_s).restore(kept));
+  kept.parties[0].sessions[0].requests[0].cost_us = 1.0e30F;
+  EXPECT_FALSE(RequestQueue(us_per_s).restore(kept));
+}
+
 }  // namespace
 }  // namespace scree

@@ -123,6 +123,10 @@ TEST(snapshot, a_value_whose_parts_do_not_agree_is_refused_by_name) {
   expect("mass of its pieces", [](WorldSnapshot& w) { w.moment.ledger.pieces += 1; });
   expect("mass of its terrain", [](WorldSnapshot& w) { w.moment.ledger.terrain += 1; });
   expect("balance", [](WorldSnapshot& w) { w.moment.ledger.dust += 1; });
+  expect("more than there can be", [](WorldSnapshot& w) {
+    w.moment.ledger.dust += int64_t{1} << 61U;
+    w.moment.ledger.poured += int64_t{1} << 61U;
+  });
   expect("less than nothing", [](WorldSnapshot& w) { w.moment.ledger.moved = -1; });
   expect("hash", [](WorldSnapshot& w) { w.moment.motion.bodies[0].velocity_m_s.x += 0.01F; });
   expect("rotation", [](WorldSnapshot& w) { w.moment.motion.bodies[0].basis[0] *= 2.0F; });
