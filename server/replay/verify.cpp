@@ -30,9 +30,12 @@ std::string difference(const TickDelta& simulated, const RecordedFrame& recorded
   return {};
 }
 
-Result<std::unique_ptr<World>> world_of(std::span<const uint8_t> state) {
+Result<std::unique_ptr<World>> world_of(std::span<const uint8_t> state, Tick tick) {
   const auto value = decode_world(state);
   if (!value) return tl::unexpected(value.error());
+  if (value->moment.tick != tick)
+    return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
+                std::to_string(value->moment.tick));
   return World::restore(*value);
 }
 
@@ -41,7 +44,7 @@ Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick) {
   const auto state = recording.state(tick);
   if (!state) return tl::unexpected(state.error());
   CHECK(state->has_value());
-  return world_of(**state);
+  return world_of(**state, tick);
 }
 
 /// Where another process went on with this tick's state: compares it with the world's own, and goes on from
@@ -54,7 +57,7 @@ Result<void> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   if (own != **state)
     report.difference = hashes_differ("the whole state", XXH3_64bits(own.data(), own.size()),
                                       XXH3_64bits((*state)->data(), (*state)->size()));
-  auto restored = world_of(**state);
+  auto restored = world_of(**state, world->tick());
   if (!restored) return fail(recording.path() + ": " + restored.error().message);
   world = std::move(*restored);
   ++report.restarts;

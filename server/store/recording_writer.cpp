@@ -119,7 +119,7 @@ Result<void> may_resume(const std::string& path, const RecordingHeader& header, 
                 std::to_string(tick) + ": choose another name (--record)");
   const auto hash = hash_after(**recorded, tick);
   if (!hash) return tl::unexpected(hash.error());
-  if (hash->value_or(start.state_hash) != start.state_hash) return another;
+  if (*hash != start.state_hash) return another;
   return {};
 }
 

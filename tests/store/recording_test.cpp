@@ -3,6 +3,7 @@
 #include <future>
 #include <gtest/gtest.h>
 
+#include "proto/world_codec.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/limits.h"
@@ -196,6 +197,22 @@ TEST_F(RecordingTest, goes_on_with_the_world_that_it_is_of_and_with_no_other) {
   const auto report = verify(**reader);
   ASSERT_TRUE(report.has_value()) << report.error().message;
   EXPECT_TRUE(report->agrees()) << report->first_difference << ": " << report->difference;
+}
+
+TEST_F(RecordingTest, verify_refuses_a_state_that_is_of_another_tick) {
+  {
+    const auto world = carved_world(0.0F, 5, nullptr);
+    auto recorder = Recorder::create(path, {"test", small_world()}, start_of(*world));
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    (*recorder)->push(world->step({}), {});
+  }
+  put_recorded("states", 5, encode(carved_world(0.0F, 3, nullptr)->snapshot()));
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  const auto report = verify(**reader);
+  ASSERT_FALSE(report.has_value());
+  EXPECT_NE(report.error().message.find("says that it is of tick 3"), std::string::npos)
+      << report.error().message;
 }
 
 TEST_F(RecordingTest, the_tick_that_a_recording_begins_from_is_committed_before_any_other) {
