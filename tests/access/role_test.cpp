@@ -1,5 +1,6 @@
 // Roles and administrators over loopback: each request against each role, sessions that are refused for their
 // token, tokens revoked while their session lasts, kicking and banning, and bans that outlive the server.
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <thread>
@@ -91,8 +92,11 @@ TEST_F(RoleTest, a_full_server_has_room_for_tokens_and_keeps_those_who_hold_one)
 
 TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access_tokens_are_not) {
   start();
+  const Within wait(limits::guess_wait_min_s);
   EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "the admin token is wrong"));
-  EXPECT_TRUE(holds(refusal(hello(the_admin_token)), "the next is looked at in"));
+  const std::string said = refusal(hello(the_admin_token));
+  if (wait.over()) GTEST_SKIP() << "the machine stood still: the next guess is looked at";
+  EXPECT_TRUE(holds(said, "the next is looked at in")) << said;
   EXPECT_TRUE(comes_to_refuse(Refusal::token_guesses));
   for (int i = 0; i < 20; ++i)
     EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "wrong, as it was before")) << "which is no guess";
@@ -278,6 +282,8 @@ TEST(BanList, keeps_time_and_its_limits) {
   EXPECT_TRUE(full.add("key7", {0, "again"}, 50)) << "one that is there may change";
   std::ofstream(folder / "bad") << "10.0.0.1 0 fine\n10.0.0.2 tomorrow\n";
   EXPECT_TRUE(holds(Bans::open(folder / "bad").error().message, "bad, line 2"));
+  std::filesystem::create_symlink(folder / "loop", folder / "loop");
+  EXPECT_TRUE(holds(Bans::open(folder / "loop").error().message, "cannot be read")) << "it may hold some";
   const auto nowhere = Bans::open(folder / "no/such/folder");
   ASSERT_TRUE(nowhere);
   Bans unkept = *nowhere;

@@ -60,7 +60,7 @@ TEST_F(NetServerTest, message_cut_short_is_refused) {
 }
 
 TEST_F(NetServerTest, silent_connection_is_refused_in_the_end) {
-  start([](NetConfig& config) { config.hello_seconds = 0.2; });
+  start([](NetConfig& config) { config.hello_seconds = 1.0; });  // the witness needs some
   RawClient client(server->port());
   expect_refused(client, "no hello within");
 }

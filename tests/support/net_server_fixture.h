@@ -43,6 +43,7 @@ class NetServerTest : public ::testing::Test {
     witness = std::make_unique<RawClient>(server->port());
     ASSERT_TRUE(witness->send(hello()));
     ASSERT_TRUE(witness->receive_as<WelcomeMessage>().has_value());
+    ASSERT_TRUE(witness->send(AckMessage{1}));  // who does nothing gives way in a full server
   }
   void tick(const std::vector<Operation>& operations = {}) { server->publish(source.step(operations)); }
 
