@@ -100,8 +100,11 @@ Result<void> LiveServer::State::open() {
     if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
     if (auto started = kept->start(*feed->world(), std::move(keeping)); !started) return started;
   }
-  if (World* world = feed->world(); world != nullptr && world->tick() > 0)
-    net->publish(std::make_shared<const TickDelta>(world->keyframe()));
+  if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
+    const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
+    report.settings = keyframe->settings;  // ticks say only what changes
+    net->publish(keyframe);
+  }
   if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   return {};

@@ -57,6 +57,7 @@ struct WorldKeeper::State {
   // Of the caller's thread.
   ChangedBricks gathered;
   Tick next_due = 0;  ///< 0: none by the clock
+  bool over = false;  ///< nothing is saved any more, nor gathered
 
   // Of the storage thread.
   std::unique_ptr<WorldFile> file;
@@ -154,11 +155,16 @@ WorldKeeper::~WorldKeeper() {
 
 bool WorldKeeper::note(const TickDelta& delta) {
   State& s = *state_;
+  if (s.over) return false;
   for (const BrickState& state : delta.bricks) s.gathered[state.coord] = state;
   const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
   if (!by_clock && !(s.config.durability == Durability::tick && something_happened(delta))) return false;
   const std::scoped_lock lock(s.mutex);
-  if (s.status.given_up) return false;
+  if (s.status.given_up) {
+    s.over = true;
+    s.gathered.clear();
+    return false;
+  }
   if (s.waiting) {
     ++s.status.skipped;  // due again in the next tick
     if (s.next_due != 0) s.next_due = delta.tick + 1;

@@ -71,7 +71,7 @@ class RequestQueue {
   Result<void> take(const PartyValue& value);
 
   float client_us_per_s_;
-  std::map<uint64_t, Party> parties_;  ///< those with requests, or with sessions ahead of the others
+  std::map<uint64_t, Party> parties_;  ///< those with requests, and until the next tick those that had some
   FairTurns turns_;                    ///< of the parties
   size_t size_ = 0;
 };

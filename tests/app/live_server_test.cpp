@@ -284,6 +284,31 @@ TEST_F(LiveServerTest, foreign_recording_is_refused_by_name) {
       << started.error().message;
 }
 
+TEST_F(LiveServerTest, a_kept_world_that_is_recorded_may_stop_before_its_next_tick_and_goes_on_later) {
+  config.world_path = (folder / "world").string();
+  config.record_path = (folder / "session.scree").string();
+  start();
+  for (int tick = 1; tick <= 3; ++tick) ASSERT_TRUE(server->step_once());
+  ASSERT_TRUE(server->stop().has_value());
+  const SettingValues settings = server->report().settings;
+  EXPECT_FALSE(settings.empty());
+  for (int round = 0; round < 2; ++round) {
+    server.reset();
+    start();
+    EXPECT_EQ(server->report().settings, settings);
+    const auto stopped = server->stop();
+    ASSERT_TRUE(stopped.has_value()) << stopped.error().message;
+  }
+  server.reset();
+  start();
+  ASSERT_TRUE(server->step_once());
+  EXPECT_EQ(server->last_delta()->tick, 4U);
+  ASSERT_TRUE(server->stop().has_value());
+  auto reader = RecordingReader::open(config.record_path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_EQ((*reader)->last_tick(), 4U);
+}
+
 TEST_F(LiveServerTest, real_time_ends_after_its_ticks_and_reports) {
   config.pacing = Pacing::real_time;
   config.ticks_max = 20;
