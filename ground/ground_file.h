@@ -21,6 +21,7 @@ class GroundFile final : public HeightModel {
   ~GroundFile() override;
 
   const GroundHeader& header() const { return header_; }
+  Digest name() const { return name_of(header_); }
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
 

@@ -9,4 +9,8 @@ namespace scree::limits {
 /// is needed.
 inline constexpr size_t file_tiles_kept_max = 512;
 
+/// Ground files in a folder that are looked at for a world's ground: a look reads 128 bytes. Above: the rest
+/// of the folder is not looked at.
+inline constexpr size_t ground_files_max = 1000;
+
 }  // namespace scree::limits

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "shared/base/digest.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -20,7 +21,8 @@ inline constexpr uint32_t recording_format = 6;
 struct RecordedHeader {
   uint32_t format = recording_format;
   std::string program;
-  TerrainSource terrain;
+  TerrainSource terrain;  ///< decoded, without the model of a ground's file: `ground` names it
+  Digest ground{};        ///< of the file that the terrain's ground is from; zeros: it is generated
   uint32_t tick_rate_hz = 60;
   uint32_t merges_per_tick_max = 0;
   SettingValues settings;  ///< to start with

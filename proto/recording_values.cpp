@@ -1,5 +1,7 @@
 #include "proto/recording_values.h"
 
+#include <algorithm>
+
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -34,6 +36,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   to.set_tick_rate_hz(from.tick_rate_hz);
   to.set_merges_per_tick_max(from.merges_per_tick_max);
   write(*to.mutable_settings(), from.settings);
+  if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -51,6 +54,10 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
       check.within(from.tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
   header.merges_per_tick_max = from.merges_per_tick_max();
   header.settings = check.settings(from.settings());
+  if (from.ground().size() == header.ground.size())
+    std::ranges::copy(as_span(from.ground()), header.ground.begin());
+  else if (!from.ground().empty())
+    check.refuse("the hash of its ground is not of 32 bytes");
   return header;
 }
 

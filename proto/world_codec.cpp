@@ -8,6 +8,7 @@
 #include "proto/recording_values.h"
 #include "proto/wire_values.h"
 #include "shared/base/check.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 
@@ -250,6 +251,7 @@ std::vector<uint8_t> encode(const WorldChunk& chunk) {
   to.set_version(chunk.version);
   to.set_hash(chunk.hash);
   to.set_bricks(to_string(encode_bricks(chunk.bricks)));
+  if (chunk.ground_mass) to.set_ground_mass(*chunk.ground_mass);
   return bytes_of(to);
 }
 
@@ -257,7 +259,7 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   const auto from = parsed<kept::Chunk>(bytes, chunk_subject);
   if (!from) return tl::unexpected(from.error());
   FieldChecker check(chunk_subject);
-  WorldChunk chunk{{from->x(), from->y(), from->z()}, from->version(), from->hash(), {}};
+  WorldChunk chunk{{from->x(), from->y(), from->z()}, from->version(), from->hash(), {}, {}};
   chunk.bricks = check.take(decode_bricks(as_span(from->bricks())));
   uint64_t hash = 0;
   for (const BrickPatch& patch : chunk.bricks) {
@@ -268,6 +270,11 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   if (std::ranges::adjacent_find(chunk.bricks, std::ranges::greater_equal{}, &BrickPatch::coord) !=
       chunk.bricks.end())
     check.refuse("bricks are not in order");
+  if (from->has_ground_mass()) {
+    chunk.ground_mass = from->ground_mass();
+    if (*chunk.ground_mass < 0 || *chunk.ground_mass > brick_mass(solid_brick()) * ssize(chunk.bricks))
+      check.refuse("its ground weighs more than rock, or less than nothing");
+  }
   if (hash != chunk.hash) check.refuse("its hash is not that of its bricks");
   return checked(std::move(chunk), check);
 }

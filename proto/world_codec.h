@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct WorldChunk {
   Tick version = 0;
   uint64_t hash = 0;  ///< Σ brick_hash
   std::vector<BrickPatch> bricks;
+  std::optional<MassUnits> ground_mass{};  ///< of the unedited ground where the bricks lie, if it is known
 };
 
 std::vector<uint8_t> encode(const WorldHeader& header);

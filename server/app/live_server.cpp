@@ -6,12 +6,14 @@
 #include <spdlog/spdlog.h>
 #include <thread>
 
+#include "server/app/ground_giver.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
 #include "server/world/world_snapshot.h"
+#include "shared/base/check.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -70,15 +72,14 @@ struct LiveServer::State {
 
 Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;  // those of a recording are not this server's
-  // What is kept does not name the ground it belongs to.
-  const bool keeps = !(config.record_path.empty() && config.replay.path.empty() && config.world_path.empty());
-  if (config.world.terrain.heights != nullptr && keeps)
-    return fail("recordings and kept worlds are of generated terrain alone, not of a ground file (--ground)");
+  const Digest given = config.world.ground;
+  const bool keeps = !config.record_path.empty() || !config.world_path.empty();
+  CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
   if (!config.replay.path.empty()) {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
     if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
-    auto replay = replay_feed(config.replay);
+    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world));
     if (!replay) return tl::unexpected(replay.error());
     feed = std::move(replay->feed);
     config.world = replay->world;
@@ -86,6 +87,9 @@ Result<void> LiveServer::State::open() {
   } else if (auto opened = open_world(); !opened) {
     return opened;
   }
+  if (config.world.ground != given && given != Digest{})
+    return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
+                hex_of(given) + " (--ground)");
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
   const double speed = config.replay.path.empty() ? 1.0 : config.replay.speed;
@@ -117,7 +121,8 @@ Result<void> LiveServer::State::open_world() {
     feed = std::move(*live);
     return {};
   }
-  auto opened = SavedWorld::open(config.world_path, config.world, config.sim_threads);
+  auto opened = SavedWorld::open(config.world_path, config.world, config.sim_threads,
+                                 ground_giver(config.world_path, config.world));
   if (!opened) return tl::unexpected(opened.error());
   kept = std::move(*opened);
   feed = feed_of(kept->take_world());

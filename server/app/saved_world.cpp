@@ -14,7 +14,7 @@ namespace {
 
 /// What was asked for, and the file says otherwise: the file has the last word.
 void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& kept) {
-  if (asked.terrain != kept.terrain || asked.tick_rate_hz != kept.tick_rate_hz)
+  if (!is_same_terrain(asked, kept) || asked.tick_rate_hz != kept.tick_rate_hz)
     spdlog::info("{}: terrain and tick rate are the file's", path);
   const SettingValues wanted = print(asked), stand = print(kept);
   for (size_t i = 0; i < stand.size(); ++i)
@@ -26,7 +26,7 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
 }  // namespace
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
-                                                     size_t threads) {
+                                                     size_t threads, const GroundGiver& ground) {
   auto lock = WorldLock::take(path);
   if (!lock) return tl::unexpected(lock.error());
   std::unique_ptr<SavedWorld> kept(new SavedWorld(path, std::move(*lock)));
@@ -42,13 +42,17 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
   if (!file) return tl::unexpected(file.error());
   auto rows = (*file)->read();
   if (!rows) return tl::unexpected(rows.error());
-  auto world = World::restore(rows->world, threads);
+  RecordedHeader& header = rows->world.moment.config;
+  if (auto given = give_ground(header.ground, header.terrain, ground); !given)
+    return fail(path + ": " + given.error().message);
+  auto world = World::restore(rows->world, threads, rows->ground);
   if (!world) return fail(path + ": damaged: " + world.error().message);
   tell_differences(path, config, (*world)->config());
   spdlog::info("{}: goes on at tick {} with {} pieces and {} edited chunks", path, (*world)->tick(),
                rows->world.moment.pieces.size(), rows->chunks.size());
   kept->file_ = std::move(*file);
   kept->world_ = std::move(*world);
+  kept->ground_ = std::move(rows->ground);
   kept->number_ = rows->header.world;
   kept->first_session_ = first_free_session(rows->world.moment);
   return kept;
@@ -63,7 +67,8 @@ Result<void> SavedWorld::start(World& world, KeeperConfig config) {
     if (!file) return tl::unexpected(file.error());
     file_ = std::move(*file);
   }
-  keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.keyframe(), std::move(config));
+  keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.keyframe(), world.config().terrain, ground_,
+                                          std::move(config));
   return {};
 }
 

@@ -16,9 +16,9 @@ class SavedWorld {
  public:
   /// Takes the file for this process; where it exists, reads it, checks it, and makes the world that it
   /// holds. Start and stop are one way with a crash: nothing is read but what was saved. `threads`: of the
-  /// world (World::create).
+  /// world (World::create). `ground` gives the one that the file names.
   static Result<std::unique_ptr<SavedWorld>> open(const std::string& path, const WorldConfig& config,
-                                                  size_t threads);
+                                                  size_t threads, const GroundGiver& ground);
 
   /// The world, once: the file's, or a new one of the configuration.
   std::unique_ptr<World> take_world() { return std::move(world_); }
@@ -44,6 +44,7 @@ class SavedWorld {
   WorldLock lock_;
   std::unique_ptr<WorldFile> file_;
   std::unique_ptr<World> world_;
+  GroundMasses ground_;  ///< as the file says
   uint64_t number_ = 0;
   uint64_t first_session_ = 1;
   std::unique_ptr<WorldKeeper> keeper_;

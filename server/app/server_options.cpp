@@ -9,8 +9,8 @@
 #include <limits>
 #include <sstream>
 
-#include "ground/ground_file.h"
 #include "proto/messages.h"
+#include "server/app/ground_giver.h"
 #include "server/app/limits.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
@@ -70,8 +70,10 @@ void add_world(CLI::App& app, Raw& raw) {
   CLI::Option* terrain = app.add_option("--terrain", raw.terrain, listed(terrains));
   terrain->check(CLI::IsMember(std::vector<std::string>(terrains.begin(), terrains.end())))
       ->capture_default_str();
-  app.add_option("--ground", raw.ground,
-                 "ground file, as scree import makes it: the terrain instead of a generated one")
+  app.add_option(
+         "--ground", raw.ground,
+         "ground file, as scree import makes it: the terrain instead of a generated one; a kept world or a "
+         "recording finds its own beside it")
       ->excludes(terrain);
   bounded(app.add_option("--seed", world.terrain.random_seed, "of the terrain"),
           whole_within(0, std::numeric_limits<uint32_t>::max()))
@@ -213,9 +215,8 @@ void take_token(Raw& raw) {
 void take_world(Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   if (!raw.ground.empty()) {
-    auto file = GroundFile::open(raw.ground);
-    if (!file) throw CLI::ValidationError("--ground", file.error().message);
-    world.terrain.heights = std::move(*file);
+    if (auto taken = take_ground(raw.ground, world); !taken)
+      throw CLI::ValidationError("--ground", taken.error().message);
   }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
   if (Result<void> valid = validate(world); !valid) throw CLI::ValidationError(valid.error().message);

@@ -47,8 +47,8 @@ Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t th
   return feed_of(std::move(*world));
 }
 
-Result<ReplayFeed> replay_feed(const ReplayOptions& options) {
-  auto source = ReplaySource::open(options.path, options.from);
+Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground) {
+  auto source = ReplaySource::open(options.path, options.from, ground);
   if (!source) return tl::unexpected(source.error());
   const WorldConfig world = (*source)->header().world;
   return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), options), world};

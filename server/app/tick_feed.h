@@ -37,6 +37,7 @@ struct ReplayFeed {
   std::unique_ptr<TickFeed> feed;
   WorldConfig world;  ///< of the recording
 };
-Result<ReplayFeed> replay_feed(const ReplayOptions& options);
+/// `ground` gives the recording the ground that it names.
+Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground);
 
 }  // namespace scree

@@ -21,7 +21,9 @@ std::string hex(uint64_t hash) {
 }  // namespace
 
 struct ReplaySource::State {
-  explicit State(std::unique_ptr<RecordingReader> r) : reader(std::move(r)) { restart(); }
+  State(std::unique_ptr<RecordingReader> r, RecordingHeader h) : reader(std::move(r)), header(std::move(h)) {
+    restart();
+  }
 
   /// Goes back to the untouched terrain before tick 1.
   void restart();
@@ -37,6 +39,7 @@ struct ReplaySource::State {
   }
 
   std::unique_ptr<RecordingReader> reader;
+  const RecordingHeader header;  ///< with its ground
   std::unique_ptr<MapField> field;
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
@@ -48,7 +51,7 @@ struct ReplaySource::State {
 };
 
 void ReplaySource::State::restart() {
-  field = std::make_unique<MapField>(reader->header().world.terrain);
+  field = std::make_unique<MapField>(header.world.terrain);
   pieces.clear();
   poses.clear();
   ledger = {};
@@ -158,16 +161,21 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
 ReplaySource::ReplaySource(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ReplaySource::~ReplaySource() = default;
 
-Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const std::string& path, Tick from) {
+Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const std::string& path, Tick from,
+                                                         const GroundGiver& ground) {
   auto reader = RecordingReader::open(path);
   if (!reader) return tl::unexpected(reader.error());
-  auto source = std::unique_ptr<ReplaySource>(new ReplaySource(std::make_unique<State>(std::move(*reader))));
+  RecordingHeader header = (*reader)->header();
+  if (auto given = give_ground(header.world.ground, header.world.terrain, ground); !given)
+    return fail(path + ": " + given.error().message);
+  auto source = std::unique_ptr<ReplaySource>(
+      new ReplaySource(std::make_unique<State>(std::move(*reader), std::move(header))));
   if (auto sought = source->seek(from); !sought) return tl::unexpected(sought.error());
   return source;
 }
 
 const RecordingHeader& ReplaySource::header() const {
-  return state_->reader->header();
+  return state_->header;
 }
 Tick ReplaySource::tick() const {
   return state_->tick;

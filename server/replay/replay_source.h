@@ -14,11 +14,12 @@ namespace scree {
 
 class ReplaySource {
  public:
-  /// Opens a recording, and seeks to tick `from`.
-  static Result<std::unique_ptr<ReplaySource>> open(const std::string& path, Tick from = 0);
+  /// Opens a recording, and seeks to tick `from`. `ground` gives it the ground that it names.
+  static Result<std::unique_ptr<ReplaySource>> open(const std::string& path, Tick from = 0,
+                                                    const GroundGiver& ground = {});
   ~ReplaySource();
 
-  const RecordingHeader& header() const;
+  const RecordingHeader& header() const;  ///< with its ground
   Tick tick() const;  ///< the last one that was played; that before the first at the start
   Tick last_tick() const;
 

@@ -24,7 +24,8 @@ struct VerifyReport {
 };
 
 /// Ends at the first tick that differs. Calls `progress(done, all)` every 32 ticks. A recording that cannot
-/// be read is an error.
-Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress = {});
+/// be read is an error, and so is one whose ground `ground` does not give.
+Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress = {},
+                            const GroundGiver& ground = {});
 
 }  // namespace scree

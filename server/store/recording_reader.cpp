@@ -128,6 +128,13 @@ Result<std::optional<std::vector<uint8_t>>> RecordingReader::state(Tick tick) {
   return state_->database.get(state_->select_state, tick);
 }
 
+Result<Tick> RecordingReader::state_before(Tick tick) {
+  const auto latest =
+      state_->database.number("SELECT max(tick) FROM states WHERE tick <= " + std::to_string(tick));
+  if (!latest) return tl::unexpected(latest.error());
+  return static_cast<Tick>(latest->value_or(0));
+}
+
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
   CHECK(tick >= state_->first_tick && tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_frame, tick);

@@ -30,6 +30,9 @@ class RecordingReader {
   /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
   /// it; most ticks have none.
   Result<std::optional<std::vector<uint8_t>>> state(Tick tick);
+  /// The latest tick up to `tick` whose state() there is; 0 when there is none: then a world begins
+  /// untouched.
+  Result<Tick> state_before(Tick tick);
   /// `tick` within first_tick() … last_tick().
   Result<RecordedFrame> frame(Tick tick);
   /// The commands of a tick within first_tick() … last_tick(); most ticks have none.

@@ -88,7 +88,7 @@ Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
 namespace {
 
 bool alike(const WorldConfig& a, const WorldConfig& b) {
-  return a.terrain == b.terrain && a.tick_rate_hz == b.tick_rate_hz &&
+  return is_same_terrain(a, b) && a.tick_rate_hz == b.tick_rate_hz &&
          a.merges_per_tick_max == b.merges_per_tick_max;
 }
 

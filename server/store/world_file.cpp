@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "proto/limits.h"
+#include "server/store/ground_mass.h"
 #include "server/store/limits.h"
 #include "server/store/world_schema.h"
 #include "shared/base/check.h"
@@ -47,7 +48,11 @@ std::vector<WorldChunk> chunks_of(const WorldSnapshot& world) {
     chunk.bricks.push_back(patch);
   }
   std::vector<WorldChunk> list;
-  for (auto& [coord, chunk] : chunks) list.push_back(std::move(chunk));
+  const GroundMasses ground = measured_ground(world.moment.config.terrain, world.bricks);
+  for (auto& [coord, chunk] : chunks) {
+    chunk.ground_mass = ground.at(coord);
+    list.push_back(std::move(chunk));
+  }
   return list;
 }
 
@@ -258,6 +263,7 @@ class Reading {
     auto& bricks = rows_.world.bricks;
     bricks.insert(bricks.end(), decoded->bricks.begin(), decoded->bricks.end());
     decoded->bricks.clear();
+    if (decoded->ground_mass) rows_.ground[decoded->chunk] = *decoded->ground_mass;
     rows_.chunks.push_back(std::move(*decoded));
     return {};
   }

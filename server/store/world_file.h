@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/world_codec.h"
+#include "server/world/world.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -18,6 +19,7 @@ struct WorldRows {
   WorldHeader header;
   WorldSnapshot world;
   std::vector<WorldChunk> chunks;  ///< without their bricks, which are the world's
+  GroundMasses ground;             ///< of the chunks
   uint64_t bytes = 0;              ///< of all rows
 };
 
@@ -28,7 +30,8 @@ struct LostRows {
 
 class WorldFile {
  public:
-  /// Makes a file of a world; an error if there is one. It appears under its name when it is whole.
+  /// Makes a file of a world, whose ground is there; an error if the file exists. It appears under its name
+  /// when it is whole.
   static Result<std::unique_ptr<WorldFile>> create(const std::string& path, const WorldHeader& header,
                                                    const WorldSnapshot& world);
   /// Refuses what is no world, and one of another release, by name.

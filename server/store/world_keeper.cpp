@@ -2,27 +2,17 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 
+#include "server/store/kept_terrain.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 
 namespace {
-
-using ChangedBricks = std::unordered_map<BrickCoord, BrickState, CoordHash>;
-
-/// The edited bricks of a chunk, as of the last save that was taken.
-struct Chunk {
-  std::map<BrickCoord, BrickState> bricks;
-  uint64_t hash = 0;
-};
 
 /// One save.
 struct Due {
@@ -46,10 +36,10 @@ Tick period_of(const KeeperConfig& config) {
 }  // namespace
 
 struct WorldKeeper::State {
+  State(KeeperConfig c, std::unique_ptr<WorldFile> f, KeptTerrain t)
+      : config(std::move(c)), file(std::move(f)), terrain(std::move(t)) {}
   void run();
   void write(Due due);
-  void take_over(const ChangedBricks& bricks);
-  std::vector<WorldChunk> changed_chunks(Tick tick) const;
 
   KeeperConfig config;
   Tick period = 0;
@@ -61,8 +51,7 @@ struct WorldKeeper::State {
 
   // Of the storage thread.
   std::unique_ptr<WorldFile> file;
-  std::unordered_map<ChunkCoord, Chunk, CoordHash> chunks;
-  std::set<ChunkCoord> unsaved;
+  KeptTerrain terrain;  ///< as of the last save that was taken
   std::thread thread;
 
   mutable std::mutex mutex;  ///< guards the members below
@@ -72,34 +61,14 @@ struct WorldKeeper::State {
   KeeperStatus status;
 };
 
-void WorldKeeper::State::take_over(const ChangedBricks& bricks) {
-  for (const auto& [coord, state] : bricks) {
-    Chunk& chunk = chunks[chunk_of(coord)];
-    BrickState& slot = chunk.bricks[coord];
-    chunk.hash += state.hash - slot.hash;
-    slot = state;
-    unsaved.insert(chunk_of(coord));
-  }
-}
-
-std::vector<WorldChunk> WorldKeeper::State::changed_chunks(Tick tick) const {
-  std::vector<WorldChunk> list;
-  for (const ChunkCoord coord : unsaved) {
-    const Chunk& chunk = chunks.at(coord);
-    WorldChunk& kept = list.emplace_back(WorldChunk{coord, tick, chunk.hash, {}});
-    for (const auto& [brick, state] : chunk.bricks) kept.bricks.push_back({brick, *state.brick, state.paint});
-  }
-  return list;
-}
-
 void WorldKeeper::State::write(Due due) {
-  take_over(due.bricks);
+  terrain.change(due.bricks);
   const Tick tick = due.moment.tick;
   if (config.before_save) config.before_save(tick);
   Stopwatch watch;
-  const Result<void> saved = file->save(due.moment, changed_chunks(tick));
+  const Result<void> saved = file->save(due.moment, terrain.unsaved(tick));
   const double ms = watch.lap_ms();
-  if (saved) unsaved.clear();
+  if (saved) terrain.saved();
   const std::scoped_lock lock(mutex);
   status.bytes_written = file->bytes_written();
   status.save_worst_ms = std::max(status.save_worst_ms, ms);
@@ -128,19 +97,14 @@ void WorldKeeper::State::run() {
   }
 }
 
-WorldKeeper::WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, KeeperConfig config)
-    : state_(std::make_unique<State>()) {
+WorldKeeper::WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe,
+                         const TerrainSource& ground, const GroundMasses& known, KeeperConfig config)
+    : state_(
+          std::make_unique<State>(std::move(config), std::move(file), KeptTerrain(ground, keyframe, known))) {
   State& s = *state_;
-  s.config = std::move(config);
   s.period = period_of(s.config);
   s.next_due = s.period == 0 ? 0 : keyframe.tick + s.period;
-  s.file = std::move(file);
   s.status.saved_tick = keyframe.tick;
-  for (const BrickState& state : keyframe.bricks) {
-    Chunk& chunk = s.chunks[chunk_of(state.coord)];
-    chunk.bricks[state.coord] = state;
-    chunk.hash += state.hash;
-  }
   s.thread = std::thread([&s] { s.run(); });
 }
 

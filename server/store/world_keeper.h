@@ -62,8 +62,10 @@ struct KeeperStatus {
 
 class WorldKeeper {
  public:
-  /// `file` holds this world, as of `tick`; `keyframe` is its terrain (World::keyframe).
-  WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, KeeperConfig config);
+  /// `file` holds this world, as of `keyframe`, which has its edits (World::keyframe); `known`: what the
+  /// ground weighs under them, as far as the file says (WorldRows::ground).
+  WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, const TerrainSource& ground,
+              const GroundMasses& known, KeeperConfig config);
   /// Writes what was handed over, and joins the thread.
   ~WorldKeeper();
   WorldKeeper(const WorldKeeper&) = delete;

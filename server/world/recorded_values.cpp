@@ -15,6 +15,7 @@ Ledger from_recorded(const RecordedLedger& ledger) {
 RecordedHeader to_recorded(const WorldConfig& config) {
   RecordedHeader out;
   out.terrain = config.terrain;
+  out.ground = config.ground;
   out.tick_rate_hz = config.tick_rate_hz;
   out.merges_per_tick_max = config.merges_per_tick_max;
   out.settings = print(config);
@@ -24,6 +25,7 @@ RecordedHeader to_recorded(const WorldConfig& config) {
 Result<WorldConfig> config_of(const RecordedHeader& header) {
   WorldConfig config;
   config.terrain = header.terrain;
+  config.ground = header.ground;
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
   if (Result<void> known = set_all(config, header.settings); !known) return tl::unexpected(known.error());

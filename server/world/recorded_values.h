@@ -12,7 +12,8 @@ Ledger from_recorded(const RecordedLedger& ledger);
 
 /// Without a program's name.
 RecordedHeader to_recorded(const WorldConfig& config);
-/// Refuses settings that this program does not know, and what validate() does.
+/// Refuses settings that this program does not know, and what validate() does. Its ground may not be there
+/// yet (check_ground).
 Result<WorldConfig> config_of(const RecordedHeader& header);
 
 }  // namespace scree

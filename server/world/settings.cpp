@@ -96,8 +96,9 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. Of a WorldConfig,
 /// the terrain, the tick's length and merges_per_tick_max are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
-  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, methods, service] =
-      world;
+  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, methods, service,
+               ground] = world;
+  static_cast<void>(ground);  // names the terrain's
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
   const auto& [sessions_max, requests_per_second] = service;

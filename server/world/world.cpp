@@ -115,11 +115,12 @@ void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
 
 Result<std::unique_ptr<World>> World::create(const WorldConfig& config, size_t threads) {
   if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
+  if (Result<void> there = check_ground(config); !there) return tl::unexpected(there.error());
   return std::make_unique<World>(config, threads);
 }
 
 World::World(const WorldConfig& config, size_t threads) {
-  CHECK(validate(config).has_value());
+  CHECK(validate(config).has_value() && check_ground(config).has_value());
   state_ = std::make_unique<State>(config, threads);
 }
 World::World(Made, std::unique_ptr<State> state) : state_(std::move(state)) {}

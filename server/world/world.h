@@ -5,6 +5,7 @@
 // which shares the bodies' work with others of its own; all results are in the TickDelta.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 
@@ -20,14 +21,20 @@ inline constexpr Tick ticks_per_watch = 6;
 struct WorldMoment;
 struct WorldSnapshot;
 
+/// Mass of the unedited ground where a chunk's edited bricks lie, by chunk, as far as it is known: measuring
+/// it generates the chunk.
+using GroundMasses = std::map<ChunkCoord, MassUnits>;
+
 class World {
  public:
   /// Refuses a configuration beyond its limits. `threads`: that step() takes, its caller's included; 0: as
   /// many as the machine has cores.
   static Result<std::unique_ptr<World>> create(const WorldConfig& config, size_t threads = 1);
   /// The world of a value (proto/world_value.h), which may come from a file: refuses one whose parts do not
-  /// agree with each other, or that no world has. Masses and hashes are measured anew.
-  static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, size_t threads = 1);
+  /// agree with each other, or that no world has, and one whose ground is not there. Masses and hashes are
+  /// measured anew, but for the ground's where `ground` knows it.
+  static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, size_t threads = 1,
+                                                const GroundMasses& ground = {});
   /// The same of what is left of a damaged value: masses and hashes are taken as measured, what is missing is
   /// booked as poured or as dust, and bodies without a piece, or pieces without a body, are left out.
   static Result<std::unique_ptr<World>> salvage(WorldSnapshot value);

@@ -74,4 +74,20 @@ Result<void> validate(const WorldConfig& config) {
   return check_together(config);
 }
 
+Result<void> check_ground(const WorldConfig& config) {
+  if (config.ground == Digest{} || config.terrain.heights != nullptr) return {};
+  return fail("its ground " + hex_of(config.ground) + " is not there");
+}
+
+bool is_same_terrain(const WorldConfig& a, const WorldConfig& b) {
+  if (a.ground != b.ground || a.terrain.voxel_size_m != b.terrain.voxel_size_m) return false;
+  return a.ground != Digest{} || a.terrain == b.terrain;
+}
+
+Result<void> give_ground(const Digest& ground, TerrainSource& terrain, const GroundGiver& give) {
+  if (ground == Digest{}) return {};
+  if (!give) return fail("its ground " + hex_of(ground) + " is not there");
+  return give(ground, terrain);
+}
+
 }  // namespace scree

@@ -2,8 +2,11 @@
 // validate().
 #pragma once
 
+#include <functional>
+
 #include "server/world/methods.h"
 #include "server/world/service_limits.h"
+#include "shared/base/digest.h"
 #include "shared/base/result.h"
 #include "shared/field/terrain.h"
 
@@ -20,6 +23,7 @@ struct WorldConfig {
   uint32_t merges_per_tick_max = 1000;
   Methods methods;
   ServiceLimits service;  ///< for the network; the simulation does not read it
+  Digest ground{};        ///< names the file that terrain.heights is from; zeros: of no file
 
   bool operator==(const WorldConfig&) const = default;
 };
@@ -27,5 +31,16 @@ struct WorldConfig {
 /// Refuses what the simulation cannot run with; the error names the limit (server/world/limits.h and
 /// shared/base/limits.h) and the way out.
 Result<void> validate(const WorldConfig& config);
+
+/// Refuses a terrain that is named but not there: a file names its ground, and whoever reads it has to find
+/// that first.
+Result<void> check_ground(const WorldConfig& config);
+/// Whether both are of one terrain; grounds of files are compared by their names.
+bool is_same_terrain(const WorldConfig& a, const WorldConfig& b);
+
+/// Gives the terrain the ground of that name, from wherever this program finds grounds.
+using GroundGiver = std::function<Result<void>(const Digest& ground, TerrainSource& terrain)>;
+/// As `give`, where a ground is named; an error if there is none to ask.
+Result<void> give_ground(const Digest& ground, TerrainSource& terrain, const GroundGiver& give);
 
 }  // namespace scree

@@ -29,8 +29,8 @@ constexpr MassUnits mass_max = MassUnits{1} << 60U;
 class Restoring {
  public:
   /// `measure`: masses and hashes are not compared but taken as they are measured.
-  Restoring(World::State& state, const WorldSnapshot& value, bool measure)
-      : s_(state), value_(value), m_(value.moment), measure_(measure) {}
+  Restoring(World::State& state, const WorldSnapshot& value, const GroundMasses& ground, bool measure)
+      : s_(state), value_(value), m_(value.moment), ground_(ground), measure_(measure) {}
 
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
@@ -128,7 +128,7 @@ class Restoring {
     for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})
       if (mass < 0) return fail("its ledger has less than nothing");
     if (ledger.pieces != s_.mass_of_pieces()) return fail("its ledger does not hold the mass of its pieces");
-    if (ledger.terrain != s_.measure_terrain())
+    if (!measure_ && ledger.terrain != s_.measure_terrain(ground_))
       return fail("its ledger does not hold the mass of its terrain");
     if (ledger.error() != 0) return fail("its ledger does not balance");
     return {};
@@ -191,22 +191,26 @@ class Restoring {
   World::State& s_;
   const WorldSnapshot& value_;
   const WorldMoment& m_;
+  const GroundMasses& ground_;
   const bool measure_;
 };
 
-Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_t threads, bool measure) {
+Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_t threads,
+                                               const GroundMasses& ground, bool measure) {
   const auto config = config_of(value.moment.config);
   if (!config) return tl::unexpected(config.error());
+  if (Result<void> there = check_ground(*config); !there) return tl::unexpected(there.error());
   auto state = std::make_unique<World::State>(*config, threads);
-  if (Result<void> done = Restoring(*state, value, measure).run(); !done)
+  if (Result<void> done = Restoring(*state, value, ground, measure).run(); !done)
     return fail("the world cannot go on: " + done.error().message);
   return state;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, size_t threads) {
-  auto state = state_of(value, threads, false);
+Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, size_t threads,
+                                              const GroundMasses& ground) {
+  auto state = state_of(value, threads, ground, false);
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
 }
@@ -223,7 +227,7 @@ Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
   }
   moment.pieces = std::move(pieces);
   moment.motion.bodies = std::move(bodies);
-  auto state = state_of(value, 1, true);
+  auto state = state_of(value, 1, {}, true);
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
 }

@@ -127,11 +127,16 @@ BrickState World::State::brick_state(BrickCoord coord) {
   return {coord, std::move(brick), hash, paint};
 }
 
-MassUnits World::State::measure_terrain() {
+MassUnits World::State::measure_terrain(const GroundMasses& ground) {
   MassUnits gain = 0;
-  for (const ChunkCoord chunk : field.edited_chunks())
-    for (const BrickCoord coord : field.edited_bricks(chunk))
-      gain += brick_mass(field.brick(coord)) - brick_mass(field.generated_brick(coord));
+  for (const ChunkCoord chunk : field.edited_chunks()) {
+    const auto known = ground.find(chunk);
+    if (known != ground.end()) gain -= known->second;
+    for (const BrickCoord coord : field.edited_bricks(chunk)) {
+      gain += brick_mass(field.brick(coord));
+      if (known == ground.end()) gain -= brick_mass(field.generated_brick(coord));
+    }
+  }
   return gain;
 }
 

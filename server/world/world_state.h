@@ -43,8 +43,8 @@ struct World::State {
   uint64_t hash() const;
   /// The brick as it is published.
   BrickState brick_state(BrickCoord coord);
-  /// World::measure_terrain().
-  MassUnits measure_terrain();
+  /// World::measure_terrain(); `ground`: where it is known what the ground weighs.
+  MassUnits measure_terrain(const GroundMasses& ground = {});
   /// The sum of the pieces' masses.
   MassUnits mass_of_pieces() const;
 

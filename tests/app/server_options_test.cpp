@@ -83,17 +83,31 @@ TEST(ServerOptions, a_ground_file_is_the_terrain_and_what_is_none_is_a_mistake) 
   const TerrainSource& terrain = std::get<ServerOptions>(parsed).live.world.terrain;
   ASSERT_NE(terrain.heights, nullptr);
   EXPECT_EQ(terrain.heights->layout(), written->layout());
+  EXPECT_EQ(std::get<ServerOptions>(parsed).live.world.ground, written->name());
   EXPECT_EQ(terrain.voxel_size_m, 0.5F);
   EXPECT_EQ(exit_code({"--ground", path.c_str(), "--terrain", "flat"}), 2);
   EXPECT_EQ(exit_code({"--ground", "/no/such/file.ground"}), 2);
-  for (std::string LiveConfig::*kept : {&LiveConfig::record_path, &LiveConfig::world_path}) {
-    LiveConfig config = std::get<ServerOptions>(parsed).live;
-    config.*kept = folder / "a.file";
-    const auto started = LiveServer::start(config);
-    ASSERT_FALSE(started);
-    EXPECT_NE(started.error().message.find("--ground"), std::string::npos);
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.file"));
-  }
+}
+
+TEST(ServerOptions, a_world_is_kept_as_durability_and_autosave_say) {
+  const auto kept = [](std::vector<const char*> more) {
+    more.insert(more.begin(), {"--world", "a.world"});
+    const auto parsed = parse(more);
+    const auto* options = std::get_if<ServerOptions>(&parsed);
+    return options == nullptr ? LiveConfig() : options->live;
+  };
+  EXPECT_EQ(kept({}).world_path, "a.world");
+  EXPECT_EQ(kept({}).durability, Durability::second);
+  EXPECT_EQ(kept({"--durability", "tick"}).durability, Durability::tick);
+  const LiveConfig off = kept({"--durability", "off", "--autosave", "2.5"});
+  EXPECT_EQ(off.durability, Durability::off);
+  EXPECT_EQ(off.autosave_s, 2.5);
+  EXPECT_EQ(kept({"--durability", "off", "--autosave", "0"}).autosave_s, 0.0);
+  EXPECT_EQ(exit_code({"--world", "a.world", "--durability", "sometimes"}), 2);
+  for (const char* seconds : {"-1", "nan", "1e9", "soon"})
+    EXPECT_EQ(exit_code({"--world", "a.world", "--autosave", seconds}), 2) << seconds;
+  EXPECT_EQ(exit_code({"--durability", "tick"}), 2) << "of no world";
+  EXPECT_EQ(exit_code({"--autosave", "5"}), 2) << "of no world";
 }
 
 TEST(ServerOptions, settings_that_are_numbers_are_options_within_their_bounds) {

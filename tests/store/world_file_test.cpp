@@ -1,10 +1,12 @@
 // Worlds as files: what was saved is found again, whatever happened to the process, the disk or the file.
 #include "server/store/world_file.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 #include <thread>
 
+#include "server/store/ground_mass.h"
 #include "server/store/world_keeper.h"
 #include "server/store/world_lock.h"
 #include "server/world/world.h"
@@ -67,7 +69,8 @@ class WorldFileTest : public ::testing::Test {
 TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
   make();
   EXPECT_EQ(value_in_file(), encode(world->snapshot()));
-  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+                     {.durability = Durability::tick, .before_save = {}});
   for (Tick tick = 31; tick <= 90; ++tick) {
     std::vector<Command> commands;
     if (tick == 50) commands = {carve_at(-3.0F, 50)};
@@ -93,6 +96,64 @@ TEST_F(WorldFileTest, the_first_save_after_the_file_was_made_drops_pieces_that_a
   const auto rows = file->read();
   ASSERT_TRUE(rows.has_value()) << rows.error().message;
   EXPECT_TRUE(rows->world.moment.pieces.empty());
+}
+
+TEST_F(WorldFileTest, without_durability_a_world_is_saved_every_autosave_or_only_at_the_end) {
+  for (const auto& [autosave_s, saves] : {std::pair{0.25, 3U}, {0.0, 0U}}) {
+    make();
+    ASSERT_TRUE(file->read().has_value());
+    WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+                       {.durability = Durability::off, .autosave_s = autosave_s, .before_save = {}});
+    std::vector<Tick> due;
+    for (int i = 0; i < 45; ++i) {
+      const auto delta = world->step({});
+      if (!keeper.note(*delta)) continue;
+      due.push_back(delta->tick);
+      keeper.save(world->moment());
+      while (keeper.status().saved_tick < delta->tick) std::this_thread::yield();
+    }
+    EXPECT_EQ(due.size(), saves);
+    if (!due.empty()) {
+      EXPECT_EQ(due.front(), 45U);
+    }
+    EXPECT_EQ(keeper.status().saves, saves);
+    ASSERT_TRUE(keeper.finish(world->moment()).has_value());
+    EXPECT_EQ(value_in_file(), encode(world->snapshot()));
+    std::filesystem::remove(path);
+  }
+}
+
+TEST_F(WorldFileTest, rows_without_the_grounds_mass_are_read_and_a_keeper_adds_it) {
+  make();
+  WorldMoment moment = world->moment();
+  std::vector<WorldChunk> chunks;
+  for (const BrickPatch& patch : world->snapshot().bricks) {
+    if (chunks.empty() || chunks.back().chunk != chunk_of(patch.coord)) {
+      const auto found = std::ranges::find(chunks, chunk_of(patch.coord), &WorldChunk::chunk);
+      if (found != chunks.end()) {
+        std::rotate(found, found + 1, chunks.end());
+      } else {
+        chunks.push_back({chunk_of(patch.coord), 30, 0, {}, {}});
+      }
+    }
+    chunks.back().hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    chunks.back().bricks.push_back(patch);
+  }
+  ASSERT_TRUE(file->save(moment, chunks).has_value());
+  auto rows = file->read();
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  EXPECT_TRUE(rows->ground.empty());
+  EXPECT_EQ(refusal_of(path), "");
+  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, rows->ground, {.before_save = {}});
+  keeper.note(*world->step(std::vector<Command>{carve_at(1.0F, 1)}));
+  ASSERT_TRUE(keeper.finish(world->moment()).has_value());
+  const auto reopened = WorldFile::open(path);
+  rows = (*reopened)->read();
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  EXPECT_GT(rows->ground.size(), 0U);
+  const GroundMasses measured = measured_ground(flat_terrain, rows->world.bricks);
+  for (const auto& [chunk, mass] : rows->ground) EXPECT_EQ(measured.at(chunk), mass);
+  EXPECT_TRUE(World::restore(rows->world, 1, rows->ground).has_value());
 }
 
 TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
@@ -149,7 +210,8 @@ TEST_F(WorldFileTest, what_a_full_disk_left_out_is_saved_when_there_is_room_agai
   FaultyDisk disk;
   make();
   disk.full = true;
-  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+                     {.durability = Durability::tick, .before_save = {}});
   const auto carve = [&](uint32_t request) {
     const auto delta =
         world->step(std::vector<Command>{carve_at(2.0F + static_cast<float>(request), request)});
@@ -171,7 +233,8 @@ TEST_F(WorldFileTest, after_any_other_error_nothing_is_told_as_saved_any_more) {
   FaultyDisk disk;
   make();
   disk.dies_after = disk.writes + 3;
-  WorldKeeper keeper(std::move(file), world->keyframe(), {.durability = Durability::tick, .before_save = {}});
+  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+                     {.durability = Durability::tick, .before_save = {}});
   for (uint32_t i = 1; i <= 5; ++i) {
     const auto delta = world->step(std::vector<Command>{carve_at(static_cast<float>(i), i)});
     if (keeper.note(*delta)) keeper.save(world->moment());

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "server/app/ground_giver.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
@@ -20,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string path;
+  std::string ground;
   bool json = false;
 };
 
@@ -84,7 +86,7 @@ int info(const Options& options) {
   Json json{{"file", options.path},
             {"format", recording_format},
             {"recorded_by", header.program},
-            {"terrain", std::string(name_of(world.terrain.kind))},
+            {"terrain", terrain_text(world.ground, world.terrain)},
             {"seed", world.terrain.random_seed},
             {"voxel_size_m", world.terrain.voxel_size_m},
             {"tick_rate_hz", world.tick_rate_hz},
@@ -115,8 +117,10 @@ void draw_bar(Tick done, Tick all) {
 int verify_file(const Options& options) {
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
+  const auto ground = ground_giver(options.path, options.ground);
+  if (!ground) return complain(ground.error());
   const bool has_bar = isatty(STDERR_FILENO) != 0;
-  const auto report = verify(**recording, has_bar ? draw_bar : std::function<void(Tick, Tick)>());
+  const auto report = verify(**recording, has_bar ? draw_bar : std::function<void(Tick, Tick)>(), *ground);
   if (!report) return complain(report.error());
   if (has_bar && !report->agrees()) std::fputc('\n', stderr);
   Json json{{"file", options.path},
@@ -149,7 +153,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Options options;
   const CLI::App* info_command = add_command(app, options, "info", "says what a recording holds");
-  add_command(app, options, "verify", "simulates it again from the commands, and compares every tick's hash");
+  add_command(app, options, "verify", "simulates it again from the commands, and compares every tick's hash")
+      ->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

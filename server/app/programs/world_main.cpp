@@ -1,10 +1,14 @@
-// scree-world: describes, checks, copies, repairs and compacts the file of a world. Exit status: 0 success, 1
-// failure or damage, 2 wrong usage.
+// scree-world: describes, checks, copies, repairs, compacts and rolls back the file of a world, and makes one
+// of a recording. Exit status: 0 success, 1 failure or damage, 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "server/app/ground_giver.h"
+#include "server/app/recorded_past.h"
+#include "server/store/ground_mass.h"
 #include "server/store/world_file.h"
 #include "server/store/world_lock.h"
 #include "server/world/recorded_values.h"
@@ -21,7 +25,10 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string path;
-  std::string to;
+  std::string to{};         ///< file
+  std::string ground{};     ///< file; empty: it is looked for
+  std::string recording{};  ///< file
+  std::optional<Tick> tick{};
   bool json = false;
 };
 
@@ -58,7 +65,7 @@ Json describe(const std::string& path, const WorldRows& rows) {
   return {{"file", path},
           {"format", world_format},
           {"made_by", rows.header.config.program},
-          {"terrain", std::string(name_of(moment.config.terrain.kind))},
+          {"terrain", terrain_text(moment.config.ground, moment.config.terrain)},
           {"seed", moment.config.terrain.random_seed},
           {"voxel_size_m", moment.config.terrain.voxel_size_m},
           {"tick_rate_hz", moment.config.tick_rate_hz},
@@ -85,27 +92,52 @@ int info(const Options& options) {
   return 0;
 }
 
-/// Everything that a server's start checks.
+/// The rows with the ground that they name.
+Result<void> find_ground_of(WorldRows& rows, const Options& options) {
+  const auto ground = ground_giver(options.path, options.ground);
+  if (!ground) return tl::unexpected(ground.error());
+  RecordedHeader& config = rows.world.moment.config;
+  if (auto given = give_ground(config.ground, config.terrain, *ground); !given)
+    return fail(options.path + ": " + given.error().message);
+  return {};
+}
+
+/// What a start takes from the rows: the ground's mass in each chunk.
+Result<void> weigh_ground(const WorldRows& rows) {
+  const GroundMasses measured = measured_ground(rows.world.moment.config.terrain, rows.world.bricks);
+  for (const auto& [chunk, mass] : rows.ground)
+    if (measured.at(chunk) != mass)
+      return fail("the ground of chunk (" + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
+                  std::to_string(chunk.z) + ") does not have the mass that its row says");
+  return {};
+}
+
+/// Everything that a server's start checks, and what that takes from the rows.
+Result<void> check_file(const Options& options) {
+  const auto file = WorldFile::open(options.path);
+  if (!file) return tl::unexpected(file.error());
+  auto rows = (*file)->read();
+  if (!rows) return tl::unexpected(rows.error());
+  if (auto found = find_ground_of(*rows, options); !found) return found;
+  const auto world = World::restore(rows->world);
+  const auto weighed = world ? weigh_ground(*rows) : tl::unexpected(world.error());
+  if (!weighed) return fail(options.path + ": damaged: " + weighed.error().message);
+  return {};
+}
+
 int check(const Options& options) {
-  const auto reason = [&]() -> std::string {
-    const auto file = WorldFile::open(options.path);
-    if (!file) return file.error().message;
-    const auto rows = (*file)->read();
-    if (!rows) return rows.error().message;
-    const auto world = World::restore(rows->world);
-    return world ? std::string() : options.path + ": damaged: " + world.error().message;
-  }();
-  Json json{{"file", options.path}, {"whole", reason.empty()}};
-  if (!reason.empty()) json["damage"] = reason;
+  const auto checked = check_file(options);
+  Json json{{"file", options.path}, {"whole", checked.has_value()}};
+  if (!checked) json["damage"] = checked.error().message;
   print(json, options.json);
-  return reason.empty() ? 0 : failed;
+  return checked ? 0 : failed;
 }
 
 int backup(const Options& options) {
   const auto file = WorldFile::open(options.path);
   if (!file) return complain(file.error());
   if (const auto copied = (*file)->copy_to(options.to); !copied) return complain(copied.error());
-  return check({options.to, {}, options.json});
+  return check({.path = options.to, .ground = options.ground, .json = options.json});
 }
 
 /// Keeps what is whole in a new file; the damaged one stays as it is.
@@ -115,8 +147,9 @@ int repair(const Options& options) {
   const auto file = WorldFile::open(options.path);
   if (!file) return complain(file.error());
   LostRows lost;
-  const auto rows = (*file)->read(&lost);
+  auto rows = (*file)->read(&lost);
   if (!rows) return complain(rows.error());
+  if (const auto found = find_ground_of(*rows, options); !found) return complain(found.error());
   auto world = World::salvage(rows->world);
   if (!world) return complain(world.error());
   const WorldSnapshot value = (*world)->snapshot();
@@ -152,10 +185,69 @@ int compact(const Options& options) {
   return 0;
 }
 
-CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what) {
-  CLI::App* command = app.add_subcommand(name, what);
+int tell_made(const Options& options, const Result<PastWorld>& past) {
+  if (!past) return complain(past.error());
+  Json json{{"file", options.path}, {"recording", options.recording}, {"tick", past->tick}};
+  if (!past->before.empty()) json["before"] = past->before;
+  print(json, options.json);
+  return 0;
+}
+
+int make_new(const Options& options) {
+  const auto ground = ground_giver(options.recording, options.ground);
+  if (!ground) return complain(ground.error());
+  return tell_made(options, world_of_recording(options.path, options.recording, options.tick, *ground));
+}
+
+int rollback(const Options& options) {
+  const auto ground = ground_giver(options.path, options.ground);
+  if (!ground) return complain(ground.error());
+  return tell_made(options, roll_back(options.path, options.recording, *options.tick, *ground));
+}
+
+struct CommandRow {
+  const char* name;
+  const char* what;
+  int (*act)(const Options&);
+  bool makes_file = false;     ///< NEW
+  bool needs_ground = true;    ///< --ground
+  bool has_recording = false;  ///< --from and --to
+};
+
+constexpr CommandRow commands[] = {
+    {.name = "info",
+     .what = "says what it holds; also while a server runs",
+     .act = info,
+     .needs_ground = false},
+    {.name = "check",
+     .what = "checks all that a server's start does; also while a server runs",
+     .act = check},
+    {.name = "backup",
+     .what = "copies it as of one moment; also while a server runs",
+     .act = backup,
+     .makes_file = true},
+    {.name = "repair",
+     .what = "keeps in a new file all that is whole, and says what was lost",
+     .act = repair,
+     .makes_file = true},
+    {.name = "compact", .what = "gives room back", .act = compact, .needs_ground = false},
+    {.name = "rollback",
+     .what = "takes it back to a tick of its recording; what it was stays beside it",
+     .act = rollback,
+     .has_recording = true},
+    {.name = "new", .what = "makes it of a tick of a recording", .act = make_new, .has_recording = true}};
+
+CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
+  CLI::App* command = app.add_subcommand(row.name, row.what);
   command->add_option("FILE", options.path, "the file of a world")->required();
   command->add_flag("--json", options.json, "prints JSON");
+  if (row.makes_file) command->add_option("NEW", options.to, "the new file")->required();
+  if (row.needs_ground)
+    command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
+  if (!row.has_recording) return command;
+  command->add_option("--from", options.recording, "a recording")->required();
+  command->add_option("--to", options.tick, "tick of the recording; its last unless said otherwise")
+      ->required(row.act == rollback);
   return command;
 }
 
@@ -164,23 +256,15 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   Options options;
-  const std::pair<CLI::App*, int (*)(const Options&)> commands[] = {
-      {add_command(app, options, "info", "says what it holds; also while a server runs"), info},
-      {add_command(app, options, "check", "checks all that a server's start does; also while a server runs"),
-       check},
-      {add_command(app, options, "backup", "copies it as of one moment; also while a server runs"), backup},
-      {add_command(app, options, "repair", "keeps in a new file all that is whole, and says what was lost"),
-       repair},
-      {add_command(app, options, "compact", "gives room back"), compact}};
-  for (const size_t with_new : {2U, 3U})
-    commands[with_new].first->add_option("NEW", options.to, "the new file")->required();
+  std::vector<const CLI::App*> parsed;
+  for (const CommandRow& row : commands) parsed.push_back(add_command(app, options, row));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  for (const auto& [command, act] : commands)
-    if (command->parsed()) return act(options);
+  for (size_t i = 0; i < parsed.size(); ++i)
+    if (parsed[i]->parsed()) return commands[i].act(options);
   return usage_error;
 }
 

@@ -1,0 +1,41 @@
+#include "server/app/ground_giver.h"
+
+#include "ground/ground_search.h"
+
+namespace scree {
+
+GroundGiver ground_giver(const std::string& path, const WorldConfig& given) {
+  return [path, given](const Digest& ground, TerrainSource& terrain) -> Result<void> {
+    if (given.ground != Digest{} && given.ground != ground)
+      return fail("its ground is " + hex_of(ground) + ", and that of --ground is " + hex_of(given.ground));
+    if (given.ground == ground) {
+      terrain.heights = given.terrain.heights;
+      return {};
+    }
+    auto found = find_ground(ground, ground_folders(path));
+    if (!found) return tl::unexpected(found.error());
+    terrain.heights = std::move(*found);
+    return {};
+  };
+}
+
+Result<GroundGiver> ground_giver(const std::string& path, const std::string& ground_path) {
+  WorldConfig given;
+  if (ground_path.empty()) return ground_giver(path, given);
+  if (auto taken = take_ground(ground_path, given); !taken) return tl::unexpected(taken.error());
+  return ground_giver(path, given);
+}
+
+Result<void> take_ground(const std::string& ground_path, WorldConfig& config) {
+  auto file = GroundFile::open(ground_path);
+  if (!file) return tl::unexpected(file.error());
+  config.ground = (*file)->name();
+  config.terrain.heights = std::move(*file);
+  return {};
+}
+
+std::string terrain_text(const Digest& ground, const TerrainSource& terrain) {
+  return ground == Digest{} ? std::string(name_of(terrain.kind)) : "ground " + hex_of(ground);
+}
+
+}  // namespace scree

@@ -1,0 +1,89 @@
+#include "server/app/recorded_past.h"
+
+#include <filesystem>
+
+#include "crypto/signing_key.h"
+#include "server/replay/recorded_world.h"
+#include "server/store/world_file.h"
+#include "server/store/world_lock.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the world was recorded there, as far as both have its tick.
+Result<void> check_recording(const WorldRows& rows, const std::string& path, RecordingReader& recording) {
+  const WorldMoment& moment = rows.world.moment;
+  const auto config = config_of(moment.config);
+  if (!config) return fail(path + ": " + config.error().message);
+  const auto other = fail(recording.path() + " is the recording of another world than " + path);
+  if (!is_same_terrain(*config, recording.header().world)) return other;
+  if (moment.tick < recording.first_tick() || moment.tick > recording.last_tick()) return {};
+  const auto frame = recording.frame(moment.tick);
+  if (!frame) return tl::unexpected(frame.error());
+  if (frame->state_hash != moment.state_hash) return other;
+  return {};
+}
+
+Result<void> write_world(const std::string& path, WorldHeader header, World& world) {
+  const WorldSnapshot value = world.snapshot();
+  header.config = value.moment.config;
+  header.config.program = "scree-world " SCREE_VERSION;
+  const auto made = WorldFile::create(path, header, value);
+  return made ? Result<void>() : tl::unexpected(made.error());
+}
+
+/// The old file gets a second name before the new one takes its first: at any moment one of both has it.
+Result<void> exchange(const std::string& path, const std::string& made, const std::string& before) {
+  std::error_code error;
+  if (fs::exists(path + "-wal", error))
+    return fail(path + " has a log that is not merged: another program reads it");
+  fs::create_hard_link(path, before, error);
+  if (!error) fs::rename(made, path, error);
+  return error ? fail(path + " cannot be replaced: " + error.message()) : Result<void>();
+}
+
+}  // namespace
+
+Result<PastWorld> world_of_recording(const std::string& path, const std::string& recording,
+                                     std::optional<Tick> tick, const GroundGiver& ground) {
+  const auto lock = WorldLock::take(path);
+  if (!lock) return tl::unexpected(lock.error());
+  const auto reader = RecordingReader::open(recording);
+  if (!reader) return tl::unexpected(reader.error());
+  const auto world = simulated_to(**reader, tick.value_or((*reader)->last_tick()), ground);
+  if (!world) return tl::unexpected(world.error());
+  const WorldHeader header{.world = std::max<uint64_t>(1, random_number()), .config = {}};
+  if (auto written = write_world(path, header, **world); !written) return tl::unexpected(written.error());
+  return PastWorld{(*world)->tick(), {}};
+}
+
+Result<PastWorld> roll_back(const std::string& path, const std::string& recording, Tick tick,
+                            const GroundGiver& ground) {
+  const auto lock = WorldLock::take(path);
+  if (!lock) return tl::unexpected(lock.error());
+  const std::string made = path + "-past", before = path + "-before-" + std::to_string(tick);
+  std::error_code error;
+  if (fs::exists(before, error)) return fail(before + " exists already: move it away");
+  const auto reader = RecordingReader::open(recording);
+  if (!reader) return tl::unexpected(reader.error());
+  WorldHeader header;
+  {
+    const auto file = WorldFile::open(path);
+    if (!file) return tl::unexpected(file.error());
+    const auto rows = (*file)->read();
+    if (!rows) return tl::unexpected(rows.error());
+    if (auto fits = check_recording(*rows, path, **reader); !fits) return tl::unexpected(fits.error());
+    header = rows->header;
+  }
+  const auto world = simulated_to(**reader, tick, ground);
+  if (!world) return tl::unexpected(world.error());
+  fs::remove(made, error);
+  if (auto written = write_world(made, header, **world); !written) return tl::unexpected(written.error());
+  if (auto exchanged = exchange(path, made, before); !exchanged) return tl::unexpected(exchanged.error());
+  return PastWorld{tick, before};
+}
+
+}  // namespace scree

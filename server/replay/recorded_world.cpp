@@ -1,0 +1,72 @@
+#include "server/replay/recorded_world.h"
+
+#include <cstdio>
+
+#include "proto/world_codec.h"
+
+namespace scree {
+
+std::string hashes_differ(const char* what, uint64_t simulated, uint64_t recorded) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%s is %016llx, recorded was %016llx", what,
+                static_cast<unsigned long long>(simulated), static_cast<unsigned long long>(recorded));
+  return text;
+}
+
+std::string difference_of(const TickDelta& simulated, const RecordedFrame& recorded) {
+  if (simulated.field_hash != recorded.field_hash)
+    return hashes_differ("field_hash", simulated.field_hash, recorded.field_hash);
+  if (simulated.state_hash != recorded.state_hash)
+    return hashes_differ("state_hash", simulated.state_hash, recorded.state_hash);
+  return {};
+}
+
+Result<std::unique_ptr<World>> restored_from(std::span<const uint8_t> state, Tick tick,
+                                             const GroundGiver& ground) {
+  auto value = decode_world(state);
+  if (!value) return tl::unexpected(value.error());
+  if (value->moment.tick != tick)
+    return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
+                std::to_string(value->moment.tick));
+  RecordedHeader& config = value->moment.config;
+  if (auto given = give_ground(config.ground, config.terrain, ground); !given)
+    return tl::unexpected(given.error());
+  return World::restore(*value);
+}
+
+Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, const GroundGiver& ground) {
+  const auto state = recording.state(tick);
+  if (!state) return tl::unexpected(state.error());
+  if (state->has_value()) return restored_from(**state, tick, ground);
+  if (tick != 0) return fail("tick " + std::to_string(tick) + " has no state");
+  WorldConfig config = recording.header().world;
+  if (auto given = give_ground(config.ground, config.terrain, ground); !given)
+    return tl::unexpected(given.error());
+  return World::create(config);
+}
+
+Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tick, const GroundGiver& ground,
+                                            const std::function<void(Tick, Tick)>& progress) {
+  const Tick first = recording.first_tick() - 1, last = recording.last_tick();
+  if (tick < first || tick > last)
+    return fail(recording.path() + " has the ticks " + std::to_string(first) + " to " + std::to_string(last) +
+                ", not " + std::to_string(tick) + " (--to)");
+  const auto start = recording.state_before(tick);
+  if (!start) return tl::unexpected(start.error());
+  auto world = world_at(recording, *start, ground);
+  if (!world) return fail(recording.path() + ": " + world.error().message);
+  while ((*world)->tick() < tick) {
+    const Tick next = (*world)->tick() + 1;
+    const auto frame = recording.frame(next);
+    if (!frame) return tl::unexpected(frame.error());
+    const auto commands = recording.commands(next);
+    if (!commands) return tl::unexpected(commands.error());
+    const auto delta = (*world)->step(*commands);
+    if (const std::string differs = difference_of(*delta, *frame); !differs.empty())
+      return fail(recording.path() + ": at tick " + std::to_string(next) + ", " + differs);
+    if (progress && (next % progress_ticks == 0 || next == tick)) progress(next - *start, tick - *start);
+  }
+  return world;
+}
+
+}  // namespace scree
