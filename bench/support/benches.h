@@ -24,6 +24,7 @@ BenchReport run_rates_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
+BenchReport run_storage_bench(const BenchOptions& options);
 BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_support_bench(const BenchOptions& options);
 BenchReport run_transforms_bench(const BenchOptions& options);

@@ -1,0 +1,234 @@
+// What keeping a world costs: ticks with and without saving, bytes, a save with 1,000 pieces alive, and how
+// long a start takes after so many carves.
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <thread>
+#include <unistd.h>
+
+#include "bench/support/benches.h"
+#include "bench/support/scenes.h"
+#include "server/app/live_server.h"
+#include "server/app/saved_world.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double ratio_wanted = 1.05;
+constexpr double start_wanted_s = 2.0;
+constexpr Tick ticks_per_carve = 6;  ///< ten a second
+constexpr uint64_t world_number = 1;
+
+double cpu_s(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// Files of this bench; gone when it is.
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("scree_storage_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+/// A world that is saved, or not, and what its ticks took of the simulation's thread.
+struct Run {
+  std::unique_ptr<SavedWorld> kept;  ///< null: not saved
+  std::unique_ptr<World> world;
+  std::vector<double> wall_ms, cpu_ms;
+  uint64_t state_hash = 0;
+
+  void step(std::span<const Command> commands) {
+    Stopwatch watch;
+    const double before_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
+    const auto delta = world->step(commands);
+    if (kept) kept->keep(*delta, *world);
+    cpu_ms.push_back((cpu_s(CLOCK_THREAD_CPUTIME_ID) - before_s) * 1e3);
+    wall_ms.push_back(watch.lap_ms());
+    state_hash = delta->state_hash;
+  }
+};
+
+Run unsaved_run() {
+  Run run;
+  run.world = std::make_unique<World>(WorldConfig());
+  return run;
+}
+
+Run saved_run(const std::string& path, Durability durability) {
+  Run run;
+  auto kept = SavedWorld::open(path, WorldConfig(), 1, {});
+  CHECK(kept.has_value());
+  run.kept = std::move(*kept);
+  run.world = run.kept->take_world();
+  const Result<void> started = run.kept->start(*run.world, {.durability = durability, .before_save = {}});
+  CHECK(started.has_value());
+  return run;
+}
+
+/// The same storm in two worlds, in turns and in real time: one is saved. Who comes first changes each tick.
+void compare_ticks(BenchReport& report, const Folder& folder, Durability durability, Tick ticks) {
+  const std::string name(row_of(durability).name), path = folder / name;
+  Run plain = unsaved_run(), saved = saved_run(path, durability);
+  ScatteredBlows blows(WorldConfig().terrain, 12.0F, 1.5F, 24, 5);
+  uint64_t carves = 0;
+  double due_s = steady_now_s();
+  for (Tick tick = 0; tick < ticks; ++tick, due_s += 1.0 / 60.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(due_s - steady_now_s()));
+    std::vector<Command> commands;
+    if (tick % ticks_per_carve == 0) commands.push_back({0, static_cast<uint32_t>(++carves), blows.next()});
+    (tick % 2 == 0 ? plain : saved).step(commands);
+    (tick % 2 == 0 ? saved : plain).step(commands);
+  }
+  const KeeperStatus status = saved.kept->status();
+  CHECK(saved.kept->finish(*saved.world).has_value());
+  const double bytes = static_cast<double>(saved.kept->status().bytes_written);
+  const double p99 = quantile(plain.cpu_ms, 0.99), p99_saved = quantile(saved.cpu_ms, 0.99);
+  report.metric(name + "_tick_p99_without_cpu_ms", p99);
+  report.metric(name + "_tick_p99_cpu_ms", p99_saved);
+  report.metric(name + "_tick_p99_without_wall_ms", quantile(plain.wall_ms, 0.99));
+  report.metric(name + "_tick_p99_wall_ms", quantile(saved.wall_ms, 0.99));
+  report.metric(name + "_tick_median_without_cpu_ms", quantile(plain.cpu_ms, 0.5));
+  report.metric(name + "_tick_median_cpu_ms", quantile(saved.cpu_ms, 0.5));
+  report.metric(name + "_saves", static_cast<double>(status.saves));
+  report.metric(name + "_saves_skipped", static_cast<double>(status.skipped));
+  report.metric(name + "_save_worst_ms", status.save_worst_ms);
+  report.metric(name + "_written_bytes_per_carve", bytes / static_cast<double>(carves));
+  report.metric(name + "_file_bytes_per_carve",
+                static_cast<double>(fs::file_size(path)) / static_cast<double>(carves));
+  report.check(name + "_ratio", p99_saved <= ratio_wanted * p99,
+               fmt::format("p99 {:.3f} ms, {:.3f} without: {:.3f}, wanted at most {}", p99_saved, p99,
+                           p99_saved / p99, ratio_wanted));
+  report.check(name + "_same_world", plain.state_hash == saved.state_hash, "hashes after the last tick");
+}
+
+/// Every tick writes how each body moves: what that takes with 1,000 of them.
+void save_a_crowd(BenchReport& report, const Folder& folder) {
+  WorldConfig config;
+  config.methods.recombine = Recombination::off;
+  World world(config);
+  BlowGrid blows(config.terrain, 4, 4.5F, 2.0F, 80);
+  while (const auto blow = blows.next()) {
+    const Command command{0, 0, *blow};
+    world.step({&command, 1});
+  }
+  for (int i = 0; i < 60; ++i) world.step({});
+  const WorldSnapshot value = world.snapshot();
+  WorldHeader header{.world = world_number, .config = value.moment.config};
+  const auto file = WorldFile::create(folder / "crowd", header, value);
+  CHECK(file.has_value() && (*file)->read().has_value());
+  std::vector<double> moment_ms, encode_ms, save_ms;
+  size_t bytes = 0;
+  for (int i = 0; i < 40; ++i) {
+    Stopwatch watch;
+    const WorldMoment moment = world.moment();
+    moment_ms.push_back(watch.lap_ms());
+    bytes = encode(moment).size();
+    encode_ms.push_back(watch.lap_ms());
+    CHECK((*file)->save(moment, {}).has_value());
+    save_ms.push_back(watch.lap_ms());
+    world.step({});
+  }
+  report.metric("crowd_alive", static_cast<double>(value.moment.pieces.size()));
+  report.metric("crowd_moment_ms", quantile(moment_ms, 0.5));
+  report.metric("crowd_encode_ms", quantile(encode_ms, 0.5));
+  report.metric("crowd_save_ms", quantile(save_ms, 0.5));
+  report.metric("crowd_bytes_per_tick", static_cast<double>(bytes));
+}
+
+/// A file of a world with so many carves, whose pieces are gone: carved without a simulation.
+void write_carved(const std::string& path, int carves) {
+  World fresh{WorldConfig()};
+  WorldSnapshot value = fresh.snapshot();
+  const TerrainSource& terrain = value.moment.config.terrain;
+  MapField field(terrain);
+  ScatteredBlows blows(terrain, 100.0F, 1.25F, 1, 1);
+  PieceTable pieces;
+  for (int i = 0; i < carves; ++i) {
+    const CarveRequest blow = blows.next();
+    apply(CarveOperation{blow.shape, blow.pattern, 1, blow.random_seed, blow.impact_m, 1}, field, pieces);
+    pieces.clear();
+  }
+  for (const ChunkCoord chunk : field.edited_chunks())
+    for (const BrickCoord coord : field.edited_bricks(chunk))
+      value.bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+  std::ranges::sort(value.bricks, {}, &BrickPatch::coord);
+  auto world = World::salvage(std::move(value));
+  CHECK(world.has_value());
+  const WorldSnapshot carved = (*world)->snapshot();
+  CHECK(WorldFile::create(path, {.world = world_number, .config = carved.moment.config}, carved).has_value());
+}
+
+/// Starts a server on the file, and reads the same file with the ground measured, as it would be unless the
+/// rows said its mass.
+void start_up(BenchReport& report, const Folder& folder, int carves) {
+  const std::string path = folder / fmt::format("start_{}", carves), name = fmt::format("start_{}_", carves);
+  write_carved(path, carves);
+  report.metric(name + "file_mb", static_cast<double>(fs::file_size(path)) / 1e6);
+  const auto file = WorldFile::open(path);
+  CHECK(file.has_value());
+  Stopwatch watch;
+  const auto rows = (*file)->read();
+  CHECK(rows.has_value());
+  report.metric(name + "chunks", static_cast<double>(rows->chunks.size()));
+  report.metric(name + "read_s", watch.lap_ms() * 1e-3);
+  CHECK(World::restore(rows->world, 1, rows->ground).has_value());
+  report.metric(name + "restore_s", watch.lap_ms() * 1e-3);
+  CHECK(World::restore(rows->world).has_value());
+  report.metric(name + "restore_measuring_ground_s", watch.lap_ms() * 1e-3);
+
+  LiveConfig config;
+  config.world_path = path;
+  config.net.port = 0;
+  config.pacing = Pacing::by_hand;
+  const double before_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
+  watch.lap_ms();
+  const auto server = LiveServer::start(config);
+  const double wall_s = watch.lap_ms() * 1e-3, busy_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - before_s;
+  CHECK(server.has_value());
+  report.metric(name + "wall_s", wall_s);
+  report.metric(name + "cpu_s", busy_s);
+  if (carves == 10000)
+    report.check("start_at_10000", busy_s <= start_wanted_s,
+                 fmt::format("{:.2f} s of processor time, {:.2f} s of the clock; wanted at most {} s", busy_s,
+                             wall_s, start_wanted_s));
+}
+
+}  // namespace
+
+BenchReport run_storage_bench(const BenchOptions& options) {
+  BenchReport report;
+  const Folder folder;
+  constexpr std::array durabilities = {Durability::tick, Durability::second, Durability::off};
+  double done = 0.0;
+  for (const Durability durability : durabilities) {
+    compare_ticks(report, folder, durability, options.quick ? 120 : 1800);
+    options.progress(done += 0.25);
+  }
+  save_a_crowd(report, folder);
+  for (const int carves : {10, 1000, options.quick ? 2000 : 10000}) start_up(report, folder, carves);
+  options.progress(1.0);
+  return report;
+}
+
+}  // namespace scree
