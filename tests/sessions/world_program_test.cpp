@@ -1,0 +1,146 @@
+// scree-world as a program, and the files of this version, which later versions must open.
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/app/ground_giver.h"
+#include "server/replay/replay_source.h"
+#include "server/store/database.h"
+#include "tests/support/run_program.h"
+#include "tests/support/server_process.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* ground_hash = "fd9dab8f702ae6220115c48c75b73d79d9471c848519b2337ae026f7f97b082d";
+
+class WorldProgramTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"hills.ground", "hills.world", "hills.scree"})
+      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_1" / name, folder / name);
+    ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
+  }
+  void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }
+
+  /// Runs scree-world with these arguments, and --json. What it prints is null unless it is JSON.
+  struct Ran {
+    int code = 0;
+    std::string said;
+    nlohmann::json json;
+  };
+  Ran run(const std::string& arguments) const {
+    auto [code, said] = run_program(std::string(SCREE_WORLD_PROGRAM) + " " + arguments + " --json");
+    auto json = nlohmann::json::parse(said, nullptr, false);
+    return {code, said, json.is_discarded() ? nlohmann::json() : json};
+  }
+  void expect_whole(const std::string& path) const {
+    const Ran ran = run("check " + path);
+    EXPECT_EQ(ran.code, 0) << ran.said;
+    EXPECT_EQ(ran.json.value("whole", false), true) << ran.said;
+  }
+  void spoil(const std::string& sql) const {
+    auto database = Database::open(world);
+    ASSERT_TRUE(database && database->execute(sql).has_value());
+  }
+
+  TestFolder folder;
+  std::string world = folder / "hills.world", recording = folder / "hills.scree";
+};
+
+TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
+  expect_whole(world);
+  const Ran before = run("info " + world);
+  ASSERT_EQ(before.code, 0) << before.said;
+  EXPECT_EQ(before.json.at("format"), 1);
+  EXPECT_EQ(before.json.at("terrain"), std::string("ground ") + ground_hash);
+  EXPECT_EQ(before.json.at("ledger_error"), 0);
+  EXPECT_GT(before.json.at("chunks_edited"), 0);
+  EXPECT_GT(before.json.at("pieces_alive"), 0);
+  auto source = ReplaySource::open(recording, 0, ground_giver(recording, WorldConfig()));
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  Tick last = 0;
+  for (auto tick = (*source)->next(); tick && *tick; tick = (*source)->next()) last = (*tick)->tick;
+  EXPECT_EQ(last, before.json.at("tick"));
+  EXPECT_EQ(last, (*source)->last_tick());
+  {
+    ServerProcess server(SCREE_SERVER_PROGRAM, {"--world", world, "--ticks", "20"});
+    EXPECT_NE(server.port(), 0);
+    EXPECT_EQ(server.end(SIGTERM), 0);
+  }
+  expect_whole(world);
+  EXPECT_GE(run("info " + world).json.at("tick"), last);
+}
+
+TEST_F(WorldProgramTest, a_ground_elsewhere_is_given_and_a_missing_one_is_named) {
+  fs::create_directories(folder / "elsewhere");
+  const std::string ground = folder / "elsewhere/hills.ground";
+  fs::rename(folder / "hills.ground", ground);
+  EXPECT_EQ(run("info " + world).code, 0) << "what it holds is said without the ground";
+  const Ran missing = run("check " + world);
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.said.find(ground_hash), std::string::npos) << missing.said;
+  EXPECT_EQ(run("check " + world + " --ground " + ground).code, 0);
+  EXPECT_EQ(run("check " + world + " --ground " + world).code, 1) << "that is no ground";
+}
+
+TEST_F(WorldProgramTest, damage_is_named_and_repair_keeps_the_rest) {
+  spoil("UPDATE chunks SET checksum = checksum + 1 WHERE key = (SELECT min(key) FROM chunks)");
+  const Ran damaged = run("check " + world);
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_EQ(damaged.json.value("whole", true), false) << damaged.said;
+  EXPECT_NE(damaged.json.value("damage", "").find("chunks"), std::string::npos) << damaged.said;
+  const std::string repaired = folder / "repaired.world";
+  const Ran ran = run("repair " + world + " " + repaired);
+  ASSERT_EQ(ran.code, 0) << ran.said;
+  EXPECT_EQ(ran.json.at("lost").size(), 1U);
+  EXPECT_GT(ran.json.at("chunks_kept"), 0);
+  expect_whole(repaired);
+  EXPECT_EQ(run("repair " + world + " " + repaired).code, 1) << "it exists already";
+}
+
+TEST_F(WorldProgramTest, backup_and_compact_leave_the_world_as_it_is) {
+  const auto hash = run("info " + world).json.at("state_hash");
+  const std::string copy = folder / "copy.world";
+  const Ran copied = run("backup " + world + " " + copy);
+  EXPECT_EQ(copied.code, 0) << copied.said;
+  EXPECT_EQ(run("info " + copy).json.at("state_hash"), hash);
+  spoil("CREATE TABLE room (data BLOB); INSERT INTO room VALUES (zeroblob(200000)); DROP TABLE room");
+  const Ran compacted = run("compact " + world);
+  ASSERT_EQ(compacted.code, 0) << compacted.said;
+  EXPECT_LT(compacted.json.at("bytes"), compacted.json.at("bytes_before"));
+  EXPECT_EQ(run("info " + world).json.at("state_hash"), hash);
+}
+
+TEST_F(WorldProgramTest, a_world_is_rolled_back_and_made_anew_by_its_recording) {
+  const std::string other = folder / "other.world";
+  const Ran made = run("new " + other + " --from " + recording + " --to 20");
+  ASSERT_EQ(made.code, 0) << made.said;
+  EXPECT_EQ(made.json.at("tick"), 20);
+  expect_whole(other);
+  EXPECT_EQ(run("rollback " + world + " --from " + recording).code, 2) << "without --to";
+  const Ran rolled = run("rollback " + world + " --from " + recording + " --to 20");
+  ASSERT_EQ(rolled.code, 0) << rolled.said;
+  expect_whole(world);
+  expect_whole(rolled.json.at("before"));
+  EXPECT_EQ(run("info " + world).json.at("state_hash"), run("info " + other).json.at("state_hash"));
+}
+
+TEST_F(WorldProgramTest, wrong_usage_is_2_and_what_is_no_world_is_1) {
+  EXPECT_EQ(run("").code, 2);
+  EXPECT_EQ(run("mend " + world).code, 2);
+  EXPECT_EQ(run("info").code, 2);
+  EXPECT_EQ(run("--help").code, 0);
+  for (const char* command : {"info ", "check ", "compact "}) {
+    EXPECT_EQ(run(command + (folder / "none")).code, 1) << command;
+    EXPECT_EQ(run(command + recording).code, 1) << command;
+  }
+  EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+}  // namespace
+}  // namespace scree
