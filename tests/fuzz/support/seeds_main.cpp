@@ -10,7 +10,10 @@
 
 #include "auth/access_token.h"
 #include "auth/base64url.h"
+#include "ground/ground_file.h"
+#include "ground/ground_writer.h"
 #include "proto/operation_codec.h"
+#include "proto/world_codec.h"
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
 #include "shared/base/random.h"
@@ -191,6 +194,44 @@ void write_recording(Corpora& corpora) {
   corpora.add("recording", rows.bytes);
 }
 
+/// A world with pieces in the air, whole and by its rows; and a ground.
+void write_kept(Corpora& corpora) {
+  const auto add = [&](uint8_t decoder, const Bytes& data) {
+    corpora.add("kept", Seed().byte(decoder).raw(data).bytes);
+  };
+  WorldConfig config;
+  config.terrain = terrain;
+  World world(config);
+  add(0, encode(world.snapshot()));
+  CarveRequest small = carve(16.0F, 1);
+  small.shape = sphere({16.0F, 0.0F, 16.0F}, 1.5F);
+  small.seeds = 2;
+  const Command blow{1, 1, small};
+  world.step({&blow, 1});
+  for (int tick = 0; tick < 4; ++tick) world.step({});
+  const WorldSnapshot value = world.snapshot();
+  add(0, encode(value));
+  add(1, encode(WorldHeader{.world = 1, .config = value.moment.config}));
+  const BrickPatch& brick = value.bricks.front();
+  const uint64_t hash = brick_hash(brick.coord, brick.brick, brick.paint);
+  add(2, encode(WorldChunk{chunk_of(brick.coord), value.moment.tick, hash, {brick}, 1000}));
+  for (const KeptPiece& piece : value.moment.pieces) add(3, encode(piece));
+  add(4, encode(value.moment));
+
+  const ScratchFile file("seeds");
+  auto writer = GroundWriter::create(file.path(), {20, 14, 2.0F, 0, 0, {5.0F, 60.0F}}, 0.0F);
+  std::vector<int32_t> row(20);
+  for (int z = 0; z < 14; ++z) {
+    for (int x = 0; x < 20; ++x) row[static_cast<size_t>(x)] = 40 * x + (z > 7 ? 900 : 0);
+    (*writer)->add_row(row);
+  }
+  (void)(*writer)->finish();
+  std::ifstream written(file.path(), std::ios::binary);
+  add(5, {std::istreambuf_iterator<char>(written), {}});
+  const auto ground = GroundFile::open(file.path());
+  add(6, (*ground)->packed((*ground)->layout().top()));
+}
+
 void write_texts(Corpora& corpora) {
   const SigningKey key = SigningKey::generate();
   const AccessToken token{77, Role::builder, 1'600'000'000, 1'700'000'000, "Ann", "canyon"};
@@ -252,6 +293,7 @@ int main(int argc, char** argv) {
   write_packed(corpora);
   write_session(corpora);
   write_recording(corpora);
+  write_kept(corpora);
   write_texts(corpora);
   write_config(corpora);
   write_choices(corpora);
