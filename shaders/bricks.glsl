@@ -21,7 +21,10 @@ uniform ivec3 u_wrap[levels_max];   // where that corner's brick lies in the ent
 uniform float u_voxels_per_m[levels_max];
 uniform vec4 u_layers;  // metres: soil below, its depth, ice above, its depth
 
-const float cut_begins = -0.08;  // of the field as generated, code / 127 (rock.glsl, cut_of)
+const float cut_begins = -0.08;  // of the field as generated, code / 127 (rock.glsl)
+const float turned_begins = 0.35;  // of the same above the surface, where that faces another way
+const float worn_all = 0.46;     // nothing of the weathered ground is left
+const float probe_height = 2.75;  // voxels, as for meshes (shared/surface/surface_nets.h)
 
 uvec2 entry_at(ivec3 at, int level) {
   ivec3 i = (at + u_wrap[level]) & (u_window - 1);
@@ -71,19 +74,27 @@ float generated_at(vec3 from_eye, int level) {
   return generated_in(entry_at(at, level), p - vec3(at) * brick, field_at(from_eye, level) / band);
 }
 
+// The paint number (client/render/scene/paint_number.h).
 int paint_of(uvec2 entry) { return int(entry.y >> uint(32 - paint_bits)); }
 
-// The paint number (client/render/scene/paint_number.h) at a point of the surface: the brick's paint, or else the
-// layer that a cut lays bare, as shared/field/material.h has it: what lay less than the layer's depth below the ground.
-int paint_at(uvec2 entry, vec3 from_eye, float height_m, int level, float before) {
-  int paint = paint_of(entry);
-  if (paint != 0 || before >= cut_begins) return paint;
+// How far a point of a cut lies within the ground's layer of soil or ice, metres, as shared/field/material.h has it:
+// by the generated field as far above as the layer is deep. 0 or less: not at all.
+float layer_at(vec3 from_eye, float height_m, int level, float before) {
+  if (before >= cut_begins) return 0.0;
   bool soil = height_m < u_layers.x;
-  if (!soil && height_m <= u_layers.z) return 0;
+  if (!soil && height_m <= u_layers.z) return 0.0;
   float depth = soil ? u_layers.y : u_layers.w;
-  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) < 0.0
-             ? 0
-             : (soil ? material_soil : material_ice) + paint_in_cuts;
+  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) * band / u_voxels_per_m[level];
+}
+
+// How far the field as generated was from a point of the surface, for its looks (rock.glsl). Where the ground was at the
+// same place but faced another way, what is above tells: rock has gone from there, or has come. Something else
+// above may be as near as `other`, voxels.
+float worn_at(vec3 from_eye, vec3 normal, int level, float before, float other) {
+  if (abs(before) >= worn_all) return abs(before);
+  vec3 above = from_eye + normal * (probe_height / u_voxels_per_m[level]);
+  float now = min(field_at(above, level), other) / band;
+  return max(abs(before), abs(generated_at(above, level) - now) - turned_begins);
 }
 
 // The finest level, from `level` on, that shows this point; u_levels beyond all.

@@ -18,8 +18,9 @@ out vec3 v_rock;
 out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
-out float v_before;
-flat out int v_paint;
+out float v_worn;
+out vec4 v_paint;
+out float v_layer;
 
 const float nowhere = 1e9;
 const uint no_corner = 255u;
@@ -58,22 +59,23 @@ float distance_at(vec3 corner, Home home) {
 }
 
 void emit(vec3 from_eye, vec3 normal, Home home) {
-  float before = 0.0;
-  int paint = 0;
+  v_worn = 0.0;
+  v_paint = vec4(0.0);
+  v_layer = 0.0;
   if (home.entry.x >> 24u == kind_stored) {
     vec3 local = in_level(from_eye, home.level) - home.first;
     vec3 slope = brick_gradient(home.entry.x, local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
-    before = generated_in(home.entry, local, 0.0);
-    paint = paint_at(home.entry, from_eye, u_eye.y + from_eye.y, home.level, before);
+    float before = generated_in(home.entry, local, 0.0);
+    v_worn = before == 0.0 ? 0.0 : worn_at(from_eye, normal, home.level, before, band);
+    v_paint = paint_colour(paint_of(home.entry));
+    v_layer = layer_at(from_eye, u_eye.y + from_eye.y, home.level, before);
   }
   v_world = u_eye + from_eye;
   v_rock = v_world;
   v_normal = normal;
   v_rock_normal = normal;
   v_openness = openness_at(from_eye, normal, home.level, band);
-  v_before = before;
-  v_paint = paint;
   gl_Position = u_view_projection * vec4(v_world, 1.0);
   EmitVertex();
 }

@@ -105,8 +105,6 @@ float sun_at(vec3 from, vec3 sun, int level) {
   return light * light * (3.0 - 2.0 * light);
 }
 
-const float probe_height = 2.75;  // voxels, as for meshes (shared/surface/surface_nets.h)
-
 // 1 under the open sky, less in a crevice, from the distances above the surface: over open ground they grow as fast as
 // one climbs. At the height that meshes ask for, where something else may be as near as `other`, then farther on
 // coarser levels.

@@ -16,18 +16,21 @@ void main() {
   }
   vec3 normal = rotated(v_rotation, local_normal);
   // On the ground it takes on the looks of what it is about to become.
-  float there = generated_at(from_eye, 0);
-  vec2 wear = mix(vec2(cut_of(before), heap_of(before)), vec2(cut_of(there), heap_of(there)), v_dust);
-  Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, wear.x, wear.y, away);
-  vec3 albedo = painted(rock.albedo, paint_of(hit.entry), wear.x) * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
+  float above = piece_at(hit.local + local_normal * probe_height);
+  float there = worn_at(from_eye, normal, 0, generated_at(from_eye, 0), above);
+  int paint = paint_of(hit.entry);
+  float layer_m = paint >= paint_in_cuts ? 1.0 : 0.0;
+  Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, mix(abs(before), there, v_dust), layer_m,
+                      paint < paint_in_cuts ? paint_colour(paint) : vec4(0.0), away);
+  vec3 albedo = rock.albedo * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
   vec3 bent = normalize(rotated(v_rotation, rock.normal));
   int level = level_of(from_eye, 0);
   float open = 1.0;
   float sunlight = max(dot(bent, u_sun), 0.0);
   if (level < u_levels) {
-    open = openness_at(from_eye, normal, level, piece_at(hit.local + local_normal * probe_height));
+    open = openness_at(from_eye, normal, level, above);
     if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel_m), u_sun, level);
   }
   if (sunlight > 0.0) sunlight *= lit(hit.world, normal);
-  o_colour = vec4(tone(in_fog(lit_rock(albedo, bent, open, sunlight), hit.world, away)), 1.0);
+  o_colour = vec4(tone(in_fog(lit_rock(albedo, bent, open * rock.open, sunlight), hit.world, away)), 1.0);
 }

@@ -4,10 +4,12 @@
 uniform vec3 u_eye;
 uniform float u_fog_m;  // distance at which fog hides nearly all
 uniform float u_ice_above_m;
+uniform float u_soil_below_m;
 
 struct Rock {
   vec3 albedo;
   vec3 normal;  // bent by the grain
+  float open;   // 1, less in a crack
 };
 
 // Beds of sandstone, bent a little; scrub and sand where it is flat.
@@ -30,42 +32,84 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   return mix(ground, ice, high * lies);
 }
 
-// How much of broken rock, which is paler and warmer than what the weather has had, and of rubble, which lies dusty,
-// shows where the field as generated was `before` (code / 127).
-float cut_of(float before) { return smoothstep(-0.08, -0.40, before); }
-float heap_of(float before) { return smoothstep(0.10, 0.45, before); }
+// How much shows of broken rock, cut or heaped, which is paler and warmer than what the weather has had, and bare. `worn`:
+// how far the field as generated was from what lies here now, code / 127; 0 on the ground as it was.
+float bare_of(float worn) { return smoothstep(0.06, 0.30, worn); }
 
-// At p in the frame of the rock, whose patterns stay with a piece that moves. `away`: metres from the eye.
-Rock rock_at(vec3 p, vec3 shape_normal, float cut, float heap, float away) {
+// Turned, so that no face lies along the voxels, and flattened: rock splits along its beds.
+const mat3 along_beds = mat3(0.82, 0.51, -0.31, -0.48, 1.32, 0.36, 0.37, -0.26, 0.88);
+
+// One face of broken rock: which way it is bent, and how far its edge is, in cells of the lattice. Cells of a
+// body-centred lattice have 14 faces and no direction of their own; `bend` makes them uneven.
+vec4 facet(vec3 p, vec3 bend) {
+  vec3 q = p + bend;
+  vec3 a = floor(q + 0.5), b = floor(q) + 0.5;
+  vec3 to_a = q - a, to_b = q - b;
+  float apart = dot(to_a, to_a) - dot(to_b, to_b);
+  ivec3 cell = ivec3((apart < 0.0 ? a : b) * 2.0);
+  vec3 way = vec3(lattice(cell), lattice(cell + ivec3(7919, 0, 0)), lattice(cell + ivec3(0, 7919, 0))) - 0.5;
+  return vec4(way, abs(apart));
+}
+
+// A material lends its colour to the grain of what lies there.
+vec3 of_material(vec3 colour, vec3 albedo) { return colour * (0.25 + 1.15 * dot(albedo, vec3(0.3, 0.5, 0.2))); }
+
+// Soil and ice, as far as a cut lays their layers bare.
+vec3 layered(vec3 albedo, float height_m, float layer_m, float bare) {
+  float shown = bare * smoothstep(0.04, 0.26, layer_m);
+  if (shown <= 0.0) return albedo;
+  float soil = 1.0 - smoothstep(u_soil_below_m - 0.4, u_soil_below_m, height_m);
+  vec3 colour = height_m < u_soil_below_m ? material_albedo[material_soil - 1] : material_albedo[material_ice - 1];
+  return mix(albedo, of_material(colour, albedo), shown * (height_m < u_soil_below_m ? soil : 1.0));
+}
+
+// At p in the frame of the rock, whose patterns stay with a piece that moves. `layer_m`: within the ground's layer;
+// `paint`: colour of the painted part, and how much is painted; `away`: metres from the eye.
+Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
   float fine = 0.6 * middle.x + 0.4 * small.x;
+  float bare = bare_of(worn);
+  float grain = 1.0 / (1.0 + away * 0.05);
+  vec3 bump = middle.yzw * 0.17 + small.yzw * 0.15 * grain;
+  float open = 1.0;
+
+  // Grain of sand, where a pixel can show it.
+  float near = 1.0 - smoothstep(6.0, 18.0, away);
+  if (near > 0.0) {
+    vec4 sand = noise(p * 23.0 + 3.0);
+    vec4 dust = noise(p * 71.0 + 9.0);
+    bump += (sand.yzw * 0.17 + dust.yzw * 0.10 * (1.0 - smoothstep(2.0, 6.0, away))) * near;
+    fine += (0.30 * (sand.x - 0.5) + 0.16 * (dust.x - 0.5)) * near;
+  }
 
   vec3 albedo = weathered(p, shape_normal, coarse, fine);
-  float vein = smoothstep(0.46, 0.5, middle.x) * (1.0 - smoothstep(0.5, 0.54, middle.x));
-  vec3 fresh = mix(vec3(0.62, 0.33, 0.155), vec3(0.80, 0.53, 0.30), fine) * (1.0 - 0.18 * vein);
-  vec3 rubble = mix(vec3(0.44, 0.26, 0.145), vec3(0.62, 0.41, 0.245), fine);
-  albedo = mix(albedo, fresh, cut);
-  albedo = mix(albedo, rubble, heap);
+  if (bare > 0.0) {
+    vec3 bed = mix(vec3(0.43, 0.20, 0.09), vec3(0.56, 0.335, 0.18), noise_1d(0.75 * p.y + 1.95 * (coarse.x - 0.5), 3));
+    // Dust lies on what is flat.
+    vec3 broken = mix(bed, vec3(0.50, 0.33, 0.20), smoothstep(0.25, 0.85, shape_normal.y)) * (0.52 + 1.05 * fine);
+    // It breaks along faces: large ones with cracks between them, and chips on these.
+    float seen = bare * (1.0 - smoothstep(30.0, 70.0, away));
+    if (seen > 0.0) {
+      vec3 q = along_beds * p;
+      vec4 large = facet(q * 1.25, middle.yzw * 0.30 + coarse.yzw * 0.3);
+      vec4 chip = facet(q * 3.7 + 0.4, small.yzw * 0.22 + middle.yzw * 0.5);
+      bump += (large.xyz * 1.30 + chip.xyz * 0.85 * grain) * seen;
+      float width = 0.02 + 0.004 * away;
+      float crack = (1.0 - smoothstep(0.0, width, large.w)) * smoothstep(0.60, 0.74, 0.45 * coarse.x + 0.45 * middle.x + 0.35 * small.x);
+      crack *= seen * min(1.0, 0.04 / width);
+      broken *= (1.0 + 0.14 * large.x + 0.12 * chip.y) * (1.0 - 0.60 * crack);
+      open -= 0.4 * crack;
+    }
+    albedo = mix(albedo, broken, bare);
+  }
+  albedo = layered(albedo, p.y, layer_m, bare);
+  if (paint.a > 0.0)
+    albedo = mix(albedo, of_material(paint.rgb / paint.a, albedo), smoothstep(0.3, 0.7, paint.a));
 
-  // Grain: the noise's slope bends the normal, less with distance, where it would only flicker.
-  float grain = 1.0 / (1.0 + away * 0.05);
-  vec3 bump = middle.yzw * 0.16 + small.yzw * 0.11 * grain;
-  return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain));
-}
-
-// A material, by its number, lends its colour to the grain of what lies there.
-vec3 of_material(int material, vec3 albedo) {
-  float grain = 0.55 + 1.1 * dot(albedo, vec3(0.3, 0.5, 0.2));
-  return material_albedo[material - 1] * grain;
-}
-
-// `paint`: a paint number, of the brick's paint or of the layer that shows as far as there is a cut.
-vec3 painted(vec3 albedo, int paint, float cut) {
-  if (paint == 0) return albedo;
-  if (paint < paint_in_cuts) return of_material(paint, albedo);
-  return mix(albedo, of_material(paint - paint_in_cuts, albedo), cut);
+  // The slopes bend the normal, less with distance, where they would only flicker.
+  return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open);
 }
 
 // `sunlight`: cosine of the sun's angle, 0 in shadow. `openness`: 1 under the open sky, less in a crevice.
@@ -78,7 +122,9 @@ vec3 lit_rock(vec3 albedo, vec3 normal, float openness, float sunlight) {
 }
 
 vec3 in_fog(vec3 colour, vec3 world, float away) {
-  float fog = 1.0 - exp(-pow(away / (u_fog_m * 0.80), 4.5));
+  // Thin haze all the way, and the end of what is drawn.
+  float haze = 0.45 * (1.0 - exp(-0.9 * away / u_fog_m));
+  float fog = 1.0 - (1.0 - haze) * exp(-pow(away / (u_fog_m * 0.80), 4.5));
   vec3 view = (world - u_eye) / max(away, 1e-3);
   return mix(colour, sky(normalize(vec3(view.x, max(view.y, 0.0), view.z))), fog);
 }

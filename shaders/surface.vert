@@ -3,8 +3,8 @@
 layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_openness;
-layout(location = 3) in float a_before;  // code / 127 of the field as generated
-layout(location = 4) in float a_paint;   // the paint number (client/render/scene/paint_number.h)
+layout(location = 3) in float a_before;  // code / 127 of the field as generated: how far it was from here
+layout(location = 4) in float a_paint;   // client/render/scene/paint_number.h, vertex_paint
 
 uniform mat4 u_view_projection;
 uniform float u_step;         // voxels a step of a_position
@@ -19,8 +19,9 @@ out vec3 v_rock;  // in the frame of the rock: patterns stay with a piece that m
 out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
-out float v_before;
-flat out int v_paint;
+out float v_worn;
+out vec4 v_paint;    // of the painted part: its colour, times how much of it there is
+out float v_layer;   // metres within the ground's layer of soil or ice
 
 void main() {
   // Voxels are exact; metres are rounded once. So blocks meet to the bit, whatever the size of a voxel.
@@ -29,7 +30,9 @@ void main() {
   v_rock_normal = a_normal;
   v_normal = rotated(u_rotation, a_normal);
   v_openness = a_openness;
-  v_before = a_before;
-  v_paint = int(a_paint);
+  v_worn = abs(a_before);
+  int paint = int(a_paint);
+  v_paint = paint_colour(paint & (paint_in_cuts - 1));
+  v_layer = float(paint / paint_in_cuts) * layer_step_m;
   gl_Position = u_view_projection * vec4(v_world, 1.0);
 }

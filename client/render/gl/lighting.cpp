@@ -8,6 +8,7 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   program.set("u_fog_m", pass.lighting.fog_m);
   const MaterialHeights& layers = pass.lighting.layers;
   program.set("u_ice_above_m", layers.ice_above_m);
+  program.set("u_soil_below_m", layers.soil_below_m);
   program.set("u_layers", glm::vec4(layers.soil_below_m, traits_of(Material::soil).layer_depth_m,
                                     layers.ice_above_m, traits_of(Material::ice).layer_depth_m));
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);

@@ -1,5 +1,6 @@
 #include "client/render/gl/material_source.h"
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -28,7 +29,14 @@ std::string written() {
     albedos += (albedos.empty() ? "" : ", ") + literal(traits_of(material).albedo);
   }
   const std::string type = "vec3[" + std::to_string(kind_count<Material>) + "]";
-  return text + "const " + type + " material_albedo = " + type + "(" + albedos + ");\n";
+  text += "const " + type + " material_albedo = " + type + "(" + albedos + ");\n";
+  std::array<char, 64> step{};
+  std::snprintf(step.data(), step.size(), "const float layer_step_m = %.9g;\n",
+                static_cast<double>(layer_step_m));
+  return text + step.data() +
+         "vec4 paint_colour(int paint) { return paint == 0 ? vec4(0.0) : vec4(material_albedo[paint - 1], "
+         "1.0); "
+         "}\n";
 }
 
 }  // namespace

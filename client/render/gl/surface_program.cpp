@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 Result<SurfaceProgram> link(std::string_view name, std::span<const std::string_view> fragment) {
-  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
+  const std::array vertex{material_source(), shader_source("rotation.glsl"), shader_source("surface.vert")};
   Result<gl::Program> program = gl::Program::link(name, vertex, fragment);
   if (!program) return fail(program.error().message);
   return SurfaceProgram(std::move(*program));

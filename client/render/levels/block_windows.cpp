@@ -1,8 +1,9 @@
 #include "client/render/levels/block_windows.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdlib>
 #include <cstring>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "shared/field/material.h"
@@ -13,6 +14,30 @@ namespace {
 
 /// Of the field as generated: from here on, looks are those of a cut (shaders/bricks.glsl).
 constexpr Code cut_begins = -10;
+/// From here on, on either side, nothing of the weathered ground is left.
+constexpr Code worn_all = 58;
+/// Of the same above a surface: from here on, it faces another way than the generated one.
+constexpr int turned_begins = 44;
+/// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
+constexpr float probe_voxels = 2.75F;
+
+/// In codes. The window must hold the point, or else the nearest that it holds is taken.
+float trilinear(const Window& window, glm::vec3 p) {
+  const auto cell_of = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
+  const VoxelBox& box = window.box;
+  const VoxelCoord c{cell_of(p.x, box.lo.x, box.hi.x), cell_of(p.y, box.lo.y, box.hi.y),
+                     cell_of(p.z, box.lo.z, box.hi.z)};
+  const glm::vec3 f = glm::clamp(p - glm::vec3(c.x, c.y, c.z), 0.0F, 1.0F);
+  const VoxelCoord size = box.size();
+  const Code* at = &window.codes[window.index(c.x, c.y, c.z)];
+  const auto row = [&](int x, int y) {
+    const Code* from = at + (static_cast<std::ptrdiff_t>(x) * size.y + y) * size.z;
+    return static_cast<float>(from[0]) + f.z * static_cast<float>(from[1] - from[0]);
+  };
+  const float low = row(0, 0) + f.y * (row(0, 1) - row(0, 0));
+  const float high = row(1, 0) + f.y * (row(1, 1) - row(1, 0));
+  return low + f.x * (high - low);
+}
 
 /// Calls f(coordinate, index in the chunk) for each brick of the chunk that the box touches.
 template <typename F>
@@ -81,55 +106,55 @@ SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) co
   const Window* then = before ? &*before : nullptr;
   SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
                                       : surface_nets_placed(now, owned, then, mask, *place);
-  put_paint_on(made);
+  put_looks_on(made);
   return made;
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
   SurfaceMesh made = marching_cubes(now, owned, before ? &*before : nullptr, mask);
-  put_paint_on(made);
+  put_looks_on(made);
   return made;
 }
 
-uint8_t BlockWindows::layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const {
-  const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
-  const glm::vec3 steps(vertex.position[0], vertex.position[1], vertex.position[2]);
-  const glm::vec3 p = origin + steps / surface_steps_per_voxel;
+Code BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
+  const int here = std::abs(vertex.before);
+  if (here >= worn_all) return static_cast<Code>(here);
+  const glm::vec3 normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
+  const glm::vec3 above = p + normal * (probe_voxels / 127.0F);
+  const float apart = std::abs(trilinear(*before, above) - trilinear(now, above));
+  return static_cast<Code>(std::clamp(static_cast<int>(apart) - turned_begins, here, 127));
+}
+
+float BlockWindows::layer_m(glm::vec3 p) const {
   const MaterialHeights layers = layers_of(source);
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
-  if (!soil && height_m <= layers.ice_above_m) return 0;
-  // Mostly the window shows that the ground's surface is farther above than the layer's depth.
-  const float end =
-      p.y + traits_of(soil ? Material::soil : Material::ice).layer_depth_m / source.voxel_size_m;
-  const VoxelCoord above{floor_to_int(p.x), std::min(floor_to_int(end) + 1, before->box.hi.y - 1),
-                         floor_to_int(p.z)};
-  if (before->box.holds(above) &&
-      static_cast<float>(above.y) - decode(before->at(above.x, above.y, above.z)) > end + 1.0F)
-    return 0;
-  return layer_number(material_at(source, p * source.voxel_size_m));
+  if (!soil && height_m <= layers.ice_above_m) return 0.0F;
+  const float depth_m = traits_of(soil ? Material::soil : Material::ice).layer_depth_m;
+  const float end = p.y + depth_m / source.voxel_size_m;
+  const float top = static_cast<float>(before->box.hi.y) - 1.01F;
+  if (end <= top) return trilinear(*before, {p.x, end, p.z}) / codes_per_voxel * source.voxel_size_m;
+  // The rest of the way up, distances grow as fast as below.
+  const float highest = trilinear(*before, {p.x, top, p.z});
+  const float slope = highest - trilinear(*before, {p.x, top - 1.0F, p.z});
+  return (highest + (end - top) * slope) / codes_per_voxel * source.voxel_size_m;
 }
 
-void BlockWindows::put_paint_on(SurfaceMesh& mesh) const {
+void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
   constexpr int steps = surface_steps;
-  // One sample for two voxels along a side, in a block of usual size.
-  constexpr int looks = 10;
-  std::array<uint8_t, looks * looks * looks> looked{};  // 1 + the layer's number
+  const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   for (SurfaceVertex& vertex : mesh.vertices) {
-    if (vertex.before < cut_begins) {
-      const int x = vertex.position[0] / (2 * steps), y = vertex.position[1] / (2 * steps),
-                z = vertex.position[2] / (2 * steps);
-      uint8_t own = 0;
-      uint8_t& known =
-          std::max({x, y, z}) < looks ? looked[static_cast<size_t>((x * looks + y) * looks + z)] : own;
-      if (known == 0) known = static_cast<uint8_t>(1 + layer_in_cut(mesh, vertex));
-      vertex.paint = static_cast<uint8_t>(known - 1);
+    const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
+    const glm::vec3 p = origin + in_mesh / surface_steps_per_voxel;
+    uint8_t brick_paint = 0;
+    if (!paint.empty()) {
+      const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
+      const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
+      if (found != paint.end()) brick_paint = paint_number(found->second);
     }
-    if (paint.empty()) continue;
-    const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
-    const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
-    if (found != paint.end()) vertex.paint = paint_number(found->second);
+    vertex.paint = vertex_paint(brick_paint, vertex.before < cut_begins ? layer_m(p) : 0.0F);
+    vertex.before = worn(vertex, p);
   }
 }
 

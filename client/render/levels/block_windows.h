@@ -22,11 +22,14 @@ struct BlockWindows {
   SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
-  /// Sets SurfaceVertex::paint of a mesh in this window's voxels: by brick, and by layer in cuts.
-  void put_paint_on(SurfaceMesh& mesh) const;
+  /// Sets SurfaceVertex::paint of a mesh in this window's voxels: by brick, and by layer in cuts. Makes
+  /// SurfaceVertex::before a distance, 0 … 127, of what lies here now from the field as generated, also where
+  /// that was at the same place but faced another way (worn_at in shaders/bricks.glsl).
+  void put_looks_on(SurfaceMesh& mesh) const;
 
  private:
-  uint8_t layer_in_cut(const SurfaceMesh& mesh, const SurfaceVertex& vertex) const;
+  Code worn(const SurfaceVertex& vertex, glm::vec3 p) const;
+  float layer_m(glm::vec3 p) const;
 };
 
 /// Nothing when all the bricks around are air, or all are rock.

@@ -8,7 +8,7 @@ PieceJob gather_piece(Field& field, PieceId id, const ScenePiece& piece) {
 
 PieceMesh mesh_piece(const PieceJob& job) {
   PieceMesh done{job.id, job.piece, surface_nets_closed(job.piece.volume->window, &job.before)};
-  for (SurfaceVertex& vertex : done.mesh.vertices) vertex.paint = job.paint;
+  for (SurfaceVertex& vertex : done.mesh.vertices) vertex.paint = vertex_paint(job.paint);
   return done;
 }
 

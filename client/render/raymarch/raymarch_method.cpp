@@ -201,6 +201,8 @@ void RaymarchMethod::composite(glm::ivec2 size) {
   program.set("u_depth", 1);
   glUniform2f(program.uniform("u_texel"), 1.0F / static_cast<float>(size.x),
               1.0F / static_cast<float>(size.y));
+  const glm::vec2 source = 1.0F / glm::vec2(targets_.size());
+  glUniform2f(program.uniform("u_source"), source.x, source.y);
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, targets_.depth_texture());
   glActiveTexture(GL_TEXTURE0);

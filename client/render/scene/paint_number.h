@@ -1,8 +1,12 @@
-// How vertices, bricks on the GPU and shaders say which material shows at a place: a number of paint_bits
+// How pieces, bricks on the GPU and shaders say which material shows at a place: a number of paint_bits
 // bits. 0: the looks of weathered, broken or piled rock. Else 1 + the material, everywhere; or, with
 // paint_in_cuts added, as far as a cut lays fresh rock bare. The shaders' side is material_source.h.
+//
+// Vertices of terrain have the brick's paint, and beside it how far they lie within the ground's layer, which
+// is interpolated: the layer's edge is drawn as a line and not triangle by triangle.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -23,6 +27,22 @@ constexpr uint8_t paint_number(std::optional<Material> paint) {
 /// Of a layer that shows where a cut lays it bare. A cut through rock shows fresh rock, which is no paint.
 constexpr uint8_t layer_number(Material layer) {
   return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>(paint_number(layer) | paint_in_cuts);
+}
+
+/// How far a vertex lies within a layer is told in steps of so many metres, up to layer_steps_max: beyond,
+/// the layer shows whole (shaders/rock.glsl).
+inline constexpr float layer_step_m = 0.02F;
+inline constexpr int layer_steps_max = 255 / paint_in_cuts;
+
+/// Of a vertex: the number of the brick's paint, and metres within the ground's layer.
+constexpr uint8_t vertex_paint(uint8_t brick_paint, float layer_m) {
+  const auto steps = static_cast<int>(layer_m / layer_step_m + 0.5F);
+  return static_cast<uint8_t>(brick_paint + paint_in_cuts * std::clamp(steps, 0, layer_steps_max));
+}
+
+/// Of a piece's vertices, by its paint number. The place it comes from tells which layer it is of.
+constexpr uint8_t vertex_paint(uint8_t piece_paint) {
+  return piece_paint < paint_in_cuts ? piece_paint : vertex_paint(0, 1.0F);
 }
 
 }  // namespace scree
