@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "client/render/levels/block_windows.h"
 #include "client/render/methods.h"
+#include "shared/base/random.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
@@ -163,6 +165,126 @@ TEST_F(Agreement, every_method_has_the_raymarchers_silhouettes_and_depths) {
           entry.name == "grid" ? 0.95 : 0.98);
     }
   }
+}
+
+/// The pieces of three blows, turned anyhow and merged into a heap at the cliff's foot: knife edges, clefts,
+/// and two surfaces within a cell.
+class AgreementOverRubble : public Agreement {
+ protected:
+  void SetUp() override {
+    OffscreenTest::SetUp();
+    for (const glm::vec3 at_m : {glm::vec3(0.5F, 6.0F, 4.0F), {-0.8F, 6.3F, 4.3F}, {1.0F, 4.8F, 6.0F}})
+      carve(at_m);
+    PieceTable table;
+    for (const auto& [id, piece] : pieces_) table[id] = piece.volume;
+    Random random(3);
+    const auto either_way = [&] { return 2.0F * random.unit() - 1.0F; };
+    for (const auto& [id, piece] : pieces_) {
+      const float x = heap_m.x + 1.6F * either_way(), z = heap_m.y + 1.6F * either_way();
+      const float up_m = 0.2F + 0.8F * random.unit();
+      const glm::quat turn(either_way(), either_way(), either_way(), either_way());
+      const Pose pose{{x, ground_height_m(field_.source(), x, z) + up_m, z}, glm::normalize(turn)};
+      apply(StampOperation{id, quantise(pose), 0}, field_, table);
+    }
+    pieces_.clear();
+  }
+  static Camera towards_heap(glm::vec3 from_m) {
+    const glm::vec3 way = glm::normalize(glm::vec3(heap_m.x, from_m.y - 2.0F, heap_m.y) - from_m);
+    return {from_m, std::atan2(-way.x, -way.z), std::asin(way.y)};
+  }
+  std::vector<View> rubble_views() const {
+    const float ground_m = ground_height_m(field_.source(), heap_m.x, heap_m.y);
+    return {{"from the side", towards_heap({heap_m.x + 5.0F, ground_m + 2.5F, heap_m.y + 3.0F})},
+            {"from the foot", towards_heap({heap_m.x + 2.0F, ground_m + 2.2F, heap_m.y + 5.0F})}};
+  }
+  static constexpr glm::vec2 heap_m{5.0F, 5.0F};
+};
+
+/// Code and slope of the field at a point, as the raymarcher has them.
+struct FieldLook {
+  float code;
+  glm::vec3 slope;
+};
+
+FieldLook look_at(const Window& window, glm::vec3 p) {
+  const auto code = [&window](glm::vec3 at) {
+    const VoxelCoord c{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
+    const glm::vec3 f = at - glm::vec3(c.x, c.y, c.z);
+    float sum = 0.0F;
+    for (int i = 0; i < 8; ++i) {
+      const int x = i >> 2, y = (i >> 1) & 1, z = i & 1;
+      const float part =
+          (x == 1 ? f.x : 1.0F - f.x) * (y == 1 ? f.y : 1.0F - f.y) * (z == 1 ? f.z : 1.0F - f.z);
+      sum += part * static_cast<float>(window.at(c.x + x, c.y + y, c.z + z));
+    }
+    return sum;
+  };
+  FieldLook look{code(p), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 step(0.0F);
+    step[axis] = 1.0F;
+    look.slope[axis] = code(p + step) - code(p - step);
+  }
+  return look;
+}
+
+TEST_F(AgreementOverRubble, meshes_have_the_raymarchers_silhouettes) {
+  std::vector<std::vector<float>> marched;
+  for (const View& view : rubble_views()) marched.push_back(look(view));
+  const float marched_reach_m = method_->reach_m();
+  use("mesh");
+  for (size_t i = 0; i < marched.size(); ++i) {
+    SCOPED_TRACE(rubble_views()[i].name);
+    const std::vector<float> drawn = look(rubble_views()[i]);
+    expect_agreement(
+        compare(marched[i], drawn, std::min(marched_reach_m, method_->reach_m()), view_radius_m / 2.0F),
+        0.995);
+  }
+}
+
+TEST_F(AgreementOverRubble, triangles_face_as_the_field_does) {
+  const float ground_m = ground_height_m(field_.source(), heap_m.x, heap_m.y);
+  const auto voxel = [](float m) { return floor_to_int(m / voxel_m); };
+  const VoxelCoord middle{voxel(heap_m.x), voxel(ground_m + 1.0F), voxel(heap_m.y)};
+  const std::optional<BlockWindows> windows =
+      gather_windows(field_, {middle - VoxelCoord{12, 12, 12}, middle + VoxelCoord{12, 12, 12}});
+  ASSERT_TRUE(windows);
+  const SurfaceMesh mesh = windows->mesh();
+  double area = 0.0, drawn_degrees = 0.0;
+  size_t judged = 0, astray = 0;
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    std::array<glm::vec3, 3> at{};
+    glm::vec3 drawn(0.0F);
+    for (size_t i = 0; i < 3; ++i) {
+      const SurfaceVertex& vertex = mesh.vertices[mesh.indices[t + i]];
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<size_t>(axis);
+        at[i][axis] = static_cast<float>(vertex.position[a]) / surface_steps_per_voxel;
+        drawn[axis] += static_cast<float>(vertex.normal[a]);
+      }
+      at[i] += glm::vec3(mesh.origin.x, mesh.origin.y, mesh.origin.z);
+    }
+    const glm::vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
+    const float size = glm::length(across);
+    const FieldLook field = look_at(windows->now, (at[0] + at[1] + at[2]) / 3.0F);
+    // Two faces that meet at more than a right angle leave the mean of their slopes less than this: there the
+    // field shows no one surface.
+    const float slope = glm::length(field.slope) / (2.0F * codes_per_voxel);
+    const bool one_surface = std::abs(field.code) < 0.25F * codes_per_voxel && slope > 0.7F;
+    if (size < 0.05F || !one_surface) continue;
+    ++judged;
+    const glm::vec3 faces = glm::normalize(field.slope);
+    if (glm::dot(across / size, faces) < 0.5F) ++astray;
+    const float between = std::clamp(glm::dot(glm::normalize(drawn), faces), -1.0F, 1.0F);
+    drawn_degrees += static_cast<double>(size * std::acos(between)) * 57.29577951;
+    area += static_cast<double>(size);
+  }
+  const size_t all = mesh.indices.size() / 3;
+  std::printf("%zu of %zu triangles judged, %zu astray, normals %.2f degrees apart\n", judged, all, astray,
+              drawn_degrees / area);
+  EXPECT_GT(judged, all * 6 / 10);
+  EXPECT_EQ(astray, 0U);
+  EXPECT_LE(drawn_degrees / area, 8.0);
 }
 
 }  // namespace
