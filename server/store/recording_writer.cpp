@@ -173,13 +173,14 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
   if (auto begun = state.begin(); !begun) return begun;
-  const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
-  CHECK_DEBUG(decode_recorded_frame(frame).has_value());
-  if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
   if (!commands.empty()) {
     const std::vector<uint8_t> recorded = encode(to_recorded(commands));
     if (auto put = state.database.put(state.insert_commands, delta.tick, recorded); !put) return put;
   }
+  // After its commands: by the frames a recording says how far it goes, also after an error.
+  const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
+  CHECK_DEBUG(decode_recorded_frame(frame).has_value());
+  if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
   state.published.apply(delta);
   if (delta.tick % limits::ticks_per_keyframe != 0) return {};
   return state.put_keyframe(state.published.as_delta());

@@ -143,6 +143,24 @@ TEST_F(RecordingTest, what_was_committed_before_a_crash_plays) {
   for (int i = 0; i < 40; ++i) ASSERT_TRUE((*source)->next().has_value());
 }
 
+TEST_F(RecordingTest, a_tick_whose_commands_cannot_be_written_is_no_part_of_the_recording) {
+  simulate(10);
+  ASSERT_FALSE(commands_by_tick[9].empty());
+  auto writer = RecordingWriter::create(path, {"test", small_world()});
+  ASSERT_TRUE(writer.has_value());
+  for (size_t i = 0; i < 9; ++i) ASSERT_TRUE((*writer)->add(*deltas[i], commands_by_tick[i]).has_value());
+  ASSERT_TRUE((*writer)->commit().has_value());
+  {
+    auto other = Database::open(path);
+    ASSERT_TRUE(other && other->execute("INSERT INTO commands VALUES (10, x'00', 0)").has_value());
+  }
+  EXPECT_FALSE((*writer)->add(*deltas[9], commands_by_tick[9]).has_value());
+  ASSERT_TRUE((*writer)->finish().has_value());
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_EQ((*reader)->last_tick(), 9U);
+}
+
 TEST_F(RecordingTest, recording_over_an_existing_file_is_refused) {
   write_file(path, {'d', 'e', 'a', 'r'});
   const auto recorder = Recorder::create(path, {"test", small_world()});
