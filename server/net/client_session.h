@@ -1,5 +1,5 @@
-// One client's connection. Used by NetHost only. All calls are on the network thread, but for send_now(),
-// which another one may call while the network thread waits for it.
+// One client's connection. Used by NetHost only. All calls are on the network thread, but for backlog() and
+// send_now(), which another one may call while the network thread waits for it.
 //
 // Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed.
 // The bytes that wait for the client are bounded: the publisher sends less and stops long before

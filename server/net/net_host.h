@@ -2,8 +2,9 @@
 // net_server.cpp only (Asio). Runs on the network thread; stats() and the counters are for any thread.
 //
 // Within publish() the workers compose messages and hand them to the sockets, while the network thread takes
-// part and waits. They touch sessions only by send_now(), each session on one of them, and this object not at
-// all: whatever ends a session, counts or logs comes before or after, on the network thread.
+// part and waits. They ask sessions for their backlog() and let them send_now(), each session on one of them
+// at a time, and change nothing else: whatever ends a session, counts or logs comes before or after, on the
+// network thread.
 #pragma once
 
 #include <asio/io_context.hpp>

@@ -1,5 +1,6 @@
-// A hash of all state that decides how a world continues. `scree-replay verify` and the determinism tests
-// compare it at every tick.
+// A hash of the terrain, of the bodies' exact motion, and of the ledger. What else decides how a world goes
+// on, requests that wait or searches, shows in these when it differs. `scree-replay verify` and the
+// determinism tests compare the hash at every tick.
 #pragma once
 
 #include <cstdint>

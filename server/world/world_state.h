@@ -39,7 +39,7 @@ struct World::State {
   PieceTraits traits_of(PieceId id) const;
   /// Checks the invariants between stages. O(1).
   void check() const;
-  /// Of all state that decides how the world goes on (state_hash.h).
+  /// As published with each tick (state_hash.h).
   uint64_t hash() const;
   /// The brick as it is published.
   BrickState brick_state(BrickCoord coord);
