@@ -101,11 +101,11 @@ struct Search {
   Search(Scene& scene, const Applied& cut) {
     Stopwatch watch;
     IslandSearch search(scene.field, cut.changed);
-    size_t budget = limits::island_bricks_per_tick;
+    size_t budget = limits::island_bricks_per_tick_min;
     in_time = search.advance(budget);
     if (in_time) islands = search.islands();
     milliseconds = watch.lap_ms();
-    bricks = search.bricks_visited();
+    bricks = search.read();
   }
 };
 

@@ -29,6 +29,9 @@ inline constexpr float relax_seed_cost_us = 70.0F;
 /// A dent, and the crushing of a neck, whose sizes vary little.
 inline constexpr float dent_cost_us = 700.0F;
 
+/// A speck that becomes dust: it is lifted like an island, but has no hull and no body.
+inline constexpr float speck_cost_us = 200.0F;
+
 /// A brick of a search for islands; a part of the terrain in a search for support
 /// (shared/falling/support_search.h).
 inline constexpr float island_brick_cost_us = 1.0F;

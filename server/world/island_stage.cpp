@@ -38,8 +38,19 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   spawn(state, applied, at_rest, delta);
 }
 
+constexpr SearchLimits search_limits{
+    .parts_max = limits::island_parts_max,
+    .bricks_per_chunk = static_cast<size_t>(limits::chunk_cost_us / limits::island_brick_cost_us)};
+
 bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
   return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });
+}
+
+/// What the tick has room for, within bounds.
+size_t bricks_to_read(const WorkBudget& work) {
+  const float paid = std::max(work.left_us(), 0.0F) / limits::island_brick_cost_us;
+  return std::clamp(static_cast<size_t>(paid), limits::island_bricks_per_tick_min,
+                    limits::island_bricks_per_tick_max);
 }
 
 /// Adds one search for this tick's cuts; or several, when the cuts of many ticks waited for Methods::islands:
@@ -107,11 +118,12 @@ bool IslandQueue::search(Field& field, IslandLook& look) {
   if (waiting_.empty() || look.bricks == 0) return false;
   Waiting& first = waiting_.front();
   if (first.search == nullptr) {
-    first.search = std::make_unique<IslandSearch>(field, first.cut, limits::island_parts_max);
-    look.read += first.search->bricks_visited();
-    look.bricks -= std::min(look.bricks, first.search->bricks_visited());
+    first.search = std::make_unique<IslandSearch>(field, first.cut, search_limits);
+    look.read += first.search->read();
+    look.bricks -= std::min(look.bricks, first.search->read());
   }
-  const unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
+  unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
+  while (doublings > 0 && look.bricks << doublings > limits::island_bricks_per_tick_max) --doublings;
   const size_t allowed = look.bricks << doublings;
   size_t left = allowed;
   const bool finished = first.search->advance(left);
@@ -146,7 +158,7 @@ void drop_islands(World::State& state, TickDelta& delta) {
   state.islands.changed(changed);
   if (!state.config.methods.islands) return;
   take_cuts(state);
-  IslandLook look{.bricks = limits::island_bricks_per_tick};
+  IslandLook look{.bricks = bricks_to_read(state.work)};
   while (state.islands.search(state.field, look)) {
   }
   delta.work.islands_too_large += look.too_large;
@@ -171,7 +183,10 @@ void sweep_specks(World::State& state, TickDelta& delta) {
   while (!state.unswept.empty()) {
     const std::vector<BrickCoord> bricks(state.unswept.begin(), state.unswept.end());
     state.unswept.clear();
-    for (const Island& speck : find_specks(state.field, bricks)) drop(state, speck, delta);
+    for (const Island& speck : find_specks(state.field, bricks)) {
+      drop(state, speck, delta);
+      state.work.spend(limits::speck_cost_us);
+    }
   }
 }
 

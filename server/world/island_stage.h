@@ -1,9 +1,10 @@
 // Islands: terrain that a change cut off from the ground falls.
 //
 // The cuts of a tick make one search (shared/falling/island_search.h); searches run in the order of the cuts.
-// A tick looks at limits::island_bricks_per_tick bricks. An unfinished search continues in the next tick, and
-// restarts when a brick that it has read changed in between. Each restart doubles its budget, so that every
-// search ends. Part of the simulation: it counts bricks, never time.
+// A tick looks at as many bricks as it has room for (limits::island_bricks_per_tick_min, _max), and a chunk
+// whose terrain may have to be generated counts as its price is. An unfinished search continues in the next
+// tick, and restarts when a brick that it has read changed in between. Each restart doubles its budget, so
+// that every search ends. Part of the simulation: it counts, never time.
 //
 // The islands that a search found fall in the same tick, at least one, and more as far as the tick's budget
 // of work goes; the others wait. A large island comes in blocks (island_search.h), which fall one by one.

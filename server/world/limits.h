@@ -20,8 +20,10 @@ inline constexpr uint32_t memory_max_max_mb = 1024 * 1024;
 /// Above: refused where a world is created.
 inline constexpr uint32_t merges_per_tick_max_max = 1000;
 
-/// Bricks that the search for islands reads in one tick: about 1 ms. Above: it continues in the next tick.
-inline constexpr size_t island_bricks_per_tick = 1024;
+/// Bricks that the search for islands reads in one tick: what the tick has room for, at least about 1 ms, at
+/// most 4. Above: it continues in the next tick.
+inline constexpr size_t island_bricks_per_tick_min = 1024;
+inline constexpr size_t island_bricks_per_tick_max = 4096;
 
 /// Bricks around which one search for islands looks: a blow of ordinary size changes fewer. Above: several
 /// searches.
@@ -53,9 +55,9 @@ inline constexpr size_t compound_parts_max = 64;
 /// larger component counts as ground, and is counted.
 inline constexpr size_t island_parts_max = 65536;
 
-/// Times that a search's budget doubles, once for each restart: an island of so many bricks is then searched
-/// in one tick, about 4 ms, so that no change can interrupt the search. A larger one falls when changes near
-/// it pause.
+/// Times that a search's budget doubles, once for each restart, up to island_bricks_per_tick_max: an island
+/// of so many bricks is then searched in one tick also when ticks are full, so that no change can interrupt
+/// the search. A larger one falls when changes near it pause.
 inline constexpr unsigned island_doublings_max = 2;
 
 /// Change of a piece's speed in one contact below which it is no impact, m/s: a piece at rest on the ground

@@ -12,7 +12,10 @@ namespace scree {
 class Ground {
  public:
   /// `field` must outlive this.
-  explicit Ground(const Field& field) : field_(field), floor_chunk_y_(last_below(floor_m(field.source()))) {}
+  explicit Ground(const Field& field)
+      : field_(field),
+        floor_chunk_y_(last_below(floor_m(field.source()))),
+        top_chunk_y_(last_below(top_m(field.source())) + 1) {}
 
   bool holds(BrickCoord brick) const {
     const ChunkCoord chunk = chunk_of(brick);
@@ -20,6 +23,12 @@ class Ground {
     for (ChunkCoord below = chunk; below.y > floor_chunk_y_; --below.y)
       if (field_.has_edits(below)) return false;
     return chunk.y > floor_chunk_y_ || !field_.has_edits(chunk);
+  }
+
+  /// Whether an unedited chunk may be more than rock alone or air alone, by bounds: if so, its terrain may
+  /// have to be generated.
+  bool may_hold_surface(ChunkCoord chunk) const {
+    return chunk.y <= top_chunk_y_ && chunk.y > floor_chunk_y_ && chunk.y > column_top(chunk);
   }
 
  private:
@@ -36,6 +45,7 @@ class Ground {
 
   const Field& field_;
   int floor_chunk_y_;  ///< chunks up to this y lie below the floor
+  int top_chunk_y_;    ///< above this y there is only air
   mutable std::map<std::pair<int, int>, int> column_tops_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "shared/base/check.h"
+#include "shared/base/vector_clones.h"
 #include "shared/field/redistance.h"
 
 namespace scree {
@@ -54,34 +55,33 @@ Marks component(const Window& window, const VoxelBox& box, VoxelCoord start) {
   return marks;
 }
 
-/// Spreads the marks of a line of `count` voxels by `by`, both ways.
-void spread(uint8_t* line, ptrdiff_t stride, int count, int by, std::vector<uint8_t>& scratch) {
-  scratch.assign(static_cast<size_t>(count), 0);
-  for (int i = 0, left = -1; i < count; ++i) {
-    left = line[i * stride] != 0 ? by : left - 1;
-    if (left >= 0) scratch[static_cast<size_t>(i)] = 1;
+/// Marks what lies `step` beyond a mark, both ways, in a row of `count`.
+SCREE_VECTOR_CLONES
+void mark_beyond(ptrdiff_t count, ptrdiff_t step, const uint8_t* __restrict from, uint8_t* __restrict to) {
+  for (ptrdiff_t i = 0; i + step < count; ++i) to[i + step] |= from[i];
+  for (ptrdiff_t i = 0; i + step < count; ++i) to[i] |= from[i + step];
+}
+
+/// Spreads the marks by `by` voxels of that stride, both ways, within each of the rows of `count` bytes. Each
+/// round spreads twice as far as the last one, and one more, as no gap may be left.
+void spread(Marks& marks, ptrdiff_t stride, size_t count, int by) {
+  CHECK_DEBUG(marks.size() % count == 0);
+  for (int reached = 0; reached < by;) {
+    const int next = std::min(by, 2 * reached + 1);
+    const Marks from = marks;
+    for (size_t row = 0; row < marks.size(); row += count)
+      mark_beyond(static_cast<ptrdiff_t>(count), (next - reached) * stride, from.data() + row,
+                  marks.data() + row);
+    reached = next;
   }
-  for (int i = count - 1, left = -1; i >= 0; --i) {
-    left = line[i * stride] != 0 ? by : left - 1;
-    if (left >= 0) scratch[static_cast<size_t>(i)] = 1;
-  }
-  for (int i = 0; i < count; ++i) line[i * stride] = scratch[static_cast<size_t>(i)];
 }
 
 /// Adds the voxels within `by` voxels of a marked one along every axis.
 Marks grown(Marks marks, const Window& window, int by) {
-  const VoxelCoord size = window.box.size();
   const auto [step_x, step_y, step_z] = strides(window);
-  std::vector<uint8_t> scratch;
-  for (int x = 0; x < size.x; ++x)
-    for (int y = 0; y < size.y; ++y)
-      spread(marks.data() + x * step_x + y * step_y, step_z, size.z, by, scratch);
-  for (int x = 0; x < size.x; ++x)
-    for (int z = 0; z < size.z; ++z)
-      spread(marks.data() + x * step_x + z * step_z, step_y, size.y, by, scratch);
-  for (int y = 0; y < size.y; ++y)
-    for (int z = 0; z < size.z; ++z)
-      spread(marks.data() + y * step_y + z * step_z, step_x, size.x, by, scratch);
+  spread(marks, step_z, static_cast<size_t>(step_y), by);
+  spread(marks, step_y, static_cast<size_t>(step_x), by);
+  spread(marks, step_x, marks.size(), by);
   return marks;
 }
 

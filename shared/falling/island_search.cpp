@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -11,6 +12,10 @@
 namespace scree {
 
 namespace {
+
+/// The face of brick_faces that looks down.
+constexpr size_t face_down = 3;
+static_assert(brick_faces[face_down] == BrickCoord{0, -1, 0});
 
 /// An island's bounds, and the blocks that it is cut into.
 class BlockGrid {
@@ -68,15 +73,20 @@ struct Found {
 
 }  // namespace
 
-IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max)
-    : field_(field), ground_(field), parts_max_(parts_max) {
+IslandSearch::IslandSearch(Field& field, std::span<const BrickCoord> changed, const SearchLimits& limits)
+    : field_(field), ground_(field), limits_(limits) {
   sites_.reserve(changed.size() * 4);
   begin(changed);
 }
 
 IslandSearch::Site& IslandSearch::site(BrickCoord brick) {
   const auto [found, is_new] = sites_.try_emplace(brick);
-  if (is_new) found->second.solid = solid_bits(field_.brick(brick));
+  if (!is_new) return found->second;
+  ++read_;
+  const ChunkCoord chunk = chunk_of(brick);
+  if (!field_.has_edits(chunk) && chunks_.insert(chunk).second && ground_.may_hold_surface(chunk))
+    read_ += limits_.bricks_per_chunk;
+  found->second.solid = solid_bits(field_.brick(brick));
   return found->second;
 }
 
@@ -93,7 +103,7 @@ void IslandSearch::add_floods(BrickCoord brick, BrickBits among) {
     const BrickBits bits = flooded(first_of(among), here.solid);
     CHECK_DEBUG(bits.any());
     const auto flood = static_cast<uint32_t>(floods_.size());
-    floods_.push_back({flood, Verdict::open, 0, {}});
+    floods_.push_back({flood, Verdict::open, 0, {}, {}});
     open_.push_back(flood);
     add_part(brick, bits, flood);
     among = among & ~bits;
@@ -119,6 +129,18 @@ bool IslandSearch::is_later(uint32_t a, uint32_t b) const {
   return key(a) > key(b);
 }
 
+void IslandSearch::push(std::vector<uint32_t>& heap, uint32_t part) const {
+  heap.push_back(part);
+  std::ranges::push_heap(heap, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
+}
+
+uint32_t IslandSearch::pop(std::vector<uint32_t>& heap) const {
+  std::ranges::pop_heap(heap, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
+  const uint32_t part = heap.back();
+  heap.pop_back();
+  return part;
+}
+
 uint32_t IslandSearch::root(uint32_t flood) const {
   CHECK_DEBUG(flood < floods_.size());
   while (floods_[flood].parent != flood) flood = floods_[flood].parent;
@@ -132,9 +154,8 @@ void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t fl
   parts_.push_back({brick, bits, flood, here.first});
   here.first = part;
   Flood& into = floods_[flood];
-  into.ahead.push_back(part);
-  std::ranges::push_heap(into.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
-  if (++into.parts > parts_max_) into.verdict = Verdict::too_large;
+  push(into.ahead, part);
+  if (++into.parts > limits_.parts_max) into.verdict = Verdict::too_large;
 }
 
 /// Makes one flood of two that met. Returns it.
@@ -142,24 +163,22 @@ uint32_t IslandSearch::unite(uint32_t a, uint32_t b) {
   a = root(a);
   b = root(b);
   if (a == b) return a;
-  if (floods_[a].ahead.size() < floods_[b].ahead.size()) std::swap(a, b);
+  if (floods_[a].parts < floods_[b].parts) std::swap(a, b);
   Flood& into = floods_[a];
   Flood& from = floods_[b];
   CHECK(into.verdict != Verdict::island &&
         from.verdict != Verdict::island);  // those have nothing left to meet
   from.parent = a;
-  for (const uint32_t part : from.ahead) {
-    into.ahead.push_back(part);
-    std::ranges::push_heap(into.ahead, [this](uint32_t x, uint32_t y) { return is_later(x, y); });
-  }
-  from.ahead = {};
+  for (const uint32_t part : std::exchange(from.ahead, {})) push(into.ahead, part);
+  for (const uint32_t part : std::exchange(from.aside, {})) push(into.aside, part);
   into.parts += from.parts;
   if (from.verdict != Verdict::open && into.verdict != Verdict::ground) into.verdict = from.verdict;
-  if (into.verdict == Verdict::open && into.parts > parts_max_) into.verdict = Verdict::too_large;
+  if (into.verdict == Verdict::open && into.parts > limits_.parts_max) into.verdict = Verdict::too_large;
   return a;
 }
 
 void IslandSearch::cross(uint32_t part, size_t face) {
+  parts_[part].crossed = static_cast<uint8_t>(parts_[part].crossed | (1U << face));
   BrickBits reached = across(parts_[part].bits, face);
   if (!reached.any()) return;
   const BrickCoord beyond = parts_[part].brick + brick_faces[face];
@@ -180,14 +199,16 @@ void IslandSearch::cross(uint32_t part, size_t face) {
 
 void IslandSearch::grow(uint32_t flood) {
   Flood& growing = floods_[flood];
-  CHECK_DEBUG(growing.parent == flood && !growing.ahead.empty());
-  std::ranges::pop_heap(growing.ahead, [this](uint32_t a, uint32_t b) { return is_later(a, b); });
-  const uint32_t part = growing.ahead.back();
-  growing.ahead.pop_back();
-  if (ground_.holds(parts_[part].brick)) growing.verdict = Verdict::ground;
+  CHECK_DEBUG(growing.parent == flood && !(growing.ahead.empty() && growing.aside.empty()));
+  const bool down = !growing.ahead.empty();
+  const uint32_t part = pop(down ? growing.ahead : growing.aside);
+  if (down) push(growing.aside, part);
+  const BrickCoord brick = parts_[part].brick;
+  if (down && ground_.holds(brick)) growing.verdict = Verdict::ground;
   for (size_t face = 0; face < brick_faces.size(); ++face) {
     if (floods_[root(flood)].verdict != Verdict::open) return;
-    cross(part, face);
+    if (((parts_[part].crossed >> face) & 1U) != 0) continue;
+    if (!down || face == face_down || sites_.contains(brick + brick_faces[face])) cross(part, face);
   }
 }
 
@@ -196,7 +217,7 @@ bool IslandSearch::advance(size_t& bricks) {
     if (turn_ >= open_.size()) turn_ = 0;
     const uint32_t flood = open_[turn_];
     Flood& next = floods_[flood];
-    if (next.parent == flood && next.verdict == Verdict::open && next.ahead.empty())
+    if (next.parent == flood && next.verdict == Verdict::open && next.ahead.empty() && next.aside.empty())
       next.verdict = Verdict::island;
     if (next.parent != flood || next.verdict != Verdict::open) {
       open_[turn_] = open_.back();
@@ -204,9 +225,9 @@ bool IslandSearch::advance(size_t& bricks) {
       continue;
     }
     if (bricks == 0) return false;
-    const size_t before = sites_.size();
+    const size_t before = read_;
     grow(flood);
-    bricks -= std::min(bricks, std::max<size_t>(1, sites_.size() - before));
+    bricks -= std::min(bricks, std::max<size_t>(1, read_ - before));
     ++turn_;
   }
   return true;

@@ -8,9 +8,14 @@
 // than a search may follow, and those that hold a whole unedited chunk below the floor.
 //
 // Hierarchical: deep chunks are ground as a whole, and bricks are flooded 64 voxels at a time. All floods
-// start at the change and grow in turn, each from its lowest brick; a flood ends when it meets the ground,
-// and two that meet become one. So the cost depends on the size of the loose terrain and on the depth of the
-// ground, not on the world. Deterministic, also in the order of the islands. Not thread-safe.
+// start at the change and grow in turn; a flood ends when it meets the ground, and two that meet become one.
+// A flood goes down first, brick by brick from its lowest one, and sideways or up only where bricks were read
+// anyway, or where it goes no deeper: what stands on the ground is found to stand by reading one column. So
+// the cost depends on the size of the loose terrain and on the depth of the ground, not on the world.
+// Deterministic, also in the order of the islands. Not thread-safe.
+//
+// What is read counts in bricks; an unedited chunk, whose terrain may have to be generated, counts besides as
+// SearchLimits::bricks_per_chunk. Whether it was generated before makes no difference.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +23,7 @@
 #include <memory_resource>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "shared/base/limits.h"
@@ -42,18 +48,25 @@ struct BlockLimits {
   int bricks = 128;  ///< of its box: lifting takes 6 to 8 ms then
 };
 
+struct SearchLimits {
+  size_t parts_max = SIZE_MAX;  ///< components of more parts count as ground
+  size_t bricks_per_chunk = 0;  ///< as so many bricks counts an unedited chunk that may hold a surface
+};
+
 class IslandSearch {
  public:
   /// `changed`: bricks in any order. `field` must outlive this; none of the visited() bricks may change while
-  /// the search runs. Components of more than `parts_max` parts count as ground.
-  IslandSearch(Field& field, std::span<const BrickCoord> changed, size_t parts_max = SIZE_MAX);
+  /// the search runs.
+  IslandSearch(Field& field, std::span<const BrickCoord> changed, const SearchLimits& limits = {});
 
-  /// Reads about `bricks` more bricks and subtracts their number; true when the search is finished.
+  /// Reads about as much more as counts for `bricks`, and subtracts it; true when the search is finished. A
+  /// step reads up to five bricks, in two chunks or three.
   bool advance(size_t& bricks);
 
   /// Whether the search has read this brick: if the brick changes, a new search must begin.
   bool visited(BrickCoord brick) const { return sites_.contains(brick); }
-  size_t bricks_visited() const { return sites_.size(); }
+  /// What was read since the beginning, in bricks.
+  size_t read() const { return read_; }
 
   /// The islands of a finished search, ordered by start. An island over the limits is cut along the faces of
   /// bricks into blocks: halves along its longest side, halved again; each component of a block is one entry.
@@ -71,6 +84,7 @@ class IslandSearch {
     BrickBits bits;
     uint32_t flood = 0;
     uint32_t next = none;  ///< of the same brick
+    uint8_t crossed = 0;   ///< bit i: face i of the brick
   };
   struct Site {
     BrickBits solid;
@@ -80,7 +94,9 @@ class IslandSearch {
     uint32_t parent = 0;
     Verdict verdict = Verdict::open;
     size_t parts = 0;
-    std::vector<uint32_t> ahead;  ///< parts to go on from: a heap, the lowest on top
+    /// Parts from which it did not go down yet, and those from which it did, but not yet to all sides: heaps,
+    /// the lowest on top.
+    std::vector<uint32_t> ahead, aside;
   };
 
   Site& site(BrickCoord brick);
@@ -88,6 +104,8 @@ class IslandSearch {
   void add_floods(BrickCoord brick, BrickBits among);
   void begin(std::span<const BrickCoord> changed);
   bool is_later(uint32_t a, uint32_t b) const;
+  void push(std::vector<uint32_t>& heap, uint32_t part) const;
+  uint32_t pop(std::vector<uint32_t>& heap) const;
   uint32_t root(uint32_t flood) const;
   void add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood);
   uint32_t unite(uint32_t a, uint32_t b);
@@ -97,10 +115,12 @@ class IslandSearch {
 
   Field& field_;
   Ground ground_;
-  size_t parts_max_;
+  SearchLimits limits_;
   /// Of sites_: a search of 60,000 bricks that must begin again is thrown away within a tick.
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<BrickCoord, Site, CoordHash> sites_{&memory_};
+  std::unordered_set<ChunkCoord, CoordHash> chunks_;  ///< unedited, with sites
+  size_t read_ = 0;
   std::vector<Part> parts_;
   std::vector<Flood> floods_;
   std::vector<uint32_t> open_;  ///< floods; those that ended are taken out when their turn comes

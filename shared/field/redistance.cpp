@@ -175,6 +175,17 @@ void encode_magnitudes(size_t count, const float* __restrict magnitudes, Code* _
   }
 }
 
+/// Codes of the magnitudes, on the sides of the levels: as encode() of each.
+SCREE_VECTOR_CLONES
+void encode_levels(size_t count, const float* __restrict levels, const float* __restrict magnitudes,
+                   Code* __restrict codes) {
+  for (size_t i = 0; i < count; ++i) {
+    const float clamped = std::min(magnitudes[i] * codes_per_voxel, 127.0F);
+    const auto code = static_cast<int8_t>(static_cast<int>(clamped + 0.5F));
+    codes[i] = levels[i] < 0.0F ? static_cast<Code>(-code) : code;
+  }
+}
+
 /// The outermost layer keeps its magnitudes.
 void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* magnitudes, float* floors) {
   const auto nz = static_cast<size_t>(size.z), plane = static_cast<size_t>(size.y) * nz;
@@ -245,10 +256,8 @@ void distances_from_levels(const std::vector<float>& levels, Window& window) {
   });
   solver.solve(passes_of_levels);
   for_each_row([&](int, int, size_t i, size_t p) {
-    for (int z = 0; z < size.z; ++z, ++i, ++p) {
-      const float magnitude = solver.magnitudes()[p];
-      window.codes[i] = encode(levels[i] < 0.0F ? -magnitude : magnitude);
-    }
+    encode_levels(static_cast<size_t>(size.z), levels.data() + i, solver.magnitudes() + p,
+                  window.codes.data() + i);
   });
 }
 

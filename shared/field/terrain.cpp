@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "shared/base/check.h"
+#include "shared/base/vector_clones.h"
 #include "shared/field/redistance.h"
+#include "shared/field/rough_noise.h"
 
 namespace scree {
 
@@ -17,104 +19,26 @@ constexpr int lattice_step = 2;
 /// Voxels around a chunk that decide its distances: the narrow band, and one.
 constexpr int apron = 4;
 
-struct Octave {
-  float amplitude_m;
-  float cell_m;
-};
-constexpr Octave octaves[] = {{8.0F, 16.0F}, {7.0F, 7.0F}, {1.5F, 3.0F}};
-constexpr float amplitude_sum_m = 8.0F + 7.0F + 1.5F;
-
 constexpr float cliff_height_m = 16.0F;
 constexpr float canyon_roughness = 0.4F;  ///< the canyon's noise, relative to the open terrain's
 constexpr float arch_x_m = 15.0F;
 constexpr float arch_radius_m = 7.5F;
 constexpr float arch_thickness_m = 1.9F;
-
-/// A value in [-1, 1) of a lattice point; repeats every 64 points, as the paper's noise texture does.
-float lattice_value(uint32_t x, uint32_t y, uint32_t z, uint32_t random_seed) {
-  uint32_t h = ((x & 63U) | ((y & 63U) << 6U) | ((z & 63U) << 12U)) * 0x9E3779B1U + random_seed * 0x85EBCA77U;
-  h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
-  h = (h ^ (h >> 12U)) * 0x297A2D39U;
-  h ^= h >> 15U;
-  return static_cast<float>(h >> 8U) * (2.0F / 16777216.0F) - 1.0F;
-}
-
-float blend(float t) {
-  return t * t * (3.0F - 2.0F * t);
-}
-
-/// Value noise in [-1, 1), cells of one unit, along z at one (x, y): the corners of a cell are hashed once
-/// for all the points in it. Interpolates along x, then y, then z.
-class NoiseColumn {
- public:
-  NoiseColumn(float x, float y, uint32_t random_seed)
-      : x_(floor_to_int(x)),
-        y_(floor_to_int(y)),
-        u_(blend(x - static_cast<float>(x_))),
-        v_(blend(y - static_cast<float>(y_))),
-        random_seed_(random_seed) {}
-
-  float at(float z) {
-    const int cell = floor_to_int(z);
-    if (!started_ || cell != cell_) {
-      low_ = started_ && cell == cell_ + 1 ? high_ : face(cell);
-      high_ = face(cell + 1);
-      cell_ = cell;
-      started_ = true;
-    }
-    return low_ + (high_ - low_) * blend(z - static_cast<float>(cell));
-  }
-
- private:
-  float face(int z) const {
-    const auto corner = [&](int i, int j) {
-      return lattice_value(static_cast<uint32_t>(x_ + i), static_cast<uint32_t>(y_ + j),
-                           static_cast<uint32_t>(z), random_seed_);
-    };
-    const float a = corner(0, 0), b = corner(0, 1);
-    const float near = a + (corner(1, 0) - a) * u_;
-    const float far = b + (corner(1, 1) - b) * u_;
-    return near + (far - near) * v_;
-  }
-
-  int x_;
-  int y_;
-  float u_;
-  float v_;
-  uint32_t random_seed_;
-  bool started_ = false;
-  int cell_ = 0;
-  float low_ = 0.0F;
-  float high_ = 0.0F;
-};
-
-/// The octaves' sum along z at one (x, y), metres.
-class RoughColumn {
- public:
-  RoughColumn(float x_m, float y_m, uint32_t random_seed)
-      : columns_{column(x_m, y_m, random_seed, 0), column(x_m, y_m, random_seed, 1),
-                 column(x_m, y_m, random_seed, 2)} {}
-
-  float at(float z_m) {
-    float sum = 0.0F;
-    for (size_t i = 0; i < std::size(octaves); ++i)
-      sum += octaves[i].amplitude_m * columns_[i].at(z_m / octaves[i].cell_m);
-    return sum;
-  }
-
- private:
-  static NoiseColumn column(float x_m, float y_m, uint32_t random_seed, uint32_t octave) {
-    return {x_m / octaves[octave].cell_m, y_m / octaves[octave].cell_m, random_seed * 31U + octave};
-  }
-
-  std::array<NoiseColumn, std::size(octaves)> columns_;
-};
+constexpr float arch_roughness = 0.12F;  ///< the arch's noise, likewise
 
 /// A half torus that stands across the z axis.
 float arch(glm::vec3 p) {
   const float ring = std::sqrt(p.y * p.y + p.z * p.z) - arch_radius_m;
   const float x = p.x - arch_x_m;
   return std::sqrt(ring * ring + x * x) - arch_thickness_m;
+}
+
+/// Whether the arch, with all that the noise may add to it, reaches into the box.
+bool arch_may_reach(glm::vec3 lo_m, glm::vec3 hi_m) {
+  constexpr float around_m = arch_thickness_m + arch_roughness * amplitude_sum_m + 0.1F;
+  constexpr float span_m = arch_radius_m + around_m;
+  return lo_m.x < arch_x_m + around_m && hi_m.x > arch_x_m - around_m && lo_m.y < span_m &&
+         hi_m.y > -span_m && lo_m.z < span_m && hi_m.z > -span_m;
 }
 
 /// The ground alone, without the canyon's arch.
@@ -136,7 +60,7 @@ float ground(TerrainKind kind, glm::vec3 p, float bump) {
 /// p.
 float density(TerrainKind kind, glm::vec3 p, float bump) {
   const float below = ground(kind, p, bump);
-  return kind == TerrainKind::canyon ? std::min(below, arch(p) + 0.12F * bump) : below;
+  return kind == TerrainKind::canyon ? std::min(below, arch(p) + arch_roughness * bump) : below;
 }
 
 /// Above `top` there is only air, below `bottom` only rock.
@@ -156,6 +80,19 @@ Heights heights(TerrainKind kind) {
   }
   CHECK(is_known(kind));
   return {};
+}
+
+/// Means of eight lattice values around voxels along z, of which every second one lies between two of the
+/// lattice: `a` to `d` are the rows of the lattice around theirs.
+SCREE_VECTOR_CLONES
+void interpolate_row(size_t cells, const float* __restrict a, const float* __restrict b,
+                     const float* __restrict c, const float* __restrict d, float* __restrict out) {
+  for (size_t k = 0; k < cells; ++k) {
+    const float on = ((a[k] + a[k]) + (b[k] + b[k])) + ((c[k] + c[k]) + (d[k] + d[k]));
+    const float between = ((a[k] + a[k + 1]) + (b[k] + b[k + 1])) + ((c[k] + c[k + 1]) + (d[k] + d[k + 1]));
+    out[2 * k] = on * 0.125F;
+    out[2 * k + 1] = between * 0.125F;
+  }
 }
 
 /// Densities at the even voxels of `box`, whose bounds are even.
@@ -186,20 +123,25 @@ struct Lattice {
       }
   }
 
-  float at(int x, int y, int z) const {
-    CHECK_DEBUG(x >= 0 && y >= 0 && z >= 0 && x < n[0] && y < n[1] && z < n[2]);
-    return values[(static_cast<size_t>(x) * static_cast<size_t>(n[1]) + static_cast<size_t>(y)) *
-                      static_cast<size_t>(n[2]) +
-                  static_cast<size_t>(z)];
+  /// The values along z.
+  const float* row(int x, int y) const {
+    CHECK_DEBUG(x >= 0 && y >= 0 && x < n[0] && y < n[1]);
+    return values.data() + (static_cast<size_t>(x) * static_cast<size_t>(n[1]) + static_cast<size_t>(y)) *
+                               static_cast<size_t>(n[2]);
   }
 
-  /// Trilinear value at a voxel, relative to the box.
-  float level(int x, int y, int z) const {
-    const int i = x / 2, j = y / 2, k = z / 2;
-    const int i1 = i + (x & 1), j1 = j + (y & 1), k1 = k + (z & 1);
-    const float low = (at(i, j, k) + at(i, j, k1)) + (at(i, j1, k) + at(i, j1, k1));
-    const float high = (at(i1, j, k) + at(i1, j, k1)) + (at(i1, j1, k) + at(i1, j1, k1));
-    return (low + high) * 0.125F;
+  /// Trilinear values at the voxels, in a window's order.
+  std::vector<float> levels() const {
+    const int size_x = (n[0] - 1) * lattice_step, size_y = (n[1] - 1) * lattice_step;
+    const auto cells = static_cast<size_t>(n[2] - 1), size_z = cells * lattice_step;
+    std::vector<float> levels(static_cast<size_t>(size_x) * static_cast<size_t>(size_y) * size_z);
+    float* out = levels.data();
+    for (int x = 0; x < size_x; ++x)
+      for (int y = 0; y < size_y; ++y, out += size_z) {
+        const int i = x / 2, j = y / 2, i1 = i + (x & 1), j1 = j + (y & 1);
+        interpolate_row(cells, row(i, j), row(i, j1), row(i1, j), row(i1, j1), out);
+      }
+    return levels;
   }
 };
 
@@ -260,6 +202,30 @@ GeneratedChunk uniform_chunk(Reach reach, bool exact) {
   return chunk;
 }
 
+/// What bounds of the noise prove of the ground in a box: `surface` where they prove nothing.
+Reach reach_of(const TerrainSource& source, const VoxelBox& box) {
+  const Heights bounds = heights(source.kind);
+  const Reach reach = reach_of(box, source.voxel_size_m, static_cast<double>(bounds.bottom_m),
+                               static_cast<double>(bounds.top_m));
+  if (reach != Reach::surface || source.kind == TerrainKind::flat) return reach;
+  const auto metres_at = [&](VoxelCoord v) { return glm::vec3(v.x, v.y, v.z) * source.voxel_size_m; };
+  const glm::vec3 lo_m = metres_at(box.lo), hi_m = metres_at(box.hi);
+  const RoughRange rough = rough_range(lo_m, hi_m, source.random_seed);
+  // The ground's density grows with height, away from the cliff, and with the noise.
+  if (ground(source.kind, hi_m, rough.most_m) < 0.0F) return Reach::rock;
+  const bool arched = source.kind == TerrainKind::canyon && arch_may_reach(lo_m, hi_m);
+  return ground(source.kind, lo_m, rough.least_m) > 0.0F && !arched ? Reach::air : Reach::surface;
+}
+
+/// Height up to which all chunks of a column are rock by bounds of the noise, metres.
+float rock_top_m(const TerrainSource& source, int chunk_x, int chunk_z) {
+  const float side_m = static_cast<float>(chunk_size) * source.voxel_size_m;
+  const float bottom_m = heights(source.kind).bottom_m;
+  int y = floor_to_int(bottom_m / side_m);
+  while (reach_of(source, box_around({chunk_x, y, chunk_z})) == Reach::rock) ++y;
+  return std::max(bottom_m, static_cast<float>(y) * side_m);
+}
+
 /// The heights above a voxel are levels of which redistancing makes distances, also where it is steep.
 GeneratedChunk chunk_of_heights(const TerrainSource& source, ChunkCoord coord) {
   const VoxelBox box = box_around(coord);
@@ -300,20 +266,11 @@ bool is_here(const TerrainSource& source, ChunkCoord chunk) {
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
   if (source.heights != nullptr) return chunk_of_heights(source, chunk);
   const VoxelBox box = box_around(chunk);
-  const Heights bounds = heights(source.kind);
-  if (static_cast<float>(box.lo.y) * source.voxel_size_m > bounds.top_m) return uniform_chunk(air_brick());
-  if (static_cast<float>(box.hi.y) * source.voxel_size_m < bounds.bottom_m)
-    return uniform_chunk(solid_brick());
+  if (const Reach reach = reach_of(source, box); reach != Reach::surface) return uniform_chunk(reach, true);
   const Lattice lattice(source, box);
   if (lattice.uniform) return uniform_chunk(lattice.values.front() < 0.0F ? solid_brick() : air_brick());
   Window window(box);
-  std::vector<float> levels(window.codes.size());
-  const VoxelCoord size = box.size();
-  size_t i = 0;
-  for (int x = 0; x < size.x; ++x)
-    for (int y = 0; y < size.y; ++y)
-      for (int z = 0; z < size.z; ++z, ++i) levels[i] = lattice.level(x, y, z);
-  distances_from_levels(levels, window);
+  distances_from_levels(lattice.levels(), window);
   return split_into_bricks(window, chunk);
 }
 
@@ -328,7 +285,7 @@ float top_m(const TerrainSource& source) {
 }
 
 float floor_m(const TerrainSource& source, int chunk_x, int chunk_z) {
-  if (source.heights == nullptr) return floor_m(source);
+  if (source.heights == nullptr) return rock_top_m(source, chunk_x, chunk_z);
   const HeightPatch patch = heights_at(*source.heights, chunk_x * chunk_size, chunk_z * chunk_size,
                                        chunk_size, source.voxel_size_m);
   return static_cast<float>(patch.lowest_m);
