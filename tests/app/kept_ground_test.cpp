@@ -4,6 +4,7 @@
 
 #include "ground/ground_search.h"
 #include "server/app/ground_giver.h"
+#include "server/app/live_server.h"
 #include "server/app/recorded_past.h"
 #include "server/app/saved_world.h"
 #include "server/replay/replay_source.h"
@@ -136,6 +137,36 @@ TEST_F(KeptGroundTest, a_damaged_ground_is_named_and_a_world_without_a_ground_ha
   const auto none = find_ground(config.ground, {folder / "no folder"});
   ASSERT_FALSE(none.has_value());
   expect_named(none.error().message, {folder / "no folder", hex_of(config.ground)});
+}
+
+TEST_F(KeptGroundTest, a_server_keeps_and_replays_it_and_refuses_a_ground_for_generated_terrain) {
+  LiveConfig live;
+  live.net.port = 0;
+  live.pacing = Pacing::by_hand;
+  live.world = config;
+  live.world_path = world;
+  live.record_path = recording;
+  const auto run = [&](int ticks) -> std::string {
+    auto server = LiveServer::start(live);
+    if (!server) return server.error().message;
+    while (ticks-- > 0 && (*server)->step_once()) {
+    }
+    const auto stopped = (*server)->stop();
+    return stopped ? std::string() : stopped.error().message;
+  };
+  ASSERT_EQ(run(5), "");
+  live.world = WorldConfig();
+  ASSERT_EQ(run(5), "");
+  EXPECT_EQ(verified(1), "");
+  live.world_path = live.record_path = "";
+  live.replay.path = recording;
+  EXPECT_EQ(run(100), "");
+
+  live.replay.path = "";
+  live.world_path = folder / "canyon.world";
+  ASSERT_EQ(run(1), "");
+  live.world = config;
+  expect_named(run(1), {live.world_path, "generated", hex_of(config.ground), "--ground"});
 }
 
 TEST_F(KeptGroundTest, rows_say_what_the_ground_weighs_and_a_start_takes_it_from_them) {
