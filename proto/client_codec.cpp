@@ -3,6 +3,7 @@
 #include "proto/codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
+#include "proto/talk_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
 
@@ -58,6 +59,7 @@ struct Writing {
   }
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
   void operator()(const TileRequest& from) const { write(*to.mutable_tiles(), from); }
+  void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
 };
@@ -139,6 +141,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return GoodbyeMessage{};
     case wire::ClientMessage::kTiles:
       return checked(read_tile_request(from.tiles(), check));
+    case wire::ClientMessage::kSay:
+      return checked(read(from.say(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAdmin:

@@ -46,6 +46,7 @@ void write(wire::Hello& to, const HelloMessage& from) {
   to.set_name(showable(from.name, limits::person_name_bytes_max));
   to.set_token(showable(from.token, limits::access_token_bytes_max));
   to.set_lacks_kernels(from.lacks_kernels);
+  to.set_meets(from.meets);
   to.set_ticket(from.ticket);
   to.set_world(from.world);
 }
@@ -60,6 +61,7 @@ HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
   hello.lacks_kernels = from.lacks_kernels();
+  hello.meets = from.meets();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   hello.world = from.world();

@@ -73,6 +73,12 @@ inline constexpr uint32_t ban_minutes_max = 5'256'000;
 /// Rows of sessions, or of bans, in one answer to an administrator: under 500 KiB. The rest is left out.
 inline constexpr size_t admin_rows_max = 2048;
 
+/// Length of a line of chat, bytes: two lines of a screen. Above: refused; a server's own are cut.
+inline constexpr size_t line_bytes_max = 200;
+
+/// Persons in one list. Above: the others are counted.
+inline constexpr size_t persons_max = 64;
+
 /// Cursors in one message. Above: the others are not shown.
 inline constexpr size_t cursors_max = 64;
 

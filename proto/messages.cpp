@@ -36,6 +36,12 @@ size_t bytes_of(const std::vector<PlayerCursor>& cursors) {
   return bytes;
 }
 
+size_t bytes_of(const std::vector<Person>& persons) {
+  size_t bytes = 0;
+  for (const Person& person : persons) bytes += sizeof(Person) + person.name.size();
+  return bytes;
+}
+
 size_t bytes_of(const std::vector<SessionRow>& sessions) {
   size_t bytes = 0;
   for (const SessionRow& row : sessions)
@@ -77,6 +83,8 @@ size_t memory_bytes(const ServerMessage& message) {
                        return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages);
                      },
                      [](const CursorsMessage& m) { return bytes_of(m.cursors); },
+                     [](const PersonsMessage& m) { return bytes_of(m.persons); },
+                     [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
                      [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
                      [](const PhysicsMessage& m) {
                        return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
 #include "shared/base/latency.h"
@@ -36,6 +37,7 @@ struct HelloMessage {
   bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
   std::string ticket{};        ///< of the session that goes on, as its welcome gave it; empty: none
   uint64_t world = 0;          ///< of the OfferMessage that comes next; 0: none comes
+  bool meets = false;          ///< it is a person's: PersonsMessage and SaidMessage are wanted
 };
 
 /// Chunks that the client has kept from earlier, in ascending order, none twice.
@@ -137,7 +139,7 @@ struct TileRequest {
 
 using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
                                    RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage,
-                                   GroundRequest, OfferMessage, GoodbyeMessage, TileRequest>;
+                                   GroundRequest, OfferMessage, GoodbyeMessage, TileRequest, SayMessage>;
 
 // ---- server to client
 
@@ -375,9 +377,10 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
-                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
-                                   GroundMessage, AdminListMessage, KeptMessage, TileMessage>;
+using ServerMessage =
+    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
+                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
+                 KeptMessage, TileMessage, PersonsMessage, SaidMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -76,6 +76,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const ReplyMessage&) -> Done { return {}; },
           [](const AdminListMessage&) -> Done { return {}; },
           [](const CursorsMessage&) -> Done { return {}; },
+          [](const PersonsMessage&) -> Done { return {}; },
+          [](const SaidMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.
           [](const GroundMessage&) -> Done { return {}; },

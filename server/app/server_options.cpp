@@ -61,6 +61,8 @@ void add_network(CLI::App& app, Raw& raw) {
       ->capture_default_str();
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
       ->capture_default_str();
+  app.add_option("--chat", net.chat, "pass on what persons say to each other: true or false")
+      ->capture_default_str();
   add_threads(app, "--net-threads", net.net_threads, "encode and send");
 }
 

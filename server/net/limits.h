@@ -40,6 +40,17 @@ inline constexpr double requests_burst_s = 2.0;
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;
 
+/// Lines of chat that a session may say, a second and at once after a silence; and all sessions together,
+/// because each goes to everybody. Above: not passed on, and the speaker is told.
+inline constexpr double lines_per_second_max = 0.5;
+inline constexpr double lines_burst_max = 5.0;
+inline constexpr double lines_per_second_all = 10.0;
+inline constexpr double lines_burst_all = 40.0;
+
+/// Seconds between two lists of persons, and where there are more than one message holds.
+inline constexpr double persons_interval_s = 1.0;
+inline constexpr double persons_many_interval_s = 10.0;
+
 /// Commands that wait for the next tick; above: each gets a reply that refuses it.
 inline constexpr size_t commands_waiting_max = 1024;
 

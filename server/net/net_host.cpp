@@ -49,7 +49,8 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       tickets_([this](uint64_t session) { departures_.gone(session); }),
       world_(config.world != 0 ? config.world : std::max<uint64_t>(1, random_number())),
       workers_(config.net_threads),
-      publisher_(publisher_config(config), workers_) {}
+      publisher_(publisher_config(config), workers_),
+      talk_(config.chat) {}
 
 Result<void> NetHost::listen() {
   if (Result<void> opened = open_access(); !opened) return opened;
@@ -142,6 +143,7 @@ void NetHost::tick_timer() {
     for (const auto& session : sessions) session->check_time(now_s);
     end_lapsed_grants();
     tickets_.expire(now_s);
+    if (!stopping_) tell_persons(now_s);
     departures_.tell();
     if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
       for (const auto& session : sessions) session->close("the server stops");
@@ -190,6 +192,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const CursorMessage& cursor) -> Done {
             publisher_.set_cursor(
                 {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
+            return {};
+          },
+          [&](const SayMessage& said) -> Done {
+            hear(session, said);
             return {};
           },
           [&](const WatchMessage& watch) -> Done {
@@ -294,6 +300,7 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
       fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
                   refused.message));
   publisher_.leave(session.id());
+  talk_.leave(session.id());
   request_times_.forget(session.id());
   tickets_.forget(session.id());
   outsiders_.insert(session.id());
@@ -313,6 +320,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   }
   entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
+  talk_.leave(session.id());
   request_times_.forget(session.id());
   remember(session);
   outsiders_.erase(session.id());

@@ -26,6 +26,7 @@
 #include "server/net/flush_rate.h"
 #include "server/net/net_server.h"
 #include "server/net/request_times.h"
+#include "server/net/talk.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/thread_check.h"
 
@@ -123,6 +124,10 @@ class NetHost final : public SessionHost, public EntranceHost {
   Result<void> ban(const BanAddress& ban);
   Result<void> lift(const LiftBan& lift);
 
+  // ---- what persons are told of each other (net_host_talk.cpp)
+  void tell_persons(double now_s);
+  void hear(ClientSession& speaker, const SayMessage& said);
+
   uint32_t joined_count() const;
   void update_stats();
 
@@ -156,6 +161,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   Workers workers_;
   Publisher publisher_;
   RequestTimes request_times_;
+  Talk talk_;
   /// Lines for the log, by session and request, of settings that the world has not answered yet.
   std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
   std::atomic<bool> watched_{false};

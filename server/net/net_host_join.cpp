@@ -45,6 +45,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : steady_now_s();
   if (before) entry.requests = before->requests;
+  if (hello.meets) talk_.join(session.id(), entry.name, grant->role);
   ++counts_.sessions_joined;
   counts_.sessions_resumed += before ? 1 : 0;
   update_stats();

@@ -44,6 +44,7 @@ struct NetConfig {
   uint64_t world = 0;                        ///< WelcomeMessage::world; 0: one is drawn
   uint64_t first_session = 1;                ///< number of the first session; positive
   std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
+  bool chat = true;                          ///< whether persons' lines are passed on
   size_t net_threads = 0;                    ///< that encode and send; 0: as many as the machine has cores
 };
 

@@ -92,8 +92,8 @@ inline std::string words_of_bytes(const std::string& bytes) {
 inline Lines describe(const HelloMessage& m) {
   Lines lines{fmt::format("hello: protocol {}, client '{}', name '{}', token '{}'", m.protocol, m.client,
                           m.name, m.token),
-              fmt::format("eye {}, radius {} m, kernels: {}", words(m.eye_m), m.interest_radius_m,
-                          m.lacks_kernels ? "none" : "has them")};
+              fmt::format("eye {}, radius {} m, kernels: {}{}", words(m.eye_m), m.interest_radius_m,
+                          m.lacks_kernels ? "none" : "has them", m.meets ? ", meets others" : "")};
   if (m.world != 0 || !m.ticket.empty())
     lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
   return lines;
@@ -165,6 +165,19 @@ inline Lines describe(const CursorMessage& m) {
 }
 inline Lines describe(const WatchMessage& m) {
   return {fmt::format("watch: physics {}", m.physics)};
+}
+inline Lines describe(const SayMessage& m) {
+  return {fmt::format("say: '{}'", m.text)};
+}
+inline Lines describe(const PersonsMessage& m) {
+  Lines lines{fmt::format("persons: {} more, chat: {}", m.more, m.chat)};
+  for (const Person& person : m.persons)
+    lines.push_back(
+        fmt::format("person: session {}, name '{}', {}", person.session, person.name, name_of(person.role)));
+  return lines;
+}
+inline Lines describe(const SaidMessage& m) {
+  return {fmt::format("said: session {}, name '{}', text '{}'", m.session, m.name, m.text)};
 }
 inline Lines describe(const GoodbyeMessage&) {
   return {"goodbye"};

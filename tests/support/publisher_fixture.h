@@ -147,6 +147,8 @@ class TrustingClient {
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
   void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
   void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
+  void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
+  void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }
   void apply(const PhysicsMessage&) { ADD_FAILURE() << "what bodies do is not the publisher's"; }
 };

@@ -109,7 +109,7 @@ AdminMessage any_admin(FuzzInput& input) {
 }
 
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
-  switch (input.below(12)) {
+  switch (input.below(13)) {
     case 0:
       return any_hello(input, server);
     case 1:
@@ -139,6 +139,8 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       request.held = request.wanted;
       return request;
     }
+    case 11:
+      return SayMessage{input.text(limits::line_bytes_max)};
     default: {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();

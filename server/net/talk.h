@@ -1,0 +1,55 @@
+// The persons in the world and the lines that they say: who is in the list, who was told it, how much each
+// may say. No sockets; time is an argument (seconds). On the network thread.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proto/talk.h"
+#include "shared/base/rate_limit.h"
+
+namespace scree {
+
+class Talk {
+ public:
+  /// `chat`: whether lines are passed on.
+  explicit Talk(bool chat);
+
+  /// A session whose client meets others (HelloMessage::meets); it may be there already.
+  void join(uint64_t session, const std::string& name, Role role);
+  void leave(uint64_t session);
+
+  /// What becomes of a line: said to all, or by the server to the speaker alone; nothing, of a line without
+  /// words.
+  struct Heard {
+    SaidMessage line;
+    bool by_all = false;
+  };
+  std::optional<Heard> say(uint64_t session, const std::string& text, double now_s);
+
+  /// The sessions that are to be told the list now, if it is time.
+  std::vector<uint64_t> untold(double now_s) const;
+  /// What they are told.
+  PersonsMessage list() const;
+  void told(uint64_t session, double now_s);
+  /// All sessions of the list, by number.
+  std::vector<uint64_t> everybody() const;
+
+ private:
+  struct Entry {
+    std::string name;
+    Role role = Role::viewer;
+    RateLimit lines;
+    uint64_t told = 0;  ///< version_ that it knows
+  };
+
+  bool chat_;
+  std::map<uint64_t, Entry> persons_;
+  RateLimit all_lines_;
+  uint64_t version_ = 0;
+  double next_list_s_ = 0.0;
+};
+
+}  // namespace scree

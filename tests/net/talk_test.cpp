@@ -1,0 +1,128 @@
+// Persons and chat, as the server passes them on.
+#include "server/net/talk.h"
+
+#include "server/net/limits.h"
+#include "tests/support/holds.h"
+#include "tests/support/net_server_fixture.h"
+
+namespace scree {
+namespace {
+
+TEST(Talk, lines_go_to_all_cleaned_and_with_the_speakers_name) {
+  Talk talk(true);
+  talk.join(3, "Ann", Role::builder);
+  const auto heard = talk.say(3, "  mind\n the edge ", 10.0);
+  ASSERT_TRUE(heard && heard->by_all);
+  EXPECT_EQ(heard->line.session, 3U);
+  EXPECT_EQ(heard->line.name, "Ann");
+  EXPECT_EQ(heard->line.text, "mind  the edge");
+  EXPECT_FALSE(talk.say(3, "   ", 10.0));
+  EXPECT_FALSE(talk.say(4, "who is not in the list says nothing", 10.0));
+}
+
+TEST(Talk, who_says_too_much_is_told_so_alone_and_may_go_on_later) {
+  Talk talk(true);
+  talk.join(3, "Ann", Role::builder);
+  const auto passed = [&](double now_s) {
+    const auto heard = talk.say(3, "again", now_s);
+    return heard && heard->by_all;
+  };
+  int count = 0;
+  while (passed(10.0)) ++count;
+  EXPECT_EQ(count, static_cast<int>(limits::lines_burst_max));
+  EXPECT_EQ(talk.say(3, "again", 10.0)->line.session, 0U);
+  EXPECT_TRUE(passed(10.0 + 1.0 / limits::lines_per_second_max));
+}
+
+TEST(Talk, all_together_say_no_more_than_everybody_can_be_sent) {
+  Talk talk(true);
+  int count = 0;
+  for (uint64_t session = 1; session <= 100; ++session) {
+    talk.join(session, "", Role::viewer);
+    const auto heard = talk.say(session, "all at once", 5.0);
+    count += heard && heard->by_all ? 1 : 0;
+  }
+  EXPECT_EQ(count, static_cast<int>(limits::lines_burst_all));
+}
+
+TEST(Talk, a_server_without_chat_says_so_and_lists_persons_all_the_same) {
+  Talk talk(false);
+  talk.join(3, "Ann", Role::builder);
+  const auto heard = talk.say(3, "hello", 10.0);
+  ASSERT_TRUE(heard);
+  EXPECT_FALSE(heard->by_all);
+  EXPECT_TRUE(holds(heard->line.text, "--chat"));
+  EXPECT_FALSE(talk.list().chat);
+  EXPECT_EQ(talk.list().persons.size(), 1U);
+}
+
+TEST(Talk, a_list_is_told_when_it_changed_and_not_too_often) {
+  Talk talk(true);
+  talk.join(3, "Ann", Role::builder);
+  EXPECT_EQ(talk.untold(10.0), std::vector<uint64_t>{3});
+  talk.told(3, 10.0);
+  EXPECT_TRUE(talk.untold(100.0).empty());
+  talk.join(5, "Bob", Role::viewer);
+  talk.told(3, 100.0);
+  EXPECT_TRUE(talk.untold(100.0 + 0.5 * limits::persons_interval_s).empty());
+  EXPECT_EQ(talk.untold(100.0 + limits::persons_interval_s), std::vector<uint64_t>{5});
+  talk.leave(5);
+  EXPECT_EQ(talk.untold(200.0), std::vector<uint64_t>{3});
+}
+
+/// A client that meets others, and one as there were before.
+class TalkServer : public NetServerTest {
+ protected:
+  std::unique_ptr<RawClient> person(const std::string& name) {
+    auto client = std::make_unique<RawClient>(server->port());
+    HelloMessage greeting = hello();
+    greeting.name = name;
+    greeting.meets = true;
+    EXPECT_TRUE(client->send(greeting));
+    EXPECT_TRUE(client->receive_as<WelcomeMessage>());
+    return client;
+  }
+};
+
+TEST_F(TalkServer, persons_and_lines_come_to_who_meets_others_and_to_nobody_else) {
+  start();
+  const auto ann = person("Ann");
+  const auto first = ann->receive_as<PersonsMessage>();
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->persons.size(), 1U);
+  const auto bob = person("Bob");
+  auto both = ann->receive_as<PersonsMessage>();
+  while (both && both->persons.size() < 2) both = ann->receive_as<PersonsMessage>();
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->persons[0].name, "Ann");
+  EXPECT_EQ(both->persons[1].name, "Bob");
+  EXPECT_TRUE(both->chat);
+  ASSERT_TRUE(bob->send(SayMessage{"mind the edge"}));
+  for (RawClient* client : {ann.get(), bob.get()}) {
+    const auto said = client->receive_as<SaidMessage>();
+    ASSERT_TRUE(said);
+    EXPECT_EQ(said->name, "Bob");
+    EXPECT_EQ(said->text, "mind the edge");
+  }
+  tick();
+  for (;;) {
+    const auto other = witness->receive(seconds(10));
+    ASSERT_TRUE(other);
+    ASSERT_FALSE(std::holds_alternative<PersonsMessage>(*other) ||
+                 std::holds_alternative<SaidMessage>(*other));
+    if (std::holds_alternative<FrameMessage>(*other)) break;
+  }
+}
+
+TEST_F(TalkServer, without_chat_the_speaker_alone_hears_why) {
+  start([](NetConfig& config) { config.chat = false; });
+  const auto ann = person("Ann");
+  ASSERT_TRUE(ann->send(SayMessage{"hello"}));
+  const auto said = ann->receive_as<SaidMessage>();
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->session, 0U);
+  EXPECT_TRUE(holds(said->text, "--chat"));
+}
+
+}  // namespace
+}  // namespace scree
