@@ -223,7 +223,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   const Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
   if (!stage) give_up(stage.error().message);
-  (*stage)->renderer->set_render_scale(2.0F);
+  (*stage)->renderer->set_fineness({.render_scale = 2.0F});
   for (const Scenario& scenario : scenarios) {
     if (!only.empty() && only != scenario.name) continue;
     Film film(**stage, folder);

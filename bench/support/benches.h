@@ -20,6 +20,7 @@ BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_link_bench(const BenchOptions& options);
 BenchReport run_memory_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);
+BenchReport run_quality_bench(const BenchOptions& options);
 BenchReport run_rates_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);

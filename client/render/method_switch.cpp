@@ -32,7 +32,7 @@ DrawMethod* MethodSwitch::preparing() {
 Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
   Result<std::unique_ptr<DrawMethod>> made = chosen_->make(pool_, view_radius_m_);
   if (!made) return fail(made.error().message);
-  slot = {std::move(*made), chosen_};
+  slot = {std::move(*made), chosen_, view_radius_m_};
   // The method starts late: all pieces are new to it.
   MirrorChanges known;
   for (const auto& [id, piece] : scene.pieces) known.pieces_added.push_back(id);
@@ -45,10 +45,10 @@ Result<void> MethodSwitch::follow(const MirrorChanges& changes, const Scene& sce
     slot.method->changed(changes);
     slot.method->update(scene, camera);
   };
-  const bool shown_fits = shown_.method && !shown_is_past_ && shown_.entry == chosen_;
+  const bool shown_fits = fits(shown_) && !shown_is_past_;
   Slot& wanted = shown_.method ? next_ : shown_;
   if (shown_fits) next_ = {};
-  if (!shown_fits && (!wanted.method || wanted.entry != chosen_)) {
+  if (!shown_fits && !fits(wanted)) {
     if (Result<void> begun = begin(wanted, scene); !begun) return begun;
     // The scene holds the changes; passed twice, they would be meshed twice.
     wanted.method->update(scene, camera);

@@ -17,6 +17,8 @@ class MethodSwitch {
   /// nothing, when this GL context lacks a feature that the method needs.
   Result<void> choose(const MethodEntry& entry);
   const MethodEntry& chosen() const { return *chosen_; }
+  /// Draws so far from the next follow() on; what was drawn is drawn until the new range is loaded.
+  void set_view_radius(float metres) { view_radius_m_ = metres; }
 
   /// Begins another mirror of the world: what was drawn is drawn until the new one is loaded.
   void begin_world();
@@ -30,9 +32,7 @@ class MethodSwitch {
   /// The method that loads beside the drawing one, or is not loaded yet; null when there is none.
   DrawMethod* preparing();
   /// Whether the newest world is shown by the chosen method, everywhere within the view radius.
-  bool loaded() const {
-    return shown_.entry == chosen_ && !shown_is_past_ && !next_.method && shown_.method->loaded();
-  }
+  bool loaded() const { return fits(shown_) && !shown_is_past_ && !next_.method && shown_.method->loaded(); }
   /// The same, and in its newest state.
   bool complete() const { return loaded() && shown_.method->complete(); }
 
@@ -40,7 +40,12 @@ class MethodSwitch {
   struct Slot {
     std::unique_ptr<DrawMethod> method;
     const MethodEntry* entry = nullptr;
+    float view_radius_m = 0.0F;
   };
+
+  bool fits(const Slot& slot) const {
+    return slot.method && slot.entry == chosen_ && slot.view_radius_m == view_radius_m_;
+  }
 
   Result<void> begin(Slot& slot, const Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "client/render/gl/canvas.h"
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/line_drawer.h"
@@ -21,8 +22,6 @@ namespace {
 
 /// Late afternoon, from over the canyon's mouth: the cliff along x = 0 faces it.
 const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
-
-constexpr int image_samples = 4;
 
 /// The far plane, in reaches: beyond the terrain that a method keeps, and the corners of its box.
 constexpr float far_per_reach = limits::view_radius_keep * 2.0F;
@@ -43,37 +42,6 @@ Result<void> check_version() {
               "or Mesa's software one (libgl1-mesa-dri) and set LIBGL_ALWAYS_SOFTWARE=1");
 }
 
-/// A framebuffer of renderbuffers.
-struct Canvas {
-  gl::Framebuffer framebuffer;
-  gl::Renderbuffer colour;
-  gl::Renderbuffer depth;
-
-  Canvas(int width, int height, int samples) {
-    glBindRenderbuffer(GL_RENDERBUFFER, colour.name());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width, height);
-    glBindRenderbuffer(GL_RENDERBUFFER, depth.name());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
-  }
-  bool complete() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  }
-};
-
-/// The target into which an image is drawn, and the one into which its samples are averaged.
-struct Canvases {
-  int width;
-  int height;
-  Canvas many;
-  Canvas one;
-
-  Canvases(int w, int h, int samples) : width(w), height(h), many(w, h, samples), one(w, h, 0) {}
-};
-
 Image read_pixels(int width, int height) {
   std::vector<uint8_t> rgba(static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -92,6 +60,13 @@ Image read_pixels(int width, int height) {
 glm::mat4 projection_of(const Camera& camera, float reach_m, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   return camera.projection(aspect, reach_m * far_per_reach);
+}
+
+/// Instead of a shadow map's: no place lies in the map.
+glm::mat4 nowhere_in_shadow() {
+  glm::mat4 matrix(0.0F);
+  matrix[3] = {2.0F, 2.0F, 0.0F, 1.0F};
+  return matrix;
 }
 
 /// Undoes the projection of a perspective: from 0..1 to metres along the view's axis.
@@ -120,15 +95,16 @@ struct Renderer::Parts {
   LineDrawer lines;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
-  ShadowMap shadows;
+  Fineness fineness;
+  std::optional<ShadowMap> shadows{std::in_place, fineness.shadow_map_side};  ///< nothing: no shadows
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
   gl::ErrorLog errors;
   GpuTimers timers;
   Trace* trace = nullptr;
-  float render_scale = 1.0F;
   GridShape grid;
-  std::optional<Canvases> canvases;  ///< of the last image
+  Canvases canvases;   ///< of the last picture, at its own resolution
+  Canvases stretched;  ///< of the last image that was stretched
 
   Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, float radius_m)
       : sky(std::move(sky_program)),
@@ -136,9 +112,16 @@ struct Renderer::Parts {
         view_radius_m(radius_m),
         description(describe()) {}
 
-  /// Canvases of that size.
-  Result<void> prepare(int width, int height);
-
+  /// Of a picture of `shown` pixels along a side. Above 1, methods that draw pixel by pixel do so themselves.
+  int drawn(int shown) const {
+    const float pixels = static_cast<float>(shown) * std::min(fineness.render_scale, 1.0F);
+    return std::max(static_cast<int>(pixels + 0.5F), 1);
+  }
+  /// The scene at its own resolution, averaged, in canvases.one().
+  Result<void> draw_picture(DrawMethod* method, const Camera& camera, int width, int height,
+                            const LineList& lines);
+  void draw_scene(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
+                  const LineList& lines);
   void draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass);
   void draw_sky(const DrawPass& pass) {
     const GpuTimers::Part part(&timers, "sky");
@@ -178,20 +161,44 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   if (width <= 0 || height <= 0) return;
   const TraceSpan span(parts_->trace, "viewer", "draw");
   parts_->timers.begin_frame(parts_->trace);
+  const bool drawn = parts_->draw_picture(method, camera, width, height, lines).has_value();
+  if (drawn) {
+    copy_picture(parts_->canvases.one(), parts_->drawn(width), parts_->drawn(height), framebuffer, width,
+                 height);
+  } else {  // as well as it goes
+    parts_->draw_scene(method, camera, framebuffer, width, height, lines);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width, height);
+  parts_->errors.poll();
+}
+
+Result<void> Renderer::Parts::draw_picture(DrawMethod* method, const Camera& camera, int width, int height,
+                                           const LineList& lines) {
+  const int drawn_width = drawn(width), drawn_height = drawn(height);
+  if (Result<void> ready = canvases.prepare(drawn_width, drawn_height, fineness.samples); !ready)
+    return ready;
+  draw_scene(method, camera, canvases.drawn(), drawn_width, drawn_height, lines);
+  canvases.average();
+  return {};
+}
+
+void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width,
+                                 int height, const LineList& line_list) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_CULL_FACE);
-  if (method != nullptr) method->shape_grid(parts_->grid);
-  const float reach_m = method == nullptr ? parts_->view_radius_m : method->reach_m();
+  if (method != nullptr) method->shape_grid(grid);
+  const float reach_m = method == nullptr ? view_radius_m : method->reach_m();
   DrawPass pass;
-  pass.timers = &parts_->timers;
-  pass.render_scale = parts_->render_scale;
+  pass.timers = &timers;
+  pass.render_scale = std::max(fineness.render_scale, 1.0F);
   pass.eye_m = camera.eye_m;
-  pass.lighting = {sun, reach_m, glm::mat4(1.0F), parts_->shadows.texture(), parts_->layers};
-  if (method != nullptr) parts_->draw_shadows(*method, camera, pass);
+  pass.lighting = {sun, reach_m, nowhere_in_shadow(), shadows ? shadows->texture() : 0, layers};
+  if (method != nullptr && shadows) draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
@@ -200,49 +207,36 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   pass.kind = DrawPass::Kind::colour;
   pass.view_projection = projection_of(camera, reach_m, width, height) * camera.view();
   if (method != nullptr) {
-    const GpuTimers::Part part(&parts_->timers, "method");
+    const GpuTimers::Part part(&timers, "method");
     method->draw(pass);
   }
-  parts_->draw_sky(pass);
-  parts_->lines.draw(lines, pass.view_projection);
-  parts_->errors.poll();
+  draw_sky(pass);
+  lines.draw(line_list, pass.view_projection);
 }
 
 void Renderer::Parts::draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass) {
   const GpuTimers::Part part(&timers, "shadows");
   pass.kind = DrawPass::Kind::shadow;
-  pass.view_projection = shadows.begin(camera, sun, view_radius_m);
+  pass.view_projection = shadows->begin(camera, sun, view_radius_m);
   method.draw(pass);
-  shadows.end();
-  pass.lighting.shadow_matrix = shadows.matrix();
-}
-
-Result<void> Renderer::Parts::prepare(int width, int height) {
-  if (canvases && canvases->width == width && canvases->height == height) return {};
-  canvases.reset();
-  GLint largest = 0;
-  GLint samples = 0;
-  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-  glGetIntegerv(GL_MAX_SAMPLES, &samples);
-  if (std::max(width, height) > largest)
-    return fail("an image of " + std::to_string(width) + "x" + std::to_string(height) +
-                " pixels is over this driver's " + std::to_string(largest) + " a side: use a smaller --size");
-  canvases.emplace(width, height, std::min(samples, image_samples));
-  if (canvases->many.complete() && canvases->one.complete()) return {};
-  canvases.reset();
-  return fail("the driver refuses a framebuffer of " + std::to_string(width) + "x" + std::to_string(height) +
-              " pixels: use a smaller --size");
+  shadows->end();
+  pass.lighting.shadow_matrix = shadows->matrix();
 }
 
 Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height,
                                    const LineList& lines) {
-  if (Result<void> ready = parts_->prepare(width, height); !ready) return fail(ready.error().message);
-  const Canvases& canvases = *parts_->canvases;
-  draw(&method, camera, canvases.many.framebuffer.name(), width, height, lines);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvases.many.framebuffer.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvases.one.framebuffer.name());
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, canvases.one.framebuffer.name());
+  parts_->timers.begin_frame(parts_->trace);
+  if (Result<void> drawn = parts_->draw_picture(&method, camera, width, height, lines); !drawn)
+    return fail(drawn.error().message);
+  unsigned framebuffer = parts_->canvases.one();
+  if (parts_->drawn(width) != width || parts_->drawn(height) != height) {
+    if (Result<void> ready = parts_->stretched.prepare(width, height, 0); !ready)
+      return fail(ready.error().message);
+    copy_picture(framebuffer, parts_->drawn(width), parts_->drawn(height), parts_->stretched.one(), width,
+                 height);
+    framebuffer = parts_->stretched.one();
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   Image image = read_pixels(width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   parts_->errors.poll();
@@ -251,9 +245,10 @@ Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int
 
 Result<DepthImage> Renderer::draw_depths(DrawMethod& method, const Camera& camera, int width, int height) {
   if (!epoxy_is_desktop_gl()) return fail("depths cannot be read with OpenGL ES: " + description());
-  if (Result<void> ready = parts_->prepare(width, height); !ready) return fail(ready.error().message);
-  const unsigned framebuffer = parts_->canvases->one.framebuffer.name();
-  draw(&method, camera, framebuffer, width, height);
+  if (Result<void> ready = parts_->canvases.prepare(width, height, parts_->fineness.samples); !ready)
+    return fail(ready.error().message);
+  const unsigned framebuffer = parts_->canvases.one();
+  parts_->draw_scene(&method, camera, framebuffer, width, height, {});
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   DepthImage image = read_depths(projection_of(camera, method.reach_m(), width, height), width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -262,8 +257,10 @@ Result<DepthImage> Renderer::draw_depths(DrawMethod& method, const Camera& camer
 }
 
 Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int width, int height) {
-  if (Result<void> ready = parts_->prepare(width, height); !ready) return ready;
-  draw(&method, camera, parts_->canvases->many.framebuffer.name(), width, height);
+  const TraceSpan span(parts_->trace, "viewer", "draw");
+  parts_->timers.begin_frame(parts_->trace);
+  if (Result<void> drawn = parts_->draw_picture(&method, camera, width, height, {}); !drawn) return drawn;
+  parts_->errors.poll();
   glFinish();
   return {};
 }
@@ -272,8 +269,18 @@ const std::vector<GpuTime>& Renderer::gpu_times() const {
   return parts_->timers.latest();
 }
 
-void Renderer::set_render_scale(float scale) {
-  parts_->render_scale = std::clamp(scale, limits::render_scale_min, limits::render_scale_max);
+void Renderer::set_fineness(const Fineness& fineness) {
+  CHECK(fineness.render_scale >= limits::render_scale_min &&
+        fineness.render_scale <= limits::render_scale_max);
+  CHECK(fineness.shadow_map_side >= 0 && fineness.samples >= 0);
+  if (fineness == parts_->fineness) return;
+  parts_->fineness = fineness;
+  parts_->shadows.reset();
+  if (fineness.shadow_map_side > 0) parts_->shadows.emplace(fineness.shadow_map_side);
+}
+
+void Renderer::set_view_radius(float metres) {
+  parts_->view_radius_m = metres;
 }
 
 void Renderer::set_grid(const GridShape& shape) {

@@ -10,6 +10,7 @@
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/line_list.h"
+#include "client/render/scene/quality.h"
 
 namespace scree {
 
@@ -40,7 +41,7 @@ class Renderer {
   void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
             const LineList& lines = {});
 
-  /// Draws into an image of its own, with 4 samples a pixel. Fails if the driver cannot make one so large.
+  /// Draws into an image of its own. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,
                            const LineList& lines = {});
   /// The depth buffer after draw(), one sample in the middle of each pixel. Fails like draw_image(), and on
@@ -53,9 +54,11 @@ class Renderer {
   const std::string& description() const;
   /// The GPU's times for the parts of a frame, some frames ago; empty where the driver cannot measure them.
   const std::vector<GpuTime>& gpu_times() const;
-  /// For methods that draw pixel by pixel: below 1 they draw fewer, above 1 more, limits::render_scale_min …
-  /// max.
-  void set_render_scale(float scale);
+  /// How finely it draws from now on; the depths of draw_depths() have one sample for each pixel all the
+  /// same. A scale within limits::render_scale_min … max, above 1 for methods that draw pixel by pixel alone.
+  void set_fineness(const Fineness& fineness);
+  /// The distance about the camera in which shadows are cast, as far as the map reaches.
+  void set_view_radius(float metres);
   /// For methods that draw by a grid; a shape that is_valid().
   void set_grid(const GridShape& shape);
   /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.

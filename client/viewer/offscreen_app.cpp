@@ -71,6 +71,8 @@ Result<int> run(const ViewerOptions& options) {
   if (options.path) flight.emplace(*options.path);
   if (Result<void> drawn = draw_all(**viewing, flight); !drawn) return fail(drawn.error().message);
   if (Result<void> finished = (*viewing)->finish(); !finished) return fail(finished.error().message);
+  if (!options.frames.empty())
+    std::fprintf(stderr, "wrote %zu frames to %s\n", flight->frames(), options.frames.c_str());
   if (options.time_demo) std::printf("%s\n", flight->times(**viewing).c_str());
   const std::optional<double>& difference = (*viewing)->difference;
   if (!difference) return 0;

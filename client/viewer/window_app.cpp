@@ -58,7 +58,8 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
       overlay_(kept.overlay),
       tool_(kept.tool),
       grid_(viewing.options.grid),
-      predict_(viewing.options.predict) {
+      predict_(viewing.options.predict),
+      quality_(viewing.options.quality) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
 }
 
@@ -70,6 +71,20 @@ void WindowApp::follow_path(double now_s) {
   if (flown_s <= path.duration_s()) viewing_.camera = path.at(flown_s);
 }
 
+void WindowApp::choose_quality(float frame_ms, double now_s) {
+  if (quality_) {
+    if (*quality_ != viewing_.quality()) viewing_.use(*quality_);
+    auto_quality_ = {};
+    return;
+  }
+  if (viewing_.quality() != auto_quality_.quality()) viewing_.use(auto_quality_.quality());
+  if (!viewing_.session.connected()) return;
+  const std::optional<Quality> other = auto_quality_.note(frame_ms, viewing_.view->methods().loaded());
+  if (!other) return;
+  viewing_.use(*other);
+  say("quality: " + std::string(name_of(*other)) + ", by the time of a frame; the panel has others", now_s);
+}
+
 Result<void> WindowApp::choose(const MethodEntry& method) {
   return viewing_.view->methods().choose(method);
 }
@@ -77,6 +92,13 @@ Result<void> WindowApp::choose(const MethodEntry& method) {
 void WindowApp::say(const std::string& text, double now_s) {
   said_ = text;
   said_until_s_ = now_s + said_s;
+}
+
+void WindowApp::move(const AppInput& input, double now_s) {
+  ViewerSession& session = viewing_.session;
+  if (session.mirror() == nullptr) feet_.stop();
+  if (!feet_.walks()) return fly(viewing_.camera, input.fly, input.elapsed_s);
+  feet_.step(viewing_.camera, input.fly, input.elapsed_s, Scene{session.field(), session.pieces(now_s)});
 }
 
 /// Flips what the action shows or hides.
@@ -89,6 +111,7 @@ void WindowApp::act_on_view(Action action) {
   flip(Action::figures, choice_.figures);
   flip(Action::graphs, choice_.graphs);
   flip(Action::panel, choice_.panel);
+  flip(Action::persons, choice_.persons);
   flip(Action::hide, hidden_);
 }
 
@@ -134,10 +157,12 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     change(tool_, action);
     change(hand_, action);
     act_on_view(action);
+    if (action == Action::walk && viewing_.session.mirror() != nullptr) feet_.change(viewing_.camera);
     if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
     if (action == Action::next_method)
       if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
   }
+  if (input.said) viewing_.session.say(*input.said);
   grow(tool_, input.wheel);
   if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward(), now_s);
   return {};
@@ -145,9 +170,15 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
 
 std::vector<std::string> WindowApp::messages(double now_s) const {
   if (window_.asks_to_end()) return {"End? Escape or Enter: yes. Any other key or button: no."};
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = viewing_.session.conversation().lines(now_s, window_.writes().has_value());
+  if (const auto& line = window_.writes()) lines.push_back("say: " + line->text() + "_");
   if (now_s < said_until_s_) lines.push_back(said_);
-  if (recorder_) lines.push_back("recording the camera's path; K ends it");
+  if (const DrawMethod* shown = viewing_.view->methods().shown();
+      shown != nullptr && shown->reach_m() < viewing_.view_radius_m())
+    lines.push_back(
+        std::string(shown->name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
+        " m far, as far as its cells reach: the world goes on; the panel has more cells, and larger");
+  if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
   if (!window_.holds_mouse())
     lines.emplace_back("click into the picture to take the mouse: then it looks, and a click strikes");
   return lines;
@@ -158,7 +189,7 @@ LineList WindowApp::lines(double now_s) {
   const glm::vec3 direction = viewing_.camera.forward();
   if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
     lines.shape(shape_of(tool_, *hit_m, direction), preview_colour(tool_));
-  add_cursors(lines, viewing_.session.cursors());
+  viewing_.session.figures(now_s).add_to(lines, viewing_.camera.eye_m);
   viewing_.add_overlay(lines, overlay_, now_s);
   return lines;
 }
@@ -173,12 +204,14 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     hud_.crosshair();
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
-    hud_.names(viewing_.session.cursors(),
-               camera.projection(aspect, viewing_.options.view_radius_m) * camera.view());
+    hud_.names(viewing_.session.figures(now_s),
+               camera.projection(aspect, viewing_.view_radius_m()) * camera.view());
     hud_.figures(facts, choice_.figures);
-    if (choice_.graphs) hud_.graphs(facts);
+    hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
+                     choice_.graphs);
     if (choice_.panel)
-      picked = hud_.panel(viewing_.view->methods().chosen(), {tool_, overlay_, grid_, predict_, hand_});
+      picked =
+          hud_.panel(viewing_.view->methods().chosen(), {tool_, overlay_, grid_, predict_, hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad());
     if (facts.lost) hud_.banner(facts.connection);
   }
@@ -194,7 +227,7 @@ Result<void> WindowApp::frame() {
   const double now_s = steady_now_s();
   input.fly.look *= hand_.mouse_speed;
   viewing_.camera.field_of_view = glm::radians(hand_.field_of_view_degrees);
-  fly(viewing_.camera, input.fly, input.elapsed_s);
+  move(input, now_s);
   if (viewing_.options.path) follow_path(now_s);
   record_path(now_s);
   if (Result<void> acted = act(input, now_s); !acted) return acted;
@@ -210,6 +243,7 @@ Result<void> WindowApp::frame() {
     if (Result<void> drawn = draw_hud(parts, now_s); !drawn) return drawn;
   }
   window_.show_frame();
+  if (!window_.minimised()) choose_quality(parts.frame_ms, now_s);
   return viewing_.take_due(now_s);
 }
 
@@ -217,7 +251,7 @@ Settings WindowApp::settings() const {
   Settings settings;
   std::tie(settings.width, settings.height) = window_.window_size();
   settings.method = viewing_.view->methods().chosen().name;
-  settings.view_radius_m = viewing_.options.view_radius_m;
+  settings.quality = quality_;
   settings.grid = grid_;
   settings.hud = choice_;
   settings.hand = hand_;

@@ -105,8 +105,10 @@ class WholeHud {
     hud_.note(facts, {16.0F, 2.0F, 3.0F});
     hud_.crosshair();
     hud_.figures(facts, all);
-    if (all) hud_.graphs(facts);
-    hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, predict_, hand_});
+    const PersonsMessage persons{
+        {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
+    hud_.lower_right(facts, all ? &persons : nullptr, all);
+    hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, predict_, hand_, quality_});
     hud_.help(all ? Telling::all : Telling::basics, all);
     if (all) hud_.banner("the server is gone - trying again");
     hud_.messages(facts, {"click into the picture to take the mouse: then it looks, and a click strikes"});
@@ -122,6 +124,7 @@ class WholeHud {
   GridShape grid_;
   bool predict_ = true;
   HandChoice hand_;
+  std::optional<Quality> quality_;
 };
 
 TEST(Hud, no_two_panels_overlap_at_any_size_with_everything_shown) {
@@ -160,7 +163,7 @@ TEST(Controls, the_basics_are_few_and_buttons_are_told_to_those_who_have_them) {
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
   const std::string basics = describe_controls(Telling::basics, false);
   const std::string all = describe_controls(Telling::all, true);
-  EXPECT_LE(lines(basics), 10);
+  EXPECT_LE(lines(basics), 11);
   EXPECT_GT(lines(all), lines(basics));
   EXPECT_EQ(basics.find("pad "), std::string::npos);
   EXPECT_NE(all.find("pad RB"), std::string::npos);

@@ -85,6 +85,7 @@ class ViewerSession : public testing::Test {
     options_.width = 96;
     options_.height = 64;
     options_.view_radius_m = 12.0F;
+    options_.given.view_radius = true;
     options_.camera.eye_m = {0.0F, 3.0F, 6.0F};
     options_.camera.pitch = -0.45F;
     options_.method = &all_methods().front();

@@ -59,7 +59,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   Settings end = start;
   end.hud.graphs = true;
   end.tool.kind = ToolKind::tunnel;
-  end.view_radius_m = 64.0F;
+  end.quality = Quality::low;
   end.predict = false;
   first.keep(start, end);
 
@@ -67,7 +67,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   EXPECT_EQ(second.loaded().width, 1280);
   EXPECT_TRUE(second.loaded().hud.graphs);
   EXPECT_EQ(second.loaded().tool.kind, ToolKind::tunnel);
-  EXPECT_EQ(second.loaded().view_radius_m, 64.0F);
+  EXPECT_EQ(second.loaded().quality, Quality::low);
   EXPECT_FALSE(second.loaded().predict);
 }
 
@@ -75,7 +75,8 @@ TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
   for (const std::string broken :
        {"{\"width\": 12", "[]", R"({"width": "wide"})", R"({"width": -5})", R"({"method": "magic"})",
         R"({"tool": "spoon"})", R"({"pattern": "authored"})", R"({"panel": 1})", R"({"radius_m": 1e30})",
-        R"({"grid_resolution": 33})", R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})"}) {
+        R"({"grid_resolution": 33})", R"({"grid_scale": 3})", R"({"grid_spacing": "odd"})",
+        R"({"quality": "best"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
     const KeptSettings kept(settings_file());
@@ -94,10 +95,11 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.method = all_methods().front().name;
   settings.grid = {64, 4, GridSpacing::growing};
   settings.tool = {ToolKind::box, ToolUse::paint, Material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
-  settings.hud = {Telling::all, true, true, false};
+  settings.hud = {Telling::all, true, true, false, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
   settings.predict = false;
+  settings.quality = Quality::high;
   const Result<Settings> again = parse_settings(to_text(settings));
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(*again, settings);
@@ -115,7 +117,7 @@ TEST_F(SettingsTest, flags_win) {
   Settings settings;
   settings.width = 640;
   settings.height = 360;
-  settings.view_radius_m = 48.0F;
+  settings.quality = Quality::medium;
   settings.grid = {64, 4, GridSpacing::growing};
   ViewerOptions options;
   options.given.grid_scale = true;
@@ -123,7 +125,7 @@ TEST_F(SettingsTest, flags_win) {
   options.width = 100;
   apply_settings(settings, options);
   EXPECT_EQ(options.width, 100);
-  EXPECT_EQ(options.view_radius_m, 48.0F);
+  EXPECT_EQ(options.quality, Quality::medium);
   EXPECT_EQ(options.grid, (GridShape{64, GridShape().scale, GridSpacing::growing}));
   EXPECT_TRUE(options.predict);
   settings.predict = false;

@@ -30,7 +30,7 @@ class VirtualScreen {
     if (process_ == 0) {
       ::close(ends[0]);
       const std::string descriptor = std::to_string(ends[1]);
-      ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "640x480x24", "-nolisten",
+      ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1920x1080x24", "-nolisten",
                "tcp", static_cast<char*>(nullptr));
       ::_exit(127);
     }
@@ -66,6 +66,7 @@ class ViewerWindow : public testing::Test {
     options_.host = "127.0.0.1";
     options_.port = server_->port();
     options_.view_radius_m = 12.0F;
+    options_.given.view_radius = true;
     options_.camera.eye_m = {0.0F, 3.0F, 6.0F};
     options_.camera.pitch = -0.45F;
     options_.method = &all_methods().front();
@@ -220,6 +221,74 @@ TEST_F(ViewerHand, fills_and_paints) {
   EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
   EXPECT_FALSE(viewing_->session.carved());
 }
+
+TEST_F(ViewerHand, walks_and_is_stopped_by_a_wall) {
+  join(320, 200);
+  take_mouse();
+  // A box stands on what it is aimed at.
+  const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .radius_m = 2.0F};
+  viewing_->session.strike(box, {0.0F, 6.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, steady_now_s());
+  hand("key q");
+  const float ground_m = ground_height_m(viewing_->session.mirror()->terrain(), 0.0F, 6.0F);
+  const glm::vec3& eye_m = viewing_->camera.eye_m;
+  run_until([&] { return std::abs(eye_m.y - ground_m - Walker::eye_above_m) < 0.2F; }, "the ground");
+  hand("keydown w");
+  run_until([&] { return eye_m.z < 2.6F; }, "the box");
+  const double until_s = steady_now_s() + 0.5;
+  run_until([&] { return steady_now_s() > until_s; }, "some more steps against it");
+  hand("keyup w");
+  EXPECT_GT(eye_m.z, 2.0F) << "the box stands in the way";
+  hand("key q");
+  run_until([&] { return app_->flies(); }, "wings");
+}
+
+TEST_F(ViewerHand, says_a_line_and_lists_who_is_there) {
+  join(640, 360);
+  const auto& conversation = viewing_->session.conversation();
+  run_until([&] { return !conversation.persons().persons.empty(); }, "the list of persons");
+  hand("key p key h key g key l");
+  run_until([&] { return shown(PanelPlace::lower_right) && !shown(PanelPlace::upper_right); }, "the list");
+  const glm::vec3 before_m = viewing_->camera.eye_m;
+  hand("key Return type 'wasd m'");
+  run_until([&] { return window_->writes() && window_->writes()->text() == "wasd m"; }, "what is written");
+  EXPECT_EQ(viewing_->camera.eye_m, before_m) << "letters move nothing";
+  EXPECT_EQ(app_->settings().method, options_.method->name) << "nor do they change anything";
+  hand("key Return");
+  run_until([&] { return !conversation.lines(steady_now_s(), true).empty(); }, "the line");
+  EXPECT_FALSE(window_->writes());
+  EXPECT_NE(conversation.lines(steady_now_s(), true)[0].find("wasd m"), std::string::npos);
+}
+
+class ViewerPanels : public ViewerHand, public testing::WithParamInterface<std::pair<int, int>> {};
+
+TEST_P(ViewerPanels, do_not_overlap_while_all_of_them_are_shown_and_a_line_is_written) {
+  const auto [width, height] = GetParam();
+  options_.quality = Quality::low;
+  join(width, height);
+  hand("key l key Return type 'a line that is written while everything is shown'");
+  run_until(
+      [&] {
+        return shown(PanelPlace::upper_left) && shown(PanelPlace::lower_left) &&
+               shown(PanelPlace::upper_right) && shown(PanelPlace::lower_right) &&
+               shown(PanelPlace::bottom) && window_->writes();
+      },
+      "everything");
+  for (int frame = 0; frame < 4; ++frame) {
+    ASSERT_TRUE(app_->frame());
+    const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
+    for (size_t i = 0; i < panel_places; ++i) {
+      const Rectangle& one = app_->panels()[i];
+      EXPECT_LE(one.at.x + one.size.x, size.x);
+      EXPECT_LE(one.at.y + one.size.y, size.y);
+      for (size_t j = 0; j < i; ++j) EXPECT_FALSE(intersect(one, app_->panels()[j])) << i << " and " << j;
+    }
+  }
+  hand("key Escape key F1");
+  run_until([&] { return app_->panels() == PanelRectangles{}; }, "the picture alone");
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ViewerPanels,
+                         testing::Values(std::pair(640, 360), std::pair(960, 540), std::pair(1920, 1080)));
 
 TEST_F(ViewerHand, takes_pictures_and_records_paths_into_this_folder) {
   namespace fs = std::filesystem;

@@ -1,5 +1,5 @@
-// Draws a LineList over a picture and its depths: hidden parts of lines are drawn faintly. Within OpenGL
-// ES 3.0's subset. Needs the GL context current, the destructor too.
+// Draws a LineList into a picture and its depths, triangles first: hidden parts of lines are drawn faintly.
+// Within OpenGL ES 3.0's subset. Needs the GL context current, the destructor too.
 #pragma once
 
 #include "client/render/gl/gl.h"
@@ -16,6 +16,9 @@ class LineDrawer {
 
  private:
   explicit LineDrawer(gl::Program&& program);
+  /// Into the buffer that is bound; whether there is anything.
+  static bool upload(std::span<const LineVertex> vertices);
+  void draw_lines(GLsizei count) const;
 
   gl::Program program_;
   gl::VertexArray array_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "client/render/scene/limits.h"
-
 namespace scree {
 namespace {
 
@@ -16,10 +14,10 @@ constexpr float depth_m = 120.0F;
 
 }  // namespace
 
-ShadowMap::ShadowMap() {
+ShadowMap::ShadowMap(int side) : side_(side) {
   glBindTexture(GL_TEXTURE_2D, depth_.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, limits::shadow_map_side, limits::shadow_map_side, 0,
-               GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, side, side, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+               nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -39,7 +37,7 @@ glm::mat4 ShadowMap::begin(const Camera& camera, glm::vec3 sun, float view_radiu
   const glm::vec3 focus = camera.eye_m + camera.forward() * (reach_m * 0.7F);
   const glm::mat4 turn = glm::lookAt(glm::vec3(0.0F), -sun, glm::vec3(0.0F, 0.0F, 1.0F));
   // Whole texels only: otherwise edges crawl as the camera moves.
-  const float texel_m = 2.0F * reach_m / static_cast<float>(limits::shadow_map_side);
+  const float texel_m = 2.0F * reach_m / static_cast<float>(side_);
   glm::vec3 centre = glm::vec3(turn * glm::vec4(focus, 1.0F));
   centre = glm::floor(centre / texel_m) * texel_m;
   const glm::mat4 box = glm::ortho(centre.x - reach_m, centre.x + reach_m, centre.y - reach_m,
@@ -48,7 +46,7 @@ glm::mat4 ShadowMap::begin(const Camera& camera, glm::vec3 sun, float view_radiu
   matrix_ = glm::translate(glm::mat4(1.0F), glm::vec3(0.5F)) * glm::scale(glm::mat4(1.0F), glm::vec3(0.5F)) *
             view_projection;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, limits::shadow_map_side, limits::shadow_map_side);
+  glViewport(0, 0, side_, side_);
   glClear(GL_DEPTH_BUFFER_BIT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5F, 2.0F);

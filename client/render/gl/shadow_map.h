@@ -10,7 +10,8 @@ namespace scree {
 
 class ShadowMap {
  public:
-  ShadowMap();
+  /// `side`: texels.
+  explicit ShadowMap(int side);
 
   /// From now on draws go into the map; returns the sun's view and projection.
   glm::mat4 begin(const Camera& camera, glm::vec3 sun, float view_radius_m);
@@ -21,6 +22,7 @@ class ShadowMap {
   unsigned texture() const { return depth_.name(); }
 
  private:
+  int side_;
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   glm::mat4 matrix_{1.0F};

@@ -26,6 +26,11 @@ void LineList::line(glm::vec3 from_m, glm::vec3 to_m, LineColour colour) {
   vertices_.push_back({to_m, colour});
 }
 
+void LineList::triangle(glm::vec3 a_m, glm::vec3 b_m, glm::vec3 c_m, LineColour colour) {
+  if (corners_.size() + 3 > 3 * limits::lines_max) return;
+  for (const glm::vec3 corner_m : {a_m, b_m, c_m}) corners_.push_back({corner_m, colour});
+}
+
 void LineList::box(glm::vec3 lo_m, glm::vec3 hi_m, LineColour colour, glm::quat turn, glm::vec3 move_m) {
   const auto corner = [&](int i) {
     const glm::vec3 at((i & 1) != 0 ? hi_m.x : lo_m.x, (i & 2) != 0 ? hi_m.y : lo_m.y,

@@ -1,4 +1,5 @@
-// Lines in the world, to be drawn over it: outlines of shapes, boxes, borders. No GL. Metres.
+// Lines in the world, to be drawn over it: outlines of shapes, boxes, borders; and triangles, for what is
+// solid and not rock. No GL. Metres.
 #pragma once
 
 #include <cstdint>
@@ -37,12 +38,21 @@ class LineList {
   /// Three short lines that cross.
   void cross(glm::vec3 place_m, float half_m, LineColour colour);
 
+  /// Filled, seen from both sides; its colours are those of the screen, and opaque.
+  void triangle(glm::vec3 a_m, glm::vec3 b_m, glm::vec3 c_m, LineColour colour);
+
   /// Two a line. Beyond limits::lines_max nothing is added.
   std::span<const LineVertex> vertices() const { return vertices_; }
-  void clear() { vertices_.clear(); }
+  /// Three a triangle, with the same bound.
+  std::span<const LineVertex> corners() const { return corners_; }
+  void clear() {
+    vertices_.clear();
+    corners_.clear();
+  }
 
  private:
   std::vector<LineVertex> vertices_;
+  std::vector<LineVertex> corners_;
 };
 
 }  // namespace scree

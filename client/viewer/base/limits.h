@@ -71,6 +71,20 @@ inline constexpr double path_duration_max_s = 3600.0;
 /// Requests whose time to the answer is measured; above: the oldest is forgotten.
 inline constexpr size_t own_requests_timed_max = 64;
 
+/// Lines of chat that are kept, and seconds for which one is shown, unless the person writes one.
+inline constexpr size_t lines_kept_max = 8;
+inline constexpr double line_shown_s = 15.0;
+
+/// Sounds at once: more than anybody can tell apart; beyond, the quietest end. And new ones in one frame.
+inline constexpr size_t voices_max = 48;
+inline constexpr size_t sounds_per_step_max = 12;
+
+/// Bytes of samples in a file of sound: twelve minutes. What comes later is left out.
+inline constexpr size_t sound_file_bytes_max = size_t{128} << 20;
+
+/// Frames of sound made for the file at once: five seconds. A longer pause of the program is shortened.
+inline constexpr size_t sound_step_frames_max = 220500;
+
 /// Seconds between two updates of the HUD's costly counts.
 inline constexpr double count_interval_s = 0.5;
 

@@ -26,6 +26,7 @@ constexpr std::array table{
     Binding{Action::fewer_seeds, GLFW_KEY_LEFT_BRACKET, GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "[", "pad left",
             "fewer pieces"},
     Binding{Action::next_method, GLFW_KEY_M, GLFW_GAMEPAD_BUTTON_Y, "M", "pad Y", "draw by the next method"},
+    Binding{Action::walk, GLFW_KEY_Q, unbound, "Q", "", "walk, or fly"},
     Binding{Action::narrower_view, GLFW_KEY_COMMA, unbound, ",", "", "narrower view (as a longer lens)"},
     Binding{Action::wider_view, GLFW_KEY_PERIOD, unbound, ".", "", "wider view"},
     Binding{Action::slower_mouse, GLFW_KEY_SEMICOLON, unbound, ";", "", "slower mouse"},
@@ -35,6 +36,9 @@ constexpr std::array table{
     Binding{Action::picture, GLFW_KEY_F12, unbound, "F12", "", "take a picture (a PNG in this folder)"},
     Binding{Action::copy_place, GLFW_KEY_V, unbound, "V", "", "copy the camera's place as --camera"},
     Binding{Action::record_path, GLFW_KEY_K, unbound, "K", "", "record a camera path for --path, or end it"},
+    Binding{Action::talk, GLFW_KEY_ENTER, unbound, "Enter", "",
+            "say something to all (Enter sends, Esc does not)"},
+    Binding{Action::persons, GLFW_KEY_L, unbound, "L", "", "who is there"},
     Binding{Action::overlay, GLFW_KEY_O, unbound, "O", "", "borders, interest, bodies and contacts"},
     Binding{Action::figures, GLFW_KEY_I, unbound, "I", "", "more figures, or fewer"},
     Binding{Action::graphs, GLFW_KEY_G, unbound, "G", "", "graphs"},
@@ -55,15 +59,15 @@ struct Motion {
 };
 
 constexpr std::array<Motion, 4> motions{{
-    {"W A S D", "pad left stick", "fly (Shift or left trigger: faster)"},
-    {"Space C", "pad stick presses", "up, down"},
+    {"W A S D", "pad left stick", "move (Shift or left trigger: faster)"},
+    {"Space C", "pad stick presses", "up, down; on foot, Space jumps"},
     {"mouse", "pad right stick", "look"},
     {"left click", "pad right trigger", "strike; the wheel sets the size"},
 }};
 
 /// What a newcomer needs; the help says where the rest is.
-constexpr std::array basics{Action::next_use, Action::next_method, Action::panel,
-                            Action::help,     Action::free_mouse,  Action::end};
+constexpr std::array basics{Action::next_use, Action::walk,       Action::talk, Action::panel,
+                            Action::help,     Action::free_mouse, Action::end};
 
 constexpr size_t column = 12, gamepad_column = 20;
 

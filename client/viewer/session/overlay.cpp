@@ -19,11 +19,8 @@ constexpr LineColour asleep_colour{90, 160, 255, 230};
 constexpr LineColour island_colour{200, 110, 255, 255};
 constexpr LineColour contact_colour{255, 60, 60, 255};
 constexpr LineColour searched_colour{255, 60, 255, 200};
-constexpr LineColour cursor_colour{120, 240, 255, 255};
 constexpr float contact_min_m = 0.15F;
 constexpr float contact_max_m = 1.5F;
-constexpr float cursor_half_m = 0.35F;
-constexpr float eye_ring_m = 0.3F;
 
 void add_chunk(LineList& lines, ChunkCoord chunk, float voxel_m, LineColour colour) {
   const float side_m = static_cast<float>(chunk_size) * voxel_m;
@@ -89,15 +86,6 @@ void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePiec
   for (const BrickCoord brick : physics.searched) {
     const glm::vec3 lo_m = glm::vec3(brick.x, brick.y, brick.z) * side_m;
     lines.box(lo_m, lo_m + side_m, searched_colour);
-  }
-}
-
-void add_cursors(LineList& lines, const std::vector<PlayerCursor>& cursors) {
-  for (const PlayerCursor& cursor : cursors) {
-    lines.cross(cursor.aim_m, cursor_half_m, cursor_colour);
-    const glm::vec3 way = cursor.aim_m - cursor.eye_m;
-    const float far_m = glm::length(way);
-    if (far_m > eye_ring_m) lines.circle(cursor.eye_m, way / far_m, eye_ring_m, cursor_colour);
   }
 }
 

@@ -1,4 +1,4 @@
-// Lines over the picture: borders, interest, bodies, contacts, other persons' cursors.
+// Lines over the picture: borders, interest, bodies, contacts.
 #pragma once
 
 #include "client/render/scene/line_list.h"
@@ -25,8 +25,5 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
 /// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their
 /// normals, longer for stronger ones. Magenta: bricks of unfinished searches for islands.
 void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m);
-
-/// A cross where each person aims, and a ring at their eye.
-void add_cursors(LineList& lines, const std::vector<PlayerCursor>& cursors);
 
 }  // namespace scree

@@ -19,6 +19,12 @@ View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float 
 
 View::~View() = default;
 
+void View::set_fineness(const Fineness& fineness, float view_radius_m) {
+  renderer_->set_fineness(fineness);
+  renderer_->set_view_radius(view_radius_m);
+  methods_.set_view_radius(view_radius_m);
+}
+
 Result<void> View::follow(const SessionStep& step, ViewerSession& session, const Camera& camera,
                           double now_s) {
   if (step.new_mirror) {

@@ -19,6 +19,9 @@ class View {
   /// Takes in a step of the session.
   Result<void> follow(const SessionStep& step, ViewerSession& session, const Camera& camera, double now_s);
 
+  /// Draws so finely, and so far.
+  void set_fineness(const Fineness& fineness, float view_radius_m);
+
   MethodSwitch& methods() { return methods_; }
   Renderer& renderer() { return *renderer_; }
 

@@ -59,6 +59,11 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   return step;
 }
 
+void ViewerSession::set_interest_radius(float metres) {
+  radius_is_new_ = radius_is_new_ || metres != interest_radius_m_;
+  interest_radius_m_ = metres;
+}
+
 void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   reported_eye_m_ = eye_m;
   HelloMessage hello;
@@ -66,6 +71,7 @@ void ViewerSession::begin_connecting(glm::vec3 eye_m) {
   hello.eye_m = eye_m;
   hello.interest_radius_m = interest_radius_m_;
   hello.name = name_;
+  hello.meets = true;
   connecting_ = std::async(std::launch::async, [this, hello] {
     auto made = rejoin_.connect(server_, hello, connect_within);
     Attempt attempt;
@@ -96,6 +102,7 @@ void ViewerSession::finish_connecting(double now_s, SessionStep& step) {
   pace_.start(tick_rate_hz_);
   playback_.start(welcome);
   pieces_.clear();
+  conversation_.begin();
   trouble_.clear();
   acknowledged_ = 0;
   reported_cursor_ = {};
@@ -110,6 +117,7 @@ void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
   if (connection_) rejoin_.keep(*mirror_);
   connection_.reset();
   cursors_.clear();
+  conversation_.begin();
   physics_.reset();
   trouble_ = end.message;
   gave_up_ = !may_come_again(end.refusal);
@@ -164,6 +172,8 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
                           notice_until_s_ = now_s + notice_s;
                         },
                         [&](const CursorsMessage& cursors) { cursors_ = cursors.cursors; },
+                        [&](const PersonsMessage& persons) { conversation_.take(persons); },
+                        [&](const SaidMessage& said) { conversation_.take(said, now_s); },
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
                         [](const auto&) {}},  // the mirror's alone
              message);
@@ -186,7 +196,8 @@ void ViewerSession::report(double now_s, glm::vec3 eye_m) {
     acknowledged_ = mirror_->tick();
     connection_->send(AckMessage{acknowledged_});
   }
-  if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m) return;
+  if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m && !radius_is_new_) return;
+  radius_is_new_ = false;
   reported_eye_m_ = eye_m;
   rejoin_.follow(eye_m, interest_radius_m_, *mirror_, *connection_);
 }
@@ -218,6 +229,15 @@ const ScenePieces& ViewerSession::pieces(double now_s) {
   for (const auto& [id, volume] : predictions_->pieces())
     pieces_.emplace(id, ScenePiece{volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}});
   return pieces_;
+}
+
+const Figures& ViewerSession::figures(double now_s) {
+  figures_.step(cursors_, now_s);
+  return figures_;
+}
+
+void ViewerSession::say(const std::string& text) {
+  if (connection_ && !text.empty()) connection_->send(SayMessage{text});
 }
 
 bool ViewerSession::joined(double now_s) const {

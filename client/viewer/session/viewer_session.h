@@ -18,6 +18,8 @@
 #include "client/mirror/predictions.h"
 #include "client/render/scene/draw_method.h"
 #include "client/viewer/input/tool.h"
+#include "client/viewer/session/conversation.h"
+#include "client/viewer/session/figures.h"
 #include "client/viewer/session/pace.h"
 #include "client/viewer/session/playback.h"
 #include "shared/base/timing.h"
@@ -47,6 +49,8 @@ class ViewerSession {
   Field& field() { return predictions_->field(); }
   /// The pieces at the poses to draw now; those of predicted carves where they are cut.
   const ScenePieces& pieces(double now_s);
+  /// Follows the server so far about the camera.
+  void set_interest_radius(float metres);
   /// Whether carves are shown before the server has answered.
   void predict(bool on) { predict_ = on; }
   /// Carves that are shown so now.
@@ -64,8 +68,12 @@ class ViewerSession {
   /// The way of the last request that was answered, by stages; none before the first.
   const std::optional<RequestLatency>& latency() const { return latency_; }
 
-  /// The other persons within interest.
-  const std::vector<PlayerCursor>& cursors() const { return cursors_; }
+  /// The other persons within interest, as of this moment.
+  const Figures& figures(double now_s);
+  /// Who is in the world, and what they said.
+  const Conversation& conversation() const { return conversation_; }
+  /// To all persons.
+  void say(const std::string& text);
   /// Switches the server's PhysicsMessages on or off; and the last one, null before the first.
   void watch(bool physics) { watch_ = physics; }
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
@@ -104,6 +112,7 @@ class ViewerSession {
 
   ServerEndpoint server_;
   float interest_radius_m_;
+  bool radius_is_new_ = false;  ///< the server has not heard of it
   std::string name_;
   Rejoin rejoin_;  ///< of the thread that connects, while there is one
   std::future<Attempt> connecting_;
@@ -127,6 +136,8 @@ class ViewerSession {
   double next_cursor_s_ = 0.0;
   CursorMessage reported_cursor_;
   std::vector<PlayerCursor> cursors_;
+  Figures figures_;
+  Conversation conversation_;
   bool watch_ = false;
   bool watching_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;

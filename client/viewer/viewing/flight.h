@@ -16,6 +16,8 @@ class Flight {
   /// is loaded; a timed frame does not wait. True when the frame is done.
   Result<bool> turn(Viewing& viewing, double now_s);
   bool over(const ViewerOptions& options) const;
+  /// Drawn so far.
+  size_t frames() const { return frame_; }
 
   /// One line of JSON (frame_times.h). Of a flight that is over.
   std::string times(const Viewing& viewing) const;

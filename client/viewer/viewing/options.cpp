@@ -53,6 +53,7 @@ struct Texts {
   std::string size = "1280x720";
   std::string camera = default_camera;
   std::string method{all_methods().front().name};
+  std::string quality{auto_name};
   std::string grid_spacing{name_of(GridShape().spacing)};
   std::vector<std::string> screenshots;
 };
@@ -65,12 +66,17 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_CAMERA");
   app.add_option("--method", texts.method, "How it is drawn:\n" + describe_methods())
       ->envname("SCREE_METHOD");
-  bounded(app.add_option("--view-radius", options.view_radius_m, "How far terrain is drawn, metres"),
+  app.add_option(
+         "--quality", texts.quality,
+         "What a frame may cost: low, medium, high, or auto: by the first frames; without a window, high")
+      ->envname("SCREE_QUALITY");
+  bounded(app.add_option("--view-radius", options.view_radius_m,
+                         "How far terrain is drawn in detail, metres, instead of the quality's"),
           {limits::view_radius_min_m, limits::view_radius_max_m})
       ->envname("SCREE_VIEW_RADIUS");
-  bounded(app.add_option(
-              "--render-scale", options.render_scale,
-              "Of raymarch: rays along a side for a pixel; 2 smooths edges, 0.5 is four times as fast"),
+  bounded(app.add_option("--render-scale", options.render_scale,
+                         "Pixels drawn along a side for one that is shown, instead of the quality's; above 1 "
+                         "of raymarch alone"),
           {limits::render_scale_min, limits::render_scale_max})
       ->envname("SCREE_RENDER_SCALE");
   bounded(app.add_option(
@@ -91,6 +97,13 @@ void declare_input(CLI::App& app, ViewerOptions& options) {
   app.add_option("--predict", options.predict,
                  "Show your own carves at once, before the server answers: true or false")
       ->envname("SCREE_PREDICT");
+  app.add_option("--sound", options.sound,
+                 "Play what breaks, strikes and settles, in a window where there is a device: true or false")
+      ->envname("SCREE_SOUND");
+  app.add_option("--sound-file", options.sound_file,
+                 "FILE for what there is to hear from the camera, a WAV, as long as the program runs")
+      ->envname("SCREE_SOUND_FILE")
+      ->check(check_writable, "FILE");
 }
 
 void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
@@ -174,6 +187,12 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
   options.method = method_named(texts.method);
   if (options.method == nullptr)
     return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
+  if (texts.quality != auto_name) {
+    options.quality = kind_named<Quality>(texts.quality);
+    if (!options.quality)
+      return fail("--quality: there is no '" + texts.quality + "'; there are auto, " +
+                  listed(kind_names<Quality>));
+  }
   if (Result<void> grid = understand_grid(texts.grid_spacing, options.grid); !grid) return grid;
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
@@ -189,9 +208,10 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
 
 std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* argv) {
   ViewerOptions options;
-  options.view_radius_m = 96.0F;
+  options.view_radius_m = traits_of(Quality::high).view_radius_m;
   if (const char* user = std::getenv("USER")) options.name = user;
   options.timeout_s = 120.0;
+  options.sound = true;
   options.frames_per_s = 30.0;
   options.threshold = 0.01;
   Texts texts;
@@ -203,9 +223,16 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   try {
     app.parse(argc, argv);
     const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
-    options.given = {given("--size"),         given("--camera"),          given("--method"),
-                     given("--view-radius"),  given("--grid-resolution"), given("--grid-scale"),
-                     given("--grid-spacing"), given("--predict")};
+    options.given = {.size = given("--size"),
+                     .camera = given("--camera"),
+                     .method = given("--method"),
+                     .view_radius = given("--view-radius"),
+                     .render_scale = given("--render-scale"),
+                     .quality = given("--quality"),
+                     .grid_resolution = given("--grid-resolution"),
+                     .grid_scale = given("--grid-scale"),
+                     .grid_spacing = given("--grid-spacing"),
+                     .predict = given("--predict")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

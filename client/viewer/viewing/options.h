@@ -11,11 +11,15 @@
 #include "client/connection/endpoint.h"
 #include "client/render/methods.h"
 #include "client/render/scene/camera.h"
+#include "client/render/scene/quality.h"
 #include "client/viewer/pictures/camera_path.h"
 #include "client/viewer/pictures/screenshots.h"
 #include "client/viewer/session/overlay.h"
 
 namespace scree {
+
+/// Of --quality and the settings, beside the presets' names: by the first frames.
+inline constexpr std::string_view auto_name = "auto";
 
 struct ViewerOptions : ServerEndpoint {
   std::string name;  ///< the person's
@@ -29,6 +33,8 @@ struct ViewerOptions : ServerEndpoint {
     bool camera = false;
     bool method = false;
     bool view_radius = false;
+    bool render_scale = false;
+    bool quality = false;
     bool grid_resolution = false;
     bool grid_scale = false;
     bool grid_spacing = false;
@@ -36,10 +42,13 @@ struct ViewerOptions : ServerEndpoint {
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed
-  float view_radius_m = 0.0F;
-  float render_scale = 1.0F;  ///< of methods that draw pixel by pixel
-  GridShape grid;             ///< of the method grid
-  bool predict = true;        ///< carves are shown before the server answers
+  std::optional<Quality> quality;       ///< nothing: by the first frames (AutoQuality)
+  float view_radius_m = 0.0F;           ///< if given, instead of the quality's, as the next
+  float render_scale = 1.0F;
+  GridShape grid;          ///< of the method grid
+  bool sound = false;      ///< by the device, in a window
+  std::string sound_file;  ///< WAV of what there is to hear; empty: none
+  bool predict = true;     ///< carves are shown before the server answers
   bool offscreen = false;
   bool gl_debug = false;
   double timeout_s = 0.0;

@@ -122,8 +122,10 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.text("method", settings.method);
   if (!settings.method.empty() && method_named(settings.method) == nullptr)
     reader.wrong("method", "has no such value");
-  reader.number("view_radius_m", settings.view_radius_m, limits::view_radius_min_m,
-                limits::view_radius_max_m);
+  std::string quality(auto_name);
+  reader.text("quality", quality);
+  settings.quality = kind_named<Quality>(quality);
+  if (!settings.quality && quality != auto_name) reader.wrong("quality", "has no such value");
   reader.number("grid_resolution", settings.grid.resolution, limits::grid_resolution_min,
                 limits::grid_resolution_max);
   reader.number("grid_scale", settings.grid.scale, 1, limits::grid_scale_max);
@@ -133,6 +135,7 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("figures", settings.hud.figures);
   reader.flag("graphs", settings.hud.graphs);
   reader.flag("panel", settings.hud.panel);
+  reader.flag("persons", settings.hud.persons);
   reader.number("field_of_view_degrees", settings.hand.field_of_view_degrees, field_of_view_min_degrees,
                 field_of_view_max_degrees);
   reader.number("mouse_speed", settings.hand.mouse_speed, mouse_speed_min, mouse_speed_max);
@@ -158,7 +161,7 @@ std::string to_text(const Settings& settings) {
   const Json json{{"width", settings.width},
                   {"height", settings.height},
                   {"method", settings.method},
-                  {"view_radius_m", settings.view_radius_m},
+                  {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
                   {"grid_resolution", settings.grid.resolution},
                   {"grid_scale", settings.grid.scale},
                   {"grid_spacing", name_of(settings.grid.spacing)},
@@ -166,6 +169,7 @@ std::string to_text(const Settings& settings) {
                   {"figures", settings.hud.figures},
                   {"graphs", settings.hud.graphs},
                   {"panel", settings.hud.panel},
+                  {"persons", settings.hud.persons},
                   {"field_of_view_degrees", settings.hand.field_of_view_degrees},
                   {"mouse_speed", settings.hand.mouse_speed},
                   {"text_scale", settings.hand.text_scale},
@@ -190,7 +194,7 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
     options.width = settings.width;
     options.height = settings.height;
   }
-  if (!options.given.view_radius) options.view_radius_m = settings.view_radius_m;
+  if (!options.given.quality) options.quality = settings.quality;
   if (!options.given.grid_resolution) options.grid.resolution = settings.grid.resolution;
   if (!options.given.grid_scale) options.grid.scale = settings.grid.scale;
   if (!options.given.grid_spacing) options.grid.spacing = settings.grid.spacing;
@@ -218,7 +222,7 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.width = merged(loaded_.width, start.width, end.width);
   kept.height = merged(loaded_.height, start.height, end.height);
   kept.method = merged(loaded_.method, start.method, end.method);
-  kept.view_radius_m = merged(loaded_.view_radius_m, start.view_radius_m, end.view_radius_m);
+  kept.quality = merged(loaded_.quality, start.quality, end.quality);
   kept.grid.resolution = merged(loaded_.grid.resolution, start.grid.resolution, end.grid.resolution);
   kept.grid.scale = merged(loaded_.grid.scale, start.grid.scale, end.grid.scale);
   kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);

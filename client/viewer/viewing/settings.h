@@ -15,6 +15,7 @@ struct HudChoice {
   bool figures = false;  ///< all of them
   bool graphs = false;
   bool panel = true;
+  bool persons = false;
 
   bool operator==(const HudChoice&) const = default;
 };
@@ -41,8 +42,8 @@ void change(HandChoice& choice, Action action);
 struct Settings {
   int width = 1280;
   int height = 720;
-  std::string method;  ///< empty: the first
-  float view_radius_m = 96.0F;
+  std::string method;              ///< empty: the first
+  std::optional<Quality> quality;  ///< nothing: by the first frames
   GridShape grid;
   HudChoice hud;
   HandChoice hand;

@@ -6,27 +6,52 @@
 #include "client/viewer/pictures/picture_difference.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/sight.h"
+#include "client/viewer/viewing/auto_quality.h"
 
 namespace scree {
+namespace {
 
-Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
-  Result<std::unique_ptr<View>> view = View::create(*options.method, options.view_radius_m);
-  if (!view) return fail(view.error().message);
-  return std::unique_ptr<Viewing>(new Viewing(options, std::move(*view)));
+float view_radius_of(const ViewerOptions& options, Quality quality) {
+  return options.given.view_radius ? options.view_radius_m : traits_of(quality).view_radius_m;
 }
 
-Viewing::Viewing(const ViewerOptions& given, std::unique_ptr<View> drawn)
+}  // namespace
+
+Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
+  const Quality quality = options.quality.value_or(options.offscreen ? Quality::high : AutoQuality::first);
+  Result<std::unique_ptr<View>> view = View::create(*options.method, view_radius_of(options, quality));
+  if (!view) return fail(view.error().message);
+  Result<Sounds> sounds = Sounds::begin(options.sound && !options.offscreen, options.sound_file);
+  if (!sounds) return fail(sounds.error().message);
+  return std::unique_ptr<Viewing>(new Viewing(options, quality, std::move(*view), std::move(*sounds)));
+}
+
+Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<View> drawn, Sounds sounds)
     : options(given),
       trace(given.trace_file.empty() ? nullptr : std::make_unique<Trace>()),
-      session(given, given.view_radius_m, given.name, given.cache),
+      session(given, view_radius_of(given, quality), given.name, given.cache),
       view(std::move(drawn)),
       camera(given.camera),
-      screenshots(given.screenshots) {
+      screenshots(given.screenshots),
+      sounds_(std::move(sounds)),
+      quality_(quality) {
   view->renderer().set_trace(trace.get());
-  view->renderer().set_render_scale(options.render_scale);
+  use(quality);
   view->renderer().set_grid(options.grid);
   session.watch(given.overlay.shown && given.overlay.physics);
   session.predict(given.predict);
+}
+
+void Viewing::use(Quality quality) {
+  quality_ = quality;
+  Fineness fineness = traits_of(quality).fineness;
+  if (options.given.render_scale) fineness.render_scale = options.render_scale;
+  view->set_fineness(fineness, view_radius_m());
+  session.set_interest_radius(view_radius_m());
+}
+
+float Viewing::view_radius_m() const {
+  return view_radius_of(options, quality_);
 }
 
 Result<void> Viewing::step(double now_s) {
@@ -34,7 +59,12 @@ Result<void> Viewing::step(double now_s) {
     const TraceSpan span(trace.get(), "viewer", "messages");
     return session.step(now_s, camera);
   }();
-  if (step.new_mirror) stand_on_ground();
+  if (step.new_mirror) {
+    stand_on_ground();
+    sounds_.begin_world();
+  }
+  if (session.mirror() != nullptr && !sounds_.silent())
+    sounds_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, camera, now_s);
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
@@ -53,6 +83,7 @@ Result<void> Viewing::check_gl_errors() {
 }
 
 Result<void> Viewing::finish() {
+  if (Result<void> heard = sounds_.finish(); !heard) return heard;
   return trace ? trace->write(options.trace_file) : Result<void>{};
 }
 
@@ -69,7 +100,7 @@ Moment Viewing::moment(double now_s) {
   if (Mirror* mirror = session.mirror()) {
     const Scene scene{session.field(), session.pieces(now_s)};
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    moment.pieces = pieces_in_sight(scene, camera, aspect, options.view_radius_m);
+    moment.pieces = pieces_in_sight(scene, camera, aspect, view_radius_m());
     const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;
     moment.alive = !mirror->pieces().empty() || elsewhere;
   }
@@ -80,7 +111,7 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
   LineList lines;
   if (options.overlay.shown) {
     add_overlay(lines, options.overlay, now_s);
-    add_cursors(lines, session.cursors());
+    session.figures(now_s).add_to(lines, camera.eye_m);
   }
   return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
 }

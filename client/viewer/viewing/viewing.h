@@ -8,6 +8,7 @@
 #include "client/viewer/session/overlay.h"
 #include "client/viewer/session/view.h"
 #include "client/viewer/session/viewer_session.h"
+#include "client/viewer/sound/sounds.h"
 #include "client/viewer/viewing/options.h"
 #include "shared/base/trace.h"
 
@@ -27,8 +28,12 @@ class Viewing {
   Result<Image> picture(double now_s, int width, int height);
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
-  /// Writes the trace, if one was asked for.
+  /// Writes the trace, and ends the file of sound, if they were asked for.
   Result<void> finish();
+  /// Draws by that preset, but for what options say themselves.
+  void use(Quality quality);
+  Quality quality() const { return quality_; }
+  float view_radius_m() const;
   /// Whether everything around the camera has arrived and is shown.
   bool joined(double now_s);
 
@@ -42,12 +47,14 @@ class Viewing {
   std::optional<double> difference;
 
  private:
-  Viewing(const ViewerOptions& options, std::unique_ptr<View> view);
+  Viewing(const ViewerOptions& options, Quality quality, std::unique_ptr<View> view, Sounds sounds);
   Moment moment(double now_s);
   Result<void> take(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
   void stand_on_ground();
 
+  Sounds sounds_;
+  Quality quality_;
   bool stands_ = false;  ///< the camera was placed by the first world's ground
 };
 

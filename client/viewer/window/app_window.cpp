@@ -5,11 +5,12 @@
 #include <imgui/imgui.h>
 #include <utility>
 
+#include "proto/limits.h"
+
 namespace scree {
 
 namespace {
 
-constexpr int samples = 4;
 constexpr double minimised_pause_s = 0.02;  ///< about a tick: the world goes on
 
 std::string last_error() {
@@ -25,7 +26,6 @@ GLFWwindow* open_with(int api, int major, int minor, int width, int height, bool
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
   if (api == GLFW_OPENGL_API) glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_SAMPLES, samples);
   return glfwCreateWindow(width, height, "Scree", nullptr, nullptr);
 }
 
@@ -38,7 +38,12 @@ struct AppWindowEvents {
   }
 
   static void on_key(GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS) of(window).press(key);
+    AppWindow& app = of(window);
+    if (app.writes_ && action != GLFW_RELEASE) return app.write(key);
+    if (action == GLFW_PRESS) app.press(key);
+  }
+  static void on_char(GLFWwindow* window, unsigned code_point) {
+    if (auto& line = of(window).writes_) line->add(code_point);
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
     if (action == GLFW_PRESS && std::exchange(of(window).asks_to_end_, false)) return;
@@ -77,6 +82,7 @@ AppWindow::AppWindow(GLFWwindow* window) : window_(window) {
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, AppWindowEvents::on_key);
+  glfwSetCharCallback(window_, AppWindowEvents::on_char);
   glfwSetMouseButtonCallback(window_, AppWindowEvents::on_button);
   glfwSetScrollCallback(window_, AppWindowEvents::on_scroll);
   last_s_ = glfwGetTime();
@@ -128,8 +134,18 @@ void AppWindow::press(int key) {
     if (binding.key == key) act(binding.action);
 }
 
+void AppWindow::write(int key) {
+  if (key == GLFW_KEY_BACKSPACE) return writes_->erase();
+  const bool sends = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER;
+  if (sends) said_ = writes_->text();
+  if (sends || key == GLFW_KEY_ESCAPE) writes_.reset();
+}
+
 void AppWindow::act(Action action) {
   switch (action) {
+    case Action::talk:
+      writes_.emplace(limits::line_bytes_max);
+      break;
     case Action::end:
       asks_to_end_ = true;
       break;
@@ -154,12 +170,14 @@ AppInput AppWindow::poll() {
   poll_gamepad(input);
   input.wheel = std::exchange(wheel_, 0.0F);
   input.strike = std::exchange(strike_, false);
+  input.said = std::exchange(said_, std::nullopt);
   input.actions = std::exchange(actions_, {});
   return input;
 }
 
 void AppWindow::poll_keys(AppInput& input) {
   const auto axis = [this](int plus, int minus) {
+    if (writes_) return 0.0F;
     return static_cast<float>((glfwGetKey(window_, plus) == GLFW_PRESS) -
                               (glfwGetKey(window_, minus) == GLFW_PRESS));
   };

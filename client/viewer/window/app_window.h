@@ -12,6 +12,7 @@
 #include "client/viewer/input/actions.h"
 #include "client/viewer/input/fly_camera.h"
 #include "client/viewer/input/gamepad.h"
+#include "client/viewer/input/text_line.h"
 #include "shared/base/result.h"
 
 struct GLFWwindow;
@@ -24,7 +25,8 @@ struct AppInput {
   float elapsed_s = 0.0F;
   float wheel = 0.0F;   ///< notches, up is positive
   bool strike = false;  ///< left button went down, with the mouse held by the window; or the right trigger
-  std::vector<Action> actions;  ///< in order; without those that are the window's own (AppWindow::act)
+  std::optional<std::string> said;  ///< a line that was written and sent
+  std::vector<Action> actions;      ///< in order; without those that are the window's own (AppWindow::act)
 };
 
 class AppWindow {
@@ -42,6 +44,8 @@ class AppWindow {
   /// The person wants to end, and is asked whether that is so: Escape or Enter say yes, any other key or
   /// button no.
   bool asks_to_end() const { return asks_to_end_; }
+  /// The line that is being written, and takes all keys; nothing: none is.
+  const std::optional<TextLine>& writes() const { return writes_; }
   /// Puts a text where other programs paste it from.
   void copy(const std::string& text);
   /// Pixels; nothing while minimised.
@@ -60,6 +64,7 @@ class AppWindow {
   explicit AppWindow(GLFWwindow* window);
   void hold_mouse(bool hold);
   void press(int key);
+  void write(int key);
   void turn_full_screen();
   void act(Action action);
   void poll_keys(AppInput& input);
@@ -73,6 +78,8 @@ class AppWindow {
   bool holds_mouse_ = false;
   bool has_gamepad_ = false;
   bool asks_to_end_ = false;
+  std::optional<TextLine> writes_;
+  std::optional<std::string> said_;
   std::optional<glm::ivec4> windowed_;  ///< place and size before the screen was full
   float wheel_ = 0.0F;
   bool strike_ = false;

@@ -66,16 +66,41 @@ void Hud::help(Telling telling, bool gamepad) {
   panels_.end();
 }
 
-void Hud::names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection) {
+void Hud::names(const Figures& figures, const glm::mat4& view_projection) {
+  constexpr float over_eye_m = 0.32F;
   const glm::vec2 size = screen_size();
-  for (const PlayerCursor& cursor : cursors) {
-    const glm::vec4 place = view_projection * glm::vec4(cursor.aim_m, 1.0F);
+  for (const auto& [session, figure] : figures.all()) {
+    const glm::vec4 place =
+        view_projection * glm::vec4(figure.eye_m + glm::vec3(0.0F, over_eye_m, 0.0F), 1.0F);
     if (place.w <= 0.0F) continue;
-    const ImVec2 at((place.x / place.w * 0.5F + 0.5F) * size.x + 8.0F,
-                    (0.5F - place.y / place.w * 0.5F) * size.y - 8.0F);
-    const std::string name = cursor.name.empty() ? "client " + std::to_string(cursor.session) : cursor.name;
-    ImGui::GetBackgroundDrawList()->AddText(at, IM_COL32(120, 240, 255, 255), name.c_str());
+    const std::string name = called(session, figure.name);
+    const ImVec2 text = ImGui::CalcTextSize(name.c_str());
+    const ImVec2 at((place.x / place.w * 0.5F + 0.5F) * size.x - 0.5F * text.x,
+                    (0.5F - place.y / place.w * 0.5F) * size.y - text.y);
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    list->AddText(ImVec2(at.x + 1.0F, at.y + 1.0F), IM_COL32(0, 0, 0, 200), name.c_str());
+    list->AddText(at, IM_COL32(255, 255, 255, 255), name.c_str());
   }
+}
+
+void Hud::lower_right(const HudFacts& facts, const PersonsMessage* persons, bool with_graphs) {
+  if (persons == nullptr && !with_graphs) return;
+  panels_.begin(PanelPlace::lower_right);
+  if (persons != nullptr) {
+    ImGui::Text("persons: %zu", persons->persons.size() + persons->more);
+    for (const Person& person : persons->persons) {
+      const LineColour colour = colour_of_person(person.session);
+      ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(colour.red, colour.green, colour.blue, 255));
+      ImGui::TextUnformatted(called(person.session, person.name).c_str());
+      ImGui::PopStyleColor();
+      ImGui::SameLine();
+      ImGui::TextUnformatted(std::string(name_of(person.role)).c_str());
+    }
+    if (persons->more > 0) ImGui::Text("and %u more", persons->more);
+    ImGui::TextUnformatted(persons->chat ? "Enter: say something to all" : "this server passes no lines on");
+  }
+  if (with_graphs) graphs(facts);
+  panels_.end();
 }
 
 }  // namespace scree

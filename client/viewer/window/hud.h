@@ -26,6 +26,7 @@ struct PanelValues {
   GridShape& grid;
   bool& predict;
   HandChoice& hand;
+  std::optional<Quality>& quality;  ///< nothing: by the first frames
 };
 
 class Hud {
@@ -36,7 +37,8 @@ class Hud {
   void note(const HudFacts& facts, const FrameParts& parts);
   /// A few lines; with `all`, everything that is known.
   void figures(const HudFacts& facts, bool all);
-  void graphs(const HudFacts& facts);
+  /// On the lower right: who is in the world, and graphs; either may be left out.
+  void lower_right(const HudFacts& facts, const PersonsMessage* persons, bool graphs);
   /// The chosen method; null if none was chosen. Sliders and boxes change the values.
   const MethodEntry* panel(const MethodEntry& chosen, const PanelValues& values);
   void help(Telling telling, bool gamepad);
@@ -45,8 +47,8 @@ class Hud {
   /// Below everything: a method that is being made ready, and what there is to say now, a line each. Nothing
   /// when there is nothing.
   void messages(const HudFacts& facts, const std::vector<std::string>& lines);
-  /// The persons' names, where their cursors are in the picture.
-  void names(const std::vector<PlayerCursor>& cursors, const glm::mat4& view_projection);
+  /// The persons' names, over their figures in the picture.
+  void names(const Figures& figures, const glm::mat4& view_projection);
   void crosshair();
 
   const HudPanels& panels() const { return panels_; }
@@ -54,6 +56,8 @@ class Hud {
   float fit() const { return panels_.fit(); }
 
  private:
+  void graphs(const HudFacts& facts);
+
   HudPanels panels_;
   History frame_;
   History update_;

@@ -84,6 +84,8 @@ void show_latency(const HudFacts& facts) {
       ImGui::SameLine(0.0F, 0.0F);
       ImGui::Text(", %s %.1f", stage.name.data(), as_ms(facts.latency->server.*stage.us));
     }
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::TextUnformatted(" ms");
   }
   if (facts.status && facts.status->latency != LatencyStatus{})
     for (const LatencyStageRow& stage : latency_stages)
@@ -168,7 +170,6 @@ void Hud::note(const HudFacts& facts, const FrameParts& parts) {
 }
 
 void Hud::graphs(const HudFacts& facts) {
-  panels_.begin(PanelPlace::lower_right);
   ImGui::PushTextWrapPos(line_width_in_text * ImGui::GetFontSize());
   ImGui::TextUnformatted(facts.driver.c_str());
   ImGui::PopTextWrapPos();
@@ -180,7 +181,6 @@ void Hud::graphs(const HudFacts& facts) {
   for (const GpuTime& time : facts.gpu_times)
     ImGui::Text("GPU %-9s %7.2f ms", std::string(time.name).c_str(), time.ms);
   if (facts.status) show_stages(*facts.status, facts.tick_rate_hz);
-  panels_.end();
 }
 
 }  // namespace scree

@@ -22,16 +22,20 @@ void choose(E& value, const std::array<E, n>& all) {
   }
 }
 
-/// Methods that this driver cannot make are grey, with the reason.
+/// Three on a line. Methods that this driver cannot make are grey, with the reason.
 const MethodEntry* choose_method(const MethodEntry& chosen) {
   const MethodEntry* picked = nullptr;
+  int on_line = 0;
   for (const MethodEntry& entry : all_methods()) {
     const std::optional<std::string> missing = entry.missing();
+    if (on_line++ % 3 != 0) ImGui::SameLine();
     const std::string name(entry.name);
     ImGui::BeginDisabled(missing.has_value());
     if (ImGui::RadioButton(name.c_str(), &entry == &chosen) && &entry != &chosen) picked = &entry;
     ImGui::EndDisabled();
-    if (missing) ImGui::TextDisabled("    %s", missing->c_str());
+    if (!missing) continue;
+    ImGui::TextDisabled("    %s", missing->c_str());
+    on_line = 0;
   }
   return picked;
 }
@@ -39,7 +43,7 @@ const MethodEntry* choose_method(const MethodEntry& chosen) {
 /// Resolutions and scales change in steps, so that the shape stays valid.
 void choose_grid(GridShape& grid) {
   int steps = grid.resolution / limits::grid_resolution_step;
-  const std::string cells = std::to_string(grid.resolution);
+  const std::string cells = std::to_string(grid.resolution) + " a side";
   if (ImGui::SliderInt("grid cells", &steps, limits::grid_resolution_min / limits::grid_resolution_step,
                        limits::grid_resolution_max / limits::grid_resolution_step, cells.c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
@@ -52,6 +56,15 @@ void choose_grid(GridShape& grid) {
   choose(grid.spacing, grid_spacings);
 }
 
+void choose_quality(std::optional<Quality>& quality) {
+  const std::string name(auto_name);
+  if (ImGui::RadioButton(name.c_str(), !quality)) quality.reset();
+  for (const Quality one : all_kinds<Quality>) {
+    ImGui::SameLine();
+    if (ImGui::RadioButton(std::string(name_of(one)).c_str(), quality == one)) quality = one;
+  }
+}
+
 /// What a carve breaks into, or what is painted.
 void choose_use(Tool& tool) {
   if (tool.use == ToolUse::paint) choose(tool.material, all_kinds<Material>);
@@ -59,7 +72,8 @@ void choose_use(Tool& tool) {
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
   choose(tool.pattern, tool_patterns);
   auto seeds = static_cast<int>(tool.seeds);
-  const std::string text = tool.seeds > 0 ? "%d" : std::to_string(seeds_of(tool)) + " (by size)";
+  const std::string text =
+      tool.seeds > 0 ? "about %d" : "about " + std::to_string(seeds_of(tool)) + ", by size";
   if (ImGui::SliderInt("pieces", &seeds, 0, static_cast<int>(tool_seeds_max), text.c_str()))
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
 }
@@ -67,11 +81,12 @@ void choose_use(Tool& tool) {
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, overlay, grid, predict, hand] = values;
+  auto& [tool, overlay, grid, predict, hand, quality] = values;
   panels_.begin(PanelPlace::upper_right);
   ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
   if (chosen.name == "grid") choose_grid(grid);
+  choose_quality(quality);
   ImGui::Separator();
   choose(tool.use, all_kinds<ToolUse>);
   choose(tool.kind, all_kinds<ToolKind>);

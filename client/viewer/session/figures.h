@@ -1,0 +1,35 @@
+// Other persons as figures: a body under the eye, looking where they aim. Follows their cursors smoothly.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "client/render/scene/line_list.h"
+#include "proto/messages.h"
+
+namespace scree {
+
+class Figures {
+ public:
+  /// The cursors as last told; a person that is not among them is gone. `now_s`: never backwards.
+  void step(const std::vector<PlayerCursor>& cursors, double now_s);
+
+  struct Figure {
+    std::string name;
+    glm::vec3 eye_m{0.0F};
+    glm::vec3 aim_m{0.0F};
+    double since_s = 0.0;  ///< of the last step
+  };
+  /// By session.
+  const std::map<uint64_t, Figure>& all() const { return figures_; }
+  /// Adds them as bodies, and a cross where each aims; not one that the eye is in.
+  void add_to(LineList& lines, glm::vec3 eye_m) const;
+
+ private:
+  std::map<uint64_t, Figure> figures_;
+};
+
+/// A figure's colour: always the same of a session.
+LineColour colour_of_person(uint64_t session);
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+#include "client/viewer/session/on_foot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "client/viewer/session/solid_ground.h"
+#include "shared/base/check.h"
+
+namespace scree {
+namespace {
+
+/// Of the eye's height over the feet, in a second: steps are climbed without a jolt.
+constexpr float rise_m_s = 3.0F;
+
+}  // namespace
+
+void OnFoot::change(const Camera& camera) {
+  if (walker_) return stop();
+  walker_.emplace(camera.eye_m - glm::vec3(0.0F, Walker::eye_above_m, 0.0F));
+}
+
+void OnFoot::step(Camera& camera, const FlyInput& input, float elapsed_s, const Scene& scene) {
+  CHECK(walks());
+  FlyInput look = input;
+  look.move = glm::vec3(0.0F);
+  fly(camera, look, elapsed_s);
+  const glm::vec3 ahead(-std::sin(camera.yaw), 0.0F, -std::cos(camera.yaw));
+  const WalkInput walk{camera.right() * input.move.x + ahead * input.move.z, input.fast, input.move.y > 0.0F};
+  SolidGround ground(scene, walker_->feet_m());
+  const bool stood = walker_->stands();
+  walker_->step(walk, elapsed_s, ground);
+  const glm::vec3 eye_m = walker_->eye_m();
+  const bool steps = stood && walker_->stands() && std::abs(eye_m.y - camera.eye_m.y) < 2.0F * Walker::step_m;
+  const float most_m = rise_m_s * elapsed_s;
+  const float before_m = camera.eye_m.y;
+  camera.eye_m = eye_m;
+  if (steps) camera.eye_m.y = std::clamp(eye_m.y, before_m - most_m, before_m + most_m);
+}
+
+}  // namespace scree

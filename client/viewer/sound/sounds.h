@@ -1,0 +1,39 @@
+// The sounds of a session: what its pieces do, to a device, to a file, to both or to none. Main thread only.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client/viewer/sound/piece_ears.h"
+#include "client/viewer/sound/speaker.h"
+#include "client/viewer/sound/synthesiser.h"
+#include "client/viewer/sound/wave_file.h"
+
+namespace scree {
+
+class Sounds {
+ public:
+  /// `aloud`: by the device, if there is one; `file`: a WAV, empty: none. Fails if that cannot be written.
+  static Result<Sounds> begin(bool aloud, const std::string& file);
+
+  /// Another world, or another moment of it.
+  void begin_world() { ears_.begin(); }
+  void step(const ScenePieces& pieces, float voxel_m, const Camera& camera, double now_s);
+  /// Whether nobody hears anything: then step() costs nothing.
+  bool silent() const { return !speaker_ && !file_; }
+  /// The file is whole.
+  Result<void> finish();
+
+ private:
+  Sounds() = default;
+
+  PieceEars ears_;
+  std::unique_ptr<Speaker> speaker_;
+  std::optional<WaveFile> file_;
+  Synthesiser of_file_;
+  std::optional<double> begun_s_;
+  size_t written_ = 0;  ///< frames of the file
+};
+
+}  // namespace scree

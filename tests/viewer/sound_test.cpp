@@ -1,0 +1,197 @@
+// Sound: as loud as it should be, the same every time, and nothing without events or a device.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "client/viewer/base/limits.h"
+#include "client/viewer/sound/sounds.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+namespace {
+
+constexpr size_t second = Synthesiser::rate_hz;
+
+/// A blast of some pieces, 6 m ahead.
+std::vector<SoundEvent> blast_events() {
+  std::vector<SoundEvent> events;
+  for (int i = 0; i < 12; ++i)
+    events.push_back({SoundKind::crack, {0.2F * static_cast<float>(i), 0.0F, -6.0F}, 0.7F, 2600.0F});
+  events.push_back({SoundKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, Material::rock});
+  return events;
+}
+
+std::vector<float> rendered(const std::vector<SoundEvent>& events, size_t frames, const Ears& ears = {}) {
+  Synthesiser synthesiser;
+  for (const SoundEvent& event : events) synthesiser.add(event, ears);
+  return synthesiser.render(frames);
+}
+
+float peak(const std::vector<float>& samples) {
+  float most = 0.0F;
+  for (const float sample : samples) most = std::max(most, std::abs(sample));
+  return most;
+}
+
+/// Root mean square of the samples.
+float loudness(const std::vector<float>& samples) {
+  double sum = 0.0;
+  for (const float sample : samples) sum += static_cast<double>(sample) * static_cast<double>(sample);
+  return static_cast<float>(std::sqrt(sum / static_cast<double>(samples.size())));
+}
+
+TEST(Synthesiser, a_blast_is_within_its_bounds_and_dies_away) {
+  Synthesiser synthesiser;
+  for (const SoundEvent& event : blast_events()) synthesiser.add(event, {});
+  const std::vector<float> first = synthesiser.render(second / 2);
+  EXPECT_GT(peak(first), 0.1F);
+  EXPECT_LE(peak(first), Synthesiser::peak_max);
+  EXPECT_GT(loudness(first), 0.02F);
+  EXPECT_LT(loudness(first), 0.5F);
+  synthesiser.render(6 * second);
+  EXPECT_EQ(synthesiser.voices(), 0U);
+  EXPECT_EQ(peak(synthesiser.render(second)), 0.0F);
+}
+
+TEST(Synthesiser, without_events_there_is_silence) {
+  EXPECT_EQ(peak(rendered({}, second)), 0.0F);
+}
+
+TEST(Synthesiser, the_same_events_make_the_same_samples) {
+  EXPECT_EQ(rendered(blast_events(), second), rendered(blast_events(), second));
+}
+
+TEST(Synthesiser, no_crowd_of_sounds_goes_beyond_the_peak_or_the_voices) {
+  Synthesiser synthesiser;
+  for (int i = 0; i < 1000; ++i) synthesiser.add({SoundKind::strike, {}, 2.0F, 1e9F, Material::ice}, {});
+  EXPECT_LE(synthesiser.voices(), limits::voices_max);
+  EXPECT_LE(peak(synthesiser.render(second)), Synthesiser::peak_max);
+}
+
+TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
+  const auto strike = [](glm::vec3 place_m) {
+    return std::vector<SoundEvent>{{SoundKind::strike, place_m, 0.5F, 3000.0F, Material::rock}};
+  };
+  const std::vector<float> near = rendered(strike({0.0F, 0.0F, -3.0F}), second);
+  const std::vector<float> far = rendered(strike({0.0F, 0.0F, -100.0F}), second);
+  EXPECT_GT(loudness(near), 4.0F * loudness(far));
+  const auto silent_frames = [](const std::vector<float>& samples) {
+    const auto heard = std::ranges::find_if(samples, [](float sample) { return sample != 0.0F; });
+    return static_cast<size_t>(heard - samples.begin()) / Synthesiser::channels;
+  };
+  EXPECT_NEAR(static_cast<double>(silent_frames(far)) / second, 100.0 / 343.0, 0.01);
+  const std::vector<float> right = rendered(strike({5.0F, 0.0F, 0.0F}), second);
+  float left_sum = 0.0F, right_sum = 0.0F;
+  for (size_t i = 0; i < right.size(); i += 2) {
+    left_sum += std::abs(right[i]);
+    right_sum += std::abs(right[i + 1]);
+  }
+  EXPECT_GT(right_sum, 2.0F * left_sum);
+}
+
+/// Pieces of a carve, which a test moves.
+class PieceEarsTest : public testing::Test {
+ protected:
+  PieceEarsTest() {
+    PieceTable table;
+    apply(CarveOperation{sphere({}, 2.0F), SeedPattern::uniform, 8, 5, {}, 1}, field_, table);
+    for (const auto& [id, volume] : table)
+      cut_[id] = {volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
+  }
+  std::vector<SoundEvent> step(const ScenePieces& pieces) {
+    now_s_ += frame_s;
+    return ears_.step(pieces, voxel_m, now_s_);
+  }
+  static constexpr float voxel_m = 0.25F;
+  static constexpr double frame_s = 1.0 / 60.0;
+  MapField field_{{TerrainKind::flat, 1, voxel_m}};
+  ScenePieces cut_;
+  PieceEars ears_;
+  double now_s_ = 100.0;
+};
+
+TEST_F(PieceEarsTest, pieces_crack_off_strike_and_settle_once_each) {
+  ASSERT_FALSE(cut_.empty());
+  EXPECT_TRUE(step({}).empty());
+  const std::vector<SoundEvent> cracks = step(cut_);
+  ASSERT_EQ(cracks.size(), std::min(cut_.size(), limits::sounds_per_step_max));
+  EXPECT_EQ(cracks[0].kind, SoundKind::crack);
+  EXPECT_GT(cracks[0].impulse_n_s, 0.0F);
+  ScenePieces falling = cut_;
+  float speed_m_s = 0.0F;
+  for (int i = 0; i < 30; ++i) {
+    speed_m_s -= 9.81F * static_cast<float>(frame_s);
+    for (auto& [id, piece] : falling) piece.pose.position_m.y += speed_m_s * static_cast<float>(frame_s);
+    EXPECT_TRUE(step(falling).empty()) << "falling is silent, frame " << i;
+  }
+  const std::vector<SoundEvent> strikes = step(falling);  // all stop at once
+  ASSERT_FALSE(strikes.empty());
+  EXPECT_EQ(strikes[0].kind, SoundKind::strike);
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(step(falling).empty()) << "lying is silent, frame " << i;
+  const std::vector<SoundEvent> ends = step({});
+  ASSERT_FALSE(ends.empty());
+  EXPECT_EQ(ends[0].kind, SoundKind::settle);
+  EXPECT_TRUE(step({}).empty());
+}
+
+TEST_F(PieceEarsTest, a_world_that_is_shown_for_the_first_time_is_silent) {
+  EXPECT_TRUE(step(cut_).empty());
+  ears_.begin();
+  EXPECT_TRUE(step({}).empty());
+  now_s_ += 10.0;  // nobody listened
+  EXPECT_TRUE(step(cut_).empty());
+}
+
+TEST_F(PieceEarsTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loudness) {
+  const std::string path = (std::filesystem::path(testing::TempDir()) / "scree_blast.wav").string();
+  Result<Sounds> sounds = Sounds::begin(false, path);
+  ASSERT_TRUE(sounds) << sounds.error().message;
+  EXPECT_FALSE(sounds->silent());
+  Camera camera;
+  camera.eye_m = {0.0F, 2.0F, 8.0F};
+  for (int i = 0; i <= 120; ++i)
+    sounds->step(i < 30 ? ScenePieces{} : cut_, voxel_m, camera, 50.0 + static_cast<double>(i) * frame_s);
+  ASSERT_TRUE(sounds->finish());
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::string bytes = text.str();
+  std::filesystem::remove(path);
+  ASSERT_EQ(bytes.substr(0, 4) + bytes.substr(8, 4), "RIFFWAVE");
+  EXPECT_EQ(bytes.size(), 44 + 2 * second * 4);
+  std::vector<float> samples;
+  for (size_t i = 44; i + 1 < bytes.size(); i += 2)
+    samples.push_back(static_cast<float>(static_cast<int16_t>(static_cast<uint8_t>(bytes[i]) |
+                                                              static_cast<uint8_t>(bytes[i + 1]) << 8)) /
+                      32767.0F);
+  const std::vector<float> before(samples.begin(), samples.begin() + static_cast<long>(second / 2));
+  const std::vector<float> blast(samples.begin() + static_cast<long>(second), samples.end());
+  EXPECT_EQ(peak(before), 0.0F);
+  EXPECT_GT(peak(blast), 0.05F);
+  EXPECT_LE(peak(blast), Synthesiser::peak_max + 1e-3F);
+  EXPECT_GT(loudness(blast), 0.003F);
+  EXPECT_LT(loudness(blast), 0.4F);
+}
+
+TEST(Sounds, without_a_device_nothing_is_played_and_nothing_fails) {
+  ::setenv("ALSOFT_DRIVERS", "none-such", 1);
+  Result<Sounds> sounds = Sounds::begin(true, "");
+  ::unsetenv("ALSOFT_DRIVERS");
+  ASSERT_TRUE(sounds) << sounds.error().message;
+  EXPECT_TRUE(sounds->silent());
+  sounds->step({}, 0.25F, {}, 1.0);
+  EXPECT_TRUE(sounds->finish());
+}
+
+TEST(Sounds, a_file_that_cannot_be_written_is_said) {
+  const Result<Sounds> sounds = Sounds::begin(false, "/no/such/folder/sound.wav");
+  ASSERT_FALSE(sounds);
+  EXPECT_NE(sounds.error().message.find("--sound-file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scree
