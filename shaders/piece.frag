@@ -19,7 +19,7 @@ void main() {
   float above = piece_at(hit.local + local_normal * probe_height);
   float there = worn_at(from_eye, normal, 0, generated_at(from_eye, 0), above);
   int paint = paint_of(hit.entry);
-  float layer_m = paint >= paint_in_cuts ? 1.0 : 0.0;
+  float layer_m = paint >= paint_in_cuts ? 0.3 * (1.0 - v_dust) : 0.0;
   Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, mix(abs(before), there, v_dust), layer_m,
                       paint < paint_in_cuts ? paint_colour(paint) : vec4(0.0), away);
   vec3 albedo = rock.albedo * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));

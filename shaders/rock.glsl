@@ -1,4 +1,4 @@
-// What rock looks like in the light of atmosphere.glsl, the same for every way to draw it. Needs noise.glsl and the
+// What rock looks like in the light of atmosphere.glsl, the same for every way to draw it. Needs clouds.glsl and the
 // table of materials (client/render/gl/material_source.h).
 
 uniform vec3 u_eye;
@@ -34,7 +34,7 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
 
 // How much shows of broken rock, cut or heaped, which is paler and warmer than what the weather has had, and bare. `worn`:
 // how far the field as generated was from what lies here now, code / 127; 0 on the ground as it was.
-float bare_of(float worn) { return smoothstep(0.06, 0.30, worn); }
+float bare_of(float worn, float fine) { return smoothstep(0.08, 0.22, worn * (0.5 + fine)); }
 
 // Turned, so that no face lies along the voxels, and flattened: rock splits along its beds.
 const mat3 along_beds = mat3(0.82, 0.51, -0.31, -0.48, 1.32, 0.36, 0.37, -0.26, 0.88);
@@ -70,7 +70,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, f
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
   float fine = 0.6 * middle.x + 0.4 * small.x;
-  float bare = bare_of(worn);
+  float bare = bare_of(worn, fine);
   float grain = 1.0 / (1.0 + away * 0.05);
   vec3 bump = middle.yzw * 0.17 + small.yzw * 0.15 * grain;
   float open = 1.0;
@@ -95,7 +95,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, f
       vec3 q = along_beds * p;
       vec4 large = facet(q * 1.25, middle.yzw * 0.30 + coarse.yzw * 0.3);
       vec4 chip = facet(q * 3.7 + 0.4, small.yzw * 0.22 + middle.yzw * 0.5);
-      bump += (large.xyz * 1.30 + chip.xyz * 0.85 * grain) * seen;
+      bump += (large.xyz * 0.90 + chip.xyz * 0.70 * grain) * seen;
       float width = 0.02 + 0.004 * away;
       float crack = (1.0 - smoothstep(0.0, width, large.w)) * smoothstep(0.60, 0.74, 0.45 * coarse.x + 0.45 * middle.x + 0.35 * small.x);
       crack *= seen * min(1.0, 0.04 / width);
@@ -123,8 +123,12 @@ vec3 lit_rock(vec3 albedo, vec3 normal, float openness, float sunlight) {
 
 vec3 in_fog(vec3 colour, vec3 world, float away) {
   // Thin haze all the way, and the end of what is drawn.
-  float haze = 0.45 * (1.0 - exp(-0.9 * away / u_fog_m));
+  float haze = 0.45 * (1.0 - exp(-away * (1.0 / 700.0)));
   float fog = 1.0 - (1.0 - haze) * exp(-pow(away / (u_fog_m * 0.80), 4.5));
   vec3 view = (world - u_eye) / max(away, 1e-3);
-  return mix(colour, sky(normalize(vec3(view.x, max(view.y, 0.0), view.z))), fog);
+  vec3 beyond = normalize(vec3(view.x, max(view.y, 0.0), view.z));
+  vec3 air = sky(beyond);
+  // What the fog hides all but wholly must not stand out before the clouds.
+  if (fog > 0.5 && beyond.y > 0.015) air = mix(air, clouded(air, beyond), smoothstep(0.5, 0.95, fog));
+  return mix(colour, air, fog);
 }

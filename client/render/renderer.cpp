@@ -146,9 +146,10 @@ Renderer::~Renderer() {
 
 Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   if (const Result<void> version = check_version(); !version) return fail(version.error().message);
-  Result<gl::Program> sky = gl::Program::link(
-      "sky", std::array{shader_source("sky.vert")},
-      std::array{shader_source("atmosphere.glsl"), shader_source("noise.glsl"), shader_source("sky.frag")});
+  Result<gl::Program> sky =
+      gl::Program::link("sky", std::array{shader_source("sky.vert")},
+                        std::array{shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
+                                   shader_source("clouds.glsl"), shader_source("sky.frag")});
   if (!sky) return fail(sky.error().message);
   Result<LineDrawer> lines = LineDrawer::create();
   if (!lines) return fail(lines.error().message);

@@ -39,6 +39,7 @@ std::span<const std::string_view> surface_fragment_parts() {
                                 shader_source("rotation.glsl"),
                                 shader_source("atmosphere.glsl"),
                                 shader_source("noise.glsl"),
+                                shader_source("clouds.glsl"),
                                 shader_source("rock.glsl"),
                                 shader_source("shadow.glsl"),
                                 shader_source("surface.frag")};

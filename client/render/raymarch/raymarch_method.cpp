@@ -50,12 +50,13 @@ Result<Programs> link_programs() {
       link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
   if (!cone) return fail(cone.error().message);
   Result<gl::Program> march = link("raymarch", {"raymarch.vert"},
-                                   {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "rock.glsl",
-                                    "shadow.glsl", "raymarch.frag"});
+                                   {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl",
+                                    "clouds.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
   if (!march) return fail(march.error().message);
-  Result<gl::Program> piece = link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-                                   {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl",
-                                    "noise.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+  Result<gl::Program> piece =
+      link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+           {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
+            "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
   if (!piece) return fail(piece.error().message);
   Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
                                     {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});
