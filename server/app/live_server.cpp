@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <mutex>
 #include <spdlog/spdlog.h>
 #include <thread>
@@ -143,9 +144,12 @@ Result<void> LiveServer::State::open_recorder() {
   if (config.record_path.empty()) return {};
   const RecordingHeader header{"scree-server " SCREE_VERSION, config.world};
   World& world = *feed->world();
-  auto recording = world.tick() == 0
-                       ? Recorder::create(config.record_path, header)
-                       : Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()});
+  std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
+  const bool goes_on =
+      world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
+  auto recording = goes_on
+                       ? Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()})
+                       : Recorder::create(config.record_path, header);
   if (!recording) return tl::unexpected(recording.error());
   recorder = std::move(*recording);
   report.record_path = config.record_path;

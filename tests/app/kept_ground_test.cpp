@@ -158,6 +158,9 @@ TEST_F(KeptGroundTest, a_server_keeps_and_replays_it_and_refuses_a_ground_for_ge
   live.world = WorldConfig();
   ASSERT_EQ(run(5), "");
   EXPECT_EQ(verified(1), "");
+  ASSERT_TRUE(roll_back(world, recording, 0, ground_giver(world, WorldConfig())).has_value());
+  ASSERT_EQ(run(7), "") << "the recording goes on from tick 0, too";
+  EXPECT_EQ(verified(1), "");
   live.world_path = live.record_path = "";
   live.replay.path = recording;
   EXPECT_EQ(run(100), "");
