@@ -69,7 +69,8 @@ Result<void> check_shape(PieceId id, const BodyShape& shape) {
   const auto hull = [&](const std::vector<glm::vec3>& points) { return points.size() >= 4 && sound(points); };
   if (!hull(shape.hull_m) || !sound(shape.surface_m) || !std::ranges::all_of(shape.parts_m, hull))
     return refuse(id, "a hull of fewer than four corners, or without a place");
-  if (!(std::isfinite(shape.mass_kg) && shape.mass_kg > 0.0F)) return refuse(id, "its mass is not positive");
+  if (!(shape.mass_kg >= limits::kept_mass_min_kg && shape.mass_kg <= limits::kept_mass_max_kg))
+    return refuse(id, "its mass is none that a piece has");
   for (int i = 0; i < 3; ++i)
     if (!is_sound(inertia[i]) || !(inertia[i][i] > 0.0F)) return refuse(id, "its inertia is not positive");
   if (inertia != glm::transpose(inertia)) return refuse(id, "its inertia is not symmetric");

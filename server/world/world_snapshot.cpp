@@ -25,6 +25,9 @@ constexpr Tick tick_max = Tick{1} << 62U;
 /// Mass in a ledger, likewise.
 constexpr MassUnits mass_max = MassUnits{1} << 60U;
 
+/// Ids that pieces may have had, so that there are some left.
+constexpr PieceId next_piece_max = UINT32_MAX - (PieceId{1} << 24U);
+
 /// Takes a value apart into a new state. Each step refuses what does not agree with those before it.
 class Restoring {
  public:
@@ -51,6 +54,7 @@ class Restoring {
     for (const Tick tick : {m_.cut_at, m_.island_at, m_.requested})
       if (tick > m_.tick) return fail("something happened after its tick");
     if (m_.tick > tick_max) return fail("its tick is beyond any");
+    if (m_.next_piece > next_piece_max) return fail("its pieces' ids are used up");
     s_.tick = m_.tick;
     s_.cut_at = m_.cut_at;
     s_.island_at = m_.island_at;
@@ -181,6 +185,7 @@ class Restoring {
     for (const PendingCut& cut : m_.cuts) {
       if (cut.pieces < 2 || cut.pieces > limits::seeds_max)
         return fail("a piece is to be cut into none, or too many");
+      if (Result<void> valid = validate_shatter_pattern(cut.pattern); !valid) return valid;
       if (cut.thrown_by != nullptr && !is_valid(s_, {0, 0, *cut.thrown_by}))
         return fail("a cut's pieces are thrown by what is no carve");
       s_.cuts.push_back(cut);

@@ -138,6 +138,15 @@ TEST(snapshot, a_value_whose_parts_do_not_agree_is_refused_by_name) {
     shape.hull_m[0].x = 1e6F;
     w.moment.pieces[0].shape = std::make_shared<const BodyShape>(shape);
   });
+  expect("mass is none", [](WorldSnapshot& w) {
+    BodyShape shape = *w.moment.pieces[0].shape;
+    shape.mass_kg = 1e30F;
+    w.moment.pieces[0].shape = std::make_shared<const BodyShape>(shape);
+  });
+  expect("authored", [](WorldSnapshot& w) {
+    w.moment.cuts.push_back({w.moment.pieces[0].id, 2, SeedPattern::authored, 1, {}, nullptr});
+  });
+  expect("ids are used up", [](WorldSnapshot& w) { w.moment.next_piece = UINT32_MAX; });
   expect("after its tick", [](WorldSnapshot& w) { w.moment.requested = 31; });
   expect("has no body", [](WorldSnapshot& w) { w.moment.next_piece = 1; });
   expect("tick_rate_hz", [](WorldSnapshot& w) { w.moment.config.tick_rate_hz = 1; });
