@@ -21,12 +21,26 @@ constexpr int turned_begins = 44;
 /// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
 constexpr float probe_voxels = 2.75F;
 
-/// In codes. The window must hold the point, or else the nearest that it holds is taken.
+/// The cell around a point, or else the nearest that the window holds.
+VoxelCoord cell_at(const VoxelBox& box, glm::vec3 p) {
+  const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
+  return {along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y), along(p.z, box.lo.z, box.hi.z)};
+}
+
+/// Whether two windows of one box have the same codes around that cell.
+bool are_same(const Window& a, const Window& b, VoxelCoord c) {
+  const size_t first = a.index(c.x, c.y, c.z);
+  const auto stride_y = static_cast<size_t>(a.box.size().z);
+  const size_t stride_x = stride_y * static_cast<size_t>(a.box.size().y);
+  for (const size_t at : {first, first + stride_y, first + stride_x, first + stride_x + stride_y})
+    if (a.codes[at] != b.codes[at] || a.codes[at + 1] != b.codes[at + 1]) return false;
+  return true;
+}
+
+/// In codes.
 float trilinear(const Window& window, glm::vec3 p) {
-  const auto cell_of = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
   const VoxelBox& box = window.box;
-  const VoxelCoord c{cell_of(p.x, box.lo.x, box.hi.x), cell_of(p.y, box.lo.y, box.hi.y),
-                     cell_of(p.z, box.lo.z, box.hi.z)};
+  const VoxelCoord c = cell_at(box, p);
   const glm::vec3 f = glm::clamp(p - glm::vec3(c.x, c.y, c.z), 0.0F, 1.0F);
   const VoxelCoord size = box.size();
   const Code* at = &window.codes[window.index(c.x, c.y, c.z)];
@@ -121,28 +135,32 @@ Code BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
   if (here >= worn_all) return static_cast<Code>(here);
   const glm::vec3 normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
   const glm::vec3 above = p + normal * (probe_voxels / 127.0F);
+  if (are_same(now, *before, cell_at(now.box, above))) return static_cast<Code>(here);
   const float apart = std::abs(trilinear(*before, above) - trilinear(now, above));
   return static_cast<Code>(std::clamp(static_cast<int>(apart) - turned_begins, here, 127));
 }
 
-float BlockWindows::layer_m(glm::vec3 p) const {
-  const MaterialHeights layers = layers_of(source);
+float BlockWindows::layer_m(const MaterialHeights& layers, glm::vec3 p) const {
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
   if (!soil && height_m <= layers.ice_above_m) return 0.0F;
   const float depth_m = traits_of(soil ? Material::soil : Material::ice).layer_depth_m;
-  const float end = p.y + depth_m / source.voxel_size_m;
+  const glm::vec3 end(p.x, p.y + depth_m / source.voxel_size_m, p.z);
+  // Mostly the surface is farther above.
+  const VoxelCoord cell = cell_at(before->box, end);
+  if (before->at(cell.x, cell.y, cell.z) == code_solid) return 0.0F;
   const float top = static_cast<float>(before->box.hi.y) - 1.01F;
-  if (end <= top) return trilinear(*before, {p.x, end, p.z}) / codes_per_voxel * source.voxel_size_m;
-  // The rest of the way up, distances grow as fast as below.
-  const float highest = trilinear(*before, {p.x, top, p.z});
-  const float slope = highest - trilinear(*before, {p.x, top - 1.0F, p.z});
-  return (highest + (end - top) * slope) / codes_per_voxel * source.voxel_size_m;
+  const float highest = trilinear(*before, {p.x, std::min(end.y, top), p.z});
+  // Above the window, distances grow as fast as below.
+  const float beyond =
+      end.y <= top ? 0.0F : (end.y - top) * (highest - trilinear(*before, {p.x, top - 1.0F, p.z}));
+  return (highest + beyond) / codes_per_voxel * source.voxel_size_m;
 }
 
 void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
   if (!before) return;  // nothing was edited here
   constexpr int steps = surface_steps;
+  const MaterialHeights layers = layers_of(source);
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   for (SurfaceVertex& vertex : mesh.vertices) {
     const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
@@ -153,7 +171,7 @@ void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
       const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
       if (found != paint.end()) brick_paint = paint_number(found->second);
     }
-    vertex.paint = vertex_paint(brick_paint, vertex.before < cut_begins ? layer_m(p) : 0.0F);
+    vertex.paint = vertex_paint(brick_paint, vertex.before < cut_begins ? layer_m(layers, p) : 0.0F);
     vertex.before = worn(vertex, p);
   }
 }

@@ -29,7 +29,7 @@ struct BlockWindows {
 
  private:
   Code worn(const SurfaceVertex& vertex, glm::vec3 p) const;
-  float layer_m(glm::vec3 p) const;
+  float layer_m(const MaterialHeights& layers, glm::vec3 p) const;
 };
 
 /// Nothing when all the bricks around are air, or all are rock.
