@@ -39,12 +39,13 @@ TEST(ServerOptions, flags_are_taken) {
   const auto parsed = parse({"--port",        "0",       "--host",        "0.0.0.0", "--terrain",   "noise",
                              "--seed",        "9",       "--voxel-size",  "0.5",     "--tick-rate", "30",
                              "--record",      "a.scree", "--impacts",     "false",   "--dents",     "false",
-                             "--net-threads", "3",       "--sim-threads", "2"});
+                             "--net-threads", "3",       "--sim-threads", "2",       "--chat",      "false"});
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
   const LiveConfig& live = std::get<ServerOptions>(parsed).live;
   EXPECT_EQ(live.net.port, 0);
   EXPECT_EQ(live.net.bind, "0.0.0.0");
   EXPECT_EQ(live.net.net_threads, 3U);
+  EXPECT_FALSE(live.net.chat);
   EXPECT_EQ(live.sim_threads, 2U);
   EXPECT_EQ(live.world.terrain, (TerrainSource{TerrainKind::noise, 9, 0.5F}));
   EXPECT_EQ(live.world.tick_rate_hz, 30U);

@@ -94,13 +94,33 @@ TEST_F(ViewerApp, screenshot_is_compared_with_its_reference) {
 }
 
 TEST_F(ViewerApp, flight_leaves_a_picture_of_every_frame) {
-  ASSERT_EQ(view({{"--path", write_path()}, {"--fps", "4"}, {"--frames", file("frames")}}).first, 0);
+  testing::internal::CaptureStderr();
+  const auto [status, _] = view({{"--path", write_path()}, {"--fps", "4"}, {"--frames", file("frames")}});
+  const std::string told = testing::internal::GetCapturedStderr();
+  ASSERT_EQ(status, 0);
+  EXPECT_NE(told.find("wrote 3 frames"), std::string::npos) << told;
   for (const char* name : {"000000.png", "000001.png", "000002.png"}) {
     const Result<Image> image = read_png(file("frames/" + std::string(name)));
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->width, 96);
   }
   EXPECT_FALSE(fs::exists(file("frames/000003.png")));
+}
+
+TEST_F(ViewerApp, every_quality_draws_and_another_is_refused) {
+  for (const char* quality : {"low", "medium", "high", "auto"}) {
+    ASSERT_EQ(view({{"--quality", quality}, {"--screenshot", file("a.png")}}).first, 0) << quality;
+    const Result<Image> image = read_png(file("a.png"));
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(image->width, 96);
+  }
+  EXPECT_EQ(view({{"--quality", "best"}, {"--screenshot", file("a.png")}}).first, 2);
+}
+
+TEST_F(ViewerApp, what_there_is_to_hear_is_written_to_a_file) {
+  ASSERT_EQ(view({{"--sound-file", file("a.wav")}, {"--screenshot", file("a.png")}}).first, 0);
+  EXPECT_GE(fs::file_size(file("a.wav")), 44U);
+  EXPECT_EQ(view({{"--sound-file", "/no/such/folder/a.wav"}, {"--screenshot", file("a.png")}}).first, 2);
 }
 
 TEST_F(ViewerApp, time_demo_prints_a_line_of_frame_times) {

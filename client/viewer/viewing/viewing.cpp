@@ -19,10 +19,10 @@ float view_radius_of(const ViewerOptions& options, Quality quality) {
 
 Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
   const Quality quality = options.quality.value_or(options.offscreen ? Quality::high : AutoQuality::first);
-  Result<std::unique_ptr<View>> view = View::create(*options.method, view_radius_of(options, quality));
-  if (!view) return fail(view.error().message);
   Result<Sounds> sounds = Sounds::begin(options.sound && !options.offscreen, options.sound_file);
   if (!sounds) return fail(sounds.error().message);
+  Result<std::unique_ptr<View>> view = View::create(*options.method, view_radius_of(options, quality));
+  if (!view) return fail(view.error().message);
   return std::unique_ptr<Viewing>(new Viewing(options, quality, std::move(*view), std::move(*sounds)));
 }
 
