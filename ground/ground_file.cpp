@@ -1,5 +1,6 @@
 #include "ground/ground_file.h"
 
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include "proto/byte_stream.h"
 #include "proto/height_codec.h"
 #include "proto/limits.h"
+#include "proto/stored_codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -47,7 +49,9 @@ Result<std::shared_ptr<const GroundFile>> GroundFile::open(const std::string& pa
   }
   const std::shared_ptr<GroundFile> ground(new GroundFile(file, *header));
   if (auto index = ground->read_index(size); !index) return wrong(index.error().message);
+  if (auto index = ground->read_chunk_index(size); !index) return wrong(index.error().message);
   if (auto checked = ground->check(); !checked) return wrong(checked.error().message);
+  if (auto checked = ground->check_chunks(); !checked) return wrong(checked.error().message);
   return ground;
 }
 
@@ -60,6 +64,7 @@ Result<void> GroundFile::read_index(uint64_t file_bytes) {
   const uint64_t bytes = uint64_t{tiles} * index_entry_bytes;
   if (header_.index_begins > file_bytes || file_bytes - header_.index_begins < bytes)
     return fail("it is cut short");
+  if (header_.chunk_index_begins != header_.index_begins + bytes) return fail("its header is damaged");
   const auto read = read_at(file_, header_.index_begins, bytes);
   if (!read) return tl::unexpected(read.error());
   ByteReader reader(*read, "the index");
@@ -72,6 +77,58 @@ Result<void> GroundFile::read_index(uint64_t file_bytes) {
       return fail("the index is damaged");
   }
   return {};
+}
+
+Result<void> GroundFile::read_chunk_index(uint64_t file_bytes) {
+  if (!bricks()) return {};
+  const uint64_t begins = header_.chunk_index_begins;
+  if (begins > file_bytes || file_bytes - begins < sizeof(uint32_t)) return fail("it is cut short");
+  const auto count_bytes = read_at(file_, begins, sizeof(uint32_t));
+  if (!count_bytes) return tl::unexpected(count_bytes.error());
+  const size_t count = ByteReader(*count_bytes, "the index").u32("stored chunks");
+  if (count > limits::file_chunks_max)
+    return fail("it stores " + std::to_string(count) + " chunks, more than " +
+                std::to_string(limits::file_chunks_max) + " (limits.file_chunks_max)");
+  if (file_bytes - begins - sizeof(uint32_t) < count * chunk_entry_bytes) return fail("it is cut short");
+  const auto read = read_at(file_, begins + sizeof(uint32_t), count * chunk_entry_bytes);
+  if (!read) return tl::unexpected(read.error());
+  ByteReader reader(*read, "the index");
+  for (size_t i = 0; i < count; ++i) {
+    const auto number = [&] { return std::bit_cast<int32_t>(reader.u32("key of a stored chunk")); };
+    const int level = number(), x = number(), y = number(), z = number();
+    const TileKey key = key_of(level, {x, y, z});
+    const Entry entry{reader.u64("begin of a stored chunk"), reader.u32("bytes of a stored chunk"), {}};
+    if (!bricks()->holds(key) || entry.bytes > limits::tile_bytes_max ||
+        entry.begins > header_.index_begins || header_.index_begins - entry.begins < entry.bytes ||
+        !chunks_.emplace(key, entry).second)
+      return fail("the index of stored chunks is damaged");
+  }
+  return {};
+}
+
+/// As check(), of the stored chunks: those that are named are those that are there.
+Result<void> GroundFile::check_chunks() {
+  if (!bricks()) return {};
+  const auto missing = [] { return fail("it is damaged: a stored chunk is missing"); };
+  const auto root = chunks_.find(bricks()->root());
+  if (root == chunks_.end()) return missing();
+  root->second.digest = header_.ground.bricks->root;
+  size_t named = 1;
+  for (auto each = chunks_.rbegin(); each != chunks_.rend(); ++each) {  // keys have the level first
+    const TileKey key = each->first;
+    const auto bytes = read(key);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto unpacked = unpack_chunk(*bytes, key, *bricks());
+    if (!unpacked) return tl::unexpected(unpacked.error());
+    for (size_t i = 0; i < unpacked->children.size(); ++i) {
+      if (!unpacked->children[i]) continue;
+      const auto child = chunks_.find(bricks()->children(key)[i]);
+      if (child == chunks_.end()) return missing();
+      child->second.digest = *unpacked->children[i];
+      ++named;
+    }
+  }
+  return named == chunks_.size() ? Result<void>() : fail("it is damaged: a stored chunk that none names");
 }
 
 /// From the coarsest level down: each tile has the hashes of those below it.
@@ -92,17 +149,22 @@ Result<void> GroundFile::check() {
   return {};
 }
 
+const GroundFile::Entry& GroundFile::entry_of(TileKey key) const {
+  return key.kind == TileKind::bricks ? chunks_.at(key) : index_[index_of(layout(), key)];
+}
+
 Result<std::vector<uint8_t>> GroundFile::read(TileKey key) const {
-  const Entry& entry = index_[index_of(layout(), key)];
+  const Entry& entry = entry_of(key);
   auto bytes = read_at(file_, entry.begins, entry.bytes);
   if (bytes && sha256(*bytes) != entry.digest)
     return fail("it is damaged: tile (" + std::to_string(key.level) + ", " + std::to_string(key.x) + ", " +
-                std::to_string(key.z) + ") does not have its hash");
+                (key.kind == TileKind::bricks ? std::to_string(key.y) + ", " : "") + std::to_string(key.z) +
+                ") does not have its hash");
   return bytes;
 }
 
 std::vector<uint8_t> GroundFile::packed(TileKey key) const {
-  CHECK(layout().holds(key));
+  CHECK(has(key));
   auto bytes = read(key);
   CHECK(bytes.has_value());
   return std::move(*bytes);
@@ -110,21 +172,26 @@ std::vector<uint8_t> GroundFile::packed(TileKey key) const {
 
 std::shared_ptr<const HeightTile> GroundFile::tile(TileKey key) const {
   const std::scoped_lock lock(mutex_);
-  const auto found = kept_.find(key);
-  if (found != kept_.end()) {
-    uses_.splice(uses_.begin(), uses_, found->second.use);
-    return found->second.tile;
-  }
-  const auto unpacked = unpack_tile(packed(key), key, layout());
+  if (auto kept = kept_.find(key)) return kept;
+  auto unpacked = unpack_tile(packed(key), key, layout());
   CHECK(unpacked.has_value());
-  if (kept_.size() >= limits::file_tiles_kept_max) {
-    kept_.erase(uses_.back());
-    uses_.pop_back();
-  }
-  uses_.push_front(key);
-  auto tile = std::make_shared<const HeightTile>(unpacked->tile);
-  kept_.emplace(key, Kept{tile, uses_.begin()});
-  return tile;
+  return kept_.keep(key, std::move(unpacked->tile));
+}
+
+ChunkLook GroundFile::chunk(TileKey key) const {
+  if (!chunks_.contains(key) || key == bricks()->root()) return {};
+  const std::scoped_lock lock(mutex_);
+  if (auto kept = kept_chunks_.find(key)) return {true, std::move(kept)};
+  auto unpacked = unpack_chunk(packed(key), key, *bricks());
+  CHECK(unpacked.has_value());
+  return {true, kept_chunks_.keep(key, std::move(unpacked->chunk))};
+}
+
+std::vector<TileKey> GroundFile::chunks() const {
+  std::vector<TileKey> keys;
+  for (const auto& [key, entry] : chunks_)
+    if (key != bricks()->root()) keys.push_back(key);
+  return keys;
 }
 
 }  // namespace scree

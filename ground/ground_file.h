@@ -5,16 +5,17 @@
 // would lie. Any thread may call.
 #pragma once
 
-#include <list>
 #include <map>
 #include <mutex>
 #include <string>
 
 #include "ground/ground_header.h"
+#include "ground/kept_tiles.h"
+#include "ground/limits.h"
 
 namespace scree {
 
-class GroundFile final : public HeightModel {
+class GroundFile final : public GroundModel {
  public:
   /// Reads and checks all of the file. The error names it, and says what is wrong.
   static Result<std::shared_ptr<const GroundFile>> open(const std::string& path);
@@ -23,7 +24,11 @@ class GroundFile final : public HeightModel {
   const GroundHeader& header() const { return header_; }
   Digest name() const { return name_of(header_); }
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
+  ChunkLook chunk(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
+  bool has(TileKey key) const override { return layout().holds(key) || chunks_.contains(key); }
+  /// The stored chunks, in order, without the root.
+  std::vector<TileKey> chunks() const;
 
  private:
   struct Entry {
@@ -31,23 +36,25 @@ class GroundFile final : public HeightModel {
     uint32_t bytes = 0;
     Digest digest{};
   };
-  struct Kept {
-    std::shared_ptr<const HeightTile> tile;
-    std::list<TileKey>::iterator use;
-  };
-
   GroundFile(int file, const GroundHeader& header)
-      : HeightModel(header.ground.layout), file_(file), header_(header) {}
+      : GroundModel(header.ground.layout,
+                    header.ground.bricks ? std::optional(header.ground.bricks->layout) : std::nullopt),
+        file_(file),
+        header_(header) {}
   Result<void> read_index(uint64_t file_bytes);
+  Result<void> read_chunk_index(uint64_t file_bytes);
   Result<void> check();
+  Result<void> check_chunks();
+  const Entry& entry_of(TileKey key) const;
   Result<std::vector<uint8_t>> read(TileKey key) const;
 
   const int file_;
   const GroundHeader header_;
   std::vector<Entry> index_;
-  mutable std::mutex mutex_;  ///< guards the members below
-  mutable std::map<TileKey, Kept> kept_;
-  mutable std::list<TileKey> uses_;  ///< of kept_, the last one in front
+  std::map<TileKey, Entry> chunks_;  ///< with the root
+  mutable std::mutex mutex_;         ///< guards the members below
+  mutable KeptTiles<HeightTile> kept_{limits::file_tiles_kept_max};
+  mutable KeptTiles<GeneratedChunk> kept_chunks_{limits::file_chunks_kept_max};
 };
 
 }  // namespace scree

@@ -12,7 +12,7 @@ namespace scree {
 namespace {
 
 constexpr uint64_t file_kind = 0x444E'4745'4552'4353ULL;  // "SCREEGND"
-constexpr uint32_t version = 1;
+constexpr uint32_t version = 2;
 
 /// All that makes the ground what it is.
 std::vector<uint8_t> fields_of(const GroundHeader& header) {
@@ -30,7 +30,34 @@ std::vector<uint8_t> fields_of(const GroundHeader& header) {
   writer.f32(layout.layers.ice_above_m);
   writer.f32(header.zero_m);
   bytes.insert(bytes.end(), header.ground.top.begin(), header.ground.top.end());
+  const BrickGround bricks = header.ground.bricks.value_or(BrickGround{});
+  writer.u32(header.ground.bricks ? 1 : 0);
+  writer.f32(bricks.layout.voxel_size_m);
+  for (const ChunkCoord corner : {bricks.layout.lo, bricks.layout.hi})
+    for (const int32_t number : {corner.x, corner.y, corner.z}) writer.u32(static_cast<uint32_t>(number));
+  bytes.insert(bytes.end(), bricks.root.begin(), bricks.root.end());
   return bytes;
+}
+
+Digest read_digest(ByteReader& reader, const char* what) {
+  Digest digest{};
+  const std::span<const uint8_t> bytes = reader.take_bytes(sizeof(Digest), what);
+  if (bytes.size() == digest.size()) std::ranges::copy(bytes, digest.begin());
+  return digest;
+}
+
+std::optional<BrickGround> read_bricks(ByteReader& reader) {
+  const uint32_t number = reader.u32("whether chunks are stored");
+  const bool any = number == 1;
+  if (number > 1) reader.refuse("whether chunks are stored is " + std::to_string(number));
+  BrickGround bricks;
+  bricks.layout.voxel_size_m = reader.f32("voxels of the stored chunks");
+  for (ChunkCoord* corner : {&bricks.layout.lo, &bricks.layout.hi})
+    for (int32_t* number : {&corner->x, &corner->y, &corner->z})
+      *number = std::bit_cast<int32_t>(reader.u32("box of the stored chunks"));
+  bricks.root = read_digest(reader, "hash of the stored chunks");
+  if (!any && bricks != BrickGround{}) reader.refuse("stored chunks of which there are none");
+  return any ? std::optional(bricks) : std::nullopt;
 }
 
 }  // namespace
@@ -40,6 +67,7 @@ std::vector<uint8_t> encode(const GroundHeader& header) {
   const Digest name = name_of(header);
   bytes.insert(bytes.end(), name.begin(), name.end());
   ByteWriter(bytes).u64(header.index_begins);
+  ByteWriter(bytes).u64(header.chunk_index_begins);
   CHECK(bytes.size() <= header_bytes);
   bytes.resize(header_bytes);
   return bytes;
@@ -62,13 +90,17 @@ Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   layout.layers.soil_below_m = reader.f32("soil below");
   layout.layers.ice_above_m = reader.f32("ice above");
   header.zero_m = reader.f32("zero");
-  std::ranges::copy(reader.take_bytes(sizeof(Digest), "hash"), header.ground.top.begin());
-  Digest name;
-  std::ranges::copy(reader.take_bytes(sizeof(Digest), "name"), name.begin());
+  header.ground.top = read_digest(reader, "hash");
+  header.ground.bricks = read_bricks(reader);
+  const Digest name = read_digest(reader, "name");
   header.index_begins = reader.u64("index");
+  header.chunk_index_begins = reader.u64("index of stored chunks");
   if (reader.failed()) return tl::unexpected(reader.error());
   if (name != name_of(header)) return fail("it is damaged: its header does not have its hash");
   if (Result<void> valid = validate(layout); !valid) return tl::unexpected(valid.error());
+  if (header.ground.bricks)
+    if (Result<void> valid = validate(header.ground.bricks->layout); !valid)
+      return tl::unexpected(valid.error());
   return header;
 }
 

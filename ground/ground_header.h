@@ -1,11 +1,15 @@
-// What stands at the beginning of a .ground file: an elevation model without its tiles, and the hash by which
-// the ground is named.
+// What stands at the beginning of a .ground file: an elevation model without its tiles, the place of the
+// chunks that are stored, and the hash by which the ground is named.
 //
 // A file, little-endian: the header, of header_bytes: 8 bytes "SCREEGND", u32 version, u32 columns, u32 rows,
 // f32 cell (metres), i32 lowest and highest sample, f32 soil below and ice above (metres), f32 the height
-// that y = 0 has in the source (metres), 32 bytes SHA-256 of the coarsest tile, u64 where the index begins,
-// zeros; then the tiles (proto/ground.proto, TILE); then the index: for each tile, by level, z and x, u64
-// where it begins and u32 its bytes.
+// that y = 0 has in the source (metres), 32 bytes SHA-256 of the coarsest tile; u32 1 if there are stored
+// chunks, else 0, f32 their voxels (metres), i32 x, y and z of their box's first chunk and of that beyond its
+// last, 32 bytes SHA-256 of their root; 32 bytes SHA-256 of all this, the ground's name; u64 where the index
+// begins and u64 where that of stored chunks does, zeros. Then the tiles (proto/ground.proto, TILE and
+// CHUNK); then the index: for each tile, by level, z and x, u64 where it begins and u32 its bytes; then the
+// index of stored chunks: u32 how many, and for each i32 level, x, y and z, u64 where it begins and u32 its
+// bytes.
 #pragma once
 
 #include <optional>
@@ -16,13 +20,15 @@
 
 namespace scree {
 
-inline constexpr size_t header_bytes = 128;
+inline constexpr size_t header_bytes = 256;
 inline constexpr size_t index_entry_bytes = 12;
+inline constexpr size_t chunk_entry_bytes = 28;
 
 struct GroundHeader {
   HeightGround ground;
   float zero_m = 0.0F;  ///< height in the source of what is y = 0 here
   uint64_t index_begins = 0;
+  uint64_t chunk_index_begins = 0;  ///< as the end of the other index
 };
 
 std::vector<uint8_t> encode(const GroundHeader& header);

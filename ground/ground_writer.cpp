@@ -9,6 +9,7 @@
 #include "crypto/sha256.h"
 #include "proto/byte_stream.h"
 #include "proto/height_codec.h"
+#include "proto/stored_codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -43,6 +44,7 @@ void GroundWriter::write(std::span<const uint8_t> bytes) {
 }
 
 void GroundWriter::add_row(std::span<const int32_t> heights) {
+  CHECK(!heights_done_);
   HeightLayout& layout = header_.ground.layout;
   CHECK(static_cast<int>(heights.size()) == layout.columns && levels_.front().count < layout.rows);
   const auto [least, most] = std::ranges::minmax(heights);
@@ -98,11 +100,84 @@ void GroundWriter::write_tiles(int level) {
       orphans_.erase(found);
     }
     const std::vector<uint8_t> bytes = pack_tile(children, tile);
-    index_[index_of(layout, key)] = {written_, static_cast<uint32_t>(bytes.size())};
+    put_tile(key, bytes);
     orphans_[key] = sha256(bytes);
-    write(bytes);
   }
   here.rows.clear();
+}
+
+void GroundWriter::put_tile(TileKey key, std::span<const uint8_t> bytes) {
+  index_[index_of(header_.ground.layout, key)] = {written_, static_cast<uint32_t>(bytes.size())};
+  write(bytes);
+}
+
+void GroundWriter::copy_heights(const GroundModel& ground) {
+  CHECK(!heights_done_ && levels_.front().count == 0 && index_.size() == ground.layout().tiles());
+  HeightLayout& layout = header_.ground.layout;
+  layout = ground.layout();
+  for (int level = 0; level < layout.levels(); ++level)
+    for (int z = 0; z < HeightLayout::tiles_on(level, layout.rows); ++z)
+      for (int x = 0; x < HeightLayout::tiles_on(level, layout.columns); ++x)
+        put_tile({level, x, z}, ground.packed({level, x, z}));
+  header_.ground.top = sha256(ground.packed(layout.top()));
+  heights_done_ = true;
+}
+
+/// What is left of the levels once the last row is there.
+void GroundWriter::end_heights() {
+  if (heights_done_) return;
+  CHECK(levels_.front().count == header_.ground.layout.rows);
+  for (int level = 0; level < static_cast<int>(levels_.size()); ++level) {
+    Level& here = levels_[static_cast<size_t>(level)];
+    if (!here.rows.empty()) write_tiles(level);
+    const bool middle_is_last = here.count % 2 == 1;
+    if (middle_is_last)
+      add_smoothed(level + 1, here.count == 1 ? here.last : here.before, here.last, here.last);
+  }
+  header_.ground.top = orphans_.at(header_.ground.layout.top());
+  orphans_.clear();
+  heights_done_ = true;
+}
+
+void GroundWriter::begin_chunks(const BrickLayout& layout) {
+  end_heights();
+  header_.ground.bricks = BrickGround{layout, {}};
+}
+
+void GroundWriter::add_chunk(TileKey key, const GeneratedChunk& chunk) {
+  put_chunk(key, &chunk);
+}
+
+void GroundWriter::put_chunk(TileKey key, const GeneratedChunk* chunk) {
+  CHECK(header_.ground.bricks.has_value());
+  const BrickLayout& layout = header_.ground.bricks->layout;
+  ChunkChildren children;
+  if (key.level > 0) {
+    const std::array<TileKey, 8> places = layout.children(key);
+    for (size_t i = 0; i < places.size(); ++i)
+      if (const auto found = orphans_.find(places[i]); found != orphans_.end()) {
+        children[i] = found->second;
+        orphans_.erase(found);
+      }
+  }
+  const std::vector<uint8_t> bytes = pack_chunk(key, layout, children, chunk);
+  CHECK(chunks_.emplace(key, Entry{written_, static_cast<uint32_t>(bytes.size())}).second);
+  orphans_[key] = sha256(bytes);
+  write(bytes);
+}
+
+void GroundWriter::write_chunk_index() {
+  header_.chunk_index_begins = written_;
+  if (!header_.ground.bricks) return;
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  writer.u32(static_cast<uint32_t>(chunks_.size()));
+  for (const auto& [key, entry] : chunks_) {
+    for (const int32_t number : {key.level, key.x, key.y, key.z}) writer.u32(static_cast<uint32_t>(number));
+    writer.u64(entry.begins);
+    writer.u32(entry.bytes);
+  }
+  write(bytes);
 }
 
 void GroundWriter::write_index() {
@@ -117,18 +192,17 @@ void GroundWriter::write_index() {
 }
 
 Result<GroundHeader> GroundWriter::finish() {
-  const HeightLayout& layout = header_.ground.layout;
-  CHECK(levels_.front().count == layout.rows);
-  if (Result<void> valid = validate(layout); !valid) return tl::unexpected(valid.error());
-  for (int level = 0; level < static_cast<int>(levels_.size()); ++level) {
-    Level& here = levels_[static_cast<size_t>(level)];
-    if (!here.rows.empty()) write_tiles(level);
-    const bool middle_is_last = here.count % 2 == 1;
-    if (middle_is_last)
-      add_smoothed(level + 1, here.count == 1 ? here.last : here.before, here.last, here.last);
+  end_heights();
+  if (Result<void> valid = validate(header_.ground.layout); !valid) return tl::unexpected(valid.error());
+  if (auto& bricks = header_.ground.bricks) {
+    if (Result<void> valid = validate(bricks->layout); !valid) return tl::unexpected(valid.error());
+    const TileKey root = bricks->layout.root();
+    put_chunk(root, nullptr);
+    bricks->root = orphans_.at(root);
+    CHECK(orphans_.size() == 1);  // each chunk has a parent
   }
-  header_.ground.top = orphans_.at(layout.top());
   write_index();
+  write_chunk_index();
   failed_ = failed_ || std::fseek(file_.get(), 0, SEEK_SET) != 0;
   const uint64_t bytes = written_;
   write(encode(header_));

@@ -1,5 +1,6 @@
-// Writes a ground file from rows of heights, north to south. Of each level it keeps the rows of one tile and
-// the hashes that wait for their parent, so that its memory is bounded by the model's width.
+// Writes a ground file from rows of heights, north to south, or from the tiles of another ground; then the
+// chunks that it stores, fine ones first. Of each level it keeps the rows of one tile and the hashes that
+// wait for their parent, so that its memory is bounded by the model's width; of each stored chunk, its place.
 //
 // The file is written under another name and renamed at the end: no half of one is left behind.
 #pragma once
@@ -26,7 +27,14 @@ class GroundWriter {
 
   /// The next row, of as many heights as there are columns, in 1/256 m.
   void add_row(std::span<const int32_t> heights);
-  /// After all rows. The error says why the file cannot be written, or what is wrong with the heights.
+  /// In place of rows: the elevation model of another ground, of the same layout.
+  void copy_heights(const GroundModel& ground);
+  /// After the heights, and before the first chunk.
+  void begin_chunks(const BrickLayout& layout);
+  /// Chunks of a level come after all of the level below; those below it are then the last ones added there.
+  void add_chunk(TileKey key, const GeneratedChunk& chunk);
+  /// After all heights and chunks. The error says why the file cannot be written, or what is wrong with the
+  /// heights.
   Result<GroundHeader> finish();
   uint64_t bytes() const { return written_; }
 
@@ -48,7 +56,11 @@ class GroundWriter {
   void add_smoothed(int level, const Row& above, const Row& middle, const Row& below);
   void write_tiles(int level);
   void write(std::span<const uint8_t> bytes);
+  void end_heights();
+  void put_tile(TileKey key, std::span<const uint8_t> bytes);
+  void put_chunk(TileKey key, const GeneratedChunk* chunk);
   void write_index();
+  void write_chunk_index();
 
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -60,7 +72,9 @@ class GroundWriter {
   GroundHeader header_;
   std::vector<Level> levels_;
   std::vector<Entry> index_;
+  std::map<TileKey, Entry> chunks_;
   std::map<TileKey, Digest> orphans_;  ///< tiles whose parent is not written yet
+  bool heights_done_ = false;
   uint64_t written_ = 0;
   bool failed_ = false;
 };

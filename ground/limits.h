@@ -13,4 +13,10 @@ inline constexpr size_t file_tiles_kept_max = 512;
 /// of the folder is not looked at.
 inline constexpr size_t ground_files_max = 1000;
 
+/// Decoded chunks that a file keeps in memory: 32 MiB at most. Above: as above.
+inline constexpr size_t file_chunks_kept_max = 1024;
+
+/// Chunks that a file stores: a world's surface of 2 km by 2 km, and its index fits 128 MiB. Above: refused.
+inline constexpr size_t file_chunks_max = size_t{1} << 20;
+
 }  // namespace scree::limits

@@ -2,25 +2,70 @@
 
 #include <algorithm>
 
+#include "proto/byte_stream.h"
 #include "proto/limits.h"
 
 namespace scree {
 
 namespace {
 
+/// A key as a coordinate: its level in the low bits of y, and whether it is one of bricks.
+constexpr int level_bits = 5;
+constexpr int brick_bit = 1 << level_bits;
+
+ChunkCoord coord_of(TileKey key) {
+  const int kind = key.kind == TileKind::bricks ? brick_bit : 0;
+  return {key.x, key.y * 2 * brick_bit + kind + key.level, key.z};
+}
+
+TileKey key_of(ChunkCoord coord) {
+  return {coord.y & (brick_bit - 1), coord.x, coord.z, coord.y >> (level_bits + 1),
+          (coord.y & brick_bit) != 0 ? TileKind::bricks : TileKind::heights};
+}
+
 std::string pack_keys(const std::vector<TileKey>& keys) {
   std::vector<ChunkCoord> coords;
   coords.reserve(keys.size());
-  for (const TileKey key : keys) coords.push_back({key.x, key.level, key.z});
+  for (const TileKey key : keys) coords.push_back(coord_of(key));
   return pack_chunks(coords);
 }
 
 std::vector<TileKey> read_keys(const std::string& packed, size_t count_max, const char* what,
                                FieldChecker& check) {
   std::vector<TileKey> keys;
-  for (const ChunkCoord coord : check.chunks(packed, count_max, what))
-    keys.push_back({coord.y, coord.x, coord.z});
+  ByteReader reader(as_span(packed), what);
+  for (ChunkCoord before; !reader.at_end();) {
+    if (keys.size() == count_max) {
+      reader.refuse("more than " + std::to_string(count_max) + " tiles");
+      break;
+    }
+    before = read_coord(reader, before, limits::tile_coordinate_max, "coordinate of a tile");
+    keys.push_back(key_of(before));
+  }
+  if (reader.failed()) check.refuse(reader.error().message);
   return keys;
+}
+
+void write(wire::BrickGround& to, const BrickGround& from) {
+  to.set_box(pack_chunks({from.layout.lo, from.layout.hi}));
+  to.set_voxel_size_m(from.layout.voxel_size_m);
+  to.set_root(std::string(from.root.begin(), from.root.end()));
+}
+
+BrickGround read_bricks(const wire::BrickGround& from, FieldChecker& check) {
+  BrickGround ground;
+  const std::vector<ChunkCoord> box = check.chunks(from.box(), 2, "box of the stored bricks");
+  ground.layout.voxel_size_m = check.finite(from.voxel_size_m(), "voxel_size_m of the stored bricks");
+  if (box.size() != 2 || from.root().size() != ground.root.size()) {
+    check.refuse("the box of the stored bricks is not of two corners, or their hash not of 32 bytes");
+    return ground;
+  }
+  ground.layout.lo = box[0];
+  ground.layout.hi = box[1];
+  std::ranges::copy(as_span(from.root()), ground.root.begin());
+  if (check.failed()) return ground;
+  if (Result<void> valid = validate(ground.layout); !valid) check.refuse(valid.error().message);
+  return ground;
 }
 
 }  // namespace
@@ -35,6 +80,7 @@ void write(wire::HeightGround& to, const HeightGround& from) {
   to.set_soil_below_m(layout.layers.soil_below_m);
   to.set_ice_above_m(layout.layers.ice_above_m);
   to.set_top(std::string(from.top.begin(), from.top.end()));
+  if (from.bricks) write(*to.mutable_bricks(), *from.bricks);
 }
 
 HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check) {
@@ -55,6 +101,7 @@ HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check) {
   std::ranges::copy(as_span(from.top()), ground.top.begin());
   if (check.failed()) return ground;
   if (Result<void> valid = validate(layout); !valid) check.refuse(valid.error().message);
+  if (from.has_bricks()) ground.bricks = read_bricks(from.bricks(), check);
   return ground;
 }
 

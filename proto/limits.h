@@ -41,14 +41,17 @@ inline constexpr size_t ticket_bytes_max = 48;
 /// connection ends.
 inline constexpr size_t ground_chunks_max = 1024;
 
-/// Bytes of a tile of an elevation model: 65,536 that nothing compresses, and what is around them. Above:
-/// refused.
+/// Bytes of a tile of the ground: 65,536 of an elevation model that nothing compresses, and what is around
+/// them; a stored chunk has half of that. Above: refused.
 inline constexpr size_t tile_bytes_max = size_t{72} << 10;
+
+/// A number of a tile's key on the wire: the highest chunk's y with the level beside it. Above: refused.
+inline constexpr int32_t tile_coordinate_max = 1 << 20;
 
 /// Tiles that a client may ask for in one message, and wait for. Above: refused, and the connection ends.
 inline constexpr size_t tiles_wanted_max = 256;
 
-/// Tiles that a client says in one message to have kept; as many as it keeps in memory (128 MiB).
+/// Tiles that a client says in one message to have kept. Above: refused; others go into the next message.
 inline constexpr size_t tiles_held_max = 2048;
 
 /// Length of a client's name, bytes.

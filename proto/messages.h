@@ -130,7 +130,7 @@ struct GroundRequest {
 /// The client leaves for good. Nothing follows.
 struct GoodbyeMessage {};
 
-/// Asks for tiles of the ground's elevation model, each of which is answered by a TileMessage, and says which
+/// Asks for tiles of the ground, each of which is answered by a TileMessage, and says which
 /// the client has kept from earlier.
 struct TileRequest {
   std::vector<TileKey> wanted;
@@ -143,10 +143,19 @@ using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, 
 
 // ---- server to client
 
+/// A ground's stored chunks, as far as they are known without their tiles. `root`: SHA-256 of the root.
+struct BrickGround {
+  BrickLayout layout;
+  Digest root{};
+
+  bool operator==(const BrickGround&) const = default;
+};
+
 /// A ground by heights, as far as it is known without its tiles. `top`: SHA-256 of the coarsest one.
 struct HeightGround {
   HeightLayout layout;
   Digest top{};
+  std::optional<BrickGround> bricks{};
 
   bool operator==(const HeightGround&) const = default;
 };

@@ -38,6 +38,10 @@ inline constexpr size_t tiles_asked_max = 32;
 /// Above: the others later.
 inline constexpr size_t tiles_missed_max = 4096;
 
+/// Bytes of the ground's tiles in memory. Above: no more are asked for, and what is farther is drawn
+/// coarsely.
+inline constexpr size_t tile_memory_max = size_t{384} << 20;
+
 /// Tiles that are read from files in one call: a frame is hardly to notice. The others the next time.
 inline constexpr size_t tiles_read_at_once = 32;
 

@@ -2,18 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "client/cache/limits.h"
 #include "crypto/sha256.h"
 #include "proto/height_codec.h"
 #include "proto/limits.h"
+#include "proto/stored_codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 ReceivedTiles::ReceivedTiles(const HeightGround& ground, TileFolder folder)
-    : HeightModel(ground.layout), ground_(ground), folder_(std::move(folder)) {
+    : GroundModel(ground.layout, ground.bricks ? std::optional(ground.bricks->layout) : std::nullopt),
+      ground_(ground),
+      folder_(std::move(folder)) {
   digests_[layout().top()] = ground.top;
+  if (ground.bricks) digests_[bricks()->root()] = ground.bricks->root;
+}
+
+size_t ReceivedTiles::Held::bytes() const {
+  constexpr size_t own = 256;
+  size_t codes = 0;
+  if (chunk != nullptr)
+    for (const Brick* brick : chunk->bricks)
+      codes += uniform_equivalent(*brick) == nullptr ? brick_voxels : 0;
+  return own + (tile != nullptr ? sizeof(HeightTile) : 0) + codes + packed.size();
 }
 
 std::shared_ptr<const HeightTile> ReceivedTiles::tile(TileKey key) const {
@@ -30,6 +45,34 @@ std::vector<uint8_t> ReceivedTiles::packed(TileKey key) const {
   return found == held_.end() ? std::vector<uint8_t>() : found->second.packed;
 }
 
+/// Under the lock. From the root down, as far as tiles are there.
+ReceivedTiles::Found ReceivedTiles::find_chunk(TileKey key) const {
+  std::vector<TileKey> path{key};
+  while (path.back() != bricks()->root()) path.push_back(bricks()->parent(path.back()));
+  Found found;
+  for (auto at = path.rbegin(); at != path.rend(); ++at) {
+    if (found.held != nullptr) {
+      const auto places = bricks()->children(found.key);
+      const auto place = static_cast<size_t>(std::ranges::find(places, *at) - places.begin());
+      CHECK(place < places.size());
+      if (((found.held->children >> place) & 1U) == 0) return {*at, nullptr, false};
+    }
+    const auto there = held_.find(*at);
+    found = {*at, there == held_.end() ? nullptr : &there->second, true};
+    if (found.held == nullptr) break;
+  }
+  return found;
+}
+
+ChunkLook ReceivedTiles::chunk(TileKey key) const {
+  const std::scoped_lock lock(mutex_);
+  const Found found = find_chunk(key);
+  if (!found.stored) return {};
+  if (found.held != nullptr) return {true, found.held->chunk};
+  if (missed_.size() < limits::tiles_missed_max) missed_.insert(key);
+  return {false, nullptr};
+}
+
 bool ReceivedTiles::has(TileKey key) const {
   const std::scoped_lock lock(mutex_);
   return held_.contains(key);
@@ -42,16 +85,42 @@ void ReceivedTiles::begin_session() {
   for (const auto& [key, held] : held_) untold_.push_back(key);
 }
 
+/// Names those below it.
+Result<ReceivedTiles::Held> ReceivedTiles::unpacked(TileKey key, std::vector<uint8_t> bytes) {
+  Held held;
+  if (key.kind == TileKind::bricks) {
+    auto unpacked = unpack_chunk(bytes, key, *bricks());
+    if (!unpacked) return tl::unexpected(unpacked.error());
+    const std::array<TileKey, 8> places = bricks()->children(key);
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (!unpacked->children[i]) continue;
+      digests_[places[i]] = *unpacked->children[i];
+      held.children = static_cast<uint8_t>(held.children | (1U << i));
+    }
+    held.chunk = std::make_shared<const GeneratedChunk>(std::move(unpacked->chunk));
+  } else {
+    auto unpacked = unpack_tile(bytes, key, layout());
+    if (!unpacked) return tl::unexpected(unpacked.error());
+    const std::vector<TileKey> children = layout().children(key);
+    for (size_t i = 0; i < children.size(); ++i) digests_[children[i]] = unpacked->children[i];
+    held.tile = std::make_shared<const HeightTile>(unpacked->tile);
+  }
+  held.packed = std::move(bytes);
+  return held;
+}
+
 Result<void> ReceivedTiles::put(TileKey key, std::vector<uint8_t> bytes) {
-  auto unpacked = unpack_tile(bytes, key, layout());
-  if (!unpacked) return tl::unexpected(unpacked.error());
-  const std::vector<TileKey> children = layout().children(key);
-  for (size_t i = 0; i < children.size(); ++i) digests_[children[i]] = unpacked->children[i];
-  auto tile = std::make_shared<const HeightTile>(unpacked->tile);
+  auto held = unpacked(key, std::move(bytes));
+  if (!held) return tl::unexpected(held.error());
   const std::scoped_lock lock(mutex_);
-  held_[key] = {std::move(tile), std::move(bytes)};
+  held_bytes_ += held->bytes();
+  held_[key] = std::move(*held);
   missed_.erase(key);
   return {};
+}
+
+TileKey ReceivedTiles::above(TileKey key) const {
+  return key.kind == TileKind::bricks ? bricks()->parent(key) : parent_of(key);
 }
 
 Result<void> ReceivedTiles::take(const TileMessage& message) {
@@ -88,7 +157,36 @@ std::vector<TileKey> ReceivedTiles::near(glm::vec3 eye_m, float radius_m) const 
   std::vector<TileKey> keys;
   for (int z = z0; z <= z1; ++z)
     for (int x = x0; x <= x1; ++x) keys.push_back({0, x, z});
+  add_near_chunks(eye_m, radius_m, keys);
   return keys;
+}
+
+/// Metres from a place to the nearest point of a stored chunk; 0 for the root.
+float ReceivedTiles::reach_to_chunk_m(TileKey key, glm::vec3 eye_m) const {
+  if (key == bricks()->root()) return 0.0F;
+  const float side_m = bricks()->voxel_size_m * static_cast<float>(chunk_size << key.level);
+  const glm::vec3 lo = glm::vec3(key.x, key.y, key.z) * side_m;
+  return glm::length(eye_m - glm::clamp(eye_m, lo, lo + side_m));
+}
+
+/// All stored chunks of level 0 within the radius, or what is to come to know them.
+void ReceivedTiles::add_near_chunks(glm::vec3 eye_m, float radius_m, std::vector<TileKey>& keys) const {
+  if (!bricks()) return;
+  const std::scoped_lock lock(mutex_);
+  std::vector<TileKey> open{bricks()->root()};
+  while (!open.empty()) {
+    const TileKey key = open.back();
+    open.pop_back();
+    if (reach_to_chunk_m(key, eye_m) > radius_m + limits::offer_margin_m) continue;
+    const auto held = held_.find(key);
+    if (held == held_.end() || key.level == 0) {
+      keys.push_back(key);
+      continue;
+    }
+    const std::array<TileKey, 8> places = bricks()->children(key);
+    for (size_t i = 0; i < places.size(); ++i)
+      if (((held->second.children >> i) & 1U) != 0) open.push_back(places[i]);
+  }
 }
 
 bool ReceivedTiles::has_near(glm::vec3 eye_m, float radius_m) const {
@@ -105,13 +203,20 @@ std::set<TileKey> ReceivedTiles::nameable(glm::vec3 eye_m, float radius_m) const
   std::set<TileKey> keys;
   for (TileKey key : wanted) {
     if (has(key)) continue;
-    while (!digests_.contains(key)) key = parent_of(key);
-    keys.insert(key);
+    const TileKey missed = key;
+    while (!digests_.contains(key)) key = above(key);
+    if (!has(key)) {
+      keys.insert(key);
+    } else {  // which does not name it: there is none
+      const std::scoped_lock lock(mutex_);
+      missed_.erase(missed);
+    }
   }
   return keys;
 }
 
 float ReceivedTiles::distance_m(TileKey key, glm::vec3 eye_m) const {
+  if (key.kind == TileKind::bricks) return reach_to_chunk_m(key, eye_m);
   const float side_m = layout().cell_m * static_cast<float>(tile_samples << key.level);
   const float x_m = (static_cast<float>(key.x) + 0.5F) * side_m - layout().half_width_m() - eye_m.x;
   const float z_m = (static_cast<float>(key.z) + 0.5F) * side_m - layout().half_depth_m() - eye_m.z;
@@ -131,7 +236,7 @@ std::vector<TileKey> ReceivedTiles::in_order(glm::vec3 eye_m, float radius_m) co
 
 bool ReceivedTiles::is_full() const {
   const std::scoped_lock lock(mutex_);
-  return asked_.size() >= limits::tiles_asked_max || held_.size() + asked_.size() >= limits::tiles_held_max;
+  return asked_.size() >= limits::tiles_asked_max || held_bytes_ >= limits::tile_memory_max;
 }
 
 TileRequest ReceivedTiles::next_request(glm::vec3 eye_m, float radius_m) {
@@ -151,7 +256,9 @@ TileRequest ReceivedTiles::next_request(glm::vec3 eye_m, float radius_m) {
       }
     }
   }
-  request.held = std::exchange(untold_, {});
+  const auto told = std::min(untold_.size(), limits::tiles_held_max);
+  request.held.assign(untold_.end() - static_cast<std::ptrdiff_t>(told), untold_.end());
+  untold_.resize(untold_.size() - told);
   return request;
 }
 

@@ -1,5 +1,6 @@
-// The elevation model of a server's ground, whose tiles come over the wire, or from the cache, when somebody
-// has missed them: coarse ones first, because each names the ones below it, then the nearest.
+// A server's ground, whose tiles, of its elevation model and of stored chunks, come over the wire, or from
+// the cache, when somebody has missed them: coarse ones first, because each names the ones below it, then the
+// nearest.
 //
 // Invariant: every tile has the hash by which the tile above, or the welcome, names it. A tile stays once it
 // has come. Any thread may call what HeightModel has, one thread the rest.
@@ -15,13 +16,15 @@
 
 namespace scree {
 
-class ReceivedTiles final : public HeightModel {
+class ReceivedTiles final : public GroundModel {
  public:
   ReceivedTiles(const HeightGround& ground, TileFolder folder);
 
   const HeightGround& ground() const { return ground_; }
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
+  ChunkLook chunk(TileKey key) const override;
+  bool has(TileKey key) const override;
 
   /// Says what a new session may count on: all that has come so far is to be told, what was asked for is to
   /// be asked for again.
@@ -39,11 +42,24 @@ class ReceivedTiles final : public HeightModel {
 
  private:
   struct Held {
-    std::shared_ptr<const HeightTile> tile;
+    std::shared_ptr<const HeightTile> tile;  ///< of heights
+    std::shared_ptr<const GeneratedChunk> chunk;
+    uint8_t children = 0;  ///< of a stored chunk: bit i: child i is stored
     std::vector<uint8_t> packed;
+    size_t bytes() const;
+  };
+  /// Of the walk from the root to a stored chunk: the last key whose tile is there or wanted.
+  struct Found {
+    TileKey key;
+    const Held* held = nullptr;  ///< null: it is not there
+    bool stored = true;          ///< false: the one above says that there is none
   };
   std::vector<TileKey> near(glm::vec3 eye_m, float radius_m) const;
-  bool has(TileKey key) const;
+  void add_near_chunks(glm::vec3 eye_m, float radius_m, std::vector<TileKey>& keys) const;
+  float reach_to_chunk_m(TileKey key, glm::vec3 eye_m) const;
+  Found find_chunk(TileKey key) const;
+  Result<Held> unpacked(TileKey key, std::vector<uint8_t> bytes);
+  TileKey above(TileKey key) const;
   std::set<TileKey> nameable(glm::vec3 eye_m, float radius_m) const;
   std::vector<TileKey> in_order(glm::vec3 eye_m, float radius_m) const;
   bool is_full() const;
@@ -60,6 +76,7 @@ class ReceivedTiles final : public HeightModel {
   uint64_t read_ = 0;
   mutable std::mutex mutex_;  ///< guards the members below
   std::map<TileKey, Held> held_;
+  size_t held_bytes_ = 0;
   mutable std::set<TileKey> missed_;
 };
 

@@ -29,6 +29,13 @@ Result<GroundGiver> ground_giver(const std::string& path, const std::string& gro
 Result<void> take_ground(const std::string& ground_path, WorldConfig& config) {
   auto file = GroundFile::open(ground_path);
   if (!file) return tl::unexpected(file.error());
+  // Bricks are of one size; another one that is asked for is refused by name.
+  const auto& bricks = (*file)->bricks();
+  float& voxel_size_m = config.terrain.voxel_size_m;
+  if (bricks && voxel_size_m == TerrainSource{}.voxel_size_m) voxel_size_m = bricks->voxel_size_m;
+  if (bricks && bricks->voxel_size_m != voxel_size_m)
+    return fail(ground_path + ": its stored bricks have voxels of " + std::to_string(bricks->voxel_size_m) +
+                " m, not of " + std::to_string(voxel_size_m) + " m (--voxel-size)");
   config.ground = (*file)->name();
   config.terrain.heights = std::move(*file);
   return {};

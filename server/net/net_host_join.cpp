@@ -64,8 +64,11 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   welcome.world = world_;
   welcome.ticket = tickets_.issue(session.id());
   welcome.resumed = before.has_value();
-  if (const auto& heights = config_.terrain.heights)
-    welcome.heights = HeightGround{heights->layout(), sha256(heights->packed(heights->layout().top()))};
+  if (const auto& ground = config_.terrain.heights) {
+    welcome.heights = HeightGround{ground->layout(), sha256(ground->packed(ground->layout().top())), {}};
+    if (const auto& bricks = ground->bricks())
+      welcome.heights->bricks = BrickGround{*bricks, sha256(ground->packed(bricks->root()))};
+  }
   return welcome;
 }
 

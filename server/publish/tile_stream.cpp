@@ -10,12 +10,11 @@ namespace scree {
 
 bool TileStream::ask(uint64_t session, const TileRequest& request, ClientView& view) {
   if (heights_ == nullptr) return true;
-  const HeightLayout& layout = heights_->layout();
   for (const TileKey key : request.held)
-    if (layout.holds(key)) view.hold_tile(key);
+    if (heights_->has(key)) view.hold_tile(key);
   if (waiting(session) + request.wanted.size() > limits::tiles_wanted_max) return false;
   for (const TileKey key : request.wanted)
-    if (layout.holds(key) && !view.holds_tile(key)) queues_[session].tiles.push_back(key);
+    if (heights_->has(key) && !view.holds_tile(key)) queues_[session].tiles.push_back(key);
   return true;
 }
 

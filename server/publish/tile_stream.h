@@ -1,4 +1,4 @@
-// Answers requests for tiles of the ground's elevation model. What waits is bounded (limits::tiles_wanted_max
+// Answers requests for tiles of the ground. What waits is bounded (limits::tiles_wanted_max
 // a session), and so are the bytes of a tick. No sockets and no clock. Not thread-safe.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace scree {
 class TileStream {
  public:
   /// `heights` may be null: then the ground has no tiles, and requests are skipped.
-  explicit TileStream(std::shared_ptr<const HeightModel> heights) : heights_(std::move(heights)) {}
+  explicit TileStream(std::shared_ptr<const GroundModel> heights) : heights_(std::move(heights)) {}
 
   /// Notes what the client holds in `view`, and queues what it wants. False, and nothing is queued, when more
   /// than limits::tiles_wanted_max would wait.
@@ -37,7 +37,7 @@ class TileStream {
     int64_t credit_bytes = 0;
   };
 
-  std::shared_ptr<const HeightModel> heights_;
+  std::shared_ptr<const GroundModel> heights_;
   std::map<uint64_t, Queue> queues_;
 };
 

@@ -153,8 +153,9 @@ int HeightLayout::levels() const {
 }
 
 bool HeightLayout::holds(TileKey key) const {
-  return key.level >= 0 && key.level < levels() && key.x >= 0 && key.z >= 0 &&
-         key.x < tiles_on(key.level, columns) && key.z < tiles_on(key.level, rows);
+  return key.kind == TileKind::heights && key.y == 0 && key.level >= 0 && key.level < levels() &&
+         key.x >= 0 && key.z >= 0 && key.x < tiles_on(key.level, columns) &&
+         key.z < tiles_on(key.level, rows);
 }
 
 size_t HeightLayout::tiles() const {

@@ -34,11 +34,16 @@ inline constexpr int tile_samples = 128;
 inline constexpr size_t tile_sample_count = size_t{tile_samples} * tile_samples;
 inline constexpr int32_t height_steps_per_m = 256;
 
-/// One tile: its column x and its row z on a level, both from 0.
+/// heights: a tile of an elevation model. bricks: a stored chunk (stored_chunks.h).
+enum class TileKind : uint8_t { heights, bricks };
+
+/// One tile: its column x and its row z on a level, both from 0; or a chunk of bricks, which has a y as well.
 struct TileKey {
   int32_t level = 0;
   int32_t x = 0;
   int32_t z = 0;
+  int32_t y = 0;
+  TileKind kind = TileKind::heights;
 
   auto operator<=>(const TileKey&) const = default;
 };
@@ -79,6 +84,7 @@ struct HeightLayout {
   float half_depth_m() const { return static_cast<float>(rows - 1) * 0.5F * cell_m; }     ///< in z
 };
 
+/// Of a tile of heights.
 constexpr TileKey parent_of(TileKey key) {
   return {key.level + 1, key.x >> 1, key.z >> 1};
 }

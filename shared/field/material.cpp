@@ -2,7 +2,25 @@
 
 namespace scree {
 
+namespace {
+
+std::optional<Material> stored_material_at(const TerrainSource& source, glm::vec3 p_m) {
+  if (source.heights == nullptr || !source.heights->bricks()) return std::nullopt;
+  const glm::vec3 p = p_m / source.voxel_size_m + 0.5F;
+  const BrickCoord brick = brick_of(VoxelCoord{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)});
+  const ChunkLook look = stored_chunk(source, chunk_of(brick));
+  return look.chunk == nullptr ? std::nullopt : stored_material(*look.chunk, index_in_chunk(brick));
+}
+
+}  // namespace
+
+std::optional<Material> stored_material(const GeneratedChunk& chunk, int index) {
+  const uint8_t number = chunk.materials[static_cast<size_t>(index)];
+  return number == 0 ? std::nullopt : std::optional(static_cast<Material>(number - 1));
+}
+
 Material material_at(const TerrainSource& source, glm::vec3 p_m) {
+  if (const auto stored = stored_material_at(source, p_m)) return *stored;
   const MaterialHeights at = layers_of(source);
   const bool soil = p_m.y < at.soil_below_m;
   if (!soil && p_m.y <= at.ice_above_m) return Material::rock;

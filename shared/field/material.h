@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string_view>
 
 #include "shared/base/kind_table.h"
@@ -91,6 +92,9 @@ constexpr MaterialRow row_of(Material material) {
   }
   return {};
 }
+
+/// The material that the ground stores for a brick of a chunk, if any.
+std::optional<Material> stored_material(const GeneratedChunk& chunk, int index);
 
 /// The undisturbed terrain's material at a place. Places above the undisturbed ground count as rock.
 Material material_at(const TerrainSource& source, glm::vec3 p_m);

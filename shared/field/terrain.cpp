@@ -145,35 +145,6 @@ struct Lattice {
   }
 };
 
-GeneratedChunk uniform_chunk(const Brick& brick) {
-  GeneratedChunk chunk;
-  chunk.bricks.fill(&brick);
-  return chunk;
-}
-
-GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
-  GeneratedChunk chunk;
-  std::vector<Brick> own;
-  std::array<int, 64> slot;
-  for (int i = 0; i < 64; ++i) {
-    const VoxelCoord first = first_voxel(brick_in_chunk(coord, i));
-    Brick brick;
-    for (int x = 0; x < brick_size; ++x)
-      for (int y = 0; y < brick_size; ++y)
-        std::copy_n(window.codes.data() + window.index(first.x + x, first.y + y, first.z), brick_size,
-                    brick.codes.data() + Brick::index(x, y, 0));
-    chunk.bricks[static_cast<size_t>(i)] = uniform_equivalent(brick);
-    slot[static_cast<size_t>(i)] = static_cast<int>(own.size());
-    if (chunk.bricks[static_cast<size_t>(i)] == nullptr) own.push_back(brick);
-  }
-  chunk.storage = std::make_unique<Brick[]>(own.size());
-  std::ranges::copy(own, chunk.storage.get());
-  for (size_t i = 0; i < 64; ++i)
-    if (chunk.bricks[i] == nullptr) chunk.bricks[i] = chunk.storage.get() + slot[i];
-  CHECK(std::ranges::find(chunk.bricks, nullptr) == chunk.bricks.end());
-  return chunk;
-}
-
 /// The part of the box in which the ground's surface can lie.
 enum class Reach { air, rock, surface };
 
@@ -251,20 +222,58 @@ GeneratedChunk chunk_of_heights(const TerrainSource& source, ChunkCoord coord) {
   return chunk;
 }
 
+/// The code of the voxel nearest to a place, where the ground stores its chunk.
+std::optional<Code> stored_code(const TerrainSource& source, glm::vec3 p_m) {
+  if (!source.heights->bricks()) return std::nullopt;
+  const glm::vec3 p = p_m / source.voxel_size_m + 0.5F;
+  const VoxelCoord voxel{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
+  const ChunkLook look = stored_chunk(source, chunk_of(voxel));
+  if (look.chunk == nullptr) return std::nullopt;
+  const Brick& brick = *look.chunk->bricks[static_cast<size_t>(index_in_chunk(brick_of(voxel)))];
+  return brick.codes[static_cast<size_t>(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7))];
+}
+
+/// Through the stored chunks of the column from above, as far as the model's surface.
+float height_of_ground_m(const TerrainSource& source, float x_m, float z_m) {
+  const auto surface_m =
+      static_cast<float>(height_at(*source.heights, static_cast<double>(x_m), static_cast<double>(z_m)));
+  const auto& bricks = source.heights->bricks();
+  if (!bricks) return surface_m;
+  for (float y_m = bricks->top_m(); y_m > bricks->bottom_m(); y_m -= source.voxel_size_m) {
+    const auto code = stored_code(source, {x_m, y_m, z_m});
+    if (code ? *code < 0 : y_m < surface_m) return code ? y_m : surface_m;
+  }
+  return std::min(surface_m, bricks->bottom_m());
+}
+
 }  // namespace
+
+ChunkLook stored_chunk(const TerrainSource& source, ChunkCoord chunk) {
+  const auto key = source.heights ? stored_key(*source.heights, chunk, source.voxel_size_m) : std::nullopt;
+  return key ? source.heights->chunk(*key) : ChunkLook{};
+}
 
 bool is_here(const TerrainSource& source, ChunkCoord chunk) {
   if (source.heights == nullptr) return true;
-  const HeightModel& model = *source.heights;
-  if (reach_of(model.layout(), box_around(chunk), source.voxel_size_m) != Reach::surface) return true;
-  bool all = true;
+  const GroundModel& model = *source.heights;
+  const ChunkLook stored = stored_chunk(source, chunk);
+  bool all = stored.known;
+  if (stored.chunk != nullptr ||
+      reach_of(model.layout(), box_around(chunk), source.voxel_size_m) != Reach::surface)
+    return all;
   for (const TileKey key : tiles_of(model.layout(), chunk, source.voxel_size_m))
     all = model.tile(key) != nullptr && all;
   return all;
 }
 
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
-  if (source.heights != nullptr) return chunk_of_heights(source, chunk);
+  if (source.heights != nullptr) {
+    const ChunkLook stored = stored_chunk(source, chunk);
+    if (stored.chunk != nullptr) return copy_of(*stored.chunk);
+    GeneratedChunk made = chunk_of_heights(source, chunk);
+    made.exact = made.exact && stored.known;
+    return made;
+  }
   const VoxelBox box = box_around(chunk);
   if (const Reach reach = reach_of(source, box); reach != Reach::surface) return uniform_chunk(reach, true);
   const Lattice lattice(source, box);
@@ -275,20 +284,29 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
 }
 
 float floor_m(const TerrainSource& source) {
-  if (source.heights != nullptr) return static_cast<float>(metres(source.heights->layout().lowest));
-  return heights(source.kind).bottom_m;
+  if (source.heights == nullptr) return heights(source.kind).bottom_m;
+  const auto low_m = static_cast<float>(metres(source.heights->layout().lowest));
+  const auto& bricks = source.heights->bricks();
+  return bricks ? std::min(low_m, bricks->bottom_m()) : low_m;
 }
 
 float top_m(const TerrainSource& source) {
-  if (source.heights != nullptr) return static_cast<float>(metres(source.heights->layout().highest));
-  return heights(source.kind).top_m;
+  if (source.heights == nullptr) return heights(source.kind).top_m;
+  const auto high_m = static_cast<float>(metres(source.heights->layout().highest));
+  const auto& bricks = source.heights->bricks();
+  return bricks ? std::max(high_m, bricks->top_m()) : high_m;
 }
 
 float floor_m(const TerrainSource& source, int chunk_x, int chunk_z) {
   if (source.heights == nullptr) return rock_top_m(source, chunk_x, chunk_z);
   const HeightPatch patch = heights_at(*source.heights, chunk_x * chunk_size, chunk_z * chunk_size,
                                        chunk_size, source.voxel_size_m);
-  return static_cast<float>(patch.lowest_m);
+  const auto low_m = static_cast<float>(patch.lowest_m);
+  // Among stored chunks there may be caves.
+  const auto& bricks = source.heights->bricks();
+  const bool stored =
+      bricks && stored_key(*source.heights, {chunk_x, bricks->lo.y, chunk_z}, source.voxel_size_m);
+  return stored ? std::min(low_m, bricks->bottom_m()) : low_m;
 }
 
 MaterialHeights layers_of(const TerrainSource& source) {
@@ -298,7 +316,15 @@ MaterialHeights layers_of(const TerrainSource& source) {
 std::optional<GroundExtent> extent_of(const TerrainSource& source) {
   if (source.heights == nullptr) return std::nullopt;
   const HeightLayout& layout = source.heights->layout();
-  return GroundExtent{layout.half_width_m(), layout.half_depth_m()};
+  GroundExtent extent{layout.half_width_m(), layout.half_depth_m()};
+  if (const auto& bricks = source.heights->bricks()) {
+    const float chunk_m = bricks->voxel_size_m * static_cast<float>(chunk_size);
+    extent.half_width_m =
+        std::max(extent.half_width_m, static_cast<float>(std::max(-bricks->lo.x, bricks->hi.x)) * chunk_m);
+    extent.half_depth_m =
+        std::max(extent.half_depth_m, static_cast<float>(std::max(-bricks->lo.z, bricks->hi.z)) * chunk_m);
+  }
+  return extent;
 }
 
 std::optional<glm::vec3> spawn_of(const TerrainSource& source) {
@@ -308,16 +334,16 @@ std::optional<glm::vec3> spawn_of(const TerrainSource& source) {
 }
 
 float ground_density(const TerrainSource& source, glm::vec3 p_m) {
-  if (source.heights != nullptr)
-    return static_cast<float>(static_cast<double>(p_m.y) - height_at(*source.heights,
-                                                                     static_cast<double>(p_m.x),
-                                                                     static_cast<double>(p_m.z)));
-  return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.random_seed).at(p_m.z));
+  if (source.heights == nullptr)
+    return ground(source.kind, p_m, RoughColumn(p_m.x, p_m.y, source.random_seed).at(p_m.z));
+  if (const auto code = stored_code(source, p_m)) return decode(*code) * source.voxel_size_m;
+  return static_cast<float>(static_cast<double>(p_m.y) - height_at(*source.heights,
+                                                                   static_cast<double>(p_m.x),
+                                                                   static_cast<double>(p_m.z)));
 }
 
 float ground_height_m(const TerrainSource& source, float x_m, float z_m) {
-  if (source.heights != nullptr)
-    return static_cast<float>(height_at(*source.heights, static_cast<double>(x_m), static_cast<double>(z_m)));
+  if (source.heights != nullptr) return height_of_ground_m(source, x_m, z_m);
   constexpr float step_m = 0.25F;
   const Heights bounds = heights(source.kind);
   float y = bounds.top_m + step_m;

@@ -1,9 +1,9 @@
 // The ground: unedited terrain, immutable, the same bits on server and client. A world is its ground and what
 // was edited. Everything that needs unedited terrain asks these functions, and does not know where the ground
-// is from: generated from a kind and a seed, or made from an elevation model (heights.h).
+// is from: generated from a kind and a seed, or made from an elevation model (heights.h), with stored chunks
+// of bricks in their places (stored_chunks.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "shared/base/kind_table.h"
-#include "shared/field/brick.h"
-#include "shared/field/heights.h"
+#include "shared/field/generated_chunk.h"
+#include "shared/field/stored_chunks.h"
 
 namespace scree {
 
@@ -44,17 +44,9 @@ struct TerrainSource {
   uint32_t random_seed = 1;
   float voxel_size_m = 0.25F;
   /// If there is one, the ground is made from it, and kind and seed mean nothing.
-  std::shared_ptr<const HeightModel> heights{};
+  std::shared_ptr<const GroundModel> heights{};
 
   bool operator==(const TerrainSource&) const = default;
-};
-
-/// A chunk of the ground. bricks[i] is never null; uniform bricks point to the shared ones.
-struct GeneratedChunk {
-  std::array<const Brick*, chunk_bricks * chunk_bricks * chunk_bricks> bricks;
-  std::unique_ptr<Brick[]> storage;
-  /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
-  bool exact = true;
 };
 
 /// Whether generate_chunk() is exact now. Where it is not, what is missing is noted as such (HeightModel).
@@ -71,6 +63,9 @@ float top_m(const TerrainSource& source);
 
 /// As floor_m(), but of the columns of voxels of one column of chunks; at most as high as their surface.
 float floor_m(const TerrainSource& source, int chunk_x, int chunk_z);
+
+/// What the ground stores of a chunk of its voxel size: a chunk, or that it stores none.
+ChunkLook stored_chunk(const TerrainSource& source, ChunkCoord chunk);
 
 /// Where the ground's layers lie.
 MaterialHeights layers_of(const TerrainSource& source);

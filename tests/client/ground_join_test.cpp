@@ -7,6 +7,7 @@
 #include "client/cache/received_tiles.h"
 #include "crypto/sha256.h"
 #include "server/app/live_server.h"
+#include "tests/support/box_solid.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/written_ground.h"
 
@@ -17,6 +18,9 @@ class GroundJoinTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ground_ = written_ground(folder_ / "hills.ground", 700, 300, 1.0F);
+    serve();
+  }
+  void serve() {
     LiveConfig config;
     config.world.terrain.heights = ground_;
     config.pacing = Pacing::by_hand;
@@ -117,6 +121,57 @@ TEST_F(GroundJoinTest, tiles_nobody_asked_for_and_tiles_of_another_hash_are_refu
   EXPECT_EQ(good.next_request({}, 64.0F).wanted, (std::vector<TileKey>{{0, 0, 0}}));
   good.begin_session();
   EXPECT_EQ(good.next_request({}, 64.0F).held.size(), good.tiles_received());
+}
+
+/// The same with stored bricks over the hills.
+class BrickJoinTest : public GroundJoinTest {
+ protected:
+  void SetUp() override {
+    GroundJoinTest::SetUp();
+    ground_ = written_table(folder_ / "table.ground", ground_);
+    serve();
+  }
+};
+
+TEST_F(BrickJoinTest, stored_chunks_come_once_and_are_bit_for_bit_the_servers) {
+  Bot bot(config(6, size_t{1} << 24U));
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(go_on_until(bot, [&] { return bot.finished(); })) << bot.report().failure;
+  EXPECT_TRUE(bot.report().hash.equal);
+  EXPECT_EQ(bot.report().seen.mismatches, 0U);
+  EXPECT_GT(bot.report().seen.pieces_made, 0U);
+  const TerrainSource& here = bot.mirror()->terrain();
+  size_t stored = 0;
+  for (const TileKey key : ground_->chunks()) {
+    if (key.level != 0) continue;
+    const ChunkCoord chunk = chunk_of(key);
+    ASSERT_TRUE(is_here(here, chunk));
+    EXPECT_TRUE(
+        same_bricks(generate_chunk(here, chunk), generate_chunk(server_->world()->config().terrain, chunk)));
+    ++stored;
+  }
+  EXPECT_GT(stored, 8U);
+  EXPECT_EQ(visit(config(2, size_t{1} << 24U)).bytes.tiles, 0U) << "all of it was kept";
+}
+
+TEST_F(BrickJoinTest, a_stored_chunk_of_another_hash_is_refused_and_the_next_coarser_names_it) {
+  ReceivedTiles tiles(ground_->header().ground, TileFolder({}));
+  const TileKey root = ground_->bricks()->root();
+  size_t taken = 0;
+  for (TileRequest request = tiles.next_request({}, 64.0F); !request.wanted.empty();
+       request = tiles.next_request({}, 64.0F))
+    for (const TileKey key : request.wanted) {
+      EXPECT_TRUE(taken > 0 || key == root || key.kind == TileKind::heights);
+      ASSERT_TRUE(tiles.take({key, ground_->packed(key)}));
+      EXPECT_FALSE(tiles.take({key, ground_->packed(key)})) << "it came already";
+      ++taken;
+    }
+  EXPECT_TRUE(tiles.has_near({}, 64.0F));
+  ReceivedTiles other(ground_->header().ground, TileFolder({}));
+  ASSERT_FALSE(other.next_request({}, 64.0F).wanted.empty());
+  std::vector<uint8_t> wrong = ground_->packed(root);
+  wrong.back() ^= 1U;
+  EXPECT_FALSE(other.take({root, wrong}));
 }
 
 }  // namespace

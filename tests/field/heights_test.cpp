@@ -14,7 +14,7 @@
 namespace scree {
 namespace {
 
-TerrainSource on(std::shared_ptr<const HeightModel> heights, float voxel_m = 0.25F) {
+TerrainSource on(std::shared_ptr<const GroundModel> heights, float voxel_m = 0.25F) {
   return {TerrainKind::flat, 1, voxel_m, std::move(heights)};
 }
 

@@ -187,14 +187,22 @@ inline Lines describe(const GroundRequest& m) {
 }
 inline Lines words(const HeightGround& m) {
   const HeightLayout& layout = m.layout;
-  return {fmt::format("heights: {} × {} samples every {} m, {} to {} / 256 m", layout.columns, layout.rows,
-                      layout.cell_m, layout.lowest, layout.highest),
-          fmt::format("soil below {} m, ice above {} m, coarsest tile {}", layout.layers.soil_below_m,
-                      layout.layers.ice_above_m, hex_of(m.top))};
+  Lines lines{fmt::format("heights: {} × {} samples every {} m, {} to {} / 256 m", layout.columns,
+                          layout.rows, layout.cell_m, layout.lowest, layout.highest),
+              fmt::format("soil below {} m, ice above {} m, coarsest tile {}", layout.layers.soil_below_m,
+                          layout.layers.ice_above_m, hex_of(m.top))};
+  if (m.bricks)
+    lines.push_back(fmt::format("stored chunks: {} to {}, voxels of {} m, root {}",
+                                words(m.bricks->layout.lo), words(m.bricks->layout.hi),
+                                m.bricks->layout.voxel_size_m, hex_of(m.bricks->root)));
+  return lines;
 }
 inline std::string words(const std::vector<TileKey>& keys) {
   std::string text;
-  for (const TileKey key : keys) text += fmt::format(" ({}, {}, {})", key.level, key.x, key.z);
+  for (const TileKey key : keys)
+    text += key.kind == TileKind::bricks
+                ? fmt::format(" chunk ({}, {}, {}, {})", key.level, key.x, key.y, key.z)
+                : fmt::format(" ({}, {}, {})", key.level, key.x, key.z);
   return text;
 }
 inline Lines describe(const TileRequest& m) {

@@ -31,6 +31,7 @@ const std::vector<Layer>& layers() {
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/"}},
       {"import/", {"ground/"}},
+      {"export/", {"import/", "server/store/"}},
       {"transport/", {"crypto/"}},
       {"auth/", {"proto/", "crypto/"}},
       {"server/field/", {"proto/"}},
@@ -69,7 +70,7 @@ const std::vector<Layer>& layers() {
        {"client/viewer/session/", "client/viewer/pictures/", "client/viewer/sound/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
-      {"bench/support/", {"server/", "client/", "import/"}},
+      {"bench/support/", {"server/", "client/", "import/", "export/"}},
       {"bench/peers/", {"server/", "client/"}},
       {"bench/simulation/", {"bench/support/", "bench/peers/"}},
       {"bench/drawing/", {"bench/support/", "bench/peers/"}},
@@ -90,7 +91,10 @@ struct Library {
 const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       // bench/peers/: its own tools are what ours are measured beside.
-      {"OpenVDB", std::regex("(openvdb|nanovdb)/.*"), {"server/field/", "bench/peers/"}},
+      {"OpenVDB",
+       std::regex("(openvdb|nanovdb)/.*"),
+       {"server/field/", "import/vdb/", "export/vdb/", "bench/peers/"}},
+      {"assimp", std::regex("assimp/.*"), {"import/assimp/"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/", "tests/store/"}},

@@ -6,15 +6,15 @@
 #include <functional>
 #include <set>
 
-#include "shared/field/heights.h"
+#include "shared/field/stored_chunks.h"
 
 namespace scree {
 
-class MemoryHeights final : public HeightModel {
+class MemoryHeights final : public GroundModel {
  public:
   /// `height(column, row)`: in 1/256 m.
   MemoryHeights(int columns, int rows, float cell_m, const std::function<int32_t(int, int)>& height)
-      : HeightModel(layout_for(columns, rows, cell_m, height)), height_(height) {}
+      : GroundModel(layout_for(columns, rows, cell_m, height)), height_(height) {}
 
   void withhold(TileKey key) { withheld_.insert(key); }
   void give(TileKey key) { withheld_.erase(key); }

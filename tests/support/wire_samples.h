@@ -129,7 +129,9 @@ inline std::vector<ServerMessage> server_messages() {
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
   WelcomeMessage on_heights = welcome;
-  on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}}, {1, 2, 255}};
+  on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}},
+                                    {1, 2, 255},
+                                    BrickGround{{0.25F, {-5, -2, -7}, {6, 3, 1}}, {9, 8, 255}}};
   return {
       welcome,
       on_heights,
@@ -193,7 +195,7 @@ inline std::vector<ClientMessage> client_messages() {
           WatchMessage{true},
           SayMessage{"mind the edge"},
           GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
-          TileRequest{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}}},
+          TileRequest{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
           GoodbyeMessage{}};
 }

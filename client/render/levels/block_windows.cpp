@@ -85,7 +85,9 @@ Survey survey(Field& field, const VoxelBox& box) {
       seen.air = seen.air && brick == &air_brick();
       seen.rock = seen.rock && brick == &solid_brick();
       seen.edited = seen.edited || edited;
-      if (const auto painted = edited ? field.painted(coord) : std::nullopt) seen.paint[coord] = *painted;
+      const auto painted = edited ? field.painted(coord) : std::nullopt;
+      if (const auto shown = painted ? painted : stored_material(bricks.generated, index))
+        seen.paint[coord] = *shown;
     });
   });
   return seen;
@@ -158,7 +160,7 @@ float BlockWindows::layer_m(const MaterialHeights& layers, glm::vec3 p) const {
 }
 
 void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
-  if (!before) return;  // nothing was edited here
+  if (!before && paint.empty()) return;  // nothing was edited here
   constexpr int steps = surface_steps;
   const MaterialHeights layers = layers_of(source);
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
@@ -171,9 +173,16 @@ void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
       const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
       if (found != paint.end()) brick_paint = paint_number(found->second);
     }
-    vertex.paint = vertex_paint(brick_paint, vertex.before < cut_begins ? layer_m(layers, p) : 0.0F);
-    vertex.before = worn(vertex, p);
+    const bool is_cut = before && vertex.before < cut_begins;
+    vertex.paint = vertex_paint(brick_paint, is_cut ? layer_m(layers, p) : 0.0F);
+    if (before) vertex.before = worn(vertex, p);
   }
+}
+
+std::optional<Material> shown_material(Field& field, BrickCoord brick) {
+  const std::optional<Material> painted = field.painted(brick);
+  return painted ? painted
+                 : stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
 }
 
 uint8_t paint_number(const Field& field, const Volume& piece) {

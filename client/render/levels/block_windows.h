@@ -35,6 +35,9 @@ struct BlockWindows {
 /// Nothing when all the bricks around are air, or all are rock.
 std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned);
 
+/// The material that shows on a brick: its paint, else what the ground stores for it, if any.
+std::optional<Material> shown_material(Field& field, BrickCoord brick);
+
 /// The paint number of a piece: its material, everywhere if the field is painted where it was cut, else only
 /// in its cuts.
 uint8_t paint_number(const Field& field, const Volume& piece);

@@ -130,7 +130,7 @@ LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
   if (level_ > 0 && edited) take_edits(field, level_, window);
   LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, 0};
-  if (edited && level_ == 0) read.paint = paint_number(field.painted(brick));
+  if (level_ == 0) read.paint = paint_number(shown_material(field, brick));
   read.kind = kind_of(read.field);
   if (!before || before->codes == window.codes) return read;
   read.before = as_brick(*before);

@@ -1,0 +1,51 @@
+#include "export/exported.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace scree {
+
+namespace {
+
+/// Rock below the lowest ground that is exported with an elevation model.
+constexpr float below_m = 8.0F;
+
+ChunkCoord chunk_at(glm::vec3 p_m, float voxel_size_m) {
+  const glm::vec3 p = p_m / voxel_size_m;
+  return chunk_of(VoxelCoord{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)});
+}
+
+ChunkBox around_both(const ChunkBox& a, const ChunkBox& b) {
+  const VoxelBox hull = hull_of(a.voxels(), b.voxels());
+  return {chunk_of(hull.lo), chunk_of(hull.hi)};
+}
+
+}  // namespace
+
+size_t ChunkBox::count() const {
+  const ChunkCoord size = hi - lo;
+  return static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z);
+}
+
+ChunkBox chunks_of(glm::vec3 lo_m, glm::vec3 hi_m, float voxel_size_m) {
+  const ChunkCoord last = chunk_at(hi_m, voxel_size_m);
+  return {chunk_at(lo_m, voxel_size_m), last + ChunkCoord{1, 1, 1}};
+}
+
+Result<ChunkBox> whole_of(const Field& field) {
+  const TerrainSource& source = field.source();
+  std::optional<ChunkBox> box;
+  const auto add = [&](const ChunkBox& more) { box = box ? around_both(*box, more) : more; };
+  for (const ChunkCoord chunk : field.edited_chunks()) add({chunk, chunk + ChunkCoord{1, 1, 1}});
+  const auto extent = extent_of(source);
+  if (extent && source.heights->bricks()) {
+    add({source.heights->bricks()->lo, source.heights->bricks()->hi});
+  } else if (extent) {
+    add(chunks_of({-extent->half_width_m, floor_m(source) - below_m, -extent->half_depth_m},
+                  {extent->half_width_m, top_m(source) + 1.0F, extent->half_depth_m}, source.voxel_size_m));
+  }
+  if (!box) return fail("nothing was edited, and the ground has no end: --box says which part is wanted");
+  return *box;
+}
+
+}  // namespace scree

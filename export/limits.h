@@ -1,0 +1,15 @@
+// Bounds of exports. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Triangles of one mesh: their points have 32-bit numbers, and all of it lies in memory, 2 GiB. Above:
+/// refused.
+inline constexpr size_t export_triangles_max = size_t{1} << 26;
+
+/// Chunks of one export: an hour or so. Above: refused.
+inline constexpr size_t export_chunks_max = size_t{1} << 22;
+
+}  // namespace scree::limits

@@ -1,0 +1,124 @@
+#include "export/vdb/vdb_export.h"
+
+#include <filesystem>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <unistd.h>
+
+#include "import/vdb/vdb_names.h"
+#include "shared/field/heights.h"
+
+namespace scree {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::Int32Grid;
+
+/// Tree level of a tile as large as a brick.
+constexpr openvdb::Index brick_tile_level = 1;
+
+struct Grids {
+  FloatGrid::Ptr surface;
+  Int32Grid::Ptr material;
+};
+
+template <typename T, typename Grid>
+void tell(Grid& grid, const char* name, const T& value) {
+  grid.insertMeta(name, openvdb::TypedMetadata<T>(value));
+}
+
+void tell_ground(FloatGrid& grid, const TerrainSource& source, const ChunkBox& box) {
+  tell(grid, vdb_names::voxel_size_m, source.voxel_size_m);
+  tell(grid, vdb_names::chunks_lo, openvdb::Vec3i(box.lo.x, box.lo.y, box.lo.z));
+  tell(grid, vdb_names::chunks_hi, openvdb::Vec3i(box.hi.x, box.hi.y, box.hi.z));
+  const MaterialHeights layers = layers_of(source);
+  tell(grid, vdb_names::soil_below_m, layers.soil_below_m);
+  tell(grid, vdb_names::ice_above_m, layers.ice_above_m);
+  if (source.heights == nullptr) return;
+  const HeightLayout& heights = source.heights->layout();
+  if (heights.lowest == heights.highest)
+    tell(grid, vdb_names::level_m, static_cast<double>(heights.lowest) / height_steps_per_m);
+}
+
+Grids empty_grids(const TerrainSource& source, const ChunkBox& box) {
+  openvdb::initialize();
+  const auto voxel_m = static_cast<double>(source.voxel_size_m);
+  Grids grids{FloatGrid::create(band_voxels * source.voxel_size_m), Int32Grid::create(0)};
+  grids.surface->setName(vdb_names::surface);
+  grids.surface->setGridClass(openvdb::GRID_LEVEL_SET);
+  grids.surface->setCreator("Scree");
+  grids.material->setName(vdb_names::material);
+  grids.material->setCreator("Scree");
+  for (openvdb::GridBase::Ptr grid :
+       {openvdb::GridBase::Ptr(grids.surface), openvdb::GridBase::Ptr(grids.material)})
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel_m));
+  tell_ground(*grids.surface, source, box);
+  return grids;
+}
+
+void add_brick(const Brick& brick, const Coord& at, float voxel_m, FloatGrid& grid) {
+  const Brick* uniform = uniform_equivalent(brick);
+  if (uniform == &air_brick()) return;
+  if (uniform == &solid_brick()) {
+    grid.tree().addTile(brick_tile_level, at, -band_voxels * voxel_m, false);
+    return;
+  }
+  auto* leaf = grid.tree().touchLeaf(at);
+  for (openvdb::Index i = 0; i < brick_voxels; ++i) {
+    const Code code = brick.codes[i];
+    leaf->setValueOnly(i, decode(code) * voxel_m);
+    leaf->setActiveState(i, code > code_solid && code < code_air);
+  }
+}
+
+std::optional<Material> material_of(Field& field, BrickCoord brick) {
+  if (const auto painted = field.painted(brick)) return painted;
+  return stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
+}
+
+void add_chunk(Field& field, ChunkCoord chunk, Grids& grids) {
+  for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+    const BrickCoord coord = brick_in_chunk(chunk, i);
+    const VoxelCoord first = first_voxel(coord);
+    const Coord at(first.x, first.y, first.z);
+    add_brick(field.brick(coord), at, field.source().voxel_size_m, *grids.surface);
+    if (const auto material = material_of(field, coord))
+      grids.material->tree().addTile(brick_tile_level, at, static_cast<int32_t>(*material), true);
+  }
+}
+
+Result<uint64_t> write(const Grids& grids, const std::string& path) {
+  const std::string unfinished = path + "." + std::to_string(getpid()) + ".unfinished";
+  std::error_code error;
+  try {
+    openvdb::io::File file(unfinished);
+    file.write({grids.surface, grids.material});
+    file.close();
+    std::filesystem::rename(unfinished, path);
+    return std::filesystem::file_size(path);
+  } catch (const std::exception& failure) {
+    std::filesystem::remove(unfinished, error);
+    return fail(path + ": it cannot be written: " + failure.what());
+  }
+}
+
+}  // namespace
+
+Result<VdbExported> export_vdb(Field& field, const ChunkBox& box, const std::string& path,
+                               const std::function<void(double)>& progress) {
+  Grids grids = empty_grids(field.source(), box);
+  size_t done = 0;
+  for_each_chunk(box.voxels(), [&](ChunkCoord chunk) {
+    add_chunk(field, chunk, grids);
+    progress(static_cast<double>(++done) / static_cast<double>(box.count()));
+  });
+  grids.surface->pruneGrid();
+  grids.material->pruneGrid();
+  const auto bytes = write(grids, path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return VdbExported{grids.surface->activeVoxelCount(), *bytes};
+}
+
+}  // namespace scree

@@ -1,0 +1,144 @@
+#include "proto/stored_codec.h"
+
+#include <algorithm>
+#include <string>
+#include <zstd.h>
+
+#include "proto/limits.h"
+#include "shared/base/check.h"
+#include "shared/field/material.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int compression_level = 9;  // chunks are packed once, and sent often
+constexpr size_t head_bytes = 2 * chunk_brick_count;
+constexpr size_t content_bytes_max = head_bytes + chunk_brick_count * brick_voxels;
+enum Form : uint8_t { air = 0, rock = 1, codes = 2 };
+
+/// Each code less the one before: distances change little along a row.
+void write_codes(const Brick& brick, std::vector<uint8_t>& content) {
+  uint8_t before = 0;
+  for (const Code code : brick.codes) {
+    content.push_back(static_cast<uint8_t>(static_cast<uint8_t>(code) - before));
+    before = static_cast<uint8_t>(code);
+  }
+}
+
+Result<Brick> read_codes(std::span<const uint8_t> content) {
+  Brick brick;
+  uint8_t before = 0;
+  for (size_t i = 0; i < brick.codes.size(); ++i) {
+    before = static_cast<uint8_t>(before + content[i]);
+    brick.codes[i] = static_cast<Code>(before);
+    if (brick.codes[i] == Code{-128}) return fail("stored chunk: a code is -128, beyond ±127");
+  }
+  return brick;
+}
+
+std::vector<uint8_t> content_of(const GeneratedChunk& chunk) {
+  std::vector<uint8_t> content;
+  for (const Brick* brick : chunk.bricks) {
+    const Brick* uniform = uniform_equivalent(*brick);
+    content.push_back(uniform == nullptr ? codes : (uniform == &air_brick() ? air : rock));
+  }
+  content.insert(content.end(), chunk.materials.begin(), chunk.materials.end());
+  for (const Brick* brick : chunk.bricks)
+    if (uniform_equivalent(*brick) == nullptr) write_codes(*brick, content);
+  return content;
+}
+
+Result<std::vector<uint8_t>> decompressed(std::span<const uint8_t> packed) {
+  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (size < head_bytes || size > content_bytes_max)  // also what declares none
+    return fail("stored chunk: the compressed bricks do not declare their size");
+  const size_t frame = ZSTD_findFrameCompressedSize(packed.data(), packed.size());
+  if (ZSTD_isError(frame) != 0U || frame != packed.size())
+    return fail("stored chunk: the compressed bricks are cut short or followed by more");
+  std::vector<uint8_t> content(size);
+  const size_t got = ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
+  if (ZSTD_isError(got) != 0U || got != content.size())
+    return fail("stored chunk: the compressed bricks are damaged");
+  return content;
+}
+
+Result<GeneratedChunk> chunk_of_content(std::span<const uint8_t> content) {
+  std::array<Brick, chunk_brick_count> bricks;
+  size_t next = head_bytes;
+  for (size_t i = 0; i < chunk_brick_count; ++i) {
+    if (content[i] > codes || content[chunk_brick_count + i] > kind_count<Material>)
+      return fail("stored chunk: a brick or its material is of an unknown kind");
+    if (content[i] != codes) {
+      bricks[i] = content[i] == air ? air_brick() : solid_brick();
+      continue;
+    }
+    if (content.size() - next < brick_voxels) return fail("stored chunk: a brick's codes are missing");
+    const auto brick = read_codes(content.subspan(next, brick_voxels));
+    if (!brick) return tl::unexpected(brick.error());
+    bricks[i] = *brick;
+    next += brick_voxels;
+  }
+  if (next != content.size()) return fail("stored chunk: more codes than bricks");
+  GeneratedChunk chunk = chunk_of_bricks(bricks);
+  std::ranges::copy(content.subspan(chunk_brick_count, chunk_brick_count), chunk.materials.begin());
+  return chunk;
+}
+
+}  // namespace
+
+std::vector<uint8_t> pack_chunk(TileKey key, const BrickLayout& layout, const ChunkChildren& children,
+                                const GeneratedChunk* chunk) {
+  CHECK(layout.holds(key) && (chunk == nullptr) == (key == layout.root()));
+  std::vector<uint8_t> bytes;
+  if (key.level > 0) {
+    bytes.push_back(0);
+    for (size_t i = 0; i < children.size(); ++i) {
+      if (!children[i]) continue;
+      bytes.front() = static_cast<uint8_t>(bytes.front() | (1U << i));
+      bytes.insert(bytes.end(), children[i]->begin(), children[i]->end());
+    }
+  }
+  if (chunk == nullptr) return bytes;
+  const std::vector<uint8_t> content = content_of(*chunk);
+  const size_t start = bytes.size();
+  bytes.resize(start + ZSTD_compressBound(content.size()));
+  const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, content.data(),
+                                       content.size(), compression_level);
+  CHECK(ZSTD_isError(written) == 0U);
+  bytes.resize(start + written);
+  CHECK(bytes.size() <= limits::tile_bytes_max);
+  return bytes;
+}
+
+Result<UnpackedChunk> unpack_chunk(std::span<const uint8_t> bytes, TileKey key, const BrickLayout& layout) {
+  if (bytes.size() > limits::tile_bytes_max)
+    return fail("stored chunk: of " + std::to_string(bytes.size()) + " bytes (limits.tile_bytes_max)");
+  UnpackedChunk unpacked;
+  if (key.level > 0) {
+    if (bytes.empty()) return fail("stored chunk: it is empty");
+    const uint8_t mask = bytes.front();
+    bytes = bytes.subspan(1);
+    const std::array<TileKey, 8> places = layout.children(key);
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (((mask >> i) & 1U) == 0) continue;
+      if (!layout.holds(places[i])) return fail("stored chunk: it names one outside of the layout");
+      if (bytes.size() < sizeof(Digest)) return fail("stored chunk: the hashes are cut short");
+      std::copy_n(bytes.begin(), sizeof(Digest), unpacked.children[i].emplace().begin());
+      bytes = bytes.subspan(sizeof(Digest));
+    }
+  }
+  if (key == layout.root()) {
+    if (!bytes.empty()) return fail("stored chunk: the root is followed by more");
+    unpacked.chunk = uniform_chunk(air_brick());
+    return unpacked;
+  }
+  const auto content = decompressed(bytes);
+  if (!content) return tl::unexpected(content.error());
+  auto chunk = chunk_of_content(*content);
+  if (!chunk) return tl::unexpected(chunk.error());
+  unpacked.chunk = std::move(*chunk);
+  return unpacked;
+}
+
+}  // namespace scree

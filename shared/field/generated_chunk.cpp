@@ -1,0 +1,75 @@
+#include "shared/field/generated_chunk.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// `slots[i]`: the brick's place in `own`, or none when chunk.bricks[i] is a shared one.
+void take(GeneratedChunk& chunk, const std::vector<Brick>& own,
+          const std::array<size_t, chunk_brick_count>& slots) {
+  chunk.storage = std::make_unique<Brick[]>(own.size());
+  std::ranges::copy(own, chunk.storage.get());
+  for (size_t i = 0; i < chunk_brick_count; ++i)
+    if (chunk.bricks[i] == nullptr) chunk.bricks[i] = chunk.storage.get() + slots[i];
+  CHECK(std::ranges::find(chunk.bricks, nullptr) == chunk.bricks.end());
+}
+
+/// `brick_at(i)`: brick i, by value or reference.
+template <typename F>
+GeneratedChunk chunk_from(F&& brick_at) {
+  GeneratedChunk chunk;
+  std::vector<Brick> own;
+  std::array<size_t, chunk_brick_count> slots{};
+  for (size_t i = 0; i < chunk_brick_count; ++i) {
+    const Brick& brick = brick_at(i);
+    chunk.bricks[i] = uniform_equivalent(brick);
+    slots[i] = own.size();
+    if (chunk.bricks[i] == nullptr) own.push_back(brick);
+  }
+  take(chunk, own, slots);
+  return chunk;
+}
+
+}  // namespace
+
+GeneratedChunk uniform_chunk(const Brick& brick) {
+  GeneratedChunk chunk;
+  chunk.bricks.fill(&brick);
+  return chunk;
+}
+
+GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord) {
+  Brick brick;
+  return chunk_from([&](size_t i) -> const Brick& {
+    const VoxelCoord first = first_voxel(brick_in_chunk(coord, static_cast<int>(i)));
+    for (int x = 0; x < brick_size; ++x)
+      for (int y = 0; y < brick_size; ++y)
+        std::copy_n(window.codes.data() + window.index(first.x + x, first.y + y, first.z), brick_size,
+                    brick.codes.data() + Brick::index(x, y, 0));
+    return brick;
+  });
+}
+
+GeneratedChunk chunk_of_bricks(const std::array<Brick, chunk_brick_count>& bricks) {
+  return chunk_from([&](size_t i) -> const Brick& { return bricks[i]; });
+}
+
+GeneratedChunk copy_of(const GeneratedChunk& from) {
+  GeneratedChunk chunk = chunk_from([&](size_t i) -> const Brick& { return *from.bricks[i]; });
+  chunk.materials = from.materials;
+  chunk.exact = from.exact;
+  return chunk;
+}
+
+bool same_bricks(const GeneratedChunk& a, const GeneratedChunk& b) {
+  return a.materials == b.materials &&
+         std::ranges::equal(a.bricks, b.bricks,
+                            [](const Brick* x, const Brick* y) { return x == y || *x == *y; });
+}
+
+}  // namespace scree

@@ -1,0 +1,39 @@
+// The bricks of one chunk of unedited ground, generated or stored.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "shared/field/window.h"
+
+namespace scree {
+
+inline constexpr size_t chunk_brick_count = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
+
+/// A chunk of the ground. bricks[i] is never null; uniform bricks point to the shared ones.
+struct GeneratedChunk {
+  std::array<const Brick*, chunk_brick_count> bricks;
+  std::unique_ptr<Brick[]> storage;
+  /// Of each brick 0, or 1 + the material that the ground stores for it; 0: its layers' (material.h).
+  std::array<uint8_t, chunk_brick_count> materials{};
+  /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
+  bool exact = true;
+};
+
+/// `brick` is one of the shared uniform ones.
+GeneratedChunk uniform_chunk(const Brick& brick);
+
+/// The chunk's part of the window, which must hold it.
+GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord);
+
+/// Of those bricks, of which uniform ones are replaced by the shared ones.
+GeneratedChunk chunk_of_bricks(const std::array<Brick, chunk_brick_count>& bricks);
+
+/// Another one that is the same.
+GeneratedChunk copy_of(const GeneratedChunk& chunk);
+
+/// Whether codes and materials are the same.
+bool same_bricks(const GeneratedChunk& a, const GeneratedChunk& b);
+
+}  // namespace scree
