@@ -19,8 +19,8 @@ inline constexpr double relief_at_zero_max_m = 448.0;
 /// Stored chunks of one import: they lie in memory, 12 KiB each as a rule. Above: refused.
 inline constexpr size_t import_chunks_max = size_t{1} << 17;
 
-/// Chunks that a solid's surface touches, each counted once for each triangle or node of the grid that does.
-/// Above: refused.
+/// Chunks that a solid's surface touches; of a mesh, each counted once for each triangle that does. Above:
+/// refused.
 inline constexpr size_t solid_surface_max = size_t{1} << 22;
 
 /// Meshes in one file. Above: refused.

@@ -147,7 +147,7 @@ class GridSolid final : public Solid {
 
   void add_surface(const CoordBBox& grid_box) {
     const VoxelBox box = voxels_around(grid_box, band_around);
-    touched_ += count_chunks(box);
+    touched_ = std::max(touched_, surface_.size() + count_chunks(box));
     if (touched_ > limits::solid_surface_max) return;
     for_each_chunk(box, [this](ChunkCoord chunk) { surface_.insert(chunk); });
   }
@@ -217,7 +217,7 @@ class GridSolid final : public Solid {
   const Placement place_;
   const double voxel_m_;
   std::set<ChunkCoord> surface_;
-  size_t touched_ = 0;
+  size_t touched_ = 0;  ///< the most chunks that there may have been
   VoxelBox box_{};
   double lowest_m_ = 0.0;
 };
