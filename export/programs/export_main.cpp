@@ -8,6 +8,8 @@
 #include "export/mesh_export.h"
 #include "export/vdb/vdb_export.h"
 #include "ground/ground_file.h"
+#include "import/progress_bar.h"
+#include "server/app/ground_giver.h"
 #include "server/store/world_file.h"
 
 namespace scree {
@@ -19,6 +21,7 @@ constexpr int usage_error = 2;
 struct Options {
   std::string from;
   std::string out;
+  std::string ground;
   std::vector<float> box_m;
 };
 
@@ -28,12 +31,17 @@ int refuse(const Error& error) {
 }
 
 /// A world's terrain with its edits. Its pieces are no rock of the terrain.
-Result<std::unique_ptr<Field>> field_of_world(const std::string& path) {
-  const auto file = WorldFile::open(path);
+Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
+  const auto file = WorldFile::open(options.from);
   if (!file) return tl::unexpected(file.error());
-  const auto rows = (*file)->read();
+  auto rows = (*file)->read();
   if (!rows) return tl::unexpected(rows.error());
-  auto field = std::make_unique<MapField>(rows->world.moment.config.terrain);
+  const auto giver = ground_giver(options.from, options.ground);
+  if (!giver) return tl::unexpected(giver.error());
+  RecordedHeader& config = rows->world.moment.config;
+  if (auto given = give_ground(config.ground, config.terrain, *giver); !given)
+    return fail(options.from + ": " + given.error().message);
+  auto field = std::make_unique<MapField>(config.terrain);
   for (const BrickPatch& brick : rows->world.bricks) {
     field->set_brick(brick.coord, brick.brick);
     field->paint_brick(brick.coord, brick.paint);
@@ -41,9 +49,9 @@ Result<std::unique_ptr<Field>> field_of_world(const std::string& path) {
   return field;
 }
 
-Result<std::unique_ptr<Field>> field_of(const std::string& path) {
-  if (!path.ends_with(".ground")) return field_of_world(path);
-  auto file = GroundFile::open(path);
+Result<std::unique_ptr<Field>> field_of(const Options& options) {
+  if (!options.from.ends_with(".ground")) return field_of_world(options);
+  auto file = GroundFile::open(options.from);
   if (!file) return tl::unexpected(file.error());
   TerrainSource source;
   source.heights = *file;
@@ -70,19 +78,22 @@ int run(const Options& options) {
   const bool is_vdb = options.out.ends_with(".vdb");
   if (!is_vdb && !is_mesh_name(options.out))
     return refuse({options.out + ": files of .vdb, .ply and .obj can be written"});
-  const auto field = field_of(options.from);
+  const auto field = field_of(options);
   if (!field) return refuse(field.error());
   const auto box = box_of(options, **field);
   if (!box) return refuse({options.from + ": " + box.error().message});
-  const auto silent = [](double) {};
+  ProgressBar bar;
+  const auto progress = [&](double part) { bar.show(part); };
   nlohmann::ordered_json line{{"file", options.out}, {"chunks", box->count()}};
   if (is_vdb) {
-    const auto exported = export_vdb(**field, *box, options.out, silent);
+    const auto exported = export_vdb(**field, *box, options.out, progress);
+    bar.end();
     if (!exported) return refuse(exported.error());
     line["active_voxels"] = exported->active_voxels;
     line["bytes"] = exported->bytes;
   } else {
-    const auto exported = export_mesh(**field, *box, options.out, silent);
+    const auto exported = export_mesh(**field, *box, options.out, progress);
+    bar.end();
     if (!exported) return refuse(exported.error());
     line["points"] = exported->points;
     line["triangles"] = exported->triangles;
@@ -102,6 +113,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;
   app.add_option("from", options.from, "the file of a world, or a ground (.ground)")->required();
+  app.add_option("--ground", options.ground,
+                 "the ground file of the world; unless said, looked for beside it and among all grounds");
   app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply or .obj")->required();
   app.add_option(
          "--box", options.box_m,

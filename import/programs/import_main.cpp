@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "ground/ground_header.h"
 #include "import/files/solid_files.h"
 #include "import/gdal/gdal_raster.h"
 #include "import/heights_import.h"
+#include "import/progress_bar.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -82,25 +82,6 @@ void declare(CLI::App& app, Options& options) {
   declare_heights(app, options);
   declare_solids(app, options);
 }
-
-/// On standard error, when it is a terminal.
-class ProgressBar {
- public:
-  void show(double part) {
-    const int percent = static_cast<int>(part * 100.0);
-    if (!shown_ || percent == percent_) return;
-    percent_ = percent;
-    std::fprintf(stderr, "\r[%-50.*s] %3d %%", percent / 2,
-                 "##################################################", percent);
-  }
-  void end() const {
-    if (percent_ >= 0) std::fprintf(stderr, "\n");
-  }
-
- private:
-  const bool shown_ = isatty(STDERR_FILENO) != 0;
-  int percent_ = -1;
-};
 
 int refuse(const Error& error) {
   std::fprintf(stderr, "scree-import: %s\n", error.message.c_str());

@@ -31,7 +31,7 @@ const std::vector<Layer>& layers() {
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/"}},
       {"import/", {"ground/"}},
-      {"export/", {"import/", "server/store/"}},
+      {"export/", {"import/", "server/app/"}},
       {"transport/", {"crypto/"}},
       {"auth/", {"proto/", "crypto/"}},
       {"server/field/", {"proto/"}},
