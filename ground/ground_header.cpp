@@ -12,7 +12,7 @@ namespace scree {
 namespace {
 
 constexpr uint64_t file_kind = 0x444E'4745'4552'4353ULL;  // "SCREEGND"
-constexpr uint32_t version = 2;
+constexpr uint32_t version = 1;
 
 /// All that makes the ground what it is.
 std::vector<uint8_t> fields_of(const GroundHeader& header) {

@@ -119,7 +119,9 @@ Result<void> may_resume(const std::string& path, const RecordingHeader& header, 
                 std::to_string(tick) + ": choose another name (--record)");
   const auto hash = hash_after(**recorded, tick);
   if (!hash) return tl::unexpected(hash.error());
-  if (*hash != start.state_hash) return another;
+  // Before its first tick a world is what its configuration says.
+  const bool same = *hash ? **hash == start.state_hash : tick == 0;
+  if (!same) return another;
   return {};
 }
 

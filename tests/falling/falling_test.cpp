@@ -134,34 +134,6 @@ TEST(falling, blocks_over_the_budget_wait_and_fall_in_later_ticks) {
   EXPECT_GE(waited, 1U);
 }
 
-TEST(falling, a_search_that_needs_untouched_chunks_goes_on_over_ticks_that_have_no_room_for_them) {
-  WorldConfig config = flat_world();
-  config.tick_rate_hz = 1000;
-  World world(config);
-  const auto idle = [&] {
-    for (int tick = 0; tick < 100; ++tick) step(world);
-  };
-  const std::vector<Shape> arch = {box({-5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
-                                   box({5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
-                                   box({0.0F, 6.5F, 0.0F}, {6.0F, 1.0F, 1.0F})};
-  for (const Shape& shape : arch) {
-    step(world, pour_all({shape}));
-    idle();
-  }
-  step(world, {cut(sphere({-5.0F, 2.0F, 0.0F}, 2.0F))});
-  idle();
-  auto delta = step(world, {cut(sphere({5.0F, 2.0F, 0.0F}, 2.0F))});
-  ASSERT_TRUE(delta->replies.at(0).refusal.empty());
-  int ticks = 0;
-  for (; islands_of(*delta) == 0 && ticks < 100; ++ticks) {
-    const size_t before = world.field().generated_chunks();
-    delta = step(world);
-    EXPECT_LE(world.field().generated_chunks() - before, 8U);
-  }
-  EXPECT_GT(ticks, 0);
-  EXPECT_LT(ticks, 30);
-}
-
 TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
   WorldConfig config = flat_world();
   config.methods.islands = false;  // or its parts fall before it is whole

@@ -1,4 +1,4 @@
-// scree-world as a program, and the files of this version, which later versions must open.
+// scree-world and scree-export as programs, and the files of this version, which later versions must open.
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ground_hash = "fd9dab8f702ae6220115c48c75b73d79d9471c848519b2337ae026f7f97b082d";
+constexpr const char* ground_hash = "02ef571e351c683da0bc4abe8a96636cc0744de9e0d035501d277dcd5556cae3";
 
 class WorldProgramTest : public ::testing::Test {
  protected:
@@ -128,6 +128,26 @@ TEST_F(WorldProgramTest, a_world_is_rolled_back_and_made_anew_by_its_recording) 
   expect_whole(world);
   expect_whole(rolled.json.at("before"));
   EXPECT_EQ(run("info " + world).json.at("state_hash"), run("info " + other).json.at("state_hash"));
+}
+
+TEST_F(WorldProgramTest, a_kept_world_is_exported_with_its_ground_and_not_without) {
+  const auto exported = [&](const std::string& arguments) {
+    return run_program(std::string(SCREE_EXPORT_PROGRAM) + " " + world + " " + arguments);
+  };
+  const std::string mesh = folder / "hills.ply", volume = folder / "hills.vdb";
+  const auto [code, said] = exported("-o " + mesh);
+  ASSERT_EQ(code, 0) << said;
+  EXPECT_GT(nlohmann::json::parse(said).at("triangles"), 0) << said;
+  EXPECT_GT(fs::file_size(mesh), 0U);
+  EXPECT_EQ(exported("-o " + volume + " --box 0,-8,0,16,8,16").first, 0);
+  EXPECT_GT(fs::file_size(volume), 0U);
+  EXPECT_EQ(exported("-o " + (folder / "hills.tiff")).first, 1) << "a kind that cannot be written";
+  EXPECT_EQ(exported("").first, 2);
+  fs::rename(folder / "hills.ground", folder / "ground.moved");
+  const auto without = exported("-o " + mesh);
+  EXPECT_EQ(without.first, 1);
+  EXPECT_NE(without.second.find(ground_hash), std::string::npos) << without.second;
+  EXPECT_EQ(exported("-o " + mesh + " --ground " + (folder / "ground.moved")).first, 0);
 }
 
 TEST_F(WorldProgramTest, wrong_usage_is_2_and_what_is_no_world_is_1) {
