@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 
 #include "shared/field/stored_chunks.h"
@@ -21,13 +24,16 @@ class MemoryHeights final : public GroundModel {
 
   std::shared_ptr<const HeightTile> tile(TileKey key) const override {
     if (withheld_.contains(key)) return nullptr;
+    const std::scoped_lock lock(mutex_);
+    std::shared_ptr<const HeightTile>& slot = made_[key];
+    if (slot != nullptr) return slot;
     auto tile = std::make_shared<HeightTile>();
     for (int z = 0; z < tile_samples; ++z)
       for (int x = 0; x < tile_samples; ++x)
         tile->heights[HeightTile::index(x, z)] =
             height_(std::min((key.x * tile_samples + x) << key.level, layout().columns - 1),
                     std::min((key.z * tile_samples + z) << key.level, layout().rows - 1));
-    return tile;
+    return slot = std::move(tile);
   }
   std::vector<uint8_t> packed(TileKey) const override { return {}; }
 
@@ -44,6 +50,8 @@ class MemoryHeights final : public GroundModel {
   }
 
   std::function<int32_t(int, int)> height_;
+  mutable std::mutex mutex_;  ///< guards made_
+  mutable std::map<TileKey, std::shared_ptr<const HeightTile>> made_;
   std::set<TileKey> withheld_;
 };
 
