@@ -80,7 +80,7 @@ void weld(TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     Triangle welded{place_of[t[0]], place_of[t[1]], place_of[t[2]]};
     if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;
-    std::ranges::rotate(welded, std::ranges::min_element(welded));
+    std::rotate(welded.begin(), std::ranges::min_element(welded), welded.end());
     if (seen.insert(welded).second) triangles.push_back(welded);
   }
   mesh.points = std::move(points);
