@@ -5,6 +5,7 @@
 #include <zstd.h>
 
 #include "proto/byte_stream.h"
+#include "proto/compressed.h"
 #include "proto/operation_codec.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -19,13 +20,8 @@ constexpr int compression_level = 3;
 
 constexpr int32_t brick_coordinate_max = limits::voxel_coordinate_max / brick_size;
 
-void append_compressed(std::vector<uint8_t>& bytes, std::span<const Code> codes) {
-  const size_t start = bytes.size();
-  bytes.resize(start + ZSTD_compressBound(codes.size()));
-  const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, codes.data(), codes.size(),
-                                       compression_level);
-  CHECK(ZSTD_isError(written) == 0U);
-  bytes.resize(start + written);
+void append_codes(std::vector<uint8_t>& bytes, std::span<const Code> codes) {
+  append_compressed(bytes, {reinterpret_cast<const uint8_t*>(codes.data()), codes.size()}, compression_level);
 }
 
 /// Writes the painted bricks' indices and materials.
@@ -88,7 +84,7 @@ std::vector<uint8_t> encode_bricks(std::span<const BrickView> bricks) {
   writer.varint(bricks.size());
   write_coords<BrickTag>(writer, coords);
   write_paint(writer, bricks);
-  append_compressed(bytes, codes);
+  append_codes(bytes, codes);
   return bytes;
 }
 
@@ -136,7 +132,7 @@ std::vector<uint8_t> encode_volume(const Volume& volume) {
   writer.varint(static_cast<uint64_t>(volume.mass));
   writer.vec3(volume.centre_voxels);
   writer.u8(static_cast<uint8_t>(volume.material));
-  append_compressed(bytes, volume.window.codes);
+  append_codes(bytes, volume.window.codes);
   return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <zstd.h>
 
+#include "proto/compressed.h"
 #include "proto/limits.h"
 #include "shared/base/check.h"
 
@@ -57,12 +58,7 @@ std::vector<uint8_t> pack_tile(const std::vector<Digest>& children, const Height
     }
   std::vector<uint8_t> bytes;
   for (const Digest& child : children) bytes.insert(bytes.end(), child.begin(), child.end());
-  const size_t start = bytes.size();
-  bytes.resize(start + ZSTD_compressBound(content.size()));
-  const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, content.data(),
-                                       content.size(), compression_level);
-  CHECK(ZSTD_isError(written) == 0U);
-  bytes.resize(start + written);
+  append_compressed(bytes, content, compression_level);
   CHECK(bytes.size() <= limits::tile_bytes_max);
   return bytes;
 }

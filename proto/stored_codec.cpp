@@ -4,6 +4,7 @@
 #include <string>
 #include <zstd.h>
 
+#include "proto/compressed.h"
 #include "proto/limits.h"
 #include "shared/base/check.h"
 #include "shared/field/material.h"
@@ -101,12 +102,7 @@ std::vector<uint8_t> pack_chunk(TileKey key, const BrickLayout& layout, const Ch
   }
   if (chunk == nullptr) return bytes;
   const std::vector<uint8_t> content = content_of(*chunk);
-  const size_t start = bytes.size();
-  bytes.resize(start + ZSTD_compressBound(content.size()));
-  const size_t written = ZSTD_compress(bytes.data() + start, bytes.size() - start, content.data(),
-                                       content.size(), compression_level);
-  CHECK(ZSTD_isError(written) == 0U);
-  bytes.resize(start + written);
+  append_compressed(bytes, content, compression_level);
   CHECK(bytes.size() <= limits::tile_bytes_max);
   return bytes;
 }
