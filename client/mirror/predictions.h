@@ -17,6 +17,9 @@
 namespace scree {
 
 class Predictions {
+  /// Ids of predicted pieces, far above any that a server gives: it counts from one.
+  static constexpr PieceId first_predicted_piece = 0xC0000000U;
+
  public:
   /// `mirror` must outlive it.
   explicit Predictions(Mirror& mirror) : mirror_(mirror) {}
@@ -40,6 +43,8 @@ class Predictions {
   /// Pieces of the predictions: each lies where it was cut, in the voxel frame of the terrain.
   const PieceTable& pieces() const { return pieces_; }
   size_t outstanding() const { return predictions_.size(); }
+  /// Whether a piece of that id is of a prediction; none of a server's is.
+  static bool is_predicted(PieceId id) { return id >= first_predicted_piece; }
 
  private:
   struct Prediction {
@@ -64,9 +69,6 @@ class Predictions {
   PieceId next_piece_ = first_predicted_piece;
   bool stale_ = false;     ///< the layer shows what is answered
   MirrorChanges changes_;  ///< not handed out yet
-
-  /// Ids of predicted pieces, far above any that a server gives: it counts from one.
-  static constexpr PieceId first_predicted_piece = 0xC0000000U;
 };
 
 }  // namespace scree

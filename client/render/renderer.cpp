@@ -11,6 +11,7 @@
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/line_drawer.h"
+#include "client/render/gl/particle_drawer.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/gl/shadow_map.h"
 #include "client/render/scene/limits.h"
@@ -93,6 +94,8 @@ DepthImage read_depths(const glm::mat4& projection, int width, int height) {
 struct Renderer::Parts {
   gl::Program sky;
   LineDrawer lines;
+  ParticleDrawer particle_drawer;
+  std::vector<Particle> particles;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   Fineness fineness;
@@ -106,9 +109,10 @@ struct Renderer::Parts {
   Canvases canvases;   ///< of the last picture, at its own resolution
   Canvases stretched;  ///< of the last image that was stretched
 
-  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, float radius_m)
+  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, ParticleDrawer&& drawer, float radius_m)
       : sky(std::move(sky_program)),
         lines(std::move(line_drawer)),
+        particle_drawer(std::move(drawer)),
         view_radius_m(radius_m),
         description(describe()) {}
 
@@ -153,8 +157,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   if (!sky) return fail(sky.error().message);
   Result<LineDrawer> lines = LineDrawer::create();
   if (!lines) return fail(lines.error().message);
-  return std::unique_ptr<Renderer>(
-      new Renderer(std::make_unique<Parts>(std::move(*sky), std::move(*lines), view_radius_m)));
+  Result<ParticleDrawer> particles = ParticleDrawer::create();
+  if (!particles) return fail(particles.error().message);
+  return std::unique_ptr<Renderer>(new Renderer(
+      std::make_unique<Parts>(std::move(*sky), std::move(*lines), std::move(*particles), view_radius_m)));
 }
 
 void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
@@ -212,6 +218,10 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
     method->draw(pass);
   }
   draw_sky(pass);
+  {
+    const GpuTimers::Part part(&timers, "particles");
+    particle_drawer.draw(particles, pass);
+  }
   lines.draw(line_list, pass.view_projection);
 }
 
@@ -264,6 +274,11 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
   parts_->errors.poll();
   glFinish();
   return {};
+}
+
+void Renderer::set_particles(std::vector<Particle> particles) {
+  CHECK(particles.size() <= limits::particles_max);
+  parts_->particles = std::move(particles);
 }
 
 const std::vector<GpuTime>& Renderer::gpu_times() const {

@@ -10,6 +10,7 @@
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/line_list.h"
+#include "client/render/scene/particle.h"
 #include "client/render/scene/quality.h"
 
 namespace scree {
@@ -40,6 +41,10 @@ class Renderer {
   /// method there is only sky. `lines` come last.
   void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
             const LineList& lines = {});
+
+  /// What is in the air from now on, in pictures alone: depths have none of it. The farthest first, at most
+  /// limits::particles_max.
+  void set_particles(std::vector<Particle> particles);
 
   /// Draws into an image of its own. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,

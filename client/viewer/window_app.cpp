@@ -58,6 +58,7 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
       overlay_(kept.overlay),
       tool_(kept.tool),
       grid_(viewing.options.grid),
+      particles_(viewing.options.particles),
       predict_(viewing.options.predict),
       quality_(viewing.options.quality) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
@@ -210,13 +211,14 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
                      choice_.graphs);
     if (choice_.panel)
-      picked =
-          hud_.panel(viewing_.view->methods().chosen(), {tool_, overlay_, grid_, predict_, hand_, quality_});
+      picked = hud_.panel(viewing_.view->methods().chosen(),
+                          {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad());
     if (facts.lost) hud_.banner(facts.connection);
   }
   if (!hidden_ || window_.asks_to_end()) hud_.messages(facts, messages(now_s));
   screen_.end();
+  viewing_.show_particles(particles_);
   viewing_.session.predict(predict_);
   viewing_.view->renderer().set_grid(grid_);
   return picked == nullptr ? Result<void>() : choose(*picked);
@@ -257,6 +259,7 @@ Settings WindowApp::settings() const {
   settings.hand = hand_;
   settings.overlay = overlay_;
   settings.tool = tool_;
+  settings.particles = particles_;
   settings.predict = predict_;
   return settings;
 }

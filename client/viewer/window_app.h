@@ -57,6 +57,7 @@ class WindowApp {
   Tool tool_;
   OnFoot feet_;
   GridShape grid_;
+  bool particles_;
   bool predict_;
   std::optional<Quality> quality_;  ///< as chosen; nothing: by the first frames
   AutoQuality auto_quality_;

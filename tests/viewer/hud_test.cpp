@@ -108,7 +108,7 @@ class WholeHud {
     const PersonsMessage persons{
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
     hud_.lower_right(facts, all ? &persons : nullptr, all);
-    hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, predict_, hand_, quality_});
+    hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
     hud_.help(all ? Telling::all : Telling::basics, all);
     if (all) hud_.banner("the server is gone - trying again");
     hud_.messages(facts, {"click into the picture to take the mouse: then it looks, and a click strikes"});
@@ -122,6 +122,7 @@ class WholeHud {
   Tool tool_;
   OverlayChoice overlay_;
   GridShape grid_;
+  bool particles_ = true;
   bool predict_ = true;
   HandChoice hand_;
   std::optional<Quality> quality_;

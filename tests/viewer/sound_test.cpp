@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "client/mirror/predictions.h"
 #include "client/viewer/base/limits.h"
+#include "client/viewer/events/piece_watch.h"
 #include "client/viewer/sound/sounds.h"
 #include "shared/operation/operation.h"
 
@@ -18,17 +20,17 @@ namespace {
 constexpr size_t second = Synthesiser::rate_hz;
 
 /// A blast of some pieces, 6 m ahead.
-std::vector<SoundEvent> blast_events() {
-  std::vector<SoundEvent> events;
+std::vector<PieceEvent> blast_events() {
+  std::vector<PieceEvent> events;
   for (int i = 0; i < 12; ++i)
-    events.push_back({SoundKind::crack, {0.2F * static_cast<float>(i), 0.0F, -6.0F}, 0.7F, 2600.0F});
-  events.push_back({SoundKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, Material::rock});
+    events.push_back({PieceEventKind::crack, {0.2F * static_cast<float>(i), 0.0F, -6.0F}, 0.7F, 2600.0F});
+  events.push_back({PieceEventKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, Material::rock});
   return events;
 }
 
-std::vector<float> rendered(const std::vector<SoundEvent>& events, size_t frames, const Ears& ears = {}) {
+std::vector<float> rendered(const std::vector<PieceEvent>& events, size_t frames, const Ears& ears = {}) {
   Synthesiser synthesiser;
-  for (const SoundEvent& event : events) synthesiser.add(event, ears);
+  for (const PieceEvent& event : events) synthesiser.add(event, ears);
   return synthesiser.render(frames);
 }
 
@@ -47,7 +49,7 @@ float loudness(const std::vector<float>& samples) {
 
 TEST(Synthesiser, a_blast_is_within_its_bounds_and_dies_away) {
   Synthesiser synthesiser;
-  for (const SoundEvent& event : blast_events()) synthesiser.add(event, {});
+  for (const PieceEvent& event : blast_events()) synthesiser.add(event, {});
   const std::vector<float> first = synthesiser.render(second / 2);
   EXPECT_GT(peak(first), 0.1F);
   EXPECT_LE(peak(first), Synthesiser::peak_max);
@@ -68,14 +70,14 @@ TEST(Synthesiser, the_same_events_make_the_same_samples) {
 
 TEST(Synthesiser, no_crowd_of_sounds_goes_beyond_the_peak_or_the_voices) {
   Synthesiser synthesiser;
-  for (int i = 0; i < 1000; ++i) synthesiser.add({SoundKind::strike, {}, 2.0F, 1e9F, Material::ice}, {});
+  for (int i = 0; i < 1000; ++i) synthesiser.add({PieceEventKind::strike, {}, 2.0F, 1e9F, Material::ice}, {});
   EXPECT_LE(synthesiser.voices(), limits::voices_max);
   EXPECT_LE(peak(synthesiser.render(second)), Synthesiser::peak_max);
 }
 
 TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
   const auto strike = [](glm::vec3 place_m) {
-    return std::vector<SoundEvent>{{SoundKind::strike, place_m, 0.5F, 3000.0F, Material::rock}};
+    return std::vector<PieceEvent>{{PieceEventKind::strike, place_m, 0.5F, 3000.0F, Material::rock}};
   };
   const std::vector<float> near = rendered(strike({0.0F, 0.0F, -3.0F}), second);
   const std::vector<float> far = rendered(strike({0.0F, 0.0F, -100.0F}), second);
@@ -95,32 +97,32 @@ TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
 }
 
 /// Pieces of a carve, which a test moves.
-class PieceEarsTest : public testing::Test {
+class PieceWatchTest : public testing::Test {
  protected:
-  PieceEarsTest() {
+  PieceWatchTest() {
     PieceTable table;
     apply(CarveOperation{sphere({}, 2.0F), SeedPattern::uniform, 8, 5, {}, 1}, field_, table);
     for (const auto& [id, volume] : table)
       cut_[id] = {volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
   }
-  std::vector<SoundEvent> step(const ScenePieces& pieces) {
+  std::vector<PieceEvent> step(const ScenePieces& pieces) {
     now_s_ += frame_s;
-    return ears_.step(pieces, voxel_m, now_s_);
+    return watch_.step(pieces, voxel_m, now_s_);
   }
   static constexpr float voxel_m = 0.25F;
   static constexpr double frame_s = 1.0 / 60.0;
   MapField field_{{TerrainKind::flat, 1, voxel_m}};
   ScenePieces cut_;
-  PieceEars ears_;
+  PieceWatch watch_;
   double now_s_ = 100.0;
 };
 
-TEST_F(PieceEarsTest, pieces_crack_off_strike_and_settle_once_each) {
+TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
   ASSERT_FALSE(cut_.empty());
   EXPECT_TRUE(step({}).empty());
-  const std::vector<SoundEvent> cracks = step(cut_);
-  ASSERT_EQ(cracks.size(), std::min(cut_.size(), limits::sounds_per_step_max));
-  EXPECT_EQ(cracks[0].kind, SoundKind::crack);
+  const std::vector<PieceEvent> cracks = step(cut_);
+  ASSERT_EQ(cracks.size(), std::min(cut_.size(), limits::piece_events_per_step_max));
+  EXPECT_EQ(cracks[0].kind, PieceEventKind::crack);
   EXPECT_GT(cracks[0].impulse_n_s, 0.0F);
   ScenePieces falling = cut_;
   float speed_m_s = 0.0F;
@@ -129,25 +131,38 @@ TEST_F(PieceEarsTest, pieces_crack_off_strike_and_settle_once_each) {
     for (auto& [id, piece] : falling) piece.pose.position_m.y += speed_m_s * static_cast<float>(frame_s);
     EXPECT_TRUE(step(falling).empty()) << "falling is silent, frame " << i;
   }
-  const std::vector<SoundEvent> strikes = step(falling);  // all stop at once
+  const std::vector<PieceEvent> strikes = step(falling);  // all stop at once
   ASSERT_FALSE(strikes.empty());
-  EXPECT_EQ(strikes[0].kind, SoundKind::strike);
+  EXPECT_EQ(strikes[0].kind, PieceEventKind::strike);
   for (int i = 0; i < 30; ++i) EXPECT_TRUE(step(falling).empty()) << "lying is silent, frame " << i;
-  const std::vector<SoundEvent> ends = step({});
+  const std::vector<PieceEvent> ends = step({});
   ASSERT_FALSE(ends.empty());
-  EXPECT_EQ(ends[0].kind, SoundKind::settle);
+  EXPECT_EQ(ends[0].kind, PieceEventKind::settle);
   EXPECT_TRUE(step({}).empty());
 }
 
-TEST_F(PieceEarsTest, a_world_that_is_shown_for_the_first_time_is_silent) {
+TEST_F(PieceWatchTest, a_world_that_is_shown_for_the_first_time_is_silent) {
   EXPECT_TRUE(step(cut_).empty());
-  ears_.begin();
+  watch_.begin();
   EXPECT_TRUE(step({}).empty());
   now_s_ += 10.0;  // nobody listened
   EXPECT_TRUE(step(cut_).empty());
 }
 
-TEST_F(PieceEarsTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loudness) {
+TEST_F(PieceWatchTest, a_predicted_break_happens_once) {
+  ASSERT_TRUE(step({}).empty());
+  constexpr PieceId predicted = 0xC0000000U;
+  ASSERT_TRUE(Predictions::is_predicted(predicted));
+  ScenePieces foreseen;
+  for (const auto& [id, piece] : cut_) foreseen[predicted + id] = piece;
+  EXPECT_EQ(step(foreseen).size(), cut_.size());
+  EXPECT_TRUE(step(cut_).empty()) << "the server's pieces take their places";
+  EXPECT_EQ(step({}).size(), cut_.size()) << "they merge";
+  step(foreseen);
+  EXPECT_TRUE(step({}).empty()) << "a prediction that is taken back";
+}
+
+TEST_F(PieceWatchTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loudness) {
   const std::string path = (std::filesystem::path(testing::TempDir()) / "scree_blast.wav").string();
   Result<Sounds> sounds = Sounds::begin(false, path);
   ASSERT_TRUE(sounds) << sounds.error().message;
@@ -155,7 +170,7 @@ TEST_F(PieceEarsTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loudn
   Camera camera;
   camera.eye_m = {0.0F, 2.0F, 8.0F};
   for (int i = 0; i <= 120; ++i)
-    sounds->step(i < 30 ? ScenePieces{} : cut_, voxel_m, camera, 50.0 + static_cast<double>(i) * frame_s);
+    sounds->step(step(i < 30 ? ScenePieces{} : cut_), camera, 50.0 + static_cast<double>(i) * frame_s);
   ASSERT_TRUE(sounds->finish());
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -183,7 +198,7 @@ TEST(Sounds, without_a_device_nothing_is_played_and_nothing_fails) {
   ::unsetenv("ALSOFT_DRIVERS");
   ASSERT_TRUE(sounds) << sounds.error().message;
   EXPECT_TRUE(sounds->silent());
-  sounds->step({}, 0.25F, {}, 1.0);
+  sounds->step({}, {}, 1.0);
   EXPECT_TRUE(sounds->finish());
 }
 

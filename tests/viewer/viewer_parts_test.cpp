@@ -130,9 +130,10 @@ TEST(Screenshots, each_waits_for_its_own_moment) {
 }
 
 TEST(Options, are_understood) {
-  const auto parsed = parse(std::array{"scree-viewer", "--port", "4000", "--size", "320x200", "--camera",
-                                       "1,2,3,90,-10", "--method", "mesh", "--offscreen", "--screenshot",
-                                       "a.png", "--screenshot", "b.png@settled", "--predict", "false"});
+  const auto parsed =
+      parse(std::array{"scree-viewer", "--port", "4000", "--size", "320x200", "--camera", "1,2,3,90,-10",
+                       "--method", "mesh", "--offscreen", "--screenshot", "a.png", "--screenshot",
+                       "b.png@settled", "--predict", "false", "--particles", "false"});
   ASSERT_TRUE(std::holds_alternative<ViewerOptions>(parsed));
   const auto& options = std::get<ViewerOptions>(parsed);
   EXPECT_EQ(options.port, 4000);
@@ -141,6 +142,8 @@ TEST(Options, are_understood) {
   EXPECT_EQ(options.screenshots.size(), 2U);
   EXPECT_FALSE(options.predict);
   EXPECT_TRUE(options.given.predict);
+  EXPECT_FALSE(options.particles);
+  EXPECT_TRUE(options.given.particles);
   EXPECT_NEAR(options.camera.forward().x, -0.985F, 0.01F);
 }
 
@@ -153,6 +156,7 @@ TEST(Options, nonsense_is_refused) {
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--offscreen"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--method", "crayon"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--predict", "maybe"})).status, 2);
+  EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--particles", "some"})).status, 2);
   EXPECT_EQ(std::get<ExitNow>(parse(std::array{"v", "--help"})).status, 0);
 }
 

@@ -61,6 +61,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   end.tool.kind = ToolKind::tunnel;
   end.quality = Quality::low;
   end.predict = false;
+  end.particles = false;
   first.keep(start, end);
 
   const KeptSettings second(settings_file());
@@ -69,6 +70,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   EXPECT_EQ(second.loaded().tool.kind, ToolKind::tunnel);
   EXPECT_EQ(second.loaded().quality, Quality::low);
   EXPECT_FALSE(second.loaded().predict);
+  EXPECT_FALSE(second.loaded().particles);
 }
 
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
@@ -98,6 +100,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.hud = {Telling::all, true, true, false, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
+  settings.particles = false;
   settings.predict = false;
   settings.quality = Quality::high;
   const Result<Settings> again = parse_settings(to_text(settings));

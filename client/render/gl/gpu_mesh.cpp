@@ -1,30 +1,16 @@
 #include "client/render/gl/gpu_mesh.h"
 
-#include <cstddef>
 #include <vector>
 
+#include "client/render/gl/surface_vertices.h"
 #include "shared/base/check.h"
 
 namespace scree {
 namespace {
 
-const void* offset(size_t bytes) {
-  return reinterpret_cast<const void*>(bytes);
-}
-
 template <typename T>
 void upload(GLenum target, const std::vector<T>& data) {
   glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
-}
-
-void describe_vertex() {
-  constexpr GLsizei stride = sizeof(SurfaceVertex);
-  glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_FALSE, stride, offset(offsetof(SurfaceVertex, position)));
-  glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, normal)));
-  glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, openness)));
-  glVertexAttribPointer(3, 1, GL_BYTE, GL_TRUE, stride, offset(offsetof(SurfaceVertex, before)));
-  glVertexAttribPointer(4, 1, GL_UNSIGNED_BYTE, GL_FALSE, stride, offset(offsetof(SurfaceVertex, paint)));
-  for (GLuint i = 0; i < 5; ++i) glEnableVertexAttribArray(i);
 }
 
 }  // namespace
@@ -35,7 +21,7 @@ GpuMesh::GpuMesh(const SurfaceMesh& mesh)
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   upload(GL_ARRAY_BUFFER, mesh.vertices);
-  describe_vertex();
+  describe_surface_vertices();
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
   if (mesh.vertices.size() <= 65536) {
     index_type_ = GL_UNSIGNED_SHORT;

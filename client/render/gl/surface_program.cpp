@@ -35,14 +35,10 @@ void SurfaceProgram::set_place(const MeshPlace& place) const {
 }
 
 std::span<const std::string_view> surface_fragment_parts() {
-  static const std::array parts{material_source(),
-                                shader_source("rotation.glsl"),
-                                shader_source("atmosphere.glsl"),
-                                shader_source("noise.glsl"),
-                                shader_source("clouds.glsl"),
-                                shader_source("rock.glsl"),
-                                shader_source("shadow.glsl"),
-                                shader_source("surface.frag")};
+  static const std::array parts{
+      material_source(),           shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
+      shader_source("noise.glsl"), shader_source("clouds.glsl"),   shader_source("haze.glsl"),
+      shader_source("rock.glsl"),  shader_source("shadow.glsl"),   shader_source("surface.frag")};
   return parts;
 }
 

@@ -7,11 +7,36 @@
 #include <vector>
 
 #include "client/render/gl/lighting.h"
+#include "client/render/gl/mesh_arena.h"
 #include "client/render/mesh/mesh_scheduler.h"
 #include "client/render/pieces/piece_views.h"
 
 namespace scree {
 namespace {
+
+/// Samples along a side of a group of blocks of one level, which are one draw. Positions within it, and those
+/// of blocks that reach beyond it, fit 16 bits.
+constexpr int group_side = 128;
+
+/// A group's origin, in samples of its level.
+struct BlockGroup {
+  int level = 0;
+  VoxelCoord origin;
+
+  bool operator==(const BlockGroup&) const = default;
+};
+
+BlockGroup group_of(const NodeMesh& mesh) {
+  const auto down = [](int v) { return v & ~(group_side - 1); };
+  const VoxelCoord at = mesh.mesh.origin;
+  return {mesh.level, {down(at.x), down(at.y), down(at.z)}};
+}
+
+struct BlockGroupHash {
+  size_t operator()(const BlockGroup& group) const {
+    return CoordHash()(group.origin) * 31 + static_cast<size_t>(group.level);
+  }
+};
 
 class MeshMethod final : public DrawMethod {
  public:
@@ -38,7 +63,7 @@ class MeshMethod final : public DrawMethod {
   void show(MeshUpdate&& update);
   void erase(const SurfaceNode& node);
   void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
-  void count(const GpuMesh& mesh);
+  void find_visible(const Frustum& frustum, glm::vec3 eye_m);
 
   Polygoniser polygoniser_;
   MeshScheduler scheduler_;
@@ -46,13 +71,20 @@ class MeshMethod final : public DrawMethod {
   SurfaceProgram shadow_;
   float voxel_m_ = 0.0F;
   struct Block {
-    GpuMesh mesh;
-    MeshPlace place;
+    MeshArena::Slot slot;
+    BlockGroup group;
   };
+  /// What is in sight of a group; its memory is kept from frame to frame.
+  struct Batch {
+    BlockGroup group;
+    std::vector<MeshArena::Slot> slots;
+  };
+  MeshArena arena_;
   std::unordered_map<SurfaceNode, Block, SurfaceNodeHash> blocks_;
   PieceViews pieces_;
-  std::vector<std::pair<float, const Block*>> visible_;  ///< squared distance; kept for its memory
-  size_t gpu_bytes_ = 0;
+  std::vector<std::pair<float, const Block*>> visible_;  ///< squared distance
+  std::unordered_map<BlockGroup, size_t, BlockGroupHash> batch_of_;
+  std::vector<Batch> batches_;  ///< the first batch_of_.size() of them are this pass's, near ones first
   DrawStats pass_;
 };
 
@@ -68,8 +100,8 @@ void MeshMethod::show(MeshUpdate&& update) {
   for (const NodeMesh& node : update.nodes) {
     erase(node.node);
     if (node.mesh.empty()) continue;
-    Block block{GpuMesh(node.mesh), place_of(node.mesh.origin, node.level)};
-    gpu_bytes_ += blocks_.emplace(node.node, std::move(block)).first->second.mesh.bytes();
+    const BlockGroup group = group_of(node);
+    blocks_.emplace(node.node, Block{arena_.add(node.mesh, group.origin), group});
   }
   for (const PieceId id : update.removed_pieces) pieces_.remove(id);
   for (const PieceMesh& piece : update.pieces) pieces_.show(piece, voxel_m_);
@@ -78,7 +110,7 @@ void MeshMethod::show(MeshUpdate&& update) {
 void MeshMethod::erase(const SurfaceNode& node) {
   const auto found = blocks_.find(node);
   if (found == blocks_.end()) return;
-  gpu_bytes_ -= found->second.mesh.bytes();
+  arena_.remove(found->second.slot);
   blocks_.erase(found);
 }
 
@@ -95,19 +127,23 @@ void MeshMethod::draw(const DrawPass& pass) {
   glBindVertexArray(0);
 }
 
-void MeshMethod::count(const GpuMesh& mesh) {
-  mesh.draw();
-  ++pass_.draws;
-  pass_.triangles += mesh.triangles();
-}
-
 void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m) {
   glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
   glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
   glUniform1f(program.voxel_m, voxel_m_);
-  // Near ones first: surfaces behind them are not shaded.
+  find_visible(frustum, eye_m);
+  for (size_t i = 0; i < batch_of_.size(); ++i) {
+    const Batch& batch = batches_[i];
+    program.set_place(place_of(batch.group.origin, batch.group.level));
+    pass_.draws += arena_.draw(batch.slots);
+    for (const MeshArena::Slot& slot : batch.slots) pass_.triangles += slot.triangles();
+  }
+}
+
+/// Near groups first, and in them near blocks: surfaces behind them are not shaded.
+void MeshMethod::find_visible(const Frustum& frustum, glm::vec3 eye_m) {
   visible_.clear();
   for (const auto& [node, block] : blocks_) {
     const float side_m = voxel_m_ * static_cast<float>(block_size << node.level);
@@ -121,15 +157,21 @@ void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frus
     visible_.emplace_back(glm::dot(away, away), &block);
   }
   std::ranges::sort(visible_);
+  batch_of_.clear();
   for (const auto& [distance, block] : visible_) {
-    program.set_place(block->place);
-    count(block->mesh);
+    const auto [found, is_new] = batch_of_.try_emplace(block->group, batch_of_.size());
+    if (is_new) {
+      if (batches_.size() < batch_of_.size()) batches_.emplace_back();
+      batches_[found->second].group = block->group;
+      batches_[found->second].slots.clear();
+    }
+    batches_[found->second].slots.push_back(block->slot);
   }
 }
 
 DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
-  stats.memory = {{"meshes", 0, gpu_bytes_ + pieces_.gpu_bytes()}};
+  stats.memory = {{"meshes", 0, arena_.bytes() + pieces_.gpu_bytes()}};
   stats.pieces = pieces_.count();
   stats.kept = blocks_.size();
   stats.waiting = scheduler_.waiting();

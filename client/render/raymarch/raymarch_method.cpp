@@ -51,12 +51,12 @@ Result<Programs> link_programs() {
   if (!cone) return fail(cone.error().message);
   Result<gl::Program> march = link("raymarch", {"raymarch.vert"},
                                    {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl",
-                                    "clouds.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
+                                    "clouds.glsl", "haze.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
   if (!march) return fail(march.error().message);
   Result<gl::Program> piece =
       link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
            {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
-            "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+            "haze.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
   if (!piece) return fail(piece.error().message);
   Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
                                     {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});

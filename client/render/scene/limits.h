@@ -77,4 +77,8 @@ inline constexpr float horizon_per_view_radius = 8.0F;
 /// Lines over a picture: 1,000 pieces' hulls, and margin. More are left out.
 inline constexpr size_t lines_max = 100000;
 
+/// Particles of dust, grit and splinters at once: several blasts, 170 KiB a frame to the GPU. Above: the
+/// oldest end.
+inline constexpr size_t particles_max = 6000;
+
 }  // namespace scree::limits

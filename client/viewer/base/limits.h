@@ -75,6 +75,13 @@ inline constexpr size_t own_requests_timed_max = 64;
 inline constexpr size_t lines_kept_max = 8;
 inline constexpr double line_shown_s = 15.0;
 
+/// Events of pieces in one frame, for sound and dust: a blast makes about as many pieces. Above: those of the
+/// least impulse are left out.
+inline constexpr size_t piece_events_per_step_max = 96;
+
+/// Seconds that dust stays in the air: less than settled_s, so that pictures of what has settled have none.
+inline constexpr float particle_seconds_max = 1.9F;
+
 /// Sounds at once: more than anybody can tell apart; beyond, the quietest end. And new ones in one frame.
 inline constexpr size_t voices_max = 48;
 inline constexpr size_t sounds_per_step_max = 12;

@@ -18,9 +18,9 @@ Result<Sounds> Sounds::begin(bool aloud, const std::string& file) {
   return sounds;
 }
 
-void Sounds::step(const ScenePieces& pieces, float voxel_m, const Camera& camera, double now_s) {
+void Sounds::step(std::vector<PieceEvent> events, const Camera& camera, double now_s) {
   if (silent()) return;
-  const std::vector<SoundEvent> events = ears_.step(pieces, voxel_m, now_s);
+  if (events.size() > limits::sounds_per_step_max) events.resize(limits::sounds_per_step_max);
   const Ears ears{camera.eye_m, camera.right()};
   if (speaker_ && !events.empty()) speaker_->play(events, ears);
   if (!file_) return;
@@ -30,7 +30,7 @@ void Sounds::step(const ScenePieces& pieces, float voxel_m, const Camera& camera
   if (wanted > written_)
     file_->append(of_file_.render(std::min(wanted - written_, limits::sound_step_frames_max)));
   written_ = std::max(written_, wanted);
-  for (const SoundEvent& event : events) of_file_.add(event, ears);
+  for (const PieceEvent& event : events) of_file_.add(event, ears);
 }
 
 Result<void> Sounds::finish() {

@@ -4,8 +4,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "client/viewer/sound/piece_ears.h"
+#include "client/render/scene/camera.h"
 #include "client/viewer/sound/speaker.h"
 #include "client/viewer/sound/synthesiser.h"
 #include "client/viewer/sound/wave_file.h"
@@ -17,9 +18,8 @@ class Sounds {
   /// `aloud`: by the device, if there is one; `file`: a WAV, empty: none. Fails if that cannot be written.
   static Result<Sounds> begin(bool aloud, const std::string& file);
 
-  /// Another world, or another moment of it.
-  void begin_world() { ears_.begin(); }
-  void step(const ScenePieces& pieces, float voxel_m, const Camera& camera, double now_s);
+  /// Of what happened, the greatest impulse first; the first limits::sounds_per_step_max are heard.
+  void step(std::vector<PieceEvent> events, const Camera& camera, double now_s);
   /// Whether nobody hears anything: then step() costs nothing.
   bool silent() const { return !speaker_ && !file_; }
   /// The file is whole.
@@ -28,7 +28,6 @@ class Sounds {
  private:
   Sounds() = default;
 
-  PieceEars ears_;
   std::unique_ptr<Speaker> speaker_;
   std::optional<WaveFile> file_;
   Synthesiser of_file_;

@@ -99,9 +99,9 @@ Speaker::~Speaker() {
   alcMakeContextCurrent(nullptr);
 }
 
-void Speaker::play(const std::vector<SoundEvent>& events, const Ears& ears) {
+void Speaker::play(const std::vector<PieceEvent>& events, const Ears& ears) {
   const std::scoped_lock lock(parts_->mutex);
-  for (const SoundEvent& event : events) parts_->synthesiser.add(event, ears);
+  for (const PieceEvent& event : events) parts_->synthesiser.add(event, ears);
 }
 
 }  // namespace scree

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "client/viewer/sound/sound_event.h"
+#include "client/viewer/sound/synthesiser.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -15,7 +15,7 @@ class Speaker {
   static Result<std::unique_ptr<Speaker>> open();
   ~Speaker();
 
-  void play(const std::vector<SoundEvent>& events, const Ears& ears);
+  void play(const std::vector<PieceEvent>& events, const Ears& ears);
 
  private:
   struct Parts;

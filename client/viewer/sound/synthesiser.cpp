@@ -38,13 +38,13 @@ struct Manner {
   float ringing;
 };
 
-constexpr Manner manner_of(SoundKind kind) {
+constexpr Manner manner_of(PieceEventKind kind) {
   switch (kind) {
-    case SoundKind::strike:
+    case PieceEventKind::strike:
       return {.loudness = 1.0F, .noise_s = 0.05F, .grains = 1.0F, .ringing = 1.0F};
-    case SoundKind::crack:
+    case PieceEventKind::crack:
       return {.loudness = 1.3F, .noise_s = 0.35F, .grains = 0.06F, .ringing = 0.6F};
-    case SoundKind::settle:
+    case PieceEventKind::settle:
       return {.loudness = 0.5F, .noise_s = 0.12F, .grains = 0.5F, .ringing = 0.0F};
   }
   return {};
@@ -63,7 +63,7 @@ float kept_in(float seconds) {
 
 }  // namespace
 
-void Synthesiser::add(const SoundEvent& event, const Ears& ears) {
+void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
   const Timbre timbre = timbre_of(event.material);
   const Manner manner = manner_of(event.kind);
   const float size_m = std::clamp(event.size_m, 0.05F, 8.0F);

@@ -8,10 +8,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "client/viewer/sound/sound_event.h"
+#include "client/viewer/events/piece_event.h"
 #include "shared/base/random.h"
 
 namespace scree {
+
+/// Who hears it: `right` is a unit vector.
+struct Ears {
+  glm::vec3 place_m{0.0F};
+  glm::vec3 right{1.0F, 0.0F, 0.0F};
+};
 
 class Synthesiser {
  public:
@@ -22,7 +28,7 @@ class Synthesiser {
 
   /// Sounds from the next sample on, later by its way to the ears. Of more than limits::voices_max the
   /// quietest end.
-  void add(const SoundEvent& event, const Ears& ears);
+  void add(const PieceEvent& event, const Ears& ears);
   /// The next `frames` samples of both channels, left and right in turn, −1 to 1. Zeroes while nothing
   /// sounds.
   std::vector<float> render(size_t frames);

@@ -97,6 +97,9 @@ void declare_input(CLI::App& app, ViewerOptions& options) {
   app.add_option("--predict", options.predict,
                  "Show your own carves at once, before the server answers: true or false")
       ->envname("SCREE_PREDICT");
+  app.add_option("--particles", options.particles,
+                 "Show dust, grit and splinters where rock breaks, strikes and settles: true or false")
+      ->envname("SCREE_PARTICLES");
   app.add_option("--sound", options.sound,
                  "Play what breaks, strikes and settles, in a window where there is a device: true or false")
       ->envname("SCREE_SOUND");
@@ -232,6 +235,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
                      .grid_resolution = given("--grid-resolution"),
                      .grid_scale = given("--grid-scale"),
                      .grid_spacing = given("--grid-spacing"),
+                     .particles = given("--particles"),
                      .predict = given("--predict")};
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};

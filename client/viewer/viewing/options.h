@@ -38,6 +38,7 @@ struct ViewerOptions : ServerEndpoint {
     bool grid_resolution = false;
     bool grid_scale = false;
     bool grid_spacing = false;
+    bool particles = false;
     bool predict = false;
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
@@ -46,6 +47,7 @@ struct ViewerOptions : ServerEndpoint {
   float view_radius_m = 0.0F;           ///< if given, instead of the quality's, as the next
   float render_scale = 1.0F;
   GridShape grid;          ///< of the method grid
+  bool particles = true;   ///< dust, grit and splinters
   bool sound = false;      ///< by the device, in a window
   std::string sound_file;  ///< WAV of what there is to hear; empty: none
   bool predict = true;     ///< carves are shown before the server answers

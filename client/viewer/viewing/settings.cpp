@@ -152,6 +152,7 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
   reader.choice("pattern", settings.tool.pattern, tool_patterns);
   reader.number("seeds", settings.tool.seeds, 0U, tool_seeds_max);
+  reader.flag("particles", settings.particles);
   reader.flag("predict", settings.predict);
   if (!reader.error().empty()) return fail(reader.error());
   return settings;
@@ -185,6 +186,7 @@ std::string to_text(const Settings& settings) {
                   {"blast_speed_m_s", settings.tool.blast_speed_m_s},
                   {"pattern", name_of(settings.tool.pattern)},
                   {"seeds", settings.tool.seeds},
+                  {"particles", settings.particles},
                   {"predict", settings.predict}};
   return json.dump(2) + "\n";
 }
@@ -198,6 +200,7 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
   if (!options.given.grid_resolution) options.grid.resolution = settings.grid.resolution;
   if (!options.given.grid_scale) options.grid.scale = settings.grid.scale;
   if (!options.given.grid_spacing) options.grid.spacing = settings.grid.spacing;
+  if (!options.given.particles) options.particles = settings.particles;
   if (!options.given.predict) options.predict = settings.predict;
   const MethodEntry* method = method_named(settings.method);
   if (!options.given.method && method != nullptr) options.method = method;
@@ -226,6 +229,7 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.grid.resolution = merged(loaded_.grid.resolution, start.grid.resolution, end.grid.resolution);
   kept.grid.scale = merged(loaded_.grid.scale, start.grid.scale, end.grid.scale);
   kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);
+  kept.particles = merged(loaded_.particles, start.particles, end.particles);
   kept.predict = merged(loaded_.predict, start.predict, end.predict);
   kept.hud = end.hud;
   kept.hand = end.hand;

@@ -49,6 +49,7 @@ struct Settings {
   HandChoice hand;
   OverlayChoice overlay;
   Tool tool;
+  bool particles = true;
   bool predict = true;
 
   bool operator==(const Settings&) const = default;

@@ -34,6 +34,7 @@ Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<Vi
       camera(given.camera),
       screenshots(given.screenshots),
       sounds_(std::move(sounds)),
+      particles_(given.particles),
       quality_(quality) {
   view->renderer().set_trace(trace.get());
   use(quality);
@@ -61,13 +62,31 @@ Result<void> Viewing::step(double now_s) {
   }();
   if (step.new_mirror) {
     stand_on_ground();
-    sounds_.begin_world();
+    watch_.begin();
+    dust_.clear();
   }
-  if (session.mirror() != nullptr && !sounds_.silent())
-    sounds_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, camera, now_s);
+  if (session.mirror() != nullptr) follow_pieces(now_s);
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
+}
+
+/// What they do is heard and seen.
+void Viewing::follow_pieces(double now_s) {
+  if (sounds_.silent() && !particles_) return;
+  const float voxel_m = session.mirror()->terrain().voxel_size_m;
+  const std::vector<PieceEvent> events = watch_.step(session.pieces(now_s), voxel_m, now_s);
+  sounds_.step(events, camera, now_s);
+  if (!particles_) return;
+  dust_.add(events, now_s);
+  view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
+}
+
+void Viewing::show_particles(bool on) {
+  if (on == particles_) return;
+  particles_ = on;
+  dust_.clear();
+  view->renderer().set_particles({});
 }
 
 /// Where a ground has a middle, and nobody said where to look from, the camera begins above it.

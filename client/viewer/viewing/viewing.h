@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "client/viewer/events/dust.h"
+#include "client/viewer/events/piece_watch.h"
 #include "client/viewer/session/overlay.h"
 #include "client/viewer/session/view.h"
 #include "client/viewer/session/viewer_session.h"
@@ -33,6 +35,8 @@ class Viewing {
   /// Draws by that preset, but for what options say themselves.
   void use(Quality quality);
   Quality quality() const { return quality_; }
+  /// Whether breaks, blows and merges raise dust; not any more: it is gone at once.
+  void show_particles(bool on);
   float view_radius_m() const;
   /// Whether everything around the camera has arrived and is shown.
   bool joined(double now_s);
@@ -52,8 +56,12 @@ class Viewing {
   Result<void> take(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
   void stand_on_ground();
+  void follow_pieces(double now_s);
 
   Sounds sounds_;
+  PieceWatch watch_;
+  Dust dust_;
+  bool particles_;
   Quality quality_;
   bool stands_ = false;  ///< the camera was placed by the first world's ground
 };

@@ -24,6 +24,7 @@ struct PanelValues {
   Tool& tool;
   OverlayChoice& overlay;
   GridShape& grid;
+  bool& particles;
   bool& predict;
   HandChoice& hand;
   std::optional<Quality>& quality;  ///< nothing: by the first frames

@@ -81,12 +81,13 @@ void choose_use(Tool& tool) {
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, overlay, grid, predict, hand, quality] = values;
+  auto& [tool, overlay, grid, particles, predict, hand, quality] = values;
   panels_.begin(PanelPlace::upper_right);
   ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
   if (chosen.name == "grid") choose_grid(grid);
   choose_quality(quality);
+  ImGui::Checkbox("dust, grit and splinters", &particles);
   ImGui::Separator();
   choose(tool.use, all_kinds<ToolUse>);
   choose(tool.kind, all_kinds<ToolKind>);

@@ -1,0 +1,9 @@
+// How surface.vert reads SurfaceVertex. Needs the GL context current.
+#pragma once
+
+namespace scree {
+
+/// Of the bound array object and buffer.
+void describe_surface_vertices();
+
+}  // namespace scree
