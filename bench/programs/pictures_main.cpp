@@ -14,6 +14,8 @@
 
 #include "bench/support/stage.h"
 #include "client/render/methods.h"
+#include "client/viewer/events/dust.h"
+#include "client/viewer/events/piece_watch.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/overlay.h"
 #include "server/world/world.h"
@@ -41,6 +43,7 @@ class Film {
  public:
   Film(Stage& stage, std::string folder) : stage_(stage), folder_(std::move(folder)), world_(config()) {
     world_.watch(true);
+    watch_.step(pieces_, canyon.voxel_size_m, -1.0 / world_.config().tick_rate_hz);
     stage_.renderer->set_terrain(canyon);
   }
 
@@ -72,6 +75,8 @@ class Film {
       (*drawn)->update(Scene{world_.field(), pieces_}, camera);
       std::this_thread::yield();
     } while (!(*drawn)->complete());
+    stage_.renderer->set_contacts(contacts_of(pieces_, canyon.voxel_size_m, camera.eye_m));
+    stage_.renderer->set_particles(dust_.at(now_s(), camera.eye_m));
     LineList lines;
     if (overlay && physics_) add_physics(lines, *physics_, pieces_, canyon.voxel_size_m);
     const Result<Image> image = stage_.renderer->draw_image(**drawn, camera, width, height, lines);
@@ -97,7 +102,9 @@ class Film {
     for (const PieceState& piece : delta->pieces)
       pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
     if (delta->physics) physics_ = delta->physics;
+    dust_.add(watch_.step(pieces_, canyon.voxel_size_m, now_s()), now_s());
   }
+  double now_s() const { return static_cast<double>(world_.tick()) / world_.config().tick_rate_hz; }
 
   Stage& stage_;
   std::string folder_;
@@ -105,6 +112,8 @@ class Film {
   ScenePieces pieces_;
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;
   std::shared_ptr<const PhysicsMessage> physics_;
+  PieceWatch watch_;
+  Dust dust_;
 };
 
 CarveRequest blow(const Shape& shape, glm::vec3 impact_m, uint32_t seeds, float speed_m_s) {

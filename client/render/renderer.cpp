@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "client/render/gl/canvas.h"
+#include "client/render/gl/contact_drawer.h"
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/line_drawer.h"
@@ -96,6 +97,8 @@ struct Renderer::Parts {
   LineDrawer lines;
   ParticleDrawer particle_drawer;
   std::vector<Particle> particles;
+  ContactDrawer contact_drawer;
+  std::vector<Contact> contacts;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   Fineness fineness;
@@ -109,10 +112,12 @@ struct Renderer::Parts {
   Canvases canvases;   ///< of the last picture, at its own resolution
   Canvases stretched;  ///< of the last image that was stretched
 
-  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, ParticleDrawer&& drawer, float radius_m)
+  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, ParticleDrawer&& of_particles,
+        ContactDrawer&& of_contacts, float radius_m)
       : sky(std::move(sky_program)),
         lines(std::move(line_drawer)),
-        particle_drawer(std::move(drawer)),
+        particle_drawer(std::move(of_particles)),
+        contact_drawer(std::move(of_contacts)),
         view_radius_m(radius_m),
         description(describe()) {}
 
@@ -159,8 +164,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   if (!lines) return fail(lines.error().message);
   Result<ParticleDrawer> particles = ParticleDrawer::create();
   if (!particles) return fail(particles.error().message);
-  return std::unique_ptr<Renderer>(new Renderer(
-      std::make_unique<Parts>(std::move(*sky), std::move(*lines), std::move(*particles), view_radius_m)));
+  Result<ContactDrawer> contacts = ContactDrawer::create();
+  if (!contacts) return fail(contacts.error().message);
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Parts>(
+      std::move(*sky), std::move(*lines), std::move(*particles), std::move(*contacts), view_radius_m)));
 }
 
 void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
@@ -216,6 +223,11 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   if (method != nullptr) {
     const GpuTimers::Part part(&timers, "method");
     method->draw(pass);
+  }
+  // Depths of a framebuffer that is not a canvas may be of a kind that cannot be copied.
+  if (fineness.contacts && canvases.ready() && framebuffer == canvases.drawn()) {
+    const GpuTimers::Part part(&timers, "contacts");
+    contact_drawer.draw(contacts, pass, framebuffer, width, height);
   }
   draw_sky(pass);
   {
@@ -279,6 +291,11 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
 void Renderer::set_particles(std::vector<Particle> particles) {
   CHECK(particles.size() <= limits::particles_max);
   parts_->particles = std::move(particles);
+}
+
+void Renderer::set_contacts(std::vector<Contact> contacts) {
+  CHECK(contacts.size() <= limits::contacts_max);
+  parts_->contacts = std::move(contacts);
 }
 
 const std::vector<GpuTime>& Renderer::gpu_times() const {

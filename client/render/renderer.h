@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/render/gl/gpu_timers.h"
+#include "client/render/scene/contact.h"
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/line_list.h"
 #include "client/render/scene/particle.h"
@@ -45,6 +46,9 @@ class Renderer {
   /// What is in the air from now on, in pictures alone: depths have none of it. The farthest first, at most
   /// limits::particles_max.
   void set_particles(std::vector<Particle> particles);
+
+  /// Where loose pieces darken what they lie on from now on, where fineness has that.
+  void set_contacts(std::vector<Contact> contacts);
 
   /// Draws into an image of its own. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,

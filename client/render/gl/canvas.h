@@ -24,6 +24,8 @@ class Canvases {
   /// is there already of the size stays.
   Result<void> prepare(int width, int height, int samples);
 
+  /// Whether the last prepare() made them.
+  bool ready() const { return one_.has_value(); }
   /// To be drawn into: many_ samples, or one. After prepare().
   unsigned drawn() const { return many_ ? many_->framebuffer.name() : one(); }
   /// One sample a pixel: where average() leaves the picture, and depths are drawn.

@@ -81,4 +81,7 @@ inline constexpr size_t lines_max = 100000;
 /// oldest end.
 inline constexpr size_t particles_max = 6000;
 
+/// Pieces that darken what they lie on: as many as a blast makes, and margin. The nearest are taken.
+inline constexpr size_t contacts_max = 1024;
+
 }  // namespace scree::limits

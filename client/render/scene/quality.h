@@ -15,6 +15,7 @@ struct Fineness {
   float render_scale = 1.0F;  ///< pixels that are drawn, along a side, for one that is shown
   int shadow_map_side = limits::shadow_map_side;  ///< texels; 0: nothing casts a shadow
   int samples = 4;                                ///< a pixel, of polygons' edges; 0: its middle alone
+  bool contacts = true;                           ///< loose pieces darken what they lie on
 
   bool operator==(const Fineness&) const = default;
 };
@@ -32,7 +33,7 @@ constexpr QualityRow row_of(Quality quality) {
     case Quality::low:
       return {.name = "low",
               .view_radius_m = 32.0F,
-              .fineness = {.render_scale = 0.5F, .shadow_map_side = 0, .samples = 0}};
+              .fineness = {.render_scale = 0.5F, .shadow_map_side = 0, .samples = 0, .contacts = false}};
     case Quality::medium:
       return {.name = "medium",
               .view_radius_m = 48.0F,

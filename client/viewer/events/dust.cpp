@@ -29,18 +29,18 @@ struct Throw {
 constexpr Throw throw_of(PieceEventKind kind) {
   switch (kind) {
     case PieceEventKind::crack:
-      return {.puffs = 5.0F, .chips = 14.0F, .speed_m_s = 2.6F, .thickness = 0.34F};
+      return {.puffs = 6.0F, .chips = 16.0F, .speed_m_s = 2.8F, .thickness = 0.55F};
     case PieceEventKind::strike:
-      return {.puffs = 5.0F, .chips = 7.0F, .speed_m_s = 1.7F, .thickness = 0.30F};
+      return {.puffs = 5.0F, .chips = 7.0F, .speed_m_s = 1.7F, .thickness = 0.50F};
     case PieceEventKind::settle:
-      return {.puffs = 4.0F, .chips = 0.0F, .speed_m_s = 0.8F, .thickness = 0.22F};
+      return {.puffs = 4.0F, .chips = 0.0F, .speed_m_s = 0.8F, .thickness = 0.42F};
   }
   return {};
 }
 
-/// Of the dust; rock as generated is sandstone (shaders/rock.glsl), whose dust is paler.
+/// Of the dust; rock as generated is sandstone (shaders/rock.glsl).
 glm::vec3 colour_of(Material material) {
-  if (material == Material::rock) return {0.62F, 0.47F, 0.33F};
+  if (material == Material::rock) return {0.49F, 0.28F, 0.14F};
   const auto& [r, g, b] = traits_of(material).albedo;
   return {r, g, b};
 }
@@ -105,7 +105,7 @@ void Dust::throw_puffs(const PieceEvent& event, int count, double now_s) {
     grain.first.place_m = event.place_m + half_m * (out - glm::vec3(0.0F, down, 0.0F));
     grain.speed_m_s = thrown.speed_m_s * (0.4F + random.unit()) *
                       glm::vec3(out.x, down > 0.0F ? 0.25F * random.unit() : 0.6F * out.y, out.z);
-    grain.first.radius_m = half_m * (0.5F + 0.5F * random.unit());
+    grain.first.radius_m = half_m * (0.7F + 0.6F * random.unit());
     const glm::vec3 shade(0.88F + 0.24F * random.unit());
     grain.first.colour = bytes(colour_of(event.material) * shade, thrown.thickness * hardness(event));
     grain.first.turn = 6.2831853F * random.unit();
@@ -148,7 +148,7 @@ Particle Dust::aged(const Grain& grain, float age_s) {
   } else {
     const float way_s = (1.0F - std::exp(-drag_per_s * age_s)) / drag_per_s;
     now.place_m += grain.speed_m_s * way_s + glm::vec3(0.0F, rise_m_s * age_s, 0.0F);
-    now.radius_m *= 1.0F + 1.6F * std::sqrt(share);
+    now.radius_m *= 1.0F + 2.0F * std::sqrt(share);
     left = std::min(1.0F, 12.0F * share) * (1.0F - share) * (1.0F - share);
   }
   now.turn += grain.spin * age_s;

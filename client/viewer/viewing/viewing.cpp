@@ -65,7 +65,11 @@ Result<void> Viewing::step(double now_s) {
     watch_.begin();
     dust_.clear();
   }
-  if (session.mirror() != nullptr) follow_pieces(now_s);
+  if (session.mirror() != nullptr) {
+    follow_pieces(now_s);
+    view->renderer().set_contacts(
+        contacts_of(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, camera.eye_m));
+  }
   const TraceSpan span(trace.get(), "viewer", "update");
   if (Result<void> followed = view->follow(step, session, camera, now_s); !followed) return followed;
   return check_gl_errors();
