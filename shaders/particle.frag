@@ -15,7 +15,7 @@ void main() {
     if (from_middle >= 1.0) discard;
     // Billows, whichever this puff has; thin at its rim.
     float billow = noise(vec3(v_corner * 1.9, v_turn * 40.0)).x * 0.65 + noise(vec3(v_corner * 4.3, v_turn * 71.0)).x * 0.35;
-    opacity *= (1.0 - from_middle) * smoothstep(0.15, 0.75, billow + 0.35 * (1.0 - from_middle));
+    opacity *= (1.0 - from_middle) * smoothstep(0.34, 0.78, billow + 0.25 * (1.0 - from_middle));
   } else if (abs(v_corner.x) + 0.6 * abs(v_corner.y) > 1.0) {
     discard;
   }

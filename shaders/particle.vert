@@ -38,8 +38,8 @@ void main() {
   if (a_slender > 0.0) {
     v_sunlight = lit(a_place, vec3(0.0)) * (0.25 + 0.6 * abs(sin(a_turn * 2.0)));
   } else {
-    v_sunlight = mix(0.5, 1.0, lit(a_place + u_sun * a_radius * 1.5, vec3(0.0)));
-    v_sunlight *= 1.0 + 0.3 * max(dot(to_eye, -u_sun) / away, 0.0);
+    v_sunlight = mix(0.72, 1.0, lit(a_place + u_sun * a_radius * 1.5, vec3(0.0)));
+    v_sunlight *= 1.0 + 0.4 * max(dot(to_eye, -u_sun) / away, 0.0);
   }
   v_albedo = a_colour.rgb;
   // Nothing covers the whole picture: what is close to the eye is thin.

@@ -13,10 +13,13 @@ namespace {
 
 constexpr glm::vec3 gravity_m_s2(0.0F, -9.81F, 0.0F);
 /// Air stops a puff: part of its speed that is lost, a second.
-constexpr float drag_per_s = 3.0F;
+constexpr float drag_per_s = 2.2F;
 constexpr float rise_m_s = 0.10F;
 /// Beyond it, an event throws no more.
 constexpr float size_max_m = 3.0F;
+
+/// Puffs of one moment, about: more would hide what breaks.
+constexpr int puffs_at_once = 45;
 
 /// How much a kind of event throws, from a piece of 1 m.
 struct Throw {
@@ -29,7 +32,7 @@ struct Throw {
 constexpr Throw throw_of(PieceEventKind kind) {
   switch (kind) {
     case PieceEventKind::crack:
-      return {.puffs = 6.0F, .chips = 16.0F, .speed_m_s = 2.8F, .thickness = 0.55F};
+      return {.puffs = 4.0F, .chips = 16.0F, .speed_m_s = 3.6F, .thickness = 0.46F};
     case PieceEventKind::strike:
       return {.puffs = 5.0F, .chips = 7.0F, .speed_m_s = 1.7F, .thickness = 0.50F};
     case PieceEventKind::settle:
@@ -40,7 +43,7 @@ constexpr Throw throw_of(PieceEventKind kind) {
 
 /// Of the dust; rock as generated is sandstone (shaders/rock.glsl).
 glm::vec3 colour_of(Material material) {
-  if (material == Material::rock) return {0.49F, 0.28F, 0.14F};
+  if (material == Material::rock) return {0.58F, 0.37F, 0.21F};
   const auto& [r, g, b] = traits_of(material).albedo;
   return {r, g, b};
 }
@@ -84,11 +87,17 @@ int count_of(float per_metre, float size_m) {
 }  // namespace
 
 void Dust::add(const std::vector<PieceEvent>& events, double now_s) {
-  for (const PieceEvent& event : events) {
-    const Throw thrown = throw_of(event.kind);
-    const float size_m = std::min(event.size_m, size_max_m) * hardness(event);
-    throw_puffs(event, count_of(thrown.puffs, size_m), now_s);
-    throw_chips(event, count_of(thrown.chips, size_m), now_s);
+  const auto puffs_of = [](const PieceEvent& event) {
+    return count_of(throw_of(event.kind).puffs, std::min(event.size_m, size_max_m) * hardness(event));
+  };
+  int puffs = 0;
+  for (const PieceEvent& event : events) puffs += puffs_of(event);
+  // The pieces of one blast share its dust.
+  const size_t every = 1 + static_cast<size_t>(puffs / puffs_at_once);
+  for (size_t i = 0; i < events.size(); ++i) {
+    const float size_m = std::min(events[i].size_m, size_max_m) * hardness(events[i]);
+    if (i % every == 0) throw_puffs(events[i], puffs_of(events[i]), now_s);
+    throw_chips(events[i], count_of(throw_of(events[i].kind).chips, size_m), now_s);
   }
   while (grains_.size() > limits::particles_max) grains_.pop_front();
 }
