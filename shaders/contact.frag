@@ -3,7 +3,7 @@
 
 uniform mat4 u_inverse_view_projection;
 uniform vec3 u_eye;
-uniform sampler2D u_depth;
+uniform highp sampler2D u_depth;
 
 flat in vec4 v_contact;
 
