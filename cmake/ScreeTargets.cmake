@@ -10,13 +10,15 @@ function(scree_precompiled NAME HEADER)
   target_compile_options(${NAME} PRIVATE $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
 endfunction()
 
-# One static library per folder, from every .cpp in it.
+# One static library per folder, from every .cpp in it. With SCREE_UNITY the folder is compiled as one source, which
+# parses its headers once: names in anonymous namespaces are therefore different within a folder.
 # Usage: scree_library(NAME [libraries to link …])
 function(scree_library NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(${NAME} STATIC ${SOURCES})
   target_link_libraries(${NAME} PUBLIC ${ARGN})
   target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
+  set_target_properties(${NAME} PROPERTIES UNITY_BUILD ${SCREE_UNITY} UNITY_BUILD_BATCH_SIZE 0)
 endfunction()
 
 # Options and reports: nobody waits for them to run, but for CLI11 and nlohmann's JSON to compile, which are headers

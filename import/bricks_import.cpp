@@ -19,9 +19,6 @@ namespace scree {
 
 namespace {
 
-/// Voxels around a chunk that decide its distances, as for other ground (terrain.cpp).
-constexpr int apron = 4;
-
 /// Where two solids touch, their common face is inside, however it is rounded. Voxels.
 constexpr float seam_voxels = 0.001F;
 
@@ -176,7 +173,7 @@ class Importer {
       put_materials(made, chunk, nullptr);
       return made;
     }
-    const VoxelBox box = box_of(chunk).grown(apron);
+    const VoxelBox box = box_of(chunk).grown(chunk_apron);
     std::vector<float> levels = levels_of_solids(box);
     Window solids(box);
     distances_from_levels(levels, solids);
@@ -194,7 +191,7 @@ class Importer {
     std::vector<float> levels(Window::count(box), std::numeric_limits<float>::max());
     std::vector<float> own(levels.size());
     for (const auto& solid : solids_) {
-      if (common(solid->box().grown(apron), box).empty()) continue;
+      if (common(solid->box().grown(chunk_apron), box).empty()) continue;
       solid->read_levels(box, own);
       const float seam = solids_.size() > 1 ? seam_voxels : 0.0F;
       std::ranges::transform(levels, own, levels.begin(),

@@ -11,8 +11,6 @@ namespace scree {
 
 namespace {
 
-constexpr int apron = 4;
-
 BrickLayout layout_around(const ChunkPyramid::Level& chunks, float voxel_size_m) {
   BrickLayout layout{voxel_size_m, chunks.begin()->first, chunks.begin()->first};
   for (const auto& [at, chunk] : chunks) {
@@ -59,7 +57,8 @@ ChunkPyramid::Level ChunkPyramid::coarser(const Level& fine, int level) const {
   Level coarse;
   for (const ChunkCoord parent : parents) {
     const VoxelCoord first = first_voxel(parent);
-    const VoxelBox box = VoxelBox{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}.grown(apron);
+    const VoxelBox box =
+        VoxelBox{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}.grown(chunk_apron);
     Window window = gather(ground, box);
     std::vector<float> levels;
     levels.reserve(window.codes.size());

@@ -10,6 +10,9 @@
 
 namespace scree {
 
+/// Voxels around a chunk that decide its distances, as for other ground (terrain.cpp).
+inline constexpr int chunk_apron = 4;
+
 class ChunkPyramid {
  public:
   using Level = std::map<ChunkCoord, std::shared_ptr<const GeneratedChunk>>;

@@ -63,7 +63,8 @@ void declare_solids(CLI::App& app, Options& options) {
       ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m));
   app.add_option("--grid", how.grid, "name of the grid in an OpenVDB file; unless said, the first of floats");
   app.add_option("--density", how.density, "rock is where a fog volume is denser")->capture_default_str();
-  app.add_option("--material", options.material, "of what no file says it of: rock, soil or ice");
+  app.add_option("--material", options.material,
+                 "of what no file says it of: " + listed(kind_names<Material>));
 }
 
 void declare(CLI::App& app, Options& options) {

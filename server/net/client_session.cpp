@@ -108,7 +108,7 @@ bool ClientSession::take_message(std::span<const uint8_t> body) {
 }
 
 void ClientSession::send(const ServerMessage& message) {
-  send(std::make_shared<const std::vector<uint8_t>>(encode(message)));
+  send(share(message));
 }
 
 void ClientSession::send(SharedBytes bytes) {

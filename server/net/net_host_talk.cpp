@@ -1,22 +1,13 @@
 // NetHost's part of what persons are told of each other.
-#include "proto/codec.h"
 #include "server/net/net_host.h"
 #include "shared/base/timing.h"
 
 namespace scree {
-namespace {
-
-SharedBytes bytes_of(const ServerMessage& message) {
-  return std::make_shared<const std::vector<uint8_t>>(encode(message));
-}
-
-}  // namespace
-
 /// Who reads slowly is told later, when he has caught up.
 void NetHost::tell_persons(double now_s) {
   const std::vector<uint64_t> sessions = talk_.untold(now_s);
   if (sessions.empty()) return;
-  const SharedBytes list = bytes_of(talk_.list());
+  const SharedBytes list = share(talk_.list());
   for (const uint64_t id : sessions) {
     ClientSession& session = *sessions_.at(id).session;
     if (!session.backlog().reads_along()) continue;
@@ -29,7 +20,7 @@ void NetHost::tell_persons(double now_s) {
 void NetHost::hear(ClientSession& speaker, const SayMessage& said) {
   const std::optional<Talk::Heard> heard = talk_.say(speaker.id(), said.text, steady_now_s());
   if (!heard) return;
-  const SharedBytes line = bytes_of(heard->line);
+  const SharedBytes line = share(heard->line);
   if (!heard->by_all) return speaker.send(line);
   for (const uint64_t id : talk_.everybody()) {
     const auto session = sessions_.at(id).session;

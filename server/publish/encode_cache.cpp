@@ -12,10 +12,6 @@ namespace scree {
 
 namespace {
 
-SharedBytes share(std::vector<uint8_t> bytes) {
-  return std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
-}
-
 /// For CHECK_DEBUG: clients accept the message. An oversized one is not sent.
 bool decodes(const SharedBytes& bytes) {
   const auto body = std::span(*bytes).subspan(length_prefix_bytes);
@@ -109,7 +105,7 @@ const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const Tic
   std::call_once(entry.once, [&] {
     const FrameMessage message = frame_of(entry.frame.selection, changes);
     entry.frame.transform_bytes = message.transforms.size() + message.motions.size();
-    entry.frame.bytes = share(encode(ServerMessage(message)));
+    entry.frame.bytes = share(message);
     CHECK_DEBUG(decodes(entry.frame.bytes));
   });
   return entry.frame;
@@ -135,7 +131,7 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
     message.bricks.reserve(chunk.bricks.size());
     for (const auto& [brick, state] : chunk.bricks)
       message.bricks.push_back({brick, *state.brick, state.paint});
-    entry->bytes = share(encode(ServerMessage(std::move(message))));
+    entry->bytes = share(std::move(message));
     CHECK_DEBUG(decodes(entry->bytes));
   });
   return entry->bytes;
@@ -148,7 +144,7 @@ SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
     entry = &pieces_[id];
   }
   std::call_once(entry->once, [&] {
-    entry->bytes = share(encode(ServerMessage(PieceMessage{id, *piece.volume, piece.pose})));
+    entry->bytes = share(PieceMessage{id, *piece.volume, piece.pose});
     CHECK_DEBUG(decodes(entry->bytes));
   });
   return entry->bytes;

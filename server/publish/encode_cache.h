@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "server/publish/client_view.h"
+#include "server/publish/shared_bytes.h"
 
 namespace scree {
-
-using SharedBytes = std::shared_ptr<const std::vector<uint8_t>>;
 
 class EncodeCache {
  public:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "proto/codec.h"
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
 
@@ -29,10 +28,6 @@ GroundMessage ground_of(const TerrainSource& source, ChunkCoord chunk) {
   return message;
 }
 
-SharedBytes bytes_of(const GroundMessage& message) {
-  return std::make_shared<const std::vector<uint8_t>>(encode(ServerMessage(message)));
-}
-
 }  // namespace
 
 bool GroundStream::ask(uint64_t session, std::span<const ChunkCoord> chunks) {
@@ -53,7 +48,7 @@ SharedBytes GroundStream::generated(ChunkCoord chunk, int& work_left) {
   if (work_left <= 0) return nullptr;
   const GroundMessage message = ground_of(source_, chunk);
   work_left -= message.bricks.empty() ? 1 : 8;
-  SharedBytes bytes = bytes_of(message);
+  SharedBytes bytes = share(message);
   if (kept_bytes_ > limits::ground_kept_bytes_max) {
     kept_.clear();
     kept_bytes_ = 0;
@@ -69,7 +64,7 @@ SharedBytes GroundStream::answer(ChunkCoord chunk, const ClientView& view, int& 
   GroundMessage beyond;
   beyond.chunk = chunk;
   beyond.beyond = true;
-  return bytes_of(beyond);
+  return share(beyond);
 }
 
 void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reader,

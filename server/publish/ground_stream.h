@@ -10,7 +10,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "server/publish/encode_cache.h"
+#include "server/publish/client_view.h"
+#include "server/publish/shared_bytes.h"
 
 namespace scree {
 

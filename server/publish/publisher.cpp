@@ -17,10 +17,6 @@ namespace scree {
 
 namespace {
 
-SharedBytes bytes_of(const ServerMessage& message) {
-  return std::make_shared<const std::vector<uint8_t>>(encode(message));
-}
-
 Motions no_motions(const PublisherConfig& config) {
   return {motion_rules(config.tick_rate_hz, config.ticks_per_transform), config.terrain.voxel_size_m};
 }
@@ -31,10 +27,6 @@ size_t patches_for(const Backlog& backlog) {
   if (!backlog.reads_along()) return 0;
   if (!backlog.is_slow()) return limits::patch_bricks_max;
   return static_cast<size_t>(std::max<int64_t>(0, backlog.room_bytes())) / limits::patch_brick_bytes;
-}
-
-int64_t size_of(const SharedBytes& bytes) {
-  return static_cast<int64_t>(bytes->size());
 }
 
 }  // namespace
@@ -204,7 +196,7 @@ bool Publisher::ready(Client& client, size_t backlog_bytes, Part& part) {
     client.view.reset();
     client.offer.forget();
     client.last_frame = 0;
-    send(client, bytes_of(ResetMessage{}), part);
+    send(client, share(ResetMessage{}), part);
   }
   return true;
 }
@@ -256,7 +248,7 @@ void Publisher::send_cursors(Client& client, Part& part) {
       cursors_for(client.session, cursors_, client.view.eye_m(), client.view.radius_m());
   if (now == client.cursors) return;
   client.cursors = now;
-  send(client, bytes_of(CursorsMessage{std::move(now)}), part);
+  send(client, share(CursorsMessage{std::move(now)}), part);
 }
 
 void Publisher::send_physics(Client& client, const PhysicsMessage& physics, Part& part) {
@@ -265,7 +257,7 @@ void Publisher::send_physics(Client& client, const PhysicsMessage& physics, Part
   if (client.physics_credit_bytes <= 0 || client.room_bytes <= 0) return;
   const PhysicsMessage near =
       physics_for(physics, state_, config_.terrain.voxel_size_m, client.view.eye_m(), client.view.radius_m());
-  const SharedBytes bytes = bytes_of(near);
+  const SharedBytes bytes = share(near);
   client.physics_credit_bytes -= size_of(bytes);
   send(client, bytes, part);
 }
@@ -278,7 +270,7 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
     if (client == clients_.end()) continue;
     const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
     send(client->second,
-         bytes_of(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply), delta.tick}),
+         share(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply), delta.tick}),
          replies);
   }
   add(std::move(replies));
@@ -318,7 +310,7 @@ void Publisher::send_status(Client& client, Part& part) {
   StatusMessage status = status_;
   status.sent_bytes = client.sent_bytes;
   status.repairs = client.repairs;
-  send(client, bytes_of(status), part);
+  send(client, share(status), part);
 }
 
 void Publisher::send(Client& client, SharedBytes bytes, Part& part) {

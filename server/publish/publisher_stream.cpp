@@ -1,7 +1,6 @@
 // Publisher's streaming: what a client lacks, within its budgets and the room of its link.
 #include <algorithm>
 
-#include "proto/codec.h"
 #include "server/publish/chunk_part.h"
 #include "server/publish/publisher.h"
 #include "shared/base/check.h"
@@ -13,14 +12,6 @@ namespace {
 /// Chunks or pieces in one list to stream; the budget of bytes ends the streaming much earlier.
 constexpr size_t stream_batch = 64;
 static_assert(stream_batch <= limits::kept_chunks_max);
-
-SharedBytes bytes_of(const ServerMessage& message) {
-  return std::make_shared<const std::vector<uint8_t>>(encode(message));
-}
-
-int64_t size_of(const SharedBytes& bytes) {
-  return static_cast<int64_t>(bytes->size());
-}
 
 /// Tells of a session its view, or null while it gets nothing.
 template <typename Clients>
@@ -72,11 +63,11 @@ SharedBytes Publisher::next_part(Client& client, ChunkCoord coord, const Publish
   if (chosen.bricks == edited) return whole_chunk(client, coord, chunk);
   client.next_brick = chosen.next;
   const bool more = !client.view.sent_bricks(coord, chosen.bricks, edited);
-  return bytes_of(part_of_chunk(coord, chunk, chosen.bricks, more));
+  return share(part_of_chunk(coord, chunk, chosen.bricks, more));
 }
 
 void Publisher::send_kept(Client& client, const KeptMessage& kept, Part& part) {
-  const SharedBytes bytes = bytes_of(kept);
+  const SharedBytes bytes = share(kept);
   client.chunk_credit_bytes -= size_of(bytes);
   part.stats.kept_bytes += bytes->size();
   part.stats.chunks_kept += kept.chunks.size();

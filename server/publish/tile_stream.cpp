@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "proto/codec.h"
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
 
@@ -35,9 +34,8 @@ void TileStream::serve(const std::function<ClientView*(uint64_t)>& reader,
       if (view->holds_tile(key)) continue;  // asked for twice
       std::vector<uint8_t> packed = heights_->packed(key);
       CHECK(!packed.empty());  // a server's model is complete
-      const auto bytes = std::make_shared<const std::vector<uint8_t>>(
-          encode(ServerMessage(TileMessage{key, std::move(packed)})));
-      queue.credit_bytes -= static_cast<int64_t>(bytes->size());
+      const SharedBytes bytes = share(TileMessage{key, std::move(packed)});
+      queue.credit_bytes -= size_of(bytes);
       view->hold_tile(key);
       if (!send(session, bytes)) break;
     }

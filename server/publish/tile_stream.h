@@ -10,7 +10,7 @@
 
 #include "proto/messages.h"
 #include "server/publish/client_view.h"
-#include "server/publish/encode_cache.h"
+#include "server/publish/shared_bytes.h"
 
 namespace scree {
 

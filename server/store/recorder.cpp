@@ -17,14 +17,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Entry {
-  std::shared_ptr<const TickDelta> delta;
-  std::vector<Command> commands;
-};
-
 }  // namespace
 
 struct Recorder::State {
+  struct Entry {
+    std::shared_ptr<const TickDelta> delta;
+    std::vector<Command> commands;
+  };
+
   void run();
   void write(const std::deque<Entry>& entries);
   void commit();

@@ -14,12 +14,6 @@ namespace scree {
 
 namespace {
 
-/// One save.
-struct Due {
-  WorldMoment moment;
-  ChangedBricks bricks;
-};
-
 /// Whether clients may hold a reply, or anything else than the clock moved.
 bool something_happened(const TickDelta& delta) {
   return !delta.bricks.empty() || !delta.operations.empty() || !delta.pieces.empty() ||
@@ -36,6 +30,12 @@ Tick period_of(const KeeperConfig& config) {
 }  // namespace
 
 struct WorldKeeper::State {
+  /// One save.
+  struct Due {
+    WorldMoment moment;
+    ChangedBricks bricks;
+  };
+
   State(KeeperConfig c, std::unique_ptr<WorldFile> f, KeptTerrain t)
       : config(std::move(c)), file(std::move(f)), terrain(std::move(t)) {}
   void run();
@@ -143,7 +143,7 @@ void WorldKeeper::save(WorldMoment moment) {
   {
     const std::scoped_lock lock(s.mutex);
     CHECK(!s.waiting && !s.stopping);
-    s.waiting = Due{std::move(moment), std::exchange(s.gathered, {})};
+    s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {})};
   }
   s.changed.notify_all();
 }
@@ -156,7 +156,7 @@ Result<void> WorldKeeper::finish(WorldMoment moment) {
       for (auto& [coord, state] : s.gathered) s.waiting->bricks[coord] = std::move(state);
       s.waiting->moment = std::move(moment);
     } else {
-      s.waiting = Due{std::move(moment), std::exchange(s.gathered, {})};
+      s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {})};
     }
     s.stopping = true;
   }

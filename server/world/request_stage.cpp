@@ -91,6 +91,8 @@ CarveOperation operation_of(const World::State& state, const CarveRequest& reque
 /// Gives the operation of a relaxed pattern its points: as many as find room in what it cuts, and one in any
 /// case.
 void relax_seeds(World::State& state, CarveOperation& operation) {
+  static_assert(kinds_that<SeedPattern, is_relaxed>.size() == 1,
+                "each relaxed pattern places its own points");
   const float dx = state.config.terrain.voxel_size_m;
   operation.authored_m.clear();
   for (const glm::vec3& seed :

@@ -171,8 +171,12 @@ class Hostility {
         return together;
       }
       case 2:
-        return ShatterOperation{piece,          static_cast<SeedPattern>(random_.below(3)), seeds,
-                                random_.next(), place(chance(2) ? 1e30F : 30.0F),           next,
+        return ShatterOperation{piece,
+                                drawn_patterns[random_.below(drawn_patterns.size())],
+                                seeds,
+                                random_.next(),
+                                place(chance(2) ? 1e30F : 30.0F),
+                                next,
                                 cutter};
       case 3: {
         const VoxelCoord lo{around(200), around(40), around(200)};
@@ -182,7 +186,7 @@ class Hostility {
       case 4:
         return PaintOperation{shape(), static_cast<Material>(random_.below(kind_count<Material>))};
       default:
-        return CarveOperation{shape(),        static_cast<SeedPattern>(random_.below(3)),
+        return CarveOperation{shape(),        drawn_patterns[random_.below(drawn_patterns.size())],
                               seeds % 64 + 1, random_.next(),
                               place(4000.0F), next,
                               cutter};

@@ -118,10 +118,17 @@ bool starts_with_any(std::string_view text, const std::vector<std::string_view>&
   return std::any_of(prefixes.begin(), prefixes.end(), [&](auto p) { return text.starts_with(p); });
 }
 
+/// Null for a file of no layer: also one in a folder that has rooms, but in none of them.
 const Layer* layer_of(std::string_view path) {
-  for (const Layer& layer : layers())
-    if (path.starts_with(layer.folder)) return &layer;
-  return nullptr;
+  const std::vector<Layer>& all = layers();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Layer& layer) { return path.starts_with(layer.folder); });
+  if (found == all.end()) return nullptr;
+  const bool has_rooms = std::any_of(
+      all.begin(), found, [&](const Layer& room) { return room.folder.starts_with(found->folder); });
+  const std::string_view rest = path.substr(found->folder.size());
+  const bool in_a_room = rest.find('/') != std::string_view::npos && !rest.starts_with("programs/");
+  return has_rooms && in_a_room ? nullptr : &*found;
 }
 
 const Library* library_of(const std::string& include) {

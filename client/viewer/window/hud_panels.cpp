@@ -11,10 +11,6 @@ namespace {
 constexpr std::array<const char*, panel_places> names{"top",        "bottom",      "upper left",
                                                       "lower left", "upper right", "lower right"};
 
-size_t index_of(PanelPlace place) {
-  return static_cast<size_t>(place);
-}
-
 }  // namespace
 
 void HudPanels::begin_frame(glm::vec2 screen, bool mouse_is_free) {

@@ -9,10 +9,6 @@ namespace {
 /// Part of the window's height that a strip takes at most.
 constexpr float strip_share_max = 0.25F;
 
-size_t index_of(PanelPlace place) {
-  return static_cast<size_t>(place);
-}
-
 /// `room` shared by two that want so much: who wants less than half gets it all.
 std::pair<float, float> share(float room, float a, float b) {
   room = std::max(room, 0.0F);

@@ -15,6 +15,10 @@ enum class PanelPlace : uint8_t { top, bottom, upper_left, lower_left, upper_rig
 
 inline constexpr size_t panel_places = 6;
 
+constexpr size_t index_of(PanelPlace place) {
+  return static_cast<size_t>(place);
+}
+
 struct Rectangle {
   glm::vec2 at{0.0F};
   glm::vec2 size{0.0F};
