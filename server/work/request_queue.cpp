@@ -18,6 +18,10 @@ bool may_cost(float cost_us) {
   return cost_us >= 0.0F && cost_us <= kept_cost_max_us;
 }
 
+uint64_t in_ns(float us) {
+  return static_cast<uint64_t>(us * 1000.0F);
+}
+
 std::string in_ms(float us) {
   return std::to_string(static_cast<int>(std::lround(us / 1000.0F))) + " ms";
 }
@@ -33,13 +37,15 @@ Result<void> RequestQueue::push(WaitingRequest request) {
   if (Result<void> may = may_wait(request); !may) return may;
   const uint64_t party_id = party_of(request.command), session_id = request.command.session;
   Party& party = parties_[party_id];
-  if (party.requests == 0) turns_.wait(party_id);
+  const uint64_t cost_ns = in_ns(request.cost_us);
+  if (party.requests == 0) turns_.wait(party_id, cost_ns);
   Session& session = party.sessions[session_id];
-  if (session.requests.empty()) party.turns.wait(session_id);
+  if (session.requests.empty()) party.turns.wait(session_id, cost_ns);
   session.waiting_us += request.cost_us;
   session.requests.push_back(std::move(request));
   ++party.requests;
   ++size_;
+  expect_next(party_id, party);
   return {};
 }
 
@@ -65,35 +71,46 @@ Result<void> RequestQueue::may_wait(const WaitingRequest& request) const {
 }
 
 const WaitingRequest* RequestQueue::next() const {
-  if (turns_.empty()) return nullptr;
-  const Party& party = parties_.at(turns_.next());
-  return &party.sessions.at(party.turns.next()).requests.front();
+  return turns_.empty() ? nullptr : &parties_.at(turns_.next()).next();
+}
+
+const WaitingRequest& RequestQueue::Party::next() const {
+  return sessions.at(turns.next()).requests.front();
+}
+
+void RequestQueue::expect_next(uint64_t id, const Party& party) {
+  if (!party.turns.empty()) turns_.expect(id, in_ns(party.next().cost_us));
 }
 
 void RequestQueue::pop(float charged_us) {
   CHECK(!turns_.empty() && charged_us >= 0.0F);
   using Then = FairTurns::Then;
-  Party& party = parties_.at(turns_.next());
+  const uint64_t id = turns_.next();
+  Party& party = parties_.at(id);
   const auto session = party.sessions.find(party.turns.next());
   CHECK(session != party.sessions.end() && !session->second.requests.empty());
   session->second.waiting_us -= session->second.requests.front().cost_us;
   session->second.requests.pop_front();
   --party.requests;
   --size_;
-  const auto charged_ns = static_cast<uint64_t>(charged_us * 1000.0F);
+  const uint64_t charged_ns = in_ns(charged_us);
   const bool more = !session->second.requests.empty();
   party.turns.charge(charged_ns, more ? Then::waits : Then::leaves);
+  if (more) party.turns.expect(session->first, in_ns(session->second.requests.front().cost_us));
   if (!more) party.sessions.erase(session);  // no rounding of waiting_us is carried over
   turns_.charge(charged_ns, party.requests == 0   ? Then::leaves
                             : party.turns.empty() ? Then::is_passed_over
                                                   : Then::waits);
+  expect_next(id, party);
 }
 
 void RequestQueue::pass_over() {
   CHECK(!turns_.empty());
-  FairTurns& sessions = parties_.at(turns_.next()).turns;
-  sessions.pass_over();
-  if (sessions.empty()) turns_.pass_over();
+  const uint64_t id = turns_.next();
+  Party& party = parties_.at(id);
+  party.turns.pass_over();
+  if (party.turns.empty()) turns_.pass_over();
+  expect_next(id, party);
 }
 
 std::vector<Command> RequestQueue::drop(uint64_t session) {
@@ -108,13 +125,17 @@ std::vector<Command> RequestQueue::drop(uint64_t session) {
     party.sessions.erase(found);
     party.turns.leave(session);
     if (party.requests == 0) turns_.leave(id);
+    expect_next(id, party);
   }
   return dropped;
 }
 
 void RequestQueue::bring_back() {
   turns_.bring_back();
-  for (auto& [id, party] : parties_) party.turns.bring_back();
+  for (auto& [id, party] : parties_) {
+    party.turns.bring_back();
+    expect_next(id, party);
+  }
 }
 
 void RequestQueue::begin_tick() {
@@ -183,7 +204,9 @@ Result<void> RequestQueue::take(const PartyValue& value) {
   }
   if (!agrees(value.turns, with_requests))
     return fail("sessions wait without a turn, or the other way round");
-  party.turns.restore(value.turns);
+  party.turns.restore(value.turns, [&](uint64_t session) {
+    return in_ns(party.sessions.at(session).requests.front().cost_us);
+  });
   size_ += party.requests;
   parties_.emplace(value.party, std::move(party));
   return {};
@@ -205,7 +228,7 @@ Result<void> RequestQueue::restore(const RequestsValue& value) {
   if (size_ > limits::requests_waiting_max)
     return refused(std::to_string(size_) + " requests wait, more than " +
                    std::to_string(limits::requests_waiting_max) + " (limits.requests_waiting_max)");
-  turns_.restore(value.turns);
+  turns_.restore(value.turns, [&](uint64_t party) { return in_ns(parties_.at(party).next().cost_us); });
   return {};
 }
 

@@ -62,11 +62,16 @@ class RequestQueue {
     std::map<uint64_t, Session> sessions;  ///< those with requests
     FairTurns turns;                       ///< of the sessions
     size_t requests = 0;                   ///< of all sessions
+
+    /// Some session must wait that was not passed over.
+    const WaitingRequest& next() const;
   };
 
   /// By name, if no more of this party's requests, or this session's, may wait.
   Result<void> may_wait(const WaitingRequest& request) const;
   bool waits(uint64_t party) const;
+  /// Tells the turns what this party's next request costs, if it has one.
+  void expect_next(uint64_t id, const Party& party);
   void bring_back();
   Result<void> take(const PartyValue& value);
 

@@ -15,6 +15,10 @@ WaitingRequest from(uint64_t session, uint32_t number, float cost_us) {
   return {.command = {session, number, PaintRequest{}}, .cost_us = cost_us};
 }
 
+WaitingRequest from_party(uint64_t party, uint64_t session, uint32_t number, float cost_us) {
+  return {.command = {session, number, PaintRequest{}, party}, .cost_us = cost_us};
+}
+
 /// Serves everything; the sessions in the order of their turns.
 std::vector<uint64_t> serve_all(RequestQueue& queue) {
   std::vector<uint64_t> order;
@@ -46,7 +50,66 @@ TEST(request_queue, a_dear_request_is_weighed_against_many_cheap_ones) {
   RequestQueue queue(us_per_s);
   for (uint32_t number = 0; number < 2; ++number) ASSERT_TRUE(queue.push(from(1, number, 300.0F)));
   for (uint32_t number = 0; number < 6; ++number) ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
-  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{1, 2, 2, 2, 1, 2, 2, 2}));
+  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{2, 2, 1, 2, 2, 2, 1, 2}));
+}
+
+TEST(request_queue, a_cheap_request_waits_for_one_dear_one_and_not_for_those_of_all_others) {
+  RequestQueue queue(us_per_s);
+  for (uint64_t session = 1; session <= 20; ++session) {
+    ASSERT_TRUE(queue.push(from(session, 0, 50'000.0F)));
+  }
+  queue.pop(50'000.0F);
+  ASSERT_TRUE(queue.push(from(99, 0, 3'000.0F)));
+  EXPECT_EQ(queue.next()->command.session, 99U);
+}
+
+TEST(request_queue, who_asks_seldom_is_next_among_those_who_always_ask) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 40; ++number)
+    for (uint64_t session = 2; session <= 21; ++session)
+      ASSERT_TRUE(queue.push(from(session, number, 100.0F)));
+  for (uint32_t number = 0; number < 10; ++number) {
+    for (int served = 0; served < 33; ++served) queue.pop(100.0F);
+    queue.begin_tick();
+    ASSERT_TRUE(queue.push(from(1, number, 100.0F)));
+    EXPECT_EQ(queue.next()->command.session, 1U) << number;
+    queue.pop(100.0F);
+  }
+}
+
+TEST(request_queue, cheap_requests_of_ever_new_clients_do_not_keep_a_dear_one_waiting_for_ever) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from(1, 0, 1000.0F)));
+  uint64_t session = 100;
+  for (; session < 200; ++session) {
+    ASSERT_TRUE(queue.push(from(session, 0, 100.0F)));
+    if (queue.next()->command.session == 1) break;
+    queue.pop(100.0F);
+    queue.begin_tick();
+  }
+  EXPECT_EQ(session, 172U) << "newcomers start later by an eighth of what each of them had";
+}
+
+TEST(request_queue, the_next_of_several_requests_decides_and_not_the_first_one) {
+  RequestQueue queue(us_per_s);
+  ASSERT_TRUE(queue.push(from(1, 0, 100.0F)));
+  ASSERT_TRUE(queue.push(from(1, 1, 400.0F)));
+  for (uint32_t number = 0; number < 4; ++number) ASSERT_TRUE(queue.push(from(2, number, 100.0F)));
+  EXPECT_EQ(serve_all(queue), (std::vector<uint64_t>{1, 2, 2, 2, 2, 1}));
+}
+
+TEST(request_queue, a_kept_queue_goes_on_in_the_same_order) {
+  RequestQueue queue(us_per_s);
+  for (uint32_t number = 0; number < 3; ++number) {
+    ASSERT_TRUE(queue.push(from_party(1, 11, number, 300.0F)));
+    ASSERT_TRUE(queue.push(from_party(1, 12, number, 500.0F)));
+    ASSERT_TRUE(queue.push(from(2, number, 200.0F)));
+  }
+  queue.pop(200.0F);
+  queue.begin_tick();
+  RequestQueue again(us_per_s);
+  ASSERT_TRUE(again.restore(queue.value()));
+  EXPECT_EQ(serve_all(again), serve_all(queue));
 }
 
 TEST(request_queue, who_comes_back_after_a_pause_has_saved_nothing) {
@@ -96,10 +159,6 @@ TEST(request_queue, no_client_takes_all_places) {
     }
   EXPECT_LE(queue.size(), limits::requests_waiting_max);
   EXPECT_TRUE(queue.push(from(99, 1, 0.0F))) << "one more client finds a place";
-}
-
-WaitingRequest from_party(uint64_t party, uint64_t session, uint32_t number, float cost_us) {
-  return {.command = {session, number, PaintRequest{}, party}, .cost_us = cost_us};
 }
 
 TEST(request_queue, by_more_sessions_a_party_gets_no_more) {
