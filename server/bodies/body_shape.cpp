@@ -15,21 +15,35 @@ namespace scree {
 
 namespace {
 
+/// Lines through a cube's middle, four to a vector: to faces, edges and corners. The last three repeat the
+/// first one.
+struct CubeLines {
+  Floats x, y, z, length;
+};
+constexpr float of_edges = 1.41421356F, of_corners = 1.73205081F;
+constexpr CubeLines cube_lines[] = {
+    {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0}, {1, 1, 1, of_edges}},
+    {{1, 1, 1, 0}, {-1, 0, 0, 1}, {0, 1, -1, 1}, {of_edges, of_edges, of_edges, of_edges}},
+    {{0, 1, 1, 1}, {1, 1, 1, -1}, {-1, 1, -1, 1}, {of_edges, of_corners, of_corners, of_corners}},
+    {{1, 1, 1, 1}, {-1, 0, 0, 0}, {-1, 0, 0, 0}, {of_corners, 1, 1, 1}},
+};
+
 /// Distance of the hull's nearest face from a point inside, estimated from above: the least support over 26
-/// directions.
+/// directions, both ways along each line.
 float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
-  float least = 1e30F;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const glm::vec3 along(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-        const float length = std::sqrt(glm::dot(along, along));
-        if (length == 0.0F) continue;
-        float support = -1e30F;
-        for (const glm::vec3& p : hull_m) support = std::max(support, glm::dot(p - middle_m, along));
-        least = std::min(least, support / length);
-      }
-  return least;
+  float thickness = 1e30F;
+  for (const CubeLines& lines : cube_lines) {
+    Floats least = all(1e30F), most = all(-1e30F);
+    for (const glm::vec3& p : hull_m) {
+      const glm::vec3 off = p - middle_m;
+      const Floats r = all(off.x) * lines.x + all(off.y) * lines.y + all(off.z) * lines.z;
+      least = r < least ? r : least;
+      most = r > most ? r : most;
+    }
+    const Floats one_way = most / lines.length, other_way = -least / lines.length;
+    for (int i = 0; i < 4; ++i) thickness = std::min({thickness, one_way[i], other_way[i]});
+  }
+  return thickness;
 }
 
 /// Appends points of a triangle on a lattice of at most `spacing_m`, without its corners.
@@ -51,6 +65,8 @@ void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::
 class TightHull final : public btConvexHullShape {
  public:
   explicit TightHull(const std::vector<glm::vec3>& corners) {
+    const size_t padded = (corners.size() + 3) / 4 * 4;
+    for (std::vector<float>* const coordinates : {&x_, &y_, &z_}) coordinates->reserve(padded);
     for (const glm::vec3& p : corners) addPoint(to_bullet(p), false);
     for (size_t i = 0; i < corners.size() || i % 4 != 0; ++i) {
       const glm::vec3& p = corners[i < corners.size() ? i : 0];
@@ -108,6 +124,7 @@ std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3
 
 std::vector<glm::vec3> corners_of(const btConvexHullShape& shape) {
   std::vector<glm::vec3> corners;
+  corners.reserve(static_cast<size_t>(shape.getNumPoints()));
   for (int i = 0; i < shape.getNumPoints(); ++i) {
     const btVector3& p = shape.getUnscaledPoints()[i];
     corners.emplace_back(p.x(), p.y(), p.z());

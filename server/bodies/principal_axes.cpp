@@ -13,6 +13,12 @@ namespace {
 /// Rounds over the three pairs of axes: the method converges quadratically, in three or four for any tensor.
 constexpr int rounds = 6;
 
+void turn_columns(glm::dmat3& matrix, int p, int q, double cosine, double sine) {
+  const glm::dvec3 at_p = matrix[p], at_q = matrix[q];
+  matrix[p] = at_p * cosine - at_q * sine;
+  matrix[q] = at_p * sine + at_q * cosine;
+}
+
 /// Turns the axes p and q, so that the tensor's element (p, q) becomes 0.
 void turn(glm::dmat3& tensor, glm::dmat3& axes, int p, int q) {
   const double off = tensor[p][q];
@@ -21,13 +27,14 @@ void turn(glm::dmat3& tensor, glm::dmat3& axes, int p, int q) {
   const double tangent = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
   const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
   const double sine = tangent * cosine;
-  glm::dmat3 rotation(1.0);
-  rotation[p][p] = rotation[q][q] = cosine;
-  rotation[q][p] = sine;
-  rotation[p][q] = -sine;
-  tensor = glm::transpose(rotation) * tensor * rotation;
+  for (int column = 0; column < 3; ++column) {  // the rows p and q, then the columns
+    const double at_p = tensor[column][p], at_q = tensor[column][q];
+    tensor[column][p] = cosine * at_p - sine * at_q;
+    tensor[column][q] = sine * at_p + cosine * at_q;
+  }
+  turn_columns(tensor, p, q, cosine, sine);
   tensor[p][q] = tensor[q][p] = 0.0;
-  axes = axes * rotation;
+  turn_columns(axes, p, q, cosine, sine);
 }
 
 }  // namespace

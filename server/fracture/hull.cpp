@@ -46,22 +46,37 @@ class SurfacePoints {
     const VoxelBox& b = window.box;
     const VoxelCoord size = b.size();
     const auto nz = static_cast<size_t>(size.z), nyz = static_cast<size_t>(size.y) * nz;
+    const size_t words = (nz + 63) / 64;  // of a row
+    const std::vector<uint64_t> inside = insides_of(window, words);
+    const uint64_t* word = inside.data();
     for (int x = b.lo.x; x < b.hi.x; ++x)
       for (int y = b.lo.y; y < b.hi.y; ++y)
-        for (int z = b.lo.z; z < b.hi.z; z += 64) {
-          const int count = std::min(64, b.hi.z - z);
+        for (int z = b.lo.z; z < b.hi.z; z += 64, ++word) {
           const Code* row = window.codes.data() + window.index(x, y, z);
           const glm::vec3 at(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-          const uint64_t here = inside_bits(row, count);
-          if (x + 1 < b.hi.x) cross(row, nyz, here ^ inside_bits(row + nyz, count), at, {1.0F, 0.0F, 0.0F});
-          if (y + 1 < b.hi.y) cross(row, nz, here ^ inside_bits(row + nz, count), at, {0.0F, 1.0F, 0.0F});
-          const int next = std::min(count, b.hi.z - z - 1);
+          if (x + 1 < b.hi.x)
+            cross(row, nyz, *word ^ word[static_cast<size_t>(size.y) * words], at, {1.0F, 0.0F, 0.0F});
+          if (y + 1 < b.hi.y) cross(row, nz, *word ^ word[words], at, {0.0F, 1.0F, 0.0F});
+          const int next = std::min(64, b.hi.z - z - 1);
           const uint64_t known = next == 64 ? ~uint64_t{0} : (uint64_t{1} << next) - 1;
-          cross(row, 1, (here ^ inside_bits(row + 1, next)) & known, at, {0.0F, 0.0F, 1.0F});
+          const uint64_t beyond = next == 64 ? word[1] << 63 : 0;
+          cross(row, 1, (*word ^ (*word >> 1 | beyond)) & known, at, {0.0F, 0.0F, 1.0F});
         }
   }
 
  private:
+  /// inside_bits() of every row, in as many words each.
+  static std::vector<uint64_t> insides_of(const Window& window, size_t words) {
+    const auto nz = static_cast<size_t>(window.box.size().z);
+    std::vector<uint64_t> inside;
+    inside.reserve(window.codes.size() / nz * words);
+    for (size_t row = 0; row < window.codes.size(); row += nz)
+      for (size_t z = 0; z < nz; z += 64)
+        inside.push_back(
+            inside_bits(window.codes.data() + row + z, static_cast<int>(std::min<size_t>(64, nz - z))));
+    return inside;
+  }
+
   void cross(const Code* row, size_t step, uint64_t edges, glm::vec3 first, glm::vec3 along) {
     for (; edges != 0; edges &= edges - 1) {
       const int k = std::countr_zero(edges);
@@ -271,6 +286,7 @@ glm::mat3 inertia_of(const Volume& volume) {
   for (int x = b.lo.x; x < b.hi.x; ++x)
     for (int y = b.lo.y; y < b.hi.y; ++y, codes += count) {
       const RowSums sums = sums_of_row(codes, count);
+      if (sums.units == 0) continue;
       const auto units = static_cast<double>(sums.units);
       const double off_x = x - centre.x, off_y = y - centre.y;
       const double first_z = static_cast<double>(sums.z) + low_z * units;
