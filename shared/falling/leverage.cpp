@@ -53,11 +53,13 @@ struct Lump {
 };
 
 glm::dvec3 centre(const SupportPart& part) {
+  const glm::dvec3 first = middle_of_voxel(first_voxel(part.brick));
+  if (part.is_whole()) return first + 0.5 * (brick_size - 1);
   glm::dvec3 sum(0.0);
   for (int axis = 0; axis < 3; ++axis)
     for (size_t k = 0; k < brick_size; ++k)
       sum[axis] += static_cast<double>(k) * part.layers[static_cast<size_t>(axis)][k];
-  return middle_of_voxel(first_voxel(part.brick)) + sum / static_cast<double>(part.voxels);
+  return first + sum / static_cast<double>(part.voxels);
 }
 
 /// Weight of so many of a part's voxels.

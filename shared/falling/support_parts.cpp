@@ -78,14 +78,13 @@ int middle_of(const std::array<uint8_t, brick_size>& layers, int voxels) {
 }
 
 void measure(SupportPart& part) {
-  constexpr int all = brick_size * brick_size * brick_size;
-  part.voxels = part.bits == ~BrickBits{} ? all : part.bits.count();
+  part.voxels = part.bits == ~BrickBits{} ? SupportPart::whole_voxels : part.bits.count();
   for (size_t axis = 0; axis < 3; ++axis) {
     auto& sections = part.sections[axis];
     sections.fill(brick_size * brick_size);
     part.layers[axis].fill(brick_size * brick_size);
     part.middle[axis] = brick_size / 2 - 1;
-    if (part.voxels == all) continue;
+    if (part.is_whole()) continue;
     part.layers[axis] = layer_counts(part.bits, static_cast<int>(axis));
     part.middle[axis] = middle_of(part.layers[axis], part.voxels);
     const auto pairs = layer_counts(followed(part.bits, static_cast<int>(axis)), static_cast<int>(axis));
@@ -96,11 +95,24 @@ void measure(SupportPart& part) {
 /// The middle of the part's bounds, where its material is read.
 glm::vec3 middle_m(const SupportPart& part, float voxel_size_m) {
   const VoxelCoord at = first_voxel(part.brick);
-  const VoxelBox box = bounds_of(part.bits);
+  const VoxelBox box =
+      part.is_whole() ? VoxelBox{{0, 0, 0}, {brick_size, brick_size, brick_size}} : bounds_of(part.bits);
   const auto mean = [&](int origin, int lo, int hi) {
     return (static_cast<float>(origin) + 0.5F * static_cast<float>(lo + hi - 1)) * voxel_size_m;
   };
   return {mean(at.x, box.lo.x, box.hi.x), mean(at.y, box.lo.y, box.hi.y), mean(at.z, box.lo.z, box.hi.z)};
+}
+
+/// Of a box of so many, and the number of one of them.
+template <typename C>
+size_t cells(C size) {
+  return static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z);
+}
+template <typename C>
+size_t cell(C at, C size) {
+  return (static_cast<size_t>(at.x) * static_cast<size_t>(size.y) + static_cast<size_t>(at.y)) *
+             static_cast<size_t>(size.z) +
+         static_cast<size_t>(at.z);
 }
 
 BrickCoord least(BrickCoord a, BrickCoord b) {
@@ -125,8 +137,13 @@ SupportParts::SupportParts(Field& field, std::span<const BrickCoord> changed, in
   const BrickCoord reach{reach_bricks, reach_bricks, reach_bricks};
   lo_ = lo - reach;
   size_ = hi + reach + BrickCoord{1, 1, 1} - lo_;
-  firsts_.assign(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z),
-                 unread);
+  firsts_.assign(cells(size_), unread);
+  const ChunkCoord lo_chunk = chunk_of(lo_ - BrickCoord{1, 1, 1}), hi_chunk = chunk_of(lo_ + size_);
+  lo_chunk_ = lo_chunk;
+  size_chunks_ = hi_chunk - lo_chunk + ChunkCoord{1, 1, 1};
+  holds_.assign(cells(size_chunks_), Holds::unknown);
+  parts_.reserve(firsts_.size() / 2);  // as many as a slope has; a search in rock has less
+  links_.reserve(firsts_.size());
   for (const BrickCoord brick : changed) {
     load(brick);
     for (const BrickCoord face : brick_faces)
@@ -143,10 +160,14 @@ bool SupportParts::inside(BrickCoord brick) const {
 
 uint32_t& SupportParts::first_of_brick(BrickCoord brick) {
   CHECK_DEBUG(inside(brick));
-  const BrickCoord at = brick - lo_;
-  return firsts_[(static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
-                     static_cast<size_t>(size_.z) +
-                 static_cast<size_t>(at.z)];
+  return firsts_[cell(brick - lo_, size_)];
+}
+
+bool SupportParts::is_ground(BrickCoord brick) {
+  const ChunkCoord chunk = chunk_of(brick);
+  Holds& holds = holds_[cell(chunk - lo_chunk_, size_chunks_)];
+  if (holds == Holds::unknown) holds = ground_.holds(brick) ? Holds::yes : Holds::no;
+  return holds == Holds::yes;
 }
 
 void SupportParts::add(BrickCoord brick, const BrickBits& bits, float fill, uint32_t& first) {
@@ -166,11 +187,11 @@ void SupportParts::add(BrickCoord brick, const BrickBits& bits, float fill, uint
   parts_.push_back(part);
 }
 
-bool SupportParts::is_held(const SupportPart& part) const {
-  if (ground_.holds(part.brick)) return true;
+bool SupportParts::is_held(const SupportPart& part) {
+  if (is_ground(part.brick)) return true;
   for (size_t face = 0; face < brick_faces.size(); ++face) {
     const BrickCoord beyond = part.brick + brick_faces[face];
-    if ((!inside(beyond) || ground_.holds(beyond)) && across(part.bits, face).any()) return true;
+    if ((!inside(beyond) || is_ground(beyond)) && across(part.bits, face).any()) return true;
   }
   return false;
 }

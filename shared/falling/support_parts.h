@@ -16,6 +16,7 @@ namespace scree {
 
 struct SupportPart {
   static constexpr uint32_t none = UINT32_MAX;
+  static constexpr int whole_voxels = brick_size * brick_size * brick_size;
 
   BrickCoord brick;
   BrickBits bits;
@@ -28,6 +29,8 @@ struct SupportPart {
   Material material = Material::rock;
   bool held = false;     ///< touches ground, or continues outside the surroundings
   uint32_t next = none;  ///< next part of the same brick
+
+  bool is_whole() const { return voxels == whole_voxels; }
 };
 
 /// Two parts that touch, `upper` beyond the + face of `lower` along the axis (0: x, 1: y, 2: z).
@@ -73,7 +76,9 @@ class SupportParts {
   uint32_t& first_of_brick(BrickCoord brick);
   /// Index of the brick's first part; the first call finds its parts.
   uint32_t load(BrickCoord brick);
-  bool is_held(const SupportPart& part) const;
+  bool is_held(const SupportPart& part);
+  /// Ground::holds(), which is asked once for each chunk.
+  bool is_ground(BrickCoord brick);
   void add(BrickCoord brick, const BrickBits& bits, float fill, uint32_t& first);
   void connect(uint32_t part, size_t face);
   SupportLink link_of(uint32_t lower, uint32_t upper, int axis) const;
@@ -82,6 +87,9 @@ class SupportParts {
   Ground ground_;
   size_t parts_max_;
   BrickCoord lo_, size_;  ///< surroundings
+  enum class Holds : uint8_t { unknown, no, yes };
+  ChunkCoord lo_chunk_, size_chunks_;  ///< those of the surroundings and of the bricks beside them
+  std::vector<Holds> holds_;           ///< by chunk
   std::vector<uint32_t> firsts_;
   std::vector<SupportPart> parts_;
   std::vector<SupportLink> links_;
