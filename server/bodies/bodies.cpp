@@ -276,6 +276,17 @@ size_t Bodies::pairs() const {
   return static_cast<size_t>(state_->broadphase.m_paircache->getNumOverlappingPairs());
 }
 
+size_t Bodies::ground_points() const {
+  size_t points = 0;
+  for (const auto& [id, body] : state_->bodies)
+    if (body.rigid->isActive()) points += body.points_m.size();
+  return points;
+}
+
+size_t Bodies::overlaps() const {
+  return state_->dispatcher.overlaps();
+}
+
 void Bodies::describe(PhysicsMessage& to) const {
   for (const auto& [id, body] : state_->bodies) {
     WatchedBody watched{id, !body.frozen && body.rigid->isActive(), body.touches_by_surface, {}};

@@ -126,6 +126,10 @@ class Bodies {
   size_t contact_points() const;
   /// Number of pairs of bodies whose bounds met in the last step.
   size_t pairs() const;
+  /// Number of points of bodies that are awake which are compared with the ground in a step.
+  size_t ground_points() const;
+  /// Number of pairs of hulls, or parts of them, that overlapped in the last step.
+  size_t overlaps() const;
   /// Appends every body, and every point of contact of the last step, for display.
   void describe(PhysicsMessage& to) const;
 

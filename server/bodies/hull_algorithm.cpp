@@ -8,7 +8,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <new>
 
 #include "server/bodies/body_shape.h"
@@ -79,9 +81,9 @@ void CollisionHulls::add(const btConvexHullShape& shape) {
   glm::vec3 lo(1e30F), hi(-1e30F);
   for (const glm::vec3& p : corners) lo = glm::min(lo, p), hi = glm::max(hi, p);
   const glm::vec3 middle = 0.5F * (lo + hi);
-  std::vector<glm::vec3> about = corners;
-  for (glm::vec3& p : about) p -= middle;
-  parts_.push_back({&shape, HullCorners(corners), middle, middle, radius_of(about) + shape.getMargin()});
+  float reach2 = 0.0F;
+  for (const glm::vec3& p : corners) reach2 = std::max(reach2, glm::dot(p - middle, p - middle));
+  parts_.push_back({&shape, HullCorners(corners), middle, middle, std::sqrt(reach2) + shape.getMargin()});
 }
 
 void CollisionHulls::turn(const glm::mat3& rotation) {
@@ -109,6 +111,7 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
   CHECK_DEBUG(pairs > 0);
   if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
   first_.clear();
+  overlaps_ = 0;
   btManifoldResult result(&a, &b);
   result.setPersistentManifold(manifold_);
   Taker taker(manifold_ == nullptr ? nullptr : &result, first_,
@@ -122,8 +125,8 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
       // A pair that meets again starts without memory: whether the broadphase kept the pair must not matter.
       if (meeting.is_far())
         nearest.count = 0;
-      else
-        meet(meeting, nearest, taker);
+      else if (meet(meeting, nearest, taker))
+        ++overlaps_;
     }
   if (manifold_ != nullptr) result.refreshContactPoints();
 }
@@ -142,21 +145,22 @@ void HullAlgorithm::keep(const btCollisionObjectWrapper& a, const btCollisionObj
   manifold_ = nullptr;
 }
 
-void HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Taker& to) {
+bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Taker& to) {
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;
   const HullDistance found =
       distance_between(a.corners, b.corners, meeting.a_from_b, margins + limits::contact_slack_m, nearest);
-  if (found.kind == HullDistance::Kind::apart) return;
+  if (found.kind == HullDistance::Kind::apart) return false;
   const btTransform& at_b = meeting.object_b.getWorldTransform();
   if (found.kind == HullDistance::Kind::overlapping) {
     find_depth(*a.shape, meeting.object_a.getWorldTransform(), *b.shape, at_b, to);
-    return;
+    return true;
   }
   CHECK_DEBUG(is_unit(found.normal) && is_sound(found.on_b));
   const btVector3 normal = to_bullet(found.normal), on_b = to_bullet(found.on_b);
   to.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
+  return false;
 }
 
 /// Never earlier than the tick's end: speeds are limited, so that continuous collision is not needed.

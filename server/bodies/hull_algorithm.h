@@ -47,6 +47,8 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   /// Finds the contacts; those of a pair that has no manifold yet wait for keep(). Changes this pair alone:
   /// threads may look at different pairs at once.
   void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
+  /// Pairs of parts that overlapped when find() looked: each takes as long as several that only touch.
+  uint32_t overlaps() const { return overlaps_; }
   /// Whether keep() has anything to do.
   bool must_keep() const { return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0; }
   /// Makes the manifold for the first contacts; releases the one that has none any more.
@@ -64,12 +66,14 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   };
   /// Hands contacts on, none deeper than `told_m`: to the manifold, or to `first_`.
   struct Taker;
-  static void meet(const Meeting& meeting, NearestCorners& nearest, Taker& to);
+  /// True when the two overlap by more than their margins, so that their depth had to be sought.
+  static bool meet(const Meeting& meeting, NearestCorners& nearest, Taker& to);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
   std::vector<Contact> first_;                ///< contacts found while there is no manifold
-  NearestCorners nearest_;                    ///< of the first pair of parts
-  std::vector<NearestCorners> of_others_;     ///< of all other pairs of parts, in order
+  uint32_t overlaps_ = 0;
+  NearestCorners nearest_;                 ///< of the first pair of parts
+  std::vector<NearestCorners> of_others_;  ///< of all other pairs of parts, in order
 };
 
 struct HullAlgorithmCreator final : btCollisionAlgorithmCreateFunc {

@@ -57,6 +57,9 @@ void PairDispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* pairs, co
         algorithm->find(a, b, info.m_timeStep);
       });
   });
+  overlaps_ = 0;
+  for (const btBroadphasePair* pair : awake_)
+    overlaps_ += static_cast<const HullAlgorithm*>(pair->m_algorithm)->overlaps();
   std::erase_if(awake_, [](const btBroadphasePair* pair) {
     return !static_cast<HullAlgorithm*>(pair->m_algorithm)->must_keep();
   });

@@ -19,9 +19,12 @@ class PairDispatcher final : public btCollisionDispatcher {
 
   void dispatchAllCollisionPairs(btOverlappingPairCache* pairs, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
+  /// Sum of HullAlgorithm::overlaps() of the last call.
+  size_t overlaps() const { return overlaps_; }
 
  private:
   Workers& workers_;
+  size_t overlaps_ = 0;
   std::vector<btBroadphasePair*> awake_;  ///< scratch memory of dispatchAllCollisionPairs()
 };
 

@@ -10,8 +10,10 @@ namespace {
 
 float cost_of(const Bodies& bodies) {
   const float a_step = limits::body_cost_us * static_cast<float>(bodies.awake()) +
+                       limits::ground_point_cost_us * static_cast<float>(bodies.ground_points()) +
                        limits::contact_cost_us * static_cast<float>(bodies.contact_points()) +
-                       limits::pair_cost_us * static_cast<float>(bodies.pairs());
+                       limits::pair_cost_us * static_cast<float>(bodies.pairs()) +
+                       limits::overlap_cost_us * static_cast<float>(bodies.overlaps());
   return a_step * static_cast<float>(bodies.steps_a_tick());
 }
 

@@ -113,6 +113,32 @@ float slide_m(Material material) {
   return bodies.state(1).pose.position_m.x + 4.0F;
 }
 
+TEST(Bodies, points_of_all_bodies_are_counted_and_large_ones_have_more) {
+  MapField field(ground(TerrainKind::flat));
+  Bodies bodies(field, BodiesConfig{});
+  bodies.add(box_shape(glm::vec3(0.2F)), body_at(1, {0.0F, 5.0F, 0.0F}));
+  const size_t small = bodies.ground_points();
+  EXPECT_GE(small, 8U);
+  bodies.add(box_shape(glm::vec3(1.5F)), body_at(2, {8.0F, 5.0F, 0.0F}));
+  EXPECT_GT(bodies.ground_points(), 3 * small);
+  bodies.remove(2);
+  EXPECT_EQ(bodies.ground_points(), small);
+}
+
+TEST(Bodies, hulls_that_overlap_are_counted_and_those_that_touch_are_not) {
+  MapField field(ground(TerrainKind::flat));
+  const auto overlaps = [&](float apart_m) {
+    Bodies bodies(field, BodiesConfig{});
+    bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 5.0F, 0.0F}));
+    bodies.add(box_shape(glm::vec3(0.5F)), body_at(2, {apart_m, 5.0F, 0.0F}));
+    EXPECT_EQ(bodies.overlaps(), 0U);
+    bodies.step();
+    return bodies.overlaps();
+  };
+  EXPECT_EQ(overlaps(0.1F), 1U);
+  EXPECT_EQ(overlaps(8.0F), 0U);
+}
+
 TEST(Bodies, the_material_of_the_ground_holds_them_back) {
   const float on_soil = slide_m(Material::soil), on_rock = slide_m(Material::rock);
   EXPECT_GT(on_soil, 0.1F);

@@ -25,6 +25,7 @@ BodyShape wedge(float size_m) {
 struct Heaps {
   std::vector<uint64_t> hashes;
   std::vector<size_t> contact_points;
+  std::vector<size_t> overlaps;
   std::vector<PieceId> struck;
 
   bool operator==(const Heaps&) const = default;
@@ -49,6 +50,7 @@ Heaps heaps(TerrainColliderKind kind, size_t threads) {
     bodies.step();
     seen.hashes.push_back(bodies.state_hash());
     seen.contact_points.push_back(bodies.contact_points());
+    seen.overlaps.push_back(bodies.overlaps());
     for (const BodyImpact& impact : bodies.impacts(1.0F)) seen.struck.push_back(impact.id);
     if (tick == 30) dig(field, {1.5F, ground_height_m(field.source(), 1.5F, 1.5F), 1.5F}, 1.5F, bodies);
     if (tick % 10 == 0) bodies.remove(tick);
@@ -66,6 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, BodiesThreads,
 TEST_P(BodiesThreads, make_no_difference_to_any_bit) {
   const Heaps alone = heaps(GetParam(), 1);
   EXPECT_GT(*std::ranges::max_element(alone.contact_points), 200U);
+  EXPECT_GT(*std::ranges::max_element(alone.overlaps), 0U);
   EXPECT_FALSE(alone.struck.empty());
   for (const size_t threads : {2U, 4U}) EXPECT_TRUE(heaps(GetParam(), threads) == alone) << threads;
 }
