@@ -31,6 +31,8 @@ const std::vector<Bench>& all_benches() {
        run_ledger_bench},
       {"link", "a session by links of 0 to 200 ms and 10 Mbit/s to 100 kbit/s, and cut ones: age, hashes",
        run_link_bench},
+      {"loose", "40 blasts in each of 35 scenes: dust at every tick, and what hangs loose at the end",
+       run_loose_bench},
       {"memory", "edits all over 4 km under a limit of memory", run_memory_bench},
       {"mesh", "surface nets of a changed block, beside OpenVDB's volumeToMesh; from a change to its picture",
        run_mesh_bench},

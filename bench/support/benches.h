@@ -18,6 +18,7 @@ BenchReport run_join_bench(const BenchOptions& options);
 BenchReport run_latency_bench(const BenchOptions& options);
 BenchReport run_ledger_bench(const BenchOptions& options);
 BenchReport run_link_bench(const BenchOptions& options);
+BenchReport run_loose_bench(const BenchOptions& options);
 BenchReport run_memory_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);
 BenchReport run_quality_bench(const BenchOptions& options);
