@@ -70,9 +70,10 @@ struct Scene {
   MassUnits dust_last = 0;
   MassUnits error_most = 0;
   size_t alive = 0;
-  size_t loose = 0;
-  size_t carried_out = 0;  ///< blasts
-  size_t made = 0;         ///< pieces
+  size_t loose = 0;         ///< components, beyond those of the unedited ground
+  size_t loose_before = 0;  ///< in the unedited ground
+  size_t carried_out = 0;   ///< blasts
+  size_t made = 0;          ///< pieces
 
   void add(const TickDelta& delta) {
     dust_least = std::min(dust_least, delta.ledger.dust);
@@ -89,8 +90,12 @@ Scene play(TerrainKind kind, uint32_t seed) {
   config.terrain.kind = kind;
   config.terrain.random_seed = seed;
   World world(config);
+  const float ground_m = ground_height_m(config.terrain, 0.0F, 0.0F);
+  const Shape all = box({0.0F, ground_m, 0.0F}, glm::vec3(half_width_m + margin_m));
+  const VoxelBox around = band_box(in_voxels(all, config.terrain.voxel_size_m));
   Random random(seed);
   Scene scene;
+  scene.loose_before = loose_components(gather(world.field(), around));
   for (uint32_t i = 0; i < blasts; ++i) {
     const Command command{0, i, next_blast(config.terrain, random)};
     scene.add(*world.step({&command, 1}));
@@ -100,10 +105,8 @@ Scene play(TerrainKind kind, uint32_t seed) {
     scene.add(*world.step({}));
     quiet = scene.alive == 0 ? quiet + 1 : 0;
   }
-  const float ground_m = ground_height_m(config.terrain, 0.0F, 0.0F);
-  const Shape all = box({0.0F, ground_m, 0.0F}, glm::vec3(half_width_m + margin_m));
-  scene.loose =
-      loose_components(gather(world.field(), band_box(in_voxels(all, config.terrain.voxel_size_m))));
+  const size_t loose = loose_components(gather(world.field(), around));
+  scene.loose = loose - std::min(loose, scene.loose_before);
   return scene;
 }
 
@@ -119,6 +122,7 @@ BenchReport run_loose_bench(const BenchOptions& options) {
     worst.error_most = std::max(worst.error_most, scene.error_most);
     worst.alive += scene.alive;
     worst.loose += scene.loose;
+    worst.loose_before += scene.loose_before;
     worst.carried_out += scene.carried_out;
     worst.made += scene.made;
     options.progress(static_cast<double>(i + 1) / scenes);
@@ -134,7 +138,8 @@ BenchReport run_loose_bench(const BenchOptions& options) {
                fmt::format("{} units at least in any tick, ledger off by {}; wanted 0 and 0",
                            worst.dust_least, worst.error_most));
   report.check("loose", worst.loose == 0,
-               fmt::format("{} components hang loose at the end, wanted 0", worst.loose));
+               fmt::format("{} components hang loose at the end, wanted 0; {} did in the unedited ground",
+                           worst.loose, worst.loose_before));
   report.check("settled", worst.alive == 0, fmt::format("{} pieces are left", worst.alive));
   return report;
 }
