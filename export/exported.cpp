@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "export/limits.h"
+
 namespace scree {
 
 namespace {
@@ -32,6 +34,12 @@ ChunkBox chunks_of(glm::vec3 lo_m, glm::vec3 hi_m, float voxel_size_m) {
   return {chunk_at(lo_m, voxel_size_m), last + ChunkCoord{1, 1, 1}};
 }
 
+Result<void> check_count(const ChunkBox& box) {
+  if (box.count() <= limits::export_chunks_max) return {};
+  return fail("more than " + std::to_string(limits::export_chunks_max) +
+              " chunks (limits.export_chunks_max): --box makes them fewer");
+}
+
 Result<ChunkBox> whole_of(const Field& field) {
   const TerrainSource& source = field.source();
   std::optional<ChunkBox> box;
@@ -46,6 +54,11 @@ Result<ChunkBox> whole_of(const Field& field) {
   }
   if (!box) return fail("nothing was edited, and the ground has no end: --box says which part is wanted");
   return *box;
+}
+
+std::optional<Material> said_material(Field& field, BrickCoord brick) {
+  if (const auto painted = field.painted(brick)) return painted;
+  return stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
 }
 
 }  // namespace scree

@@ -17,8 +17,14 @@ struct ChunkBox {
 /// The chunks that a box in metres touches.
 ChunkBox chunks_of(glm::vec3 lo_m, glm::vec3 hi_m, float voxel_size_m);
 
+/// The error says that there are more chunks than one export may have, and what to do.
+Result<void> check_count(const ChunkBox& box);
+
 /// Around all that was edited and, where they end, all that the ground has: stored bricks, or else an
 /// elevation model, with rock below it. The error says that the ground has no end, and what to do.
 Result<ChunkBox> whole_of(const Field& field);
+
+/// The material that a brick was painted with, or that the ground stores for it, if any.
+std::optional<Material> said_material(Field& field, BrickCoord brick);
 
 }  // namespace scree

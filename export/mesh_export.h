@@ -15,10 +15,7 @@ struct MeshExported {
   double volume_m3 = 0.0;  ///< of the mesh
 };
 
-/// Whether a file of that name can be one: .ply or .obj.
-bool is_mesh_name(const std::string& path);
-
-/// All of the mesh lies in memory. `progress(part)`: from 0 to 1.
+/// `path`: an is_surface_name(). All of the mesh lies in memory. `progress(part)`: from 0 to 1.
 Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::string& path,
                                  const std::function<void(double)>& progress);
 

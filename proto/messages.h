@@ -318,6 +318,8 @@ struct StatusMessage {
   std::string
       saving{};  ///< "tick", "second" or "off": how a world file is kept; "failed"; empty: there is none
   Tick saved_tick = 0;  ///< what happened up to here outlives the server
+  /// Edited chunks within this client's interest that it has not been sent as they are.
+  uint32_t chunks_waiting = 0;
 };
 
 struct PlayerCursor {

@@ -68,6 +68,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   write(*to.mutable_sending(), from.latency, &ServerLatency::sending_us);
   to.set_saving(showable(from.saving, limits::saving_bytes_max));
   to.set_saved_tick(from.saved_tick);
+  to.set_chunks_waiting(from.chunks_waiting);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
     added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
@@ -264,6 +265,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   read(from.sending(), &ServerLatency::sending_us, status.latency, check);
   status.saving = check.text(from.saving(), limits::saving_bytes_max, "saving");
   status.saved_tick = from.saved_tick();
+  status.chunks_waiting = from.chunks_waiting();
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
   else

@@ -8,6 +8,7 @@
 
 #include "bench/support/bench.h"
 #include "shared/base/option_check.h"
+#include "shared/base/progress_bar.h"
 
 namespace {
 
@@ -41,11 +42,6 @@ void print_table(const Bench& bench, const BenchReport& report) {
     std::printf("  %s %-33s %s\n", check.passed ? "ok  " : "MISS", check.name.c_str(), check.detail.c_str());
 }
 
-void print_progress(double fraction) {
-  std::fprintf(stderr, "\r%3d %%", static_cast<int>(fraction * 100.0));
-  if (fraction >= 1.0) std::fprintf(stderr, "\r     \r");
-}
-
 int list() {
   for (const Bench& bench : scree::all_benches())
     std::printf("%-12s %s\n", bench.name.c_str(), bench.summary.c_str());
@@ -57,8 +53,10 @@ int run(const std::string& name, bool quick, const std::string& json_file) {
     if (bench.name != name) continue;
     scree::BenchOptions options;
     options.quick = quick;
-    if (isatty(STDERR_FILENO) != 0) options.progress = print_progress;
+    scree::ProgressBar bar(isatty(STDERR_FILENO) != 0);
+    options.progress = [&](double part) { bar.show(part); };
     const BenchReport report = bench.run(options);
+    bar.end();
     print_table(bench, report);
     if (!json_file.empty()) {
       std::ofstream out(json_file);

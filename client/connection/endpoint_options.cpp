@@ -8,15 +8,30 @@
 
 namespace scree {
 
-EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
-                                 const std::string& token_environment)
-    : endpoint_(endpoint) {
+namespace {
+
+constexpr NumberWithin ports{1, 65535, true};
+
+void declare_host_and_port(CLI::App& app, ServerEndpoint& endpoint) {
   app.add_option("--host", endpoint.host, "server's name or address")
       ->envname("SCREE_HOST")
       ->capture_default_str();
-  bounded(app.add_option("--port", endpoint.port, "its TCP port"), whole_within(1, 65535))
+  bounded(app.add_option("--port", endpoint.port, "its TCP port"), ports)
       ->envname("SCREE_PORT")
       ->capture_default_str();
+}
+
+}  // namespace
+
+EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
+                                 const std::string& token_environment, EndpointNaming naming)
+    : endpoint_(endpoint) {
+  if (naming == EndpointNaming::server)
+    app.add_option("--server", server_,
+                   "HOST[:PORT] of a server, [ADDRESS]:PORT with an IPv6 address; port " +
+                       std::to_string(default_port) + " unless said otherwise");
+  else
+    declare_host_and_port(app, endpoint);
   app.add_flag("--tls", endpoint.tls,
                "encrypted, to a server whose certificate is for its name and from an "
                "authority that this system knows")
@@ -43,7 +58,30 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
       ->envname("SCREE_LINK");
 }
 
+/// A colon divides host and port, unless it is one of several without brackets: an IPv6 address alone.
+Result<void> EndpointOptions::take_server() {
+  const size_t colon = server_.rfind(':');
+  const bool bracketed = server_.starts_with('[');
+  const bool has_port = colon != std::string::npos &&
+                        (bracketed ? server_.find("]:") + 1 == colon : server_.find(':') == colon);
+  std::string host = has_port ? server_.substr(0, colon) : server_;
+  if (bracketed) {
+    if (!host.ends_with(']')) return fail("--server: '" + server_ + "' has no ] after the address");
+    host = host.substr(1, host.size() - 2);
+  }
+  if (host.empty()) return fail("--server: '" + server_ + "' names no host");
+  endpoint_.host = host;
+  if (!has_port) return {};
+  const std::string port = server_.substr(colon + 1);
+  if (const std::string wrong = ports(port); !wrong.empty())
+    return fail("--server: the port of '" + server_ + "': " + wrong);
+  endpoint_.port = static_cast<uint16_t>(std::stod(port));
+  return {};
+}
+
 Result<void> EndpointOptions::complete() {
+  if (names_server())
+    if (const auto taken = take_server(); !taken) return taken;
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
   if (!link_.empty()) {
     const auto link = read_link(link_);

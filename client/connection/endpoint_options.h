@@ -12,20 +12,30 @@ class App;
 
 namespace scree {
 
+/// How a program is told where its server is: host_and_port for those that always have one, by --host, --port
+/// and the environment; server for those that may do without, by --server HOST[:PORT] alone.
+enum class EndpointNaming { host_and_port, server };
+
 /// Declares --host, --port, --tls and so on, with their names in the environment; the token's is the
 /// caller's, and its file's is that with _FILE. Outlives the parsing.
 class EndpointOptions {
  public:
   EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
-                  const std::string& token_environment = "SCREE_TOKEN");
+                  const std::string& token_environment = "SCREE_TOKEN",
+                  EndpointNaming naming = EndpointNaming::host_and_port);
   EndpointOptions(const EndpointOptions&) = delete;
   EndpointOptions& operator=(const EndpointOptions&) = delete;
 
   /// After the parsing: reads the token's file and the link, and understands what to trust as a wish for TLS.
   Result<void> complete();
+  /// Whether there was a --server.
+  bool names_server() const { return !server_.empty(); }
 
  private:
+  Result<void> take_server();
+
   ServerEndpoint& endpoint_;
+  std::string server_;
   std::string token_path_;
   std::string link_;
 };

@@ -1,34 +1,42 @@
-// scree-export: writes the rock of a kept world or of a ground to files of other programs.
-#include <CLI/CLI.hpp>
+// scree-export: writes the rock of a kept world, of a ground or of a running server to files of other
+// programs.
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "export/limits.h"
+#include "client/connection/endpoint_options.h"
+#include "export/gdal/geotiff_export.h"
+#include "export/live/live_terrain.h"
 #include "export/mesh_export.h"
+#include "export/surface_file.h"
 #include "export/vdb/vdb_export.h"
 #include "ground/ground_file.h"
-#include "import/progress_bar.h"
+#include "import/programs/program.h"
 #include "server/app/ground_giver.h"
 #include "server/store/world_file.h"
+#include "shared/base/option_check.h"
 
 namespace scree {
 namespace {
 
-constexpr int failed = 1;
-constexpr int usage_error = 2;
+using Json = nlohmann::ordered_json;
+using Progress = std::function<void(double)>;
 
 struct Options {
   std::string from;
+  ServerEndpoint server;
+  bool live = false;  ///< from the server
+  int64_t timeout_s = 600;
   std::string out;
   std::string ground;
   std::vector<float> box_m;
+  std::optional<double> cell_m;
 };
 
-int refuse(const Error& error) {
-  std::fprintf(stderr, "scree-export: %s\n", error.message.c_str());
-  return failed;
-}
+/// What is exported.
+struct Exported {
+  std::unique_ptr<Field> field;
+  ChunkBox box;
+};
 
 /// A world's terrain with its edits. Its pieces are no rock of the terrain.
 Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
@@ -59,73 +67,137 @@ Result<std::unique_ptr<Field>> field_of(const Options& options) {
   return std::make_unique<MapField>(source);
 }
 
-Result<ChunkBox> box_of(const Options& options, const Field& field) {
-  auto box = whole_of(field);
-  if (!options.box_m.empty()) {
-    const std::vector<float>& m = options.box_m;
-    for (size_t axis = 0; axis < 3; ++axis)
-      if (!(m[axis] < m[axis + 3]) || !(std::abs(m[axis]) <= 8192.0F) || !(std::abs(m[axis + 3]) <= 8192.0F))
-        return fail("--box is x,y,z of its lowest corner, then of its highest, in metres");
-    box = chunks_of({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, field.source().voxel_size_m);
-  }
-  if (box && box->count() > limits::export_chunks_max)
-    return fail("more than " + std::to_string(limits::export_chunks_max) +
-                " chunks (limits.export_chunks_max): --box makes them fewer");
+/// That of --box.
+Result<ChunkBox> given_box(const Options& options, float voxel_size_m) {
+  const std::vector<float>& m = options.box_m;
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!(m[axis] < m[axis + 3]) || !(std::abs(m[axis]) <= 8192.0F) || !(std::abs(m[axis + 3]) <= 8192.0F))
+      return fail("--box is x,y,z of its lowest corner, then of its highest, in metres");
+  const ChunkBox box = chunks_of({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, voxel_size_m);
+  if (auto few = check_count(box); !few) return tl::unexpected(few.error());
   return box;
 }
 
-int run(const Options& options) {
-  const bool is_vdb = options.out.ends_with(".vdb");
-  if (!is_vdb && !is_mesh_name(options.out))
-    return refuse({options.out + ": files of .vdb, .ply and .obj can be written"});
-  const auto field = field_of(options);
-  if (!field) return refuse(field.error());
-  const auto box = box_of(options, **field);
-  if (!box) return refuse({options.from + ": " + box.error().message});
-  ProgressBar bar;
-  const auto progress = [&](double part) { bar.show(part); };
-  nlohmann::ordered_json line{{"file", options.out}, {"chunks", box->count()}};
-  if (is_vdb) {
-    const auto exported = export_vdb(**field, *box, options.out, progress);
-    bar.end();
-    if (!exported) return refuse(exported.error());
-    line["active_voxels"] = exported->active_voxels;
-    line["bytes"] = exported->bytes;
-  } else {
-    const auto exported = export_mesh(**field, *box, options.out, progress);
-    bar.end();
-    if (!exported) return refuse(exported.error());
-    line["points"] = exported->points;
-    line["triangles"] = exported->triangles;
-    line["volume_m3"] = exported->volume_m3;
-    line["bytes"] = exported->bytes;
-  }
-  std::printf("%s\n", line.dump().c_str());
-  return 0;
+Result<Exported> read_file(const Options& options) {
+  auto field = field_of(options);
+  if (!field) return tl::unexpected(field.error());
+  const auto box =
+      options.box_m.empty() ? whole_of(**field) : given_box(options, (*field)->source().voxel_size_m);
+  if (!box) return fail(options.from + ": " + box.error().message);
+  if (auto few = check_count(*box); !few) return fail(options.from + ": " + few.error().message);
+  return Exported{std::move(*field), *box};
 }
 
-}  // namespace
-}  // namespace scree
+Result<Exported> read_server(const Options& options, Json& line) {
+  LiveFetch fetch{.server = options.server, .within = std::chrono::seconds(options.timeout_s)};
+  if (!options.box_m.empty())
+    fetch.box = [&](const Field& field) { return given_box(options, field.source().voxel_size_m); };
+  auto terrain = with_bar([&](const Progress& progress) { return fetch_terrain(fetch, progress); });
+  if (!terrain) return tl::unexpected(terrain.error());
+  line["tick"] = terrain->tick;
+  line["sessions"] = terrain->sessions;
+  return Exported{std::move(terrain->field), terrain->box};
+}
 
-int main(int argc, char** argv) {
-  CLI::App app("Writes the rock of a kept world or of a ground as an OpenVDB level set or as a mesh.",
-               "scree-export");
-  app.set_version_flag("--version", SCREE_VERSION);
-  scree::Options options;
-  app.add_option("from", options.from, "the file of a world, or a ground (.ground)")->required();
+Result<Json> write_vdb(const Options& options, const Exported& what, const Progress& progress) {
+  const auto exported = export_vdb(*what.field, what.box, options.out, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"active_voxels", exported->active_voxels}, {"bytes", exported->bytes}};
+}
+
+Result<Json> write_mesh(const Options& options, const Exported& what, const Progress& progress) {
+  const auto exported = export_mesh(*what.field, what.box, options.out, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"points", exported->points},
+              {"triangles", exported->triangles},
+              {"volume_m3", exported->volume_m3},
+              {"bytes", exported->bytes}};
+}
+
+/// The ground file knows the height that its source has at y = 0; a server does not say it.
+Result<Json> write_elevation(const Options& options, const Exported& what, const Progress& progress) {
+  GeotiffExport how{.cell_m = options.cell_m};
+  if (const auto* file = dynamic_cast<const GroundFile*>(what.field->source().heights.get()))
+    how.zero_m = static_cast<double>(file->header().zero_m);
+  const auto exported = export_geotiff(*what.field, what.box, options.out, how, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"columns", exported->grid.columns},
+              {"rows", exported->grid.rows},
+              {"cell_m", exported->grid.cell_m},
+              {"empty_cells", exported->sums.empty_cells},
+              {"lowest_m", exported->sums.lowest_m},
+              {"highest_m", exported->sums.highest_m},
+              {"zero_m", how.zero_m},
+              {"volume_m3", exported->sums.volume_m3},
+              {"georeference", nullptr},
+              {"bytes", exported->bytes}};
+}
+
+using Write = Result<Json> (*)(const Options& options, const Exported& what, const Progress& progress);
+
+Write writer_of(const std::string& path) {
+  if (path.ends_with(".vdb")) return write_vdb;
+  if (path.ends_with(".tif")) return write_elevation;
+  return is_surface_name(path) ? write_mesh : nullptr;
+}
+
+Result<void> run(const Options& options) {
+  const Write write = writer_of(options.out);
+  if (write == nullptr)
+    return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
+  if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
+  Json line{{"file", options.out}};
+  const auto what = options.live ? read_server(options, line) : read_file(options);
+  if (!what) return tl::unexpected(what.error());
+  line["chunks"] = what->box.count();
+  const auto written = with_bar([&](const Progress& progress) { return write(options, *what, progress); });
+  if (!written) return tl::unexpected(written.error());
+  line.update(*written);
+  std::printf("%s\n", line.dump().c_str());
+  return {};
+}
+
+void declare(CLI::App& app, Options& options) {
+  CLI::Option* from = app.add_option("from", options.from, "the file of a world, or a ground (.ground)");
+  app.get_option("--server")->excludes(from);
   app.add_option("--ground", options.ground,
-                 "the ground file of the world; unless said, looked for beside it and among all grounds");
-  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply or .obj")->required();
+                 "the ground file of the world; unless said, looked for beside it and among all grounds")
+      ->needs(from);
+  bounded(app.add_option("--timeout", options.timeout_s, "seconds that a server's terrain may take"),
+          whole_within(1, 86400))
+      ->needs(app.get_option("--server"))
+      ->capture_default_str();
+  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")->required();
   app.add_option(
          "--box", options.box_m,
          "x,y,z,x,y,z: the lowest and the highest corner, metres, rounded to chunks; unless said, all that "
          "was edited and all of a ground that ends")
       ->delimiter(',')
       ->expected(6);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : scree::usage_error;
+  app.add_option("--cell", options.cell_m, "metres between a .tif's samples; unless said, the voxels' size")
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes the rock of a kept world, of a ground or of a running server as an OpenVDB level set, as a "
+      "mesh or as an elevation model.",
+      "scree-export");
+  app.set_version_flag("--version", SCREE_VERSION);
+  scree::Options options;
+  scree::EndpointOptions endpoint(app, options.server, "SCREE_TOKEN", scree::EndpointNaming::server);
+  scree::declare(app, options);
+  if (const auto ended = scree::parse(app, argc, argv)) return *ended;
+  options.live = endpoint.names_server();
+  const auto completed = endpoint.complete();
+  if (!completed || options.live != options.from.empty()) {
+    scree::refuse(app, completed ? scree::Error{"either the file of a world or ground, or --server"}
+                                 : completed.error());
+    return scree::exit_usage;
   }
-  return scree::run(options);
+  const auto done = scree::run(options);
+  return done ? 0 : scree::refuse(app, done.error());
 }

@@ -1,10 +1,9 @@
 #include "export/vdb/vdb_export.h"
 
-#include <filesystem>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
-#include <unistd.h>
 
+#include "export/whole_file.h"
 #include "import/vdb/vdb_names.h"
 #include "shared/field/heights.h"
 
@@ -73,35 +72,28 @@ void add_brick(const Brick& brick, const Coord& at, float voxel_m, FloatGrid& gr
   }
 }
 
-std::optional<Material> material_of(Field& field, BrickCoord brick) {
-  if (const auto painted = field.painted(brick)) return painted;
-  return stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
-}
-
 void add_chunk(Field& field, ChunkCoord chunk, Grids& grids) {
   for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
     const BrickCoord coord = brick_in_chunk(chunk, i);
     const VoxelCoord first = first_voxel(coord);
     const Coord at(first.x, first.y, first.z);
     add_brick(field.brick(coord), at, field.source().voxel_size_m, *grids.surface);
-    if (const auto material = material_of(field, coord))
+    if (const auto material = said_material(field, coord))
       grids.material->tree().addTile(brick_tile_level, at, static_cast<int32_t>(*material), true);
   }
 }
 
 Result<uint64_t> write(const Grids& grids, const std::string& path) {
-  const std::string unfinished = path + "." + std::to_string(getpid()) + ".unfinished";
-  std::error_code error;
-  try {
-    openvdb::io::File file(unfinished);
-    file.write({grids.surface, grids.material});
-    file.close();
-    std::filesystem::rename(unfinished, path);
-    return std::filesystem::file_size(path);
-  } catch (const std::exception& failure) {
-    std::filesystem::remove(unfinished, error);
-    return fail(path + ": it cannot be written: " + failure.what());
-  }
+  return write_whole(path, [&](const std::string& unfinished) -> Result<void> {
+    try {
+      openvdb::io::File file(unfinished);
+      file.write({grids.surface, grids.material});
+      file.close();
+      return {};
+    } catch (const std::exception& failure) {
+      return fail(failure.what());
+    }
+  });
 }
 
 }  // namespace

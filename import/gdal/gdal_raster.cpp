@@ -6,6 +6,8 @@
 #include <limits>
 #include <ogr_spatialref.h>
 
+#include "import/gdal/gdal_library.h"
+
 namespace scree {
 
 namespace {
@@ -15,26 +17,8 @@ struct Close {
 };
 using Dataset = std::unique_ptr<GDALDataset, Close>;
 
-/// Blocks of the raster that GDAL keeps; by itself it would keep a twentieth of the machine's memory.
-constexpr int64_t cache_bytes_max = int64_t{64} << 20;
-
 /// Metres a degree of latitude.
 constexpr double degree_m = 111'195.0;
-
-std::string gdal_words(const std::string& otherwise) {
-  const std::string words = CPLGetLastErrorMsg();
-  return words.empty() ? otherwise : words;
-}
-
-void prepare() {
-  static const bool done = [] {
-    GDALAllRegister();
-    GDALSetCacheMax64(cache_bytes_max);
-    CPLSetErrorHandler(CPLQuietErrorHandler);  // its words are in our messages
-    return true;
-  }();
-  static_cast<void>(done);
-}
 
 class GdalRaster final : public Raster {
  public:
@@ -93,7 +77,7 @@ class GdalRaster final : public Raster {
 }  // namespace
 
 Result<std::unique_ptr<Raster>> open_raster(const std::string& path) {
-  prepare();
+  prepare_gdal();
   CPLErrorReset();
   Dataset dataset(GDALDataset::FromHandle(GDALOpenEx(
       path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr)));
@@ -105,7 +89,7 @@ Result<std::unique_ptr<Raster>> open_raster(const std::string& path) {
 }
 
 Result<void> write_grey_png(const std::string& path, int columns, int rows, std::span<const uint8_t> pixels) {
-  prepare();
+  prepare_gdal();
   CPLErrorReset();
   GDALDriver* const memory = GetGDALDriverManager()->GetDriverByName("MEM");
   GDALDriver* const png = GetGDALDriverManager()->GetDriverByName("PNG");
@@ -115,7 +99,7 @@ Result<void> write_grey_png(const std::string& path, int columns, int rows, std:
   const bool drawn =
       picture && picture->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, columns, rows, copy.data(), columns,
                                                      rows, GDT_Byte, 0, 0, nullptr) == CE_None;
-  CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
+  CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // no file beside it
   const Dataset written(drawn ? png->CreateCopy(path.c_str(), picture.get(), 0, nullptr, nullptr, nullptr)
                               : nullptr);
   if (!written) return fail(path + ": " + gdal_words("it cannot be written"));

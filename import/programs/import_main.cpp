@@ -1,5 +1,4 @@
 // scree-import: makes a ground file of an elevation model, or of solids on a ground.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -9,14 +8,11 @@
 #include "import/files/solid_files.h"
 #include "import/gdal/gdal_raster.h"
 #include "import/heights_import.h"
-#include "import/progress_bar.h"
+#include "import/programs/program.h"
 #include "shared/base/limits.h"
 
 namespace scree {
 namespace {
-
-constexpr int failed = 1;
-constexpr int usage_error = 2;
 
 struct Options {
   std::vector<std::string> files;
@@ -26,7 +22,7 @@ struct Options {
   std::string material;
   std::optional<double> level_m;
   std::optional<float> voxel_size_m;
-  uint32_t memory_max_mib = 8192;
+  uint32_t memory_max_mib = 2048;
   HeightsImport how;
   SolidsImport solids;
 };
@@ -84,11 +80,6 @@ void declare(CLI::App& app, Options& options) {
   declare_solids(app, options);
 }
 
-int refuse(const Error& error) {
-  std::fprintf(stderr, "scree-import: %s\n", error.message.c_str());
-  return failed;
-}
-
 /// Whatever a library does with a hostile file: memory beyond this is refused to it.
 void bound_memory(const Options& options) {
   const rlim_t bytes = rlim_t{options.memory_max_mib} << 20U;
@@ -118,27 +109,25 @@ void print(const Options& options, const HeightsImported& imported, double secon
   std::printf("%s\n", line.dump().c_str());
 }
 
-int run_heights(const Options& options) {
+Result<void> run_heights(const Options& options) {
   const auto began = std::chrono::steady_clock::now();
   const std::string& file = options.files.front();
-  if (options.files.size() > 1) return refuse({"of elevation models one at a time is imported"});
-  if (!options.on.empty()) return refuse({file + ": an elevation model stands on no other ground (--on)"});
+  if (options.files.size() > 1) return fail("of elevation models one at a time is imported");
+  if (!options.on.empty()) return fail(file + ": an elevation model stands on no other ground (--on)");
   auto raster = open_raster(file);
-  if (!raster) return refuse(raster.error());
-  ProgressBar bar;
-  const auto imported =
-      import_heights(**raster, options.out, options.how, [&](double part) { bar.show(part); });
-  bar.end();
-  if (!imported) return refuse({file + ": " + imported.error().message});
+  if (!raster) return tl::unexpected(raster.error());
+  const auto imported = with_bar(
+      [&](const auto& progress) { return import_heights(**raster, options.out, options.how, progress); });
+  if (!imported) return fail(file + ": " + imported.error().message);
   if (!options.preview.empty()) {
     const std::vector<uint8_t> pixels = shaded_relief(*imported);
     const int columns = imported->preview_columns;
     const auto written =
         write_grey_png(options.preview, columns, static_cast<int>(pixels.size()) / columns, pixels);
-    if (!written) return refuse(written.error());
+    if (!written) return tl::unexpected(written.error());
   }
   print(options, *imported, seconds_since(began));
-  return 0;
+  return {};
 }
 
 void print(const Options& options, const BricksImported& imported, const SolidsRead& read, double seconds) {
@@ -177,15 +166,15 @@ Result<BricksImport> bricks_import_of(const Options& options, float voxel_size_m
   return how;
 }
 
-int run_solids(const Options& options) {
+Result<void> run_solids(const Options& options) {
   const auto began = std::chrono::steady_clock::now();
-  if (!options.preview.empty()) return refuse({"--preview draws elevation models alone"});
+  if (!options.preview.empty()) return fail("--preview draws elevation models alone");
   std::shared_ptr<const GroundFile> on;
   if (!options.on.empty()) {
     auto file = GroundFile::open(options.on);
-    if (!file) return refuse(file.error());
+    if (!file) return tl::unexpected(file.error());
     on = std::move(*file);
-    if (options.level_m) return refuse({"--level is of solids that stand on no ground (--on)"});
+    if (options.level_m) return fail("--level is of solids that stand on no ground (--on)");
   }
   SolidsImport solids = options.solids;
   if (options.voxel_size_m)
@@ -193,29 +182,27 @@ int run_solids(const Options& options) {
   else if (on != nullptr && on->bricks())
     solids.voxel_size_m = on->bricks()->voxel_size_m;
   const auto read = read_solids(options.files, solids);
-  if (!read) return refuse(read.error());
+  if (!read) return tl::unexpected(read.error());
   for (const std::string& said : read->said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
   const auto how = bricks_import_of(options, solids.voxel_size_m, on, *read);
-  if (!how) return refuse(how.error());
-  ProgressBar bar;
-  const auto imported = import_bricks(read->solids, options.out, *how, [&](double part) { bar.show(part); });
-  bar.end();
-  if (!imported) return refuse({options.files.front() + ": " + imported.error().message});
+  if (!how) return tl::unexpected(how.error());
+  const auto imported = with_bar(
+      [&](const auto& progress) { return import_bricks(read->solids, options.out, *how, progress); });
+  if (!imported) return fail(options.files.front() + ": " + imported.error().message);
   print(options, *imported, *read, seconds_since(began));
-  return 0;
+  return {};
 }
 
-int run(const Options& options) {
+Result<void> run(const Options& options) {
   bound_memory(options);
   try {
     const auto solids = std::ranges::count_if(options.files, is_solid_file);
     if (solids == 0) return run_heights(options);
     if (solids < std::ssize(options.files))
-      return refuse(
-          {"elevation models and solids are not imported together: solids stand on a ground (--on)"});
+      return fail("elevation models and solids are not imported together: solids stand on a ground (--on)");
     return run_solids(options);
   } catch (const std::bad_alloc&) {
-    return refuse({options.files.front() + ": it does not fit into memory (--memory-max)"});
+    return fail(options.files.front() + ": it does not fit into memory (--memory-max)");
   }
 }
 
@@ -228,10 +215,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;
   scree::declare(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : scree::usage_error;
-  }
-  return scree::run(options);
+  if (const auto ended = scree::parse(app, argc, argv)) return *ended;
+  const auto done = scree::run(options);
+  return done ? 0 : scree::refuse(app, done.error());
 }

@@ -114,6 +114,8 @@ class ClientView {
   }
   size_t known_pieces() const;
   size_t wanted_chunks() const { return wanted_.size(); }
+  /// As wanted_chunks(), but never 0 while the interest has changed and was not scanned yet.
+  size_t chunks_waiting() const { return wanted_.size() + (rescan_due_ ? 1U : 0U); }
 
  private:
   /// Small, for a client's walk over its pieces costs by the memory that it touches.

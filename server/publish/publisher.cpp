@@ -310,6 +310,7 @@ void Publisher::send_status(Client& client, Part& part) {
   StatusMessage status = status_;
   status.sent_bytes = client.sent_bytes;
   status.repairs = client.repairs;
+  status.chunks_waiting = static_cast<uint32_t>(client.view.chunks_waiting());
   send(client, share(status), part);
 }
 

@@ -72,5 +72,35 @@ TEST(EndpointOptions, a_token_comes_from_the_line_a_file_or_the_environment) {
   EXPECT_EQ(other.endpoint.token, "") << "an administrator's token is for the administrator's program";
 }
 
+TEST(EndpointOptions, one_option_names_a_server_where_there_may_be_none) {
+  const auto parse_server = [](const std::string& server) {
+    CLI::App app;
+    Parsed parsed;
+    EndpointOptions options(app, parsed.endpoint, "SCREE_TOKEN", EndpointNaming::server);
+    std::vector<std::string> arguments;
+    if (!server.empty()) arguments = {server, "--server"};
+    app.parse(arguments);
+    EXPECT_EQ(options.names_server(), !server.empty());
+    if (const auto completed = options.complete(); !completed) parsed.error = completed.error().message;
+    return parsed;
+  };
+  const auto place = [&](const std::string& server) {
+    const Parsed parsed = parse_server(server);
+    return parsed.error.empty() ? parsed.endpoint.host + " " + std::to_string(parsed.endpoint.port)
+                                : parsed.error;
+  };
+  const std::string usual = std::to_string(default_port);
+  EXPECT_EQ(place(""), "127.0.0.1 " + usual);
+  EXPECT_EQ(place("hill.example"), "hill.example " + usual);
+  EXPECT_EQ(place("hill.example:4000"), "hill.example 4000");
+  EXPECT_EQ(place("[::1]:4000"), "::1 4000");
+  EXPECT_EQ(place("[::1]"), "::1 " + usual);
+  EXPECT_EQ(place("::1"), "::1 " + usual);
+  EXPECT_TRUE(holds(place("hill:0"), "a whole number, 1 to 65535"));
+  EXPECT_TRUE(holds(place("hill:"), "the port of 'hill:'"));
+  EXPECT_TRUE(holds(place(":4000"), "names no host"));
+  EXPECT_TRUE(holds(place("[::1:4000"), "has no ]"));
+}
+
 }  // namespace
 }  // namespace scree

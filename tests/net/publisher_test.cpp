@@ -117,6 +117,24 @@ TEST_F(PublisherTest, moving_away_drops_and_coming_back_restores) {
   expect_whole_field_equal(session);
 }
 
+TEST_F(PublisherTest, a_status_counts_the_chunks_that_a_client_still_waits_for) {
+  change(flood());
+  join(session, {0.0F, 2.0F, 0.0F}, 200.0F);
+  TrustingClient& follower = followers.at(session);
+  const auto next_status = [&]() -> const StatusMessage& {
+    for (const size_t had = follower.statuses.size(); follower.statuses.size() == had;) tick();
+    return follower.statuses.back();
+  };
+  backlog_bytes = limits::outbox_soft_bytes + 1;  // nothing is streamed meanwhile
+  EXPECT_EQ(next_status().chunks_waiting, 8U * 15U);
+  backlog_bytes = 0;
+  while (next_status().chunks_waiting > 0) ASSERT_LT(follower.statuses.size(), 100U) << "it stands still";
+  EXPECT_EQ(follower.field.hash(), source.field().hash());
+  publisher.set_interest(session, {500.0F, 2.0F, 0.0F}, 16.0F);
+  EXPECT_EQ(publisher.view(session)->chunks_waiting(), 1U) << "it is not known yet what is there";
+  EXPECT_EQ(next_status().chunks_waiting, 0U);
+}
+
 TEST_F(PublisherTest, what_leaves_interest_by_a_little_is_kept) {
   join(session, {4.0F, 2.0F, 4.0F}, 24.0F);
   tick({source.carve({4.0F, 0.0F, 4.0F}, 2.0F, 4)});

@@ -275,6 +275,7 @@ inline Lines describe(const StatusMessage& m) {
   Lines lines{fmt::format("status: tick {}, {} clients, {} pieces, field hash 0x{:016x}", m.tick, m.clients,
                           m.pieces, m.field_hash)};
   if (!m.saving.empty()) lines.push_back(fmt::format("saving '{}', saved tick {}", m.saving, m.saved_tick));
+  if (m.chunks_waiting != 0) lines.push_back(fmt::format("{} chunks waiting", m.chunks_waiting));
   return lines;
 }
 inline Lines describe(const CursorsMessage& m) {

@@ -31,7 +31,7 @@ const std::vector<Layer>& layers() {
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/"}},
       {"import/", {"ground/"}},
-      {"export/", {"import/", "server/app/"}},
+      {"export/", {"import/", "server/app/", "client/cache/"}},
       {"transport/", {"crypto/"}},
       {"auth/", {"proto/", "crypto/"}},
       {"server/field/", {"proto/"}},
@@ -94,7 +94,7 @@ const std::vector<Library>& libraries() {
       // bench/peers/: its own tools are what ours are measured beside.
       {"OpenVDB",
        std::regex("(openvdb|nanovdb)/.*"),
-       {"server/field/", "import/vdb/", "export/vdb/", "bench/peers/"}},
+       {"server/field/", "import/vdb/", "export/vdb/", "bench/peers/", "tests/ground/"}},
       {"assimp", std::regex("assimp/.*"), {"import/assimp/"}},
       {"Bullet", std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"), {"server/bodies/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
@@ -107,7 +107,7 @@ const std::vector<Library>& libraries() {
       {"Asio",
        std::regex("(boost/)?asio.*"),
        {"transport/", "server/doors/", "server/net/", "client/connection/", "tests/", "bench/"}},
-      {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"import/"}},
+      {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"import/", "export/gdal/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/"}},
   };

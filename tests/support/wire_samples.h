@@ -124,6 +124,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.stages = {{"carve", 0.0F}, {"bodies", 2.5F}, {"publish", 1e-3F}};
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
+  status.chunks_waiting = 77;
   status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};

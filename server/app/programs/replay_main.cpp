@@ -8,6 +8,7 @@
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
+#include "shared/base/progress_bar.h"
 #include "shared/operation/per_operation.h"
 
 namespace scree {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr int differs_or_failed = 1;
 constexpr int usage_error = 2;
-constexpr int bar_width = 40;
 
 using Json = nlohmann::ordered_json;
 
@@ -106,23 +106,17 @@ int info(const Options& options) {
   return 0;
 }
 
-void draw_bar(Tick done, Tick all) {
-  const auto filled = static_cast<int>(done * bar_width / all);
-  std::fprintf(stderr, "\r[%.*s%*s] %llu/%llu ticks", filled, "########################################",
-               bar_width - filled, "", static_cast<unsigned long long>(done),
-               static_cast<unsigned long long>(all));
-  if (done == all) std::fputc('\n', stderr);
-}
-
 int verify_file(const Options& options) {
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
   const auto ground = ground_giver(options.path, options.ground);
   if (!ground) return complain(ground.error());
-  const bool has_bar = isatty(STDERR_FILENO) != 0;
-  const auto report = verify(**recording, has_bar ? draw_bar : std::function<void(Tick, Tick)>(), *ground);
+  ProgressBar bar(isatty(STDERR_FILENO) != 0);
+  const auto report = verify(
+      **recording,
+      [&](Tick done, Tick all) { bar.show(static_cast<double>(done) / static_cast<double>(all)); }, *ground);
+  bar.end();
   if (!report) return complain(report.error());
-  if (has_bar && !report->agrees()) std::fputc('\n', stderr);
   Json json{{"file", options.path},
             {"agrees", report->agrees()},
             {"ticks", report->ticks},

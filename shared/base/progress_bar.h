@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdio>
-#include <unistd.h>
 
 namespace scree {
 
-/// On standard error, when it is a terminal.
+/// On standard error. One thread.
 class ProgressBar {
  public:
+  /// `shown`: standard error is a terminal. Otherwise nothing is drawn.
+  explicit ProgressBar(bool shown) : shown_(shown) {}
+
+  /// `part`: from 0 to 1; more than once may come the same, or less than before.
   void show(double part) {
     const int percent = static_cast<int>(part * 100.0);
     if (!shown_ || percent == percent_) return;
@@ -16,12 +19,14 @@ class ProgressBar {
     std::fprintf(stderr, "\r[%-50.*s] %3d %%", percent / 2,
                  "##################################################", percent);
   }
-  void end() const {
-    if (percent_ >= 0) std::fprintf(stderr, "\n");
+  /// Takes it away: what the program says next begins its own line.
+  void end() {
+    if (percent_ >= 0) std::fprintf(stderr, "\r%58s\r", "");
+    percent_ = -1;
   }
 
  private:
-  const bool shown_ = isatty(STDERR_FILENO) != 0;
+  const bool shown_;
   int percent_ = -1;
 };
 
