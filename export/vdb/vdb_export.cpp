@@ -83,6 +83,30 @@ void add_chunk(Field& field, ChunkCoord chunk, Grids& grids) {
   }
 }
 
+/// Makes the walls where the box cuts rock off a part of the narrow band, so that whoever looks at active
+/// voxels alone sees a closed surface. No value in the box changes.
+void close_walls(const VoxelBox& box, FloatGrid& grid) {
+  auto voxels = grid.getAccessor();
+  const float air_m = grid.background();
+  const std::array<int, 3> lo{box.lo.x, box.lo.y, box.lo.z}, hi{box.hi.x, box.hi.y, box.hi.z};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const auto& [inside, outside] :
+         {std::pair(lo[axis], lo[axis] - 1), std::pair(hi[axis] - 1, hi[axis])}) {
+      std::array<int, 3> at{};
+      for (at[u] = lo[u]; at[u] < hi[u]; ++at[u])
+        for (at[v] = lo[v]; at[v] < hi[v]; ++at[v]) {
+          at[axis] = inside;
+          const Coord rock(at[0], at[1], at[2]);
+          if (!(voxels.getValue(rock) < 0.0F)) continue;
+          voxels.setActiveState(rock, true);
+          at[axis] = outside;
+          voxels.setValueOn(Coord(at[0], at[1], at[2]), air_m);
+        }
+    }
+  }
+}
+
 Result<uint64_t> write(const Grids& grids, const std::string& path) {
   return write_whole(path, [&](const std::string& unfinished) -> Result<void> {
     try {
@@ -106,6 +130,7 @@ Result<VdbExported> export_vdb(Field& field, const ChunkBox& box, const std::str
     add_chunk(field, chunk, grids);
     progress(static_cast<double>(++done) / static_cast<double>(box.count()));
   });
+  close_walls(box.voxels(), *grids.surface);
   grids.surface->pruneGrid();
   grids.material->pruneGrid();
   const auto bytes = write(grids, path);

@@ -1,5 +1,6 @@
 // A world's rock as OpenVDB: a level set in metres, and where paint or the ground says a material, its number
-// in a grid of integers. At the sides of the box rock is cut off.
+// in a grid of integers. At the sides of the box rock is cut off, by walls that
+// are a part of the narrow band.
 #pragma once
 
 #include <functional>

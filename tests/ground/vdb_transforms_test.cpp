@@ -1,0 +1,93 @@
+// OpenVDB grids of any transform: level sets and fog volumes, scaled, rotated, sheared and moved, have the
+// volume of what they show.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
+#include "import/files/solid_files.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+using openvdb::Mat4d;
+using openvdb::Vec3d;
+
+constexpr double radius_m = 5.0;
+constexpr double ball_m3 = 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
+const Vec3d middle_m(3.0, 12.0, -2.0);
+
+/// A ball, sampled by a grid of that transform: metres to its surface within 1 m, or its density.
+openvdb::FloatGrid::Ptr ball(const Mat4d& to_world, bool is_fog) {
+  const auto grid = openvdb::FloatGrid::create(is_fog ? 0.0F : 1.0F);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(to_world));
+  grid->setGridClass(is_fog ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_LEVEL_SET);
+  grid->setName(is_fog ? "density" : "surface");
+  auto voxels = grid->getAccessor();
+  const Vec3d centre = grid->worldToIndex(middle_m);
+  constexpr int reach = 40;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const openvdb::Coord at = openvdb::Coord::round(centre) + openvdb::Coord(i, j, k);
+        const auto distance_m = static_cast<float>((grid->indexToWorld(at) - middle_m).length() - radius_m);
+        const float value =
+            is_fog ? std::clamp(0.5F - distance_m, 0.0F, 1.0F) : std::clamp(distance_m, -1.0F, 1.0F);
+        if (value != grid->background()) voxels.setValue(at, value);
+      }
+  return grid;
+}
+
+double imported_m3(const Mat4d& to_world, bool is_fog) {
+  openvdb::initialize();
+  const TestFolder folder;
+  const std::string path = folder / "ball.vdb";
+  openvdb::io::File file(path);
+  file.write({ball(to_world, is_fog)});
+  file.close();
+  const auto read = read_solids({path}, {});
+  EXPECT_TRUE(read) << read.error().message;
+  if (!read) return 0.0;
+  const auto imported = import_bricks(read->solids, folder / "ball.ground", {.level_m = 0.0}, [](double) {});
+  EXPECT_TRUE(imported) << imported.error().message;
+  return imported ? imported->volume_m3 : 0.0;
+}
+
+struct NamedTransform {
+  const char* name;
+  Mat4d matrix;
+};
+
+std::vector<NamedTransform> transforms() {
+  Mat4d uniform, boxes, rotated, sheared, mirrored;
+  uniform.setToScale(Vec3d(0.25));
+  boxes.setToScale(Vec3d(0.2, 0.35, 0.25));
+  rotated.setToScale(Vec3d(0.25));
+  rotated.postRotate(openvdb::math::Y_AXIS, 0.7);
+  rotated.postRotate(openvdb::math::X_AXIS, 0.4);
+  rotated.postTranslate(Vec3d(1.03, -0.4, 7.7));
+  sheared.setToScale(Vec3d(0.25));
+  sheared.postShear(openvdb::math::X_AXIS, openvdb::math::Y_AXIS, 0.5);
+  sheared.postRotate(openvdb::math::Z_AXIS, 0.3);
+  mirrored.setToScale(Vec3d(-0.25, 0.25, 0.25));
+  return {{"as the world's", uniform},
+          {"oblong", boxes},
+          {"rotated", rotated},
+          {"sheared", sheared},
+          {"mirrored", mirrored}};
+}
+
+TEST(VdbTransforms, level_sets_have_their_volume_within_a_hundredth) {
+  for (const auto& [name, matrix] : transforms())
+    EXPECT_NEAR(imported_m3(matrix, false), ball_m3, 0.01 * ball_m3) << name;
+}
+
+TEST(VdbTransforms, fog_volumes_have_their_volume_within_a_hundredth) {
+  for (const auto& [name, matrix] : transforms())
+    EXPECT_NEAR(imported_m3(matrix, true), ball_m3, 0.01 * ball_m3) << name;
+}
+
+}  // namespace
+}  // namespace scree
