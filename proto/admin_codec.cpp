@@ -1,6 +1,7 @@
 #include "proto/admin_codec.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "proto/limits.h"
 #include "shared/base/text.h"
@@ -29,7 +30,29 @@ struct WritingAct {
   void operator()(const LiftBan& from) const {
     to.mutable_lift_ban()->set_address(showable(from.address, limits::address_bytes_max));
   }
+  void operator()(const ControlReplay& from) const {
+    wire::ControlReplay& control = *to.mutable_control_replay();
+    control.set_play(static_cast<wire::ReplayPlay>(from.play));
+    control.set_speed(from.speed);
+    control.set_move(static_cast<wire::ReplayMove>(from.move));
+    control.set_value(from.value);
+  }
 };
+
+static_assert(wire::ReplayPlay_ARRAYSIZE == kind_count<ReplayPlay>);
+static_assert(wire::ReplayMove_ARRAYSIZE == kind_count<ReplayMove>);
+
+float read_replay_speed(float speed, FieldChecker& check) {
+  const float times = std::abs(check.finite(speed, "speed of a replay"));
+  if (times != 0.0F && (times < replay_speed_least || times > replay_speed_most))
+    check.refuse("the speed of a replay is " + std::to_string(speed) + ", not 0.1 to 16 times real time");
+  return speed;
+}
+
+ControlReplay read(const wire::ControlReplay& from, FieldChecker& check) {
+  return {check.kind<ReplayPlay>(from.play(), "play of a replay"), read_replay_speed(from.speed(), check),
+          check.kind<ReplayMove>(from.move(), "move of a replay"), from.value()};
+}
 
 AdminAct read_act(const wire::Admin& from, FieldChecker& check) {
   const auto reason = [&](const std::string& text) {
@@ -51,6 +74,8 @@ AdminAct read_act(const wire::Admin& from, FieldChecker& check) {
       return ListBans{};
     case wire::Admin::kLiftBan:
       return LiftBan{address(from.lift_ban().address())};
+    case wire::Admin::kControlReplay:
+      return read(from.control_replay(), check);
     case wire::Admin::ACT_NOT_SET:
       break;
   }

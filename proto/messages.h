@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "proto/playback_state.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -102,7 +103,8 @@ struct ListBans {};
 struct LiftBan {
   std::string address;
 };
-using AdminAct = std::variant<SettingValues, ListSessions, KickSession, BanAddress, ListBans, LiftBan>;
+using AdminAct =
+    std::variant<SettingValues, ListSessions, KickSession, BanAddress, ListBans, LiftBan, ControlReplay>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
@@ -391,7 +393,7 @@ struct PhysicsMessage {
 using ServerMessage =
     std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
-                 KeptMessage, TileMessage, PersonsMessage, SaidMessage>;
+                 KeptMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -20,6 +20,7 @@ class Talk {
     if (connection_) connection_->leave();
   }
 
+  const WelcomeMessage& welcome() const { return connection_->welcome(); }
   void send(const ClientMessage& message) { connection_->send(message); }
 
   /// The next message of one kind; skips others.
@@ -134,6 +135,20 @@ Result<std::vector<BanRow>> list_bans(const AdminServer& server) {
   auto asked = ask<AdminListMessage>(server, ListBans{});
   if (!asked) return tl::unexpected(asked.error());
   return std::move(asked->first.bans);
+}
+
+Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish) {
+  Result<Talk> talk = join(server);
+  if (!talk) return tl::unexpected(talk.error());
+  if (!talk->welcome().replay) return fail("this server plays no recording (scree server --replay)");
+  const auto before = talk->next<PlaybackMessage>("playback");
+  if (!before) return tl::unexpected(before.error());
+  talk->send(AdminMessage{1, "", wish});
+  if (const auto taken = talk->answer<ReplyMessage>(); !taken) return tl::unexpected(taken.error());
+  for (;;) {
+    auto now = talk->next<PlaybackMessage>("playback");
+    if (!now || now->heeded > before->heeded) return now;
+  }
 }
 
 Result<void> kick_session(const AdminServer& server, const KickSession& kick) {

@@ -37,6 +37,11 @@ Result<std::vector<SessionRow>> list_sessions(const AdminServer& server);
 std::string sessions_json(const std::vector<SessionRow>& sessions);
 std::string sessions_lines(const std::vector<SessionRow>& sessions);
 
+/// Controls a replay, and returns where it stands then: after its next tick, or after the jump.
+Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish);
+std::string playback_json(const PlaybackMessage& playback);
+std::string playback_lines(const PlaybackMessage& playback);
+
 Result<std::vector<BanRow>> list_bans(const AdminServer& server);
 std::string bans_json(const std::vector<BanRow>& bans);
 std::string bans_lines(const std::vector<BanRow>& bans);

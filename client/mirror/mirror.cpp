@@ -78,6 +78,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const CursorsMessage&) -> Done { return {}; },
           [](const PersonsMessage&) -> Done { return {}; },
           [](const SaidMessage&) -> Done { return {}; },
+          [](const PlaybackMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.
           [](const GroundMessage&) -> Done { return {}; },

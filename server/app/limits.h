@@ -16,8 +16,4 @@ inline constexpr int ahead_chunks = 4;
 /// Chunks that a tick tests for being generated: a few microseconds.
 inline constexpr size_t ahead_looks_per_tick = 64;
 
-/// Speed of a replay, times real time.
-inline constexpr double replay_speed_min = 0.01;
-inline constexpr double replay_speed_max = 100.0;
-
 }  // namespace scree::limits

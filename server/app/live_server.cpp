@@ -8,11 +8,13 @@
 #include <thread>
 
 #include "server/app/ground_giver.h"
+#include "server/app/live_events.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
@@ -38,20 +40,25 @@ struct LiveServer::State {
   Result<void> open();
   Result<void> open_world();
   Result<void> open_recorder();
+  Result<void> open_events();
   void run();
   bool step();
   bool wait_for_clients();
   bool time_is_over() const {
     return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
   }
-  void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out);
+  void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
+              std::vector<Event> noted);
+  /// Notes nothing where nobody wants to know.
+  bool has_events() const { return !config.events_path.empty() || !config.record_path.empty(); }
   void count(TickSchedule::Delay delay);
   bool sleep_until(Clock::time_point when);
   void end(const std::string& error);
 
   LiveConfig config;
   CommandQueue commands;
-  std::unique_ptr<TickFeed> feed;  ///< used by the simulation thread only
+  std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
+  std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<SavedWorld> kept;  ///< null: the world ends with the server
   std::unique_ptr<NetServer> net;
@@ -80,11 +87,15 @@ Result<void> LiveServer::State::open() {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
     if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
-    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world));
+    if (!config.events_path.empty())
+      return fail("a replay's events are its recording's: scree replay export (--events)");
+    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
+                              config.net.ticks_per_transform);
     if (!replay) return tl::unexpected(replay.error());
     feed = std::move(replay->feed);
     config.world = replay->world;
     config.net.replay = true;
+    config.net.control = [this](const ControlReplay& wish) { return feed->control(wish); };
   } else if (auto opened = open_world(); !opened) {
     return opened;
   }
@@ -93,8 +104,8 @@ Result<void> LiveServer::State::open() {
                 hex_of(given) + " (--ground)");
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
-  const double speed = config.replay.path.empty() ? 1.0 : config.replay.speed;
-  period = seconds(1.0 / (static_cast<double>(config.world.tick_rate_hz) * speed));
+  period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
+  if (auto opened = open_events(); !opened) return opened;
   // The port comes first: a server that cannot listen leaves no empty recording behind.
   auto listening = NetServer::listen(config.net, commands);
   if (!listening) return tl::unexpected(listening.error());
@@ -156,6 +167,18 @@ Result<void> LiveServer::State::open_recorder() {
   return {};
 }
 
+Result<void> LiveServer::State::open_events() {
+  if (!has_events()) return {};
+  auto opened = LiveEvents::open(config.events_path, config.world, print(config.world));
+  if (!opened) return tl::unexpected(opened.error());
+  events = std::move(*opened);
+  config.net.noted = [this](Event event) { events->note(std::move(event)); };
+  if (const World* world = feed->world(); world->tick() > 0)
+    events->note({.kind = EventKind::rebuild, .text = config.world_path});
+  report.events_path = config.events_path;
+  return {};
+}
+
 void LiveServer::State::end(const std::string& error) {
   const std::scoped_lock lock(mutex);
   running = false;
@@ -165,8 +188,9 @@ void LiveServer::State::end(const std::string& error) {
 }
 
 /// When the recording cannot be written, it ends, and the server goes on.
-void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out) {
-  recorder->push(std::move(delta), std::move(carried_out));
+void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
+                               std::vector<Event> noted) {
+  recorder->push(std::move(delta), std::move(carried_out), std::move(noted));
   if (record_failed) return;
   const auto error = recorder->error();
   if (!error) return;
@@ -200,7 +224,8 @@ bool LiveServer::State::step() {
     const TraceSpan span(trace.get(), "simulation", "hand over");
     net->publish(delta, ran);
   }
-  if (recorder) record(delta, std::move(waiting));
+  std::vector<Event> noted = events ? events->take(*delta) : std::vector<Event>();
+  if (recorder) record(delta, std::move(waiting), std::move(noted));
   if (kept) kept->keep(*delta, *feed->world());
   const std::scoped_lock lock(mutex);
   report.add(*delta);
@@ -309,6 +334,7 @@ ServerReport LiveServer::report() const {
     if (!report.error) report.error = state_->recorder->error();
   }
   if (state_->kept) report.saving = state_->kept->status();
+  if (state_->events) report.events = state_->events->status();
   return report;
 }
 

@@ -27,6 +27,7 @@ struct LiveConfig {
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording
+  std::string events_path;  ///< file of the log of events (live_events.h), that is appended to; empty: none
   std::string
       world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server
   Durability durability = Durability::second;
@@ -50,7 +51,7 @@ class LiveServer {
   uint16_t port() const;
 
   /// Pacing::by_hand: runs one tick; its messages are handed to the sockets when this returns. False when it
-  /// was the last tick: the end of a recording, ticks_max, or an error.
+  /// was the last tick: the end of a recording that is to end there, ticks_max, or an error.
   bool step_once();
 
   /// Whether more ticks follow.

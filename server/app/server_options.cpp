@@ -32,6 +32,8 @@ struct Raw {
   std::string durability = "second";
   std::string anonymous;  ///< empty: by what else is given
   std::string ground;     ///< empty: generated
+  bool loop = false;      ///< of a replay
+  bool end = false;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
 
@@ -172,9 +174,16 @@ void add_recordings(CLI::App& app, Raw& raw) {
           whole_within(0, whole_most))
       ->needs(replay);
   bounded(app.add_option("--speed", live.replay.speed, "of the replay, times real time"),
-          {limits::replay_speed_min, limits::replay_speed_max})
+          {replay_speed_least, replay_speed_most})
       ->needs(replay);
-  app.add_flag("--loop", live.replay.loop, "starts the replay over at its end")->needs(replay);
+  CLI::Option* loop =
+      app.add_flag("--loop", raw.loop, "starts the replay over at its end, instead of staying there");
+  loop->needs(replay);
+  app.add_flag("--end", raw.end, "the server ends with the replay")->needs(replay)->excludes(loop);
+  app.add_option("--events", live.events_path,
+                 "appends what happens to this file, an event a line (JSON Lines)")
+      ->check(check_writable, "FILE")
+      ->excludes(replay);
 }
 
 void add_run(CLI::App& app, Raw& raw) {
@@ -198,6 +207,11 @@ void add_run(CLI::App& app, Raw& raw) {
   app.add_option("--log", raw.options.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+}
+
+void take_end(Raw& raw) {
+  if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
+  if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
 }
 
 /// The token is looked at where mistakes in options are.
@@ -299,6 +313,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     take_token(raw);
     take_anonymous(raw);
     take_durability(raw);
+    take_end(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0 && file->count() > 0;

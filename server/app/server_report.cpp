@@ -186,6 +186,9 @@ std::string to_json(const ServerReport& report) {
   if (!report.record_path.empty())
     json["recording"] = {
         {"path", report.record_path}, {"ticks", report.ticks_recorded}, {"waits", report.record_waits}};
+  if (!report.events_path.empty())
+    json["events"] = {
+        {"path", report.events_path}, {"written", report.events.written}, {"lost", report.events.lost}};
   if (!report.world_path.empty()) json["world"] = json_of(report.world_path, report.saving);
   if (report.error) json["error"] = *report.error;
   return json.dump(2) + "\n";

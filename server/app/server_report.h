@@ -7,6 +7,7 @@
 
 #include "server/net/durations.h"
 #include "server/net/net_server.h"
+#include "server/store/event_log.h"
 #include "server/store/world_keeper.h"
 #include "server/world/tick_delta.h"
 
@@ -56,6 +57,8 @@ struct ServerReport {
   std::string record_path;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;
+  std::string events_path;  ///< empty: no log
+  EventLog::Status events;
   std::string world_path;  ///< empty: the world ends with the server
   KeeperStatus saving;
   std::optional<std::string> error;  ///< the reason of an early end

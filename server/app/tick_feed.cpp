@@ -20,19 +20,13 @@ class LiveFeed final : public TickFeed {
 
 class RecordedFeed final : public TickFeed {
  public:
-  RecordedFeed(std::unique_ptr<ReplaySource> source, const ReplayOptions& options)
-      : source_(std::move(source)), options_(options) {}
-
-  Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override {
-    auto delta = source_->next();
-    if (!delta || *delta || !options_.loop) return delta;
-    if (auto sought = source_->seek(options_.from); !sought) return tl::unexpected(sought.error());
-    return source_->next();
-  }
+  RecordedFeed(std::unique_ptr<ReplaySource> source, const PlayerOptions& options)
+      : player_(std::move(source), options) {}
+  Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override { return player_.next(); }
+  Result<void> control(const ControlReplay& wish) override { return player_.take(wish); }
 
  private:
-  std::unique_ptr<ReplaySource> source_;
-  ReplayOptions options_;
+  ReplayPlayer player_;
 };
 
 }  // namespace
@@ -47,11 +41,13 @@ Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t th
   return feed_of(std::move(*world));
 }
 
-Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground) {
+Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,
+                               uint32_t ticks_per_transform) {
   auto source = ReplaySource::open(options.path, options.from, ground);
   if (!source) return tl::unexpected(source.error());
   const WorldConfig world = (*source)->header().world;
-  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), options), world};
+  const PlayerOptions player{options.at_end, options.speed, ticks_per_transform};
+  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), player), world};
 }
 
 }  // namespace scree

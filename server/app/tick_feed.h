@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "server/replay/replay_player.h"
 #include "server/work/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
@@ -20,6 +21,10 @@ class TickFeed {
   virtual Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) = 0;
   /// The simulation behind it; null for a recording.
   virtual World* world() { return nullptr; }
+  /// Takes what somebody wants of a replay; an error for a simulation. From any thread.
+  virtual Result<void> control(const ControlReplay&) {
+    return fail("this server plays no recording (--replay)");
+  }
 };
 
 std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world);
@@ -29,15 +34,16 @@ Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t th
 struct ReplayOptions {
   std::string path;  ///< empty: no replay
   Tick from = 0;
-  double speed = 1.0;  ///< times real time
-  bool loop = false;   ///< starts over at the end
+  float speed = 1.0F;  ///< times real time
+  AtEnd at_end = AtEnd::stay;
 };
 
 struct ReplayFeed {
   std::unique_ptr<TickFeed> feed;
   WorldConfig world;  ///< of the recording
 };
-/// `ground` gives the recording the ground that it names.
-Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground);
+/// `ground` gives the recording the ground that it names. `ticks_per_transform`: of the network.
+Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,
+                               uint32_t ticks_per_transform);
 
 }  // namespace scree

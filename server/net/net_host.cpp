@@ -83,6 +83,10 @@ void NetHost::say(spdlog::level::level_enum level, std::string_view kind, const 
   if (const auto more = log_.take(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
 }
 
+void NetHost::note(Event event) const {
+  if (config_.noted) config_.noted(std::move(event));
+}
+
 void NetHost::accepting_failed(const std::string& why) {
   say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
   close_oldest_outsider("the server lacks descriptors: " + why);
@@ -266,8 +270,10 @@ void NetHost::refuse_request(ClientSession& session, uint32_t request, const Ref
 
 /// A wrong token ends the connection, so that each connection has one attempt.
 tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
-  if (auto admin = may(session, Role::admin); !admin) {
-    const bool nobody_can = config_.admin_token.empty() && !access_->takes_tokens();
+  const bool nobody_can = config_.admin_token.empty() && !access_->takes_tokens();
+  const bool is_control = std::holds_alternative<ControlReplay>(message.act);
+  const bool is_free = is_control && nobody_can && entrance_.door().is_free(session.address());
+  if (auto admin = may(session, Role::admin); !admin && !is_free) {
     if (nobody_can || message.token.empty() || config_.admin_token.empty()) {
       ++counts_.requests;
       refuse_request(session, message.request,
@@ -318,6 +324,8 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
     say(spdlog::level::info, "closed",
         fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
+  if (const Entry& entry = sessions_.at(session.id()); entry.joined_s > 0.0)
+    note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
   entrance_.door().leave(session.address(), steady_now_s());
   publisher_.leave(session.id());
   talk_.leave(session.id());

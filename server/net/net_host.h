@@ -86,6 +86,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   static Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
   /// A line of the log, of a kind of which there are few a second.
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line);
+  void note(Event event) const;
   void tick_timer();
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   /// Whether it is on its way to the world; else it is refused.

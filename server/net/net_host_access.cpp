@@ -154,7 +154,11 @@ void NetHost::administer_sessions(ClientSession& session, const AdminMessage& me
                         [&](const ListBans&) { list({.bans = ban_rows()}); },
                         [&](const KickSession& kick) { reply(this->kick(kick)); },
                         [&](const BanAddress& ban) { reply(this->ban(ban)); },
-                        [&](const LiftBan& lift) { reply(this->lift(lift)); }},
+                        [&](const LiftBan& lift) { reply(this->lift(lift)); },
+                        [&](const ControlReplay& control) {
+                          reply(config_.control ? config_.control(control)
+                                                : fail("this server plays no recording (--replay)"));
+                        }},
              message.act);
 }
 

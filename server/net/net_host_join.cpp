@@ -46,6 +46,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   entry.joined_s = before ? before->joined_s : steady_now_s();
   if (before) entry.requests = before->requests;
   if (hello.meets) talk_.join(session.id(), entry.name, grant->role);
+  note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
   ++counts_.sessions_joined;
   counts_.sessions_resumed += before ? 1 : 0;
   update_stats();

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/event.h"
 #include "server/doors/access.h"
 #include "server/doors/door.h"
 #include "server/doors/limits.h"
@@ -44,8 +45,12 @@ struct NetConfig {
   uint64_t world = 0;                        ///< WelcomeMessage::world; 0: one is drawn
   uint64_t first_session = 1;                ///< number of the first session; positive
   std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
-  bool chat = true;                          ///< whether persons' lines are passed on
-  size_t net_threads = 0;                    ///< that encode and send; 0: as many as the machine has cores
+  /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
+  std::function<void(Event)> noted;
+  /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
+  std::function<Result<void>(const ControlReplay&)> control;
+  bool chat = true;        ///< whether persons' lines are passed on
+  size_t net_threads = 0;  ///< that encode and send; 0: as many as the machine has cores
 };
 
 /// Counts since the start.

@@ -57,34 +57,6 @@ uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
 
 }  // namespace
 
-TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const PublishedState& after,
-                         const Motions& m, const TerrainSource& ground)
-    : delta(d), state(after), motions(m), voxel_size_m(ground.voxel_size_m) {
-  for (const BrickState& brick : d.bricks) bricks[chunk_of(brick.coord)].push_back(&brick);
-  for (const auto& [chunk, list] : bricks) {
-    if (!before.chunks().contains(chunk)) fresh.insert(chunk);
-    orphan.insert(chunk);
-  }
-  ended.reserve(d.operations.size());
-  needs.reserve(d.operations.size());
-  opens.reserve(d.operations.size());
-  for (const AppliedOperation& operation : d.operations) {
-    ended.push_back(pieces_ended_by(operation.operation));
-    for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
-    std::vector<ChunkCoord>& needed = needs.emplace_back();
-    std::ranges::set_union(operation.reads, operation.writes, std::back_inserter(needed));
-    // The others are the same on every client: nothing but operations of this tick has ever changed them.
-    const auto unedited = [&](ChunkCoord chunk) { return !before.chunks().contains(chunk); };
-    std::erase_if(needed, unedited);
-    std::ranges::copy_if(operation.writes, std::back_inserter(opens.emplace_back()), unedited);
-    std::set<TileKey>& decide = tiles.emplace_back();
-    if (ground.heights == nullptr) continue;
-    for (const auto& chunks : {operation.reads, operation.writes})
-      for (const ChunkCoord chunk : chunks)
-        for (const TileKey key : tiles_of(*ground.heights, chunk, ground.voxel_size_m)) decide.insert(key);
-  }
-}
-
 ClientView::ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels)
     : eye_m_(eye_m),
       radius_m_(radius_m),
@@ -142,7 +114,10 @@ bool ClientView::can_apply(size_t operation, const TickChanges& changes, const C
   if (!tainted.empty() &&
       (std::ranges::any_of(applied.reads, is_tainted) || std::ranges::any_of(applied.writes, is_tainted)))
     return false;
-  return std::ranges::all_of(changes.needs[operation], is_held) &&
+  // After a jump back, a client that reads slowly may still have the piece that the operation makes again.
+  const auto has = [this](PieceId piece) { return known_.contains(piece); };
+  return std::ranges::none_of(applied.created, has) &&
+         std::ranges::all_of(changes.needs[operation], is_held) &&
          std::ranges::includes(tiles_, changes.tiles[operation]) &&
          std::ranges::all_of(changes.ended[operation], [this](PieceId piece) { return knows(piece); });
 }
@@ -249,7 +224,6 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   };
   drop_far(held_);
   drop_far(stale_);
-  std::ranges::sort(frame.dropped);
   wanted_.clear();
   for (const auto& [chunk, published] : changes.state.chunks())
     if (!held_.contains(chunk) && near(chunk, changes.voxel_size_m)) wanted_.insert(chunk);
@@ -305,11 +279,26 @@ bool ClientView::is_sound(const ChunkSet& changed) const {
          });
 }
 
+/// No patch takes an edit back: such a chunk comes whole, or is dropped when it has none left.
+void ClientView::select_reverted(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted) {
+  for (const ChunkCoord chunk : changes.reverted) {
+    tainted.erase(chunk);
+    if (changes.state.chunks().contains(chunk)) {
+      miss(chunk, all_bricks);
+      if (near(chunk, changes.voxel_size_m)) wanted_.insert(chunk);
+      continue;
+    }
+    wanted_.erase(chunk);
+    if (held_.erase(chunk) + stale_.erase(chunk) != 0) frame.dropped.push_back(chunk);
+  }
+}
+
 FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope parts) {
   CHECK_EQ(changes.state.tick(), changes.delta.tick);
   FrameSelection frame;
   ChunkSet tainted = changes.orphan;
   ChunkSet changed;
+  select_reverted(changes, frame, tainted);
   select_operations(changes, frame, tainted, changed);
   // In a tainted chunk, some operations of this tick were sent and others not. Unless its bricks are patched,
   // the client's copy is wrong until the whole chunk arrives, and the frame must not carry a check over it.
@@ -321,6 +310,7 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope p
     rescan(changes, changed, frame);
   if (parts.poses) select_poses(changes, frame);
   std::ranges::sort(frame.removed);
+  std::ranges::sort(frame.dropped);
   CHECK_DEBUG(is_sound(changed));
   CHECK_DEBUG(std::ranges::adjacent_find(frame.removed, std::ranges::greater_equal{}) == frame.removed.end());
   const auto told = [&](ChunkCoord chunk) { return changed.contains(chunk); };

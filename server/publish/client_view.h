@@ -39,6 +39,7 @@ struct TickChanges {
   std::vector<std::vector<ChunkCoord>> opens;  ///< chunks without edits before, which each writes
   std::vector<std::set<TileKey>> tiles;        ///< of the ground, if it has any, that decide what each reads
   ChunkSet fresh;                              ///< changed for the first time in this tick
+  ChunkSet reverted;                           ///< with bricks that are no longer edited
   ChunkSet orphan;                             ///< changed, but by no operation (in a keyframe)
 
   TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
@@ -132,6 +133,7 @@ class ClientView {
                          ChunkSet& changed);
   void select_patches(const TickChanges& changes, const ChunkSet& tainted, size_t room, FrameSelection& frame,
                       ChunkSet& changed);
+  void select_reverted(const TickChanges& changes, FrameSelection& frame, ChunkSet& tainted);
   /// The bricks of a chunk changed, and the client is not told.
   void miss(ChunkCoord chunk, uint64_t bricks);
   size_t patch_room(size_t most);

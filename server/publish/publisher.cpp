@@ -209,6 +209,7 @@ void Publisher::serve(Client& client, const TickChanges& changes, const Backlog&
   client.is_slow = backlog.is_slow();
   const bool with_poses = reads_along && has_poses(tick);
   if (!send_frame(client, changes, {with_poses, patches_for(backlog)}, part)) return;
+  if (changes.delta.playback) send_playback(client, *changes.delta.playback, tick, part);
   // Pieces first: by a slow link, chunks take all the room there is, and what merges unknown pieces comes as
   // bricks.
   if (with_poses) stream_pieces(client, part);
@@ -241,6 +242,17 @@ bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScop
   part.stats.transform_bytes += frame.transform_bytes;
   send(client, frame.bytes, part);
   return true;
+}
+
+/// The moment's own pace is no news.
+void Publisher::send_playback(Client& client, const PlaybackMessage& now, Tick tick, Part& part) {
+  if (client.playback && !status_due(client, tick)) {
+    PlaybackMessage known = *client.playback;
+    known.moment = now.moment;
+    if (known == now) return;
+  }
+  client.playback = now;
+  send(client, bytes_of(now), part);
 }
 
 void Publisher::send_cursors(Client& client, Part& part) {

@@ -154,7 +154,8 @@ class Publisher {
     ChunkOffer offer{};
     bool watches = false;
     int64_t physics_credit_bytes = 0;
-    std::vector<PlayerCursor> cursors{};  ///< as the client knows them
+    std::optional<PlaybackMessage> playback{};  ///< as the client knows it
+    std::vector<PlayerCursor> cursors{};        ///< as the client knows them
 
     /// Whether a slow one still has room in this tick; others have budgets.
     bool takes_more() const { return !is_slow || room_bytes > 0; }
@@ -186,6 +187,7 @@ class Publisher {
   SharedBytes next_part(Client& client, ChunkCoord coord, const PublishedChunk& chunk);
   void send_kept(Client& client, const KeptMessage& kept, Part& part);
   void stream_pieces(Client& client, Part& part);
+  void send_playback(Client& client, const PlaybackMessage& now, Tick tick, Part& part);
   void send_cursors(Client& client, Part& part);
   void send_physics(Client& client, const PhysicsMessage& physics, Part& part);
   void send_status(Client& client, Part& part);

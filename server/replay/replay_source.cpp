@@ -1,162 +1,42 @@
 #include "server/replay/replay_source.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <map>
-#include <set>
+#include <iterator>
+#include <utility>
 
-#include "server/world/applied_operation.h"
+#include "server/replay/replay_state.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
 
-std::string hex(uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+/// Work of the operations that ticks may have together, by the model, µs: half of what a client takes in one
+/// frame (limits::mirror_frame_work_max_us). One tick has as much as it has.
+constexpr float joint_work_max_us = 1.0e6F;
+
+/// Ticks that are looked through for the next event of a recording without a log: ten minutes at 60 Hz.
+constexpr Tick looked_through_max = 36000;
+
+/// Puts the next tick behind the ones before.
+void append(TickDelta& to, const TickDelta& next) {
+  to.tick = next.tick;
+  to.operations.insert(to.operations.end(), next.operations.begin(), next.operations.end());
+  to.spawned.insert(to.spawned.end(), next.spawned.begin(), next.spawned.end());
+  std::ranges::stable_sort(to.spawned, {}, &SpawnedPiece::id);
+  std::vector<BrickState> bricks;
+  // Of a brick that both changed, the first is taken: the later one.
+  std::ranges::set_union(next.bricks, to.bricks, std::back_inserter(bricks), {}, &BrickState::coord,
+                         &BrickState::coord);
+  to.bricks = std::move(bricks);
+  to.pieces = next.pieces;
+  if (!next.settings.empty()) to.settings = next.settings;
+  to.ledger = next.ledger;
+  to.field_hash = next.field_hash;
+  to.state_hash = next.state_hash;
 }
 
 }  // namespace
-
-struct ReplaySource::State {
-  State(std::unique_ptr<RecordingReader> r, RecordingHeader h) : reader(std::move(r)), header(std::move(h)) {
-    restart();
-  }
-
-  /// Goes back to the untouched terrain before tick 1.
-  void restart();
-  Result<void> restore(const RecordedKeyframe& keyframe);
-  Result<std::shared_ptr<const TickDelta>> advance();
-  Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed);
-  Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
-  Result<void> check_hash(uint64_t recorded) const;
-  std::shared_ptr<const TickDelta> whole_state();
-  BrickState brick_state(BrickCoord coord);
-  tl::unexpected<Error> damaged(const std::string& what) const {
-    return fail(reader->path() + ": at tick " + std::to_string(tick) + ": " + what);
-  }
-
-  std::unique_ptr<RecordingReader> reader;
-  const RecordingHeader header;  ///< with its ground
-  std::unique_ptr<MapField> field;
-  PieceTable pieces;
-  std::map<PieceId, QuantisedPose> poses;
-  Ledger ledger;
-  SettingValues settings;
-  uint64_t state_hash = 0;
-  Tick tick = 0;
-  bool keyframe_due = false;  ///< next() returns the whole state
-};
-
-void ReplaySource::State::restart() {
-  field = std::make_unique<MapField>(header.world.terrain);
-  pieces.clear();
-  poses.clear();
-  ledger = {};
-  settings.clear();
-  state_hash = 0;
-  tick = 0;
-  keyframe_due = false;
-}
-
-Result<void> ReplaySource::State::check_hash(uint64_t recorded) const {
-  if (field->hash() == recorded) return {};
-  return damaged("the field's hash is " + hex(field->hash()) + ", recorded was " + hex(recorded) +
-                 ": the recording is damaged, or another release made it");
-}
-
-Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe) {
-  restart();
-  tick = keyframe.tick;
-  for (const BrickPatch& patch : keyframe.bricks) {
-    field->set_brick(patch.coord, patch.brick);
-    field->paint_brick(patch.coord, patch.paint);
-  }
-  for (const PieceMessage& piece : keyframe.pieces) {
-    pieces[piece.id] = std::make_shared<const Volume>(piece.volume);
-    poses[piece.id] = piece.pose;
-  }
-  ledger = from_recorded(keyframe.ledger);
-  settings = keyframe.settings;
-  state_hash = keyframe.state_hash;
-  return check_hash(keyframe.field_hash);
-}
-
-BrickState ReplaySource::State::brick_state(BrickCoord coord) {
-  auto brick = std::make_shared<const Brick>(field->brick(coord));
-  const std::optional<Material> paint = field->painted(coord);
-  const uint64_t hash = brick_hash(coord, *brick, paint);
-  return {coord, std::move(brick), hash, paint};
-}
-
-Result<void> ReplaySource::State::apply_operation(const Operation& operation, TickDelta& delta,
-                                                  std::set<BrickCoord>& changed) {
-  if (const auto valid = validate(operation, pieces, field->source().voxel_size_m); !valid)
-    return damaged(valid.error().message);
-  const VoxelBox reads = read_box(operation, pieces, field->source().voxel_size_m);
-  const Applied applied = apply(operation, *field, pieces);
-  delta.operations.push_back(describe(operation, reads, applied));
-  changed.insert(applied.changed.begin(), applied.changed.end());
-  for (const CreatedPiece& piece : applied.created) delta.spawned.push_back({piece.id, pieces.at(piece.id)});
-  return {};
-}
-
-Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickDelta& delta) {
-  for (const PieceState& moved : frame.moved) {
-    if (!pieces.contains(moved.id)) return damaged("piece " + std::to_string(moved.id) + " is not there");
-    poses[moved.id] = moved.pose;
-  }
-  std::erase_if(poses, [this](const auto& pose) { return !pieces.contains(pose.first); });
-  for (const auto& [id, volume] : pieces) {
-    const auto pose = poses.find(id);
-    if (pose == poses.end()) return damaged("piece " + std::to_string(id) + " is nowhere");
-    delta.pieces.push_back({id, pose->second});
-  }
-  CHECK_EQ(poses.size(), pieces.size());
-  return {};
-}
-
-Result<std::shared_ptr<const TickDelta>> ReplaySource::State::advance() {
-  CHECK(tick < reader->last_tick());
-  const auto frame = reader->frame(tick + 1);
-  if (!frame) return tl::unexpected(frame.error());
-  auto delta = std::make_shared<TickDelta>();
-  delta->tick = ++tick;
-  std::set<BrickCoord> changed;
-  for (const Operation& operation : frame->operations)
-    if (auto applied = apply_operation(operation, *delta, changed); !applied)
-      return tl::unexpected(applied.error());
-  if (auto placed = place_pieces(*frame, *delta); !placed) return tl::unexpected(placed.error());
-  if (auto equal = check_hash(frame->field_hash); !equal) return tl::unexpected(equal.error());
-  for (const BrickCoord coord : changed) delta->bricks.push_back(brick_state(coord));
-  ledger = from_recorded(frame->ledger);
-  state_hash = frame->state_hash;
-  if (!frame->settings.empty()) settings = frame->settings;
-  delta->settings = frame->settings;
-  delta->ledger = ledger;
-  delta->field_hash = frame->field_hash;
-  delta->state_hash = state_hash;
-  return delta;
-}
-
-std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
-  auto delta = std::make_shared<TickDelta>();
-  delta->tick = tick;
-  for (const ChunkCoord chunk : field->edited_chunks())
-    for (const BrickCoord coord : field->edited_bricks(chunk)) delta->bricks.push_back(brick_state(coord));
-  std::ranges::sort(delta->bricks, {}, &BrickState::coord);
-  for (const auto& [id, volume] : pieces) {
-    delta->spawned.push_back({id, volume});
-    delta->pieces.push_back({id, poses.at(id)});
-  }
-  delta->ledger = ledger;
-  delta->settings = settings;
-  delta->field_hash = field->hash();
-  delta->state_hash = state_hash;
-  return delta;
-}
 
 ReplaySource::ReplaySource(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ReplaySource::~ReplaySource() = default;
@@ -180,37 +60,84 @@ const RecordingHeader& ReplaySource::header() const {
 Tick ReplaySource::tick() const {
   return state_->tick;
 }
+Tick ReplaySource::first_tick() const {
+  return state_->start();
+}
 Tick ReplaySource::last_tick() const {
   return state_->reader->last_tick();
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::next() {
-  if (state_->keyframe_due) {
-    state_->keyframe_due = false;
-    return state_->whole_state();
-  }
+  return next(1);
+}
+
+Result<std::shared_ptr<const TickDelta>> ReplaySource::next(Tick count) {
+  CHECK(count > 0);
+  if (std::exchange(state_->keyframe_due, false)) return state_->whole_state();
   if (state_->tick >= last_tick()) return nullptr;
-  return state_->advance();
+  auto joint = state_->advance();
+  if (!joint) return tl::unexpected(joint.error());
+  float work_us = state_->work_us;
+  for (; count > 1 && state_->tick < last_tick() && work_us < joint_work_max_us; --count) {
+    const auto more = state_->advance();
+    if (!more) return tl::unexpected(more.error());
+    append(**joint, **more);
+    work_us += state_->work_us;
+  }
+  return *joint;
+}
+
+Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
+  CHECK(to >= first_tick() && to <= last_tick());
+  BricksBefore before;
+  const PieceTable pieces = state_->pieces;
+  const SettingValues settings = state_->settings;
+  if (auto gone = state_->go_to(to, before); !gone) return tl::unexpected(gone.error());
+  auto delta = state_->unchanged();
+  add_differences(state_->field, before, *delta);
+  for (const auto& [id, volume] : state_->pieces)
+    if (!pieces.contains(id)) delta->spawned.push_back({id, volume});
+  if (state_->settings != settings) delta->settings = state_->settings;
+  return delta;
+}
+
+std::shared_ptr<const TickDelta> ReplaySource::same() const {
+  return state_->unchanged();
+}
+
+Result<std::optional<Tick>> ReplaySource::next_event(Tick after) {
+  if (state_->reader->events_from()) return state_->reader->next_event(after);
+  const Tick end = std::min(last_tick(), after + looked_through_max);
+  for (Tick at = after + 1; at <= end; ++at) {
+    const auto begins = state_->begins_something(at);
+    if (!begins) return tl::unexpected(begins.error());
+    if (*begins) return std::optional(at);
+  }
+  return std::optional<Tick>();
+}
+
+Result<std::optional<Tick>> ReplaySource::previous_event(Tick before) {
+  if (state_->reader->events_from()) return state_->reader->previous_event(before);
+  for (Tick at = before, looked = 0; at > first_tick() + 1 && looked < looked_through_max; ++looked) {
+    const auto begins = state_->begins_something(--at);
+    if (!begins) return tl::unexpected(begins.error());
+    if (*begins) return std::optional(at);
+  }
+  return std::optional<Tick>();
 }
 
 Result<void> ReplaySource::seek(Tick tick) {
   if (tick > last_tick())
     return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is after its end, " +
                 std::to_string(last_tick()) + " (--from)");
-  const Tick start = state_->reader->first_tick() - 1;
+  const Tick start = first_tick();
   if (tick == 0) tick = start;
   if (tick < start)
     return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is before its start, " +
                 std::to_string(start) + " (--from)");
-  const auto keyframe = state_->reader->keyframe_before(tick);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  state_->restart();
-  if (keyframe->has_value())
-    if (auto restored = state_->restore(**keyframe); !restored) return restored;
-  if (state_->tick < start) return state_->damaged("the recording has no state to start from");
-  while (state_->tick < tick)
-    if (const auto delta = state_->advance(); !delta) return tl::unexpected(delta.error());
-  CHECK_EQ(state_->tick, tick);
+  BricksBefore forgotten;
+  if (auto restored = state_->restore_before(tick, forgotten); !restored) return restored;
+  if (auto gone = state_->go_to(tick, forgotten); !gone) return gone;
   state_->keyframe_due = tick != 0;
   return {};
 }

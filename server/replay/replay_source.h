@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/store/recording_reader.h"
@@ -20,12 +21,27 @@ class ReplaySource {
   ~ReplaySource();
 
   const RecordingHeader& header() const;  ///< with its ground
-  Tick tick() const;  ///< the last one that was played; that before the first at the start
+  Tick tick() const;        ///< the last one that was played; that before the first at the start
+  Tick first_tick() const;  ///< the state before the recording's first tick
   Tick last_tick() const;
 
   /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
   /// recorded, is an error that names the tick.
   Result<std::shared_ptr<const TickDelta>> next();
+
+  /// The next ticks as one, up to `count` of them (at least one), the last one's number: fewer at the end,
+  /// and where they are more work for a client than a frame may be. An error at the end is next()'s.
+  Result<std::shared_ptr<const TickDelta>> next(Tick count);
+  /// Goes to a tick within first_tick() … last_tick(), which may be before this one; the result takes who has
+  /// this one's state to that one's: the bricks that differ (TickDelta::reverted, too), pieces, no
+  /// operations.
+  Result<std::shared_ptr<const TickDelta>> jump(Tick to);
+  /// A tick in which nothing changes.
+  std::shared_ptr<const TickDelta> same() const;
+  /// The nearest tick with an event after that one, or before it; nothing when there is none. Recordings
+  /// without a log of events are looked through for ticks with operations that begin something.
+  Result<std::optional<Tick>> next_event(Tick after);
+  Result<std::optional<Tick>> previous_event(Tick before);
 
   /// Continues after `tick`, starting from the nearest keyframe: the following next() returns the whole state
   /// after `tick` as one keyframe. 0: plays from the start. An error beyond last_tick(), and before a start

@@ -4,6 +4,8 @@
 
 #include "proto/world_codec.h"
 #include "server/replay/recorded_world.h"
+#include "server/store/event_deriver.h"
+#include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 
@@ -29,6 +31,20 @@ Result<void> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   return {};
 }
 
+/// The world's events, where the recording has a log of them; not those of the machine.
+Result<void> compare_events(RecordingReader& recording, const std::vector<Event>& simulated, Tick tick,
+                            VerifyReport& report) {
+  const auto from = recording.events_from();
+  if (!from || tick < *from || !report.difference.empty()) return {};
+  const auto recorded = recording.events(tick);
+  if (!recorded) return tl::unexpected(recorded.error());
+  if (*recorded != simulated)
+    report.difference = std::to_string(simulated.size()) + " events, recorded were " +
+                        std::to_string(recorded->size()) + ", or others";
+  report.events += simulated.size();
+  return {};
+}
+
 }  // namespace
 
 Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress,
@@ -40,6 +56,7 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
   if (!world) return fail(recording.path() + ": " + world.error().message);
   if (auto restarted = restart(recording, *world, report, ground); !restarted)
     return tl::unexpected(restarted.error());
+  EventDeriver deriver((*world)->config().terrain.voxel_size_m, print((*world)->config()));
   for (Tick tick = start + 1; tick <= recording.last_tick() && report.agrees(); ++tick) {
     const auto frame = recording.frame(tick);
     if (!frame) return tl::unexpected(frame.error());
@@ -52,6 +69,8 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
     report.field_hash = delta->field_hash;
     report.state_hash = delta->state_hash;
     report.difference = difference_of(*delta, *frame);
+    if (auto compared = compare_events(recording, deriver.events_of(*delta), tick, report); !compared)
+      return tl::unexpected(compared.error());
     if (auto restarted = restart(recording, *world, report, ground); !restarted)
       return tl::unexpected(restarted.error());
     if (!report.difference.empty()) report.first_difference = tick;

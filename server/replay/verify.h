@@ -1,4 +1,5 @@
-// Verifies a recording: simulates again from its commands, and compares the hashes of every tick. Where
+// Verifies a recording: simulates again from its commands, and compares the hashes and the events of
+// every tick; events of the machine do not follow from the commands, and are not compared. Where
 // another process went on with the recording, the whole state is compared with the one that it began with,
 // and the simulation begins anew from that.
 #pragma once
@@ -13,6 +14,7 @@ namespace scree {
 struct VerifyReport {
   Tick ticks = 0;             ///< ticks that were compared
   uint64_t commands = 0;      ///< commands that were simulated
+  uint64_t events = 0;        ///< of the world, that were compared
   uint64_t restarts = 0;      ///< times that another process went on, with the state that was compared, too
   Tick first_difference = 0;  ///< 0: every tick agrees
   std::string difference;     ///< the two hashes that differ there

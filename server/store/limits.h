@@ -6,14 +6,27 @@
 
 namespace scree::limits {
 
-/// Ticks between two keyframes of a recording: 10 s at 60 Hz. Seeking applies at most that many frames.
+/// Ticks between two whole keyframes of a recording: 10 s at 60 Hz.
 inline constexpr uint64_t ticks_per_keyframe = 600;
+
+/// Ticks between two keyframes that hold what changed since the last whole one: half a second at 60 Hz.
+/// Seeking applies at most that many frames.
+inline constexpr uint64_t ticks_per_short_keyframe = 30;
+
+/// Bricks of a short keyframe; with more it is left out, and seeking applies more frames.
+inline constexpr size_t short_keyframe_bricks_max = 16384;
 
 /// Seconds of frames in one transaction: a crash loses at most that much of a recording.
 inline constexpr double seconds_per_commit = 0.5;
 
 /// Ticks that wait for the storage thread; above: the simulation waits for it, and the wait is counted.
 inline constexpr size_t recorder_queue_max = 600;
+
+/// Lines of the log of events (--events) that wait for its thread; above: they are lost, and counted.
+inline constexpr size_t event_lines_max = 4096;
+
+/// Events of sessions, of one tick, that wait for the recorder and the log; above: they are lost.
+inline constexpr size_t noted_events_max = 1024;
 
 /// Bytes of one row of a recording; a longer one is refused as damaged.
 inline constexpr size_t row_bytes_max = size_t{1} << 29;

@@ -23,6 +23,7 @@ struct Recorder::State {
   struct Entry {
     std::shared_ptr<const TickDelta> delta;
     std::vector<Command> commands;
+    std::vector<Event> noted;
   };
 
   void run();
@@ -58,7 +59,7 @@ void Recorder::State::note(const Result<void>& result) {
 
 void Recorder::State::write(const std::deque<Entry>& entries) {
   for (const Entry& entry : entries) {
-    const auto added = writer->add(*entry.delta, entry.commands);
+    const auto added = writer->add(*entry.delta, entry.commands, entry.noted);
     note(added);
     if (!added) return;
     written = entry.delta->tick;
@@ -147,7 +148,8 @@ void Recorder::commit_up_to(Tick tick) {
   state_->changed.wait(lock, [&] { return state_->safe >= tick || state_->error || state_->ended; });
 }
 
-void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands) {
+void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
+                    std::vector<Event> noted) {
   CHECK(delta != nullptr);
   {
     std::unique_lock lock(state_->mutex);
@@ -156,7 +158,7 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
     state_->changed.wait(lock, room);
     if (state_->error || state_->stopping) return;
     CHECK(state_->queue.empty() || delta->tick == state_->queue.back().delta->tick + 1);
-    state_->queue.push_back({std::move(delta), std::move(commands)});
+    state_->queue.push_back({std::move(delta), std::move(commands), std::move(noted)});
     CHECK(state_->queue.size() <= limits::recorder_queue_max);
   }
   state_->changed.notify_all();

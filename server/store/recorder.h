@@ -29,8 +29,9 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   /// Queues the next tick, without a gap from 1 or from the start on, and the commands that it carried out.
-  /// From one thread only. Does nothing after an error or after finish().
-  void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands);
+  /// `noted`: events of the machine. From one thread only. Does nothing after an error or after finish().
+  void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
+            std::vector<Event> noted = {});
 
   /// Waits until that tick, which was pushed or is the start's, is in the file, and survives the end of this
   /// process; or until the recording has ended. From any thread.

@@ -1,7 +1,11 @@
 #include "server/store/recording_reader.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <string_view>
 
+#include "proto/event_codec.h"
 #include "server/store/database.h"
 #include "server/store/file_kind.h"
 #include "server/store/schema.h"
@@ -13,6 +17,11 @@ struct RecordingReader::State {
   explicit State(Database d) : database(std::move(d)) {}
   Result<void> read_header();
   Result<void> read_extent();
+  Result<void> read_extent_now();
+  Result<void> read_later_tables();
+  Result<void> read_events_extent();
+  Result<void> put_short_over(RecordedKeyframe& keyframe, Tick tick);
+  Result<std::optional<Tick>> event_tick(const std::string& select);
   template <typename T>
   Result<T> decoded(Result<T> result, Tick tick) const;
 
@@ -22,10 +31,13 @@ struct RecordingReader::State {
   Tick last_tick = 0;
   uint64_t keyframes = 0;
   uint64_t bytes = 0;
+  bool is_ended = false;
   Statement select_frame;
   Statement select_keyframe;
   Statement select_commands;
   Statement select_state;
+  std::optional<Tick> events_from;
+  bool has_short_keyframes = false;
 };
 
 Result<void> RecordingReader::State::read_header() {
@@ -44,7 +56,15 @@ Result<void> RecordingReader::State::read_header() {
   return {};
 }
 
+/// In one transaction, which sees one moment of a recording that is being written.
 Result<void> RecordingReader::State::read_extent() {
+  if (auto begun = database.execute("BEGIN"); !begun) return begun;
+  auto read = read_extent_now();
+  if (auto ended = database.execute("COMMIT"); read && !ended) return ended;
+  return read;
+}
+
+Result<void> RecordingReader::State::read_extent_now() {
   const auto first = database.number("SELECT min(tick) FROM frames");
   const auto last = database.number("SELECT max(tick) FROM frames");
   const auto count = database.number("SELECT count(*) FROM frames");
@@ -65,11 +85,45 @@ Result<void> RecordingReader::State::read_extent() {
   return {};
 }
 
+Result<void> RecordingReader::State::read_later_tables() {
+  const auto has = [this](const std::string& table) {
+    return database.number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '" + table +
+                           "'");
+  };
+  const auto events = has("events"), machine = has("machine"), short_keyframes = has("short_keyframes");
+  for (const auto* count : {&events, &machine, &short_keyframes})
+    if (!*count) return tl::unexpected(count->error());
+  has_short_keyframes = *short_keyframes == 1;
+  return *events == 1 && *machine == 1 ? read_events_extent() : Result<void>();
+}
+
+/// Where the first row of the machine's begins. A recording that an earlier release began has it later.
+Result<void> RecordingReader::State::read_events_extent() {
+  const auto row = database.number("SELECT min(tick) FROM machine");
+  if (!row) return tl::unexpected(row.error());
+  if (!row->has_value()) return {};
+  auto select = database.prepare(schema::select_from("machine"));
+  if (!select) return tl::unexpected(select.error());
+  const auto bytes_read = database.get(*select, static_cast<uint64_t>(**row));
+  if (!bytes_read) return tl::unexpected(bytes_read.error());
+  const auto machine = decoded(decode_recorded_machine(**bytes_read), static_cast<Tick>(**row));
+  if (!machine) return tl::unexpected(machine.error());
+  events_from = machine->tick + 1 - machine->tick_us.size();
+  return {};
+}
+
 /// A decoder's refusal, with the file and the tick in front.
 template <typename T>
 Result<T> RecordingReader::State::decoded(Result<T> result, Tick tick) const {
   if (result) return result;
   return fail(database.path() + ": damaged at tick " + std::to_string(tick) + ": " + result.error().message);
+}
+
+Result<std::optional<Tick>> RecordingReader::State::event_tick(const std::string& select) {
+  if (!events_from) return std::optional<Tick>();
+  const auto tick = database.number(select);
+  if (!tick) return tl::unexpected(tick.error());
+  return tick->has_value() ? std::optional(static_cast<Tick>(**tick)) : std::nullopt;
 }
 
 RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -85,6 +139,7 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string
   if (auto whole = check_pages(state->database); !whole) return tl::unexpected(whole.error());
   if (auto header = state->read_header(); !header) return tl::unexpected(header.error());
   if (auto extent = state->read_extent(); !extent) return tl::unexpected(extent.error());
+  if (auto events = state->read_later_tables(); !events) return tl::unexpected(events.error());
   const auto take = [&](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = state->database.prepare(sql);
     if (!prepared) return tl::unexpected(prepared.error());
@@ -102,6 +157,11 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string
     return tl::unexpected(ok.error());
   std::error_code ignored;
   state->bytes = std::filesystem::file_size(path, ignored);
+  if (const auto log = std::filesystem::file_size(path + "-wal", ignored); !ignored) state->bytes += log;
+  const auto journal =
+      state->database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
+  if (!journal) return tl::unexpected(journal.error());
+  state->is_ended = *journal != "wal";
   return std::unique_ptr<RecordingReader>(new RecordingReader(std::move(state)));
 }
 
@@ -120,6 +180,9 @@ Tick RecordingReader::last_tick() const {
 uint64_t RecordingReader::keyframes() const {
   return state_->keyframes;
 }
+bool RecordingReader::is_ended() const {
+  return state_->is_ended;
+}
 uint64_t RecordingReader::bytes() const {
   return state_->bytes;
 }
@@ -133,6 +196,18 @@ Result<Tick> RecordingReader::state_before(Tick tick) {
       state_->database.number("SELECT max(tick) FROM states WHERE tick <= " + std::to_string(tick));
   if (!latest) return tl::unexpected(latest.error());
   return static_cast<Tick>(latest->value_or(0));
+}
+
+Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
+  Tick latest = 0;
+  for (const char* table : {"keyframes", "short_keyframes"}) {
+    if (table == std::string_view("short_keyframes") && !state_->has_short_keyframes) break;
+    const auto row = state_->database.number("SELECT max(tick) FROM " + std::string(table) +
+                                             " WHERE tick <= " + std::to_string(tick));
+    if (!row) return tl::unexpected(row.error());
+    latest = std::max(latest, static_cast<Tick>(row->value_or(0)));
+  }
+  return latest;
 }
 
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
@@ -157,7 +232,68 @@ Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
   return from_recorded(*recorded);
 }
 
-Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {
+std::optional<Tick> RecordingReader::events_from() const {
+  return state_->events_from;
+}
+
+Result<std::vector<Event>> RecordingReader::events(Tick tick) {
+  return events(tick, tick);
+}
+
+namespace {
+
+std::string rows_of(const std::string& table, Tick from, Tick to) {
+  return "SELECT tick, data, checksum FROM " + table + " WHERE tick BETWEEN " + std::to_string(from) +
+         " AND " + std::to_string(to) + " ORDER BY tick";
+}
+
+}  // namespace
+
+Result<std::vector<Event>> RecordingReader::events(Tick from, Tick to) {
+  std::vector<Event> events;
+  if (!state_->events_from) return events;
+  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
+    if (!whole) return fail(path() + ": damaged: the events of tick " + std::to_string(tick));
+    const auto row = state_->decoded(decode_recorded_events(data, tick), tick);
+    if (!row) return tl::unexpected(row.error());
+    events.insert(events.end(), row->begin(), row->end());
+    return {};
+  };
+  if (auto read = state_->database.each(rows_of("events", from, to), take); !read)
+    return tl::unexpected(read.error());
+  return events;
+}
+
+Result<std::vector<RecordedMachine>> RecordingReader::machine(Tick from, Tick to) {
+  std::vector<RecordedMachine> rows;
+  if (!state_->events_from) return rows;
+  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
+    if (!whole) return fail(path() + ": damaged: the durations up to tick " + std::to_string(tick));
+    auto row = state_->decoded(decode_recorded_machine(data), tick);
+    if (!row) return tl::unexpected(row.error());
+    if (row->tick != tick)
+      return fail(path() + ": damaged: durations of another tick than they say, " + std::to_string(tick));
+    rows.push_back(std::move(*row));
+    return {};
+  };
+  // A row that ends after `to` has ticks before it.
+  if (auto read = state_->database.each(rows_of("machine", from, to + limits::ticks_per_row_max), take);
+      !read)
+    return tl::unexpected(read.error());
+  return rows;
+}
+
+Result<std::optional<Tick>> RecordingReader::next_event(Tick tick) {
+  return state_->event_tick("SELECT min(tick) FROM events WHERE tick > " + std::to_string(tick) +
+                            " AND tick <= " + std::to_string(state_->last_tick));
+}
+
+Result<std::optional<Tick>> RecordingReader::previous_event(Tick tick) {
+  return state_->event_tick("SELECT max(tick) FROM events WHERE tick < " + std::to_string(tick) +
+                            " AND tick >= " + std::to_string(state_->first_tick));
+}
+
+Result<std::optional<RecordedKeyframe>> RecordingReader::whole_keyframe_before(Tick tick) {
   CHECK(tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_keyframe, tick);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -166,6 +302,41 @@ Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick ti
   if (!keyframe) return tl::unexpected(keyframe.error());
   if (keyframe->tick > tick) return fail(path() + ": damaged: a keyframe of a later tick than it says");
   return std::optional(std::move(*keyframe));
+}
+
+/// Where there is a later short keyframe up to that tick: it has everything but the bricks that did not
+/// change.
+Result<void> RecordingReader::State::put_short_over(RecordedKeyframe& keyframe, Tick tick) {
+  if (!has_short_keyframes) return {};
+  const auto latest = database.number("SELECT max(tick) FROM short_keyframes WHERE tick > " +
+                                      std::to_string(keyframe.tick) + " AND tick <= " + std::to_string(tick));
+  if (!latest) return tl::unexpected(latest.error());
+  if (!latest->has_value()) return {};
+  auto select = database.prepare(schema::select_from("short_keyframes"));
+  if (!select) return tl::unexpected(select.error());
+  const auto bytes_read = database.get(*select, static_cast<uint64_t>(**latest));
+  if (!bytes_read) return tl::unexpected(bytes_read.error());
+  auto later = decoded(decode_recorded_keyframe(**bytes_read), tick);
+  if (!later) return tl::unexpected(later.error());
+  if (later->tick > tick) return fail(database.path() + ": damaged: a keyframe of a later tick than it says");
+  std::vector<BrickPatch> bricks;
+  bricks.reserve(keyframe.bricks.size() + later->bricks.size());
+  // Of a brick that both have, the first is taken: the later one.
+  std::ranges::set_union(later->bricks, keyframe.bricks, std::back_inserter(bricks), {}, &BrickPatch::coord,
+                         &BrickPatch::coord);
+  later->bricks = std::move(bricks);
+  keyframe = std::move(*later);
+  return {};
+}
+
+Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {
+  auto whole = whole_keyframe_before(tick);
+  if (!whole) return whole;
+  RecordedKeyframe keyframe = whole->value_or(RecordedKeyframe());
+  const Tick before = keyframe.tick;
+  if (auto put = state_->put_short_over(keyframe, tick); !put) return tl::unexpected(put.error());
+  if (!whole->has_value() && keyframe.tick == before) return whole;
+  return std::optional(std::move(keyframe));
 }
 
 }  // namespace scree

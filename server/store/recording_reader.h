@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/event.h"
 #include "server/store/recording.h"
 #include "shared/base/result.h"
 
@@ -20,12 +21,15 @@ class RecordingReader {
 
   const std::string& path() const;
   const RecordingHeader& header() const;
-  /// The recording holds the ticks first_tick() … last_tick() without a gap, at least one. Where the first is
-  /// not 1, state() has the world before it.
+  /// As of open(), while somebody still writes: the recording holds the ticks first_tick() … last_tick()
+  /// without a gap, at least one. Where the first is not 1, state() has the world before it.
   Tick first_tick() const;
   Tick last_tick() const;
-  uint64_t keyframes() const;
-  uint64_t bytes() const;  ///< of the file
+  uint64_t keyframes() const;  ///< whole ones
+  uint64_t bytes() const;      ///< of the file, and of the log beside it, if there is one
+  /// Whether who recorded came to an end: else the recording is being written, or was cut short, by a crash
+  /// perhaps; it is whole up to last_tick() all the same.
+  bool is_ended() const;
 
   /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
   /// it; most ticks have none.
@@ -37,12 +41,26 @@ class RecordingReader {
   Result<RecordedFrame> frame(Tick tick);
   /// The commands of a tick within first_tick() … last_tick(); most ticks have none.
   Result<std::vector<Command>> commands(Tick tick);
+  /// The first tick that the log of events covers; nothing when the recording has none, as those of earlier
+  /// releases.
+  std::optional<Tick> events_from() const;
+  /// What happened in a tick that the log covers; most ticks have nothing. Of the machine: machine().
+  Result<std::vector<Event>> events(Tick tick);
+  /// The world's events of the ticks from … to, in order; and what is recorded of the machine there.
+  Result<std::vector<Event>> events(Tick from, Tick to);
+  Result<std::vector<RecordedMachine>> machine(Tick from, Tick to);
+  /// The nearest tick with an event of the world after, or before, that tick; nothing when there is none.
+  Result<std::optional<Tick>> next_event(Tick tick);
+  Result<std::optional<Tick>> previous_event(Tick tick);
   /// The latest keyframe up to `tick`, which is at most last_tick(); nothing when there is none: then play
   /// from tick 1.
   Result<std::optional<RecordedKeyframe>> keyframe_before(Tick tick);
+  /// Its tick; 0 when there is none.
+  Result<Tick> keyframe_tick_before(Tick tick);
 
  private:
   struct State;
+  Result<std::optional<RecordedKeyframe>> whole_keyframe_before(Tick tick);
   explicit RecordingReader(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

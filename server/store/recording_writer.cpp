@@ -1,14 +1,30 @@
 #include "server/store/recording_writer.h"
 
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "proto/event_codec.h"
 #include "proto/world_codec.h"
 #include "server/store/database.h"
+#include "server/store/event_deriver.h"
 #include "server/store/limits.h"
 #include "server/store/recording_reader.h"
 #include "server/store/schema.h"
+#include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
+
+namespace {
+
+/// Ticks of one row of durations: a second of them at 60 Hz.
+constexpr size_t ticks_per_machine_row = 60;
+static_assert(ticks_per_machine_row <= limits::ticks_per_row_max);
+constexpr double us_per_ms = 1000.0;
+
+}  // namespace
 
 struct RecordingWriter::State {
   explicit State(Database d) : database(std::move(d)) {}
@@ -17,11 +33,21 @@ struct RecordingWriter::State {
   Result<void> prepare();
   Result<void> put_start(const RecordingStart& start);
   Result<void> put_keyframe(const TickDelta& delta);
+  Result<void> put_short_keyframe();
+  Result<void> put_events(const TickDelta& delta, std::span<const Event> noted);
+  Result<void> put_machine();
 
   Database database;
   Statement insert_frame;
   Statement put_keyframe_row;
   Statement insert_commands;
+  Statement insert_events;
+  Statement put_machine_row;
+  Statement put_short_keyframe_row;
+  std::set<BrickCoord> changed;  ///< since the last keyframe
+  std::optional<EventDeriver> deriver;
+  RecordedMachine machine;   ///< since its last row
+  bool logs = false;         ///< it has a row of the machine's from this process
   PublishedState published;  ///< after the last tick that was added
   bool in_transaction = false;
   ThreadCheck storage_thread;
@@ -59,7 +85,10 @@ Result<void> RecordingWriter::State::prepare() {
   };
   if (auto done = take(insert_frame, schema::insert_into("frames")); !done) return done;
   if (auto done = take(put_keyframe_row, schema::put_into("keyframes")); !done) return done;
-  return take(insert_commands, schema::insert_into("commands"));
+  if (auto done = take(insert_commands, schema::insert_into("commands")); !done) return done;
+  if (auto done = take(insert_events, schema::insert_into("events")); !done) return done;
+  if (auto done = take(put_machine_row, schema::put_into("machine")); !done) return done;
+  return take(put_short_keyframe_row, schema::put_into("short_keyframes"));
 }
 
 Result<void> RecordingWriter::State::put_keyframe(const TickDelta& delta) {
@@ -67,7 +96,38 @@ Result<void> RecordingWriter::State::put_keyframe(const TickDelta& delta) {
   // A keyframe too large for a row is left out: seeking starts from an earlier one.
   if (keyframe.size() > limits::row_bytes_max) return {};
   CHECK_DEBUG(decode_recorded_keyframe(keyframe).has_value());
+  changed.clear();
   return database.put(put_keyframe_row, delta.tick, keyframe);
+}
+
+/// Where nothing has changed, the last keyframe does.
+Result<void> RecordingWriter::State::put_short_keyframe() {
+  if (changed.size() > limits::short_keyframe_bricks_max) return {};
+  if (changed.empty() && published.pieces().empty()) return {};
+  const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(published.as_delta(changed)));
+  if (keyframe.size() > limits::row_bytes_max) return {};
+  return database.put(put_short_keyframe_row, published.tick(), keyframe);
+}
+
+/// A row of the machine's is not written at each tick: it would be most of a quiet recording.
+Result<void> RecordingWriter::State::put_events(const TickDelta& delta, std::span<const Event> noted) {
+  CHECK(deriver.has_value());
+  if (const std::vector<Event> events = deriver->events_of(delta); !events.empty())
+    if (auto put = database.put(insert_events, delta.tick, encode(std::span(events))); !put) return put;
+  machine.tick = delta.tick;
+  machine.tick_us.push_back(static_cast<uint32_t>(std::lround(delta.times.total_ms() * us_per_ms)));
+  for (const Event& event : noted)
+    if (machine.events.size() < limits::events_per_row_max) machine.events.push_back(event);
+  // The first one says at once where the log of events begins.
+  const bool due = !logs || machine.tick_us.size() >= ticks_per_machine_row;
+  logs = true;
+  return due ? put_machine() : Result<void>();
+}
+
+Result<void> RecordingWriter::State::put_machine() {
+  if (machine.tick_us.empty()) return {};
+  const RecordedMachine row = std::exchange(machine, {});
+  return database.put(put_machine_row, row.tick, encode(row));
 }
 
 /// The state, and the keyframe from which a replay begins there.
@@ -82,6 +142,7 @@ Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
   if (auto put = database.put(*insert, start.keyframe.tick, value); !put) return put;
   published = {};
   published.apply(start.keyframe);
+  deriver.emplace(start.value.moment.config.terrain.voxel_size_m, start.keyframe.settings);
   return put_keyframe(start.keyframe);
 }
 
@@ -139,6 +200,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));
   if (auto done = state->found(header); !done) return tl::unexpected(done.error());
+  state->deriver.emplace(header.world.terrain.voxel_size_m, print(header.world));
   if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
@@ -160,9 +222,12 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));
+  if (auto made = state->database.execute(schema::create_later_tables()); !made)
+    return tl::unexpected(made.error());
   if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
   if (auto begun = state->begin(); !begun) return tl::unexpected(begun.error());
-  for (const char* table : {"frames", "keyframes", "commands", "states"})
+  for (const char* table :
+       {"frames", "keyframes", "commands", "states", "events", "machine", "short_keyframes"})
     if (auto done = state->database.execute(std::string("DELETE FROM ") + table + " WHERE tick > " +
                                             std::to_string(tick));
         !done)
@@ -171,7 +236,8 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
 
-Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands) {
+Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands,
+                                  std::span<const Event> noted) {
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
   if (auto begun = state.begin(); !begun) return begun;
@@ -183,9 +249,11 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
   CHECK_DEBUG(decode_recorded_frame(frame).has_value());
   if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
+  if (auto put = state.put_events(delta, noted); !put) return put;
   state.published.apply(delta);
-  if (delta.tick % limits::ticks_per_keyframe != 0) return {};
-  return state.put_keyframe(state.published.as_delta());
+  for (const BrickState& brick : delta.bricks) state.changed.insert(brick.coord);
+  if (delta.tick % limits::ticks_per_keyframe == 0) return state.put_keyframe(state.published.as_delta());
+  return delta.tick % limits::ticks_per_short_keyframe == 0 ? state.put_short_keyframe() : Result<void>();
 }
 
 Result<void> RecordingWriter::commit() {
@@ -195,6 +263,10 @@ Result<void> RecordingWriter::commit() {
 }
 
 Result<void> RecordingWriter::finish() {
+  if (!state_->machine.tick_us.empty()) {
+    if (auto begun = state_->begin(); !begun) return begun;
+    if (auto put = state_->put_machine(); !put) return put;
+  }
   if (auto committed = commit(); !committed) return committed;
   CHECK(!state_->in_transaction);
   return state_->database.execute("PRAGMA journal_mode = DELETE");

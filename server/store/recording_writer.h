@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "proto/event.h"
 #include "server/store/recording.h"
 #include "shared/base/result.h"
 
@@ -19,17 +20,18 @@ class RecordingWriter {
                                                          const RecordingHeader& header,
                                                          const RecordingStart& start);
   /// Goes on with a recording of the same world where that stood at `start`: ticks after it, which the world
-  /// has lost, are dropped. Refuses another world's, and one that ends before `start`. The file is changed
-  /// with the first commit.
+  /// has lost, are dropped. Refuses another world's, and one that ends before `start`. Nothing that was
+  /// recorded changes before the first commit.
   static Result<std::unique_ptr<RecordingWriter>> resume(const std::string& path,
                                                          const RecordingHeader& header,
                                                          const RecordingStart& start);
   /// Commits, and ignores errors.
   ~RecordingWriter();
 
-  /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. The
-  /// caller stops adding after an error.
-  Result<void> add(const TickDelta& delta, std::span<const Command> commands);
+  /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. Its
+  /// events are derived; `noted`: those of the machine. The caller stops adding after an error.
+  Result<void> add(const TickDelta& delta, std::span<const Command> commands,
+                   std::span<const Event> noted = {});
   /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();
   /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder. The last

@@ -37,6 +37,7 @@ void PublishedState::apply(const TickDelta& delta) {
     chunk.version = delta.tick;
     remember(chunk.history, chunk.version, chunk.hash);
   }
+  for (const BrickCoord coord : delta.reverted) revert(coord);
   std::map<PieceId, PublishedPiece> alive;
   for (const PieceState& piece : delta.pieces) {
     const auto known = pieces_.find(piece.id);
@@ -58,6 +59,20 @@ void PublishedState::apply(const TickDelta& delta) {
   CHECK_DEBUG(field_hash_ == sum_of_chunks());
 }
 
+void PublishedState::revert(BrickCoord coord) {
+  const auto found = chunks_.find(chunk_of(coord));
+  CHECK(found != chunks_.end() && found->second.bricks.contains(coord));
+  PublishedChunk& chunk = found->second;
+  chunk.hash -= chunk.bricks.at(coord).hash;
+  chunk.bricks.erase(coord);
+  if (chunk.bricks.empty()) {
+    chunks_.erase(found);
+    return;
+  }
+  chunk.version = tick_;
+  remember(chunk.history, chunk.version, chunk.hash);
+}
+
 uint64_t PublishedState::sum_of_chunks() const {
   uint64_t sum = 0;
   for (const auto& [coord, chunk] : chunks_) sum += chunk.hash;
@@ -65,11 +80,22 @@ uint64_t PublishedState::sum_of_chunks() const {
 }
 
 TickDelta PublishedState::as_delta() const {
-  TickDelta delta;
-  delta.tick = tick_;
+  TickDelta delta = without_bricks();
   for (const auto& [coord, chunk] : chunks_)
     for (const auto& [brick, state] : chunk.bricks) delta.bricks.push_back(state);
   std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  return delta;
+}
+
+TickDelta PublishedState::as_delta(const std::set<BrickCoord>& bricks) const {
+  TickDelta delta = without_bricks();
+  for (const BrickCoord brick : bricks) delta.bricks.push_back(chunks_.at(chunk_of(brick)).bricks.at(brick));
+  return delta;
+}
+
+TickDelta PublishedState::without_bricks() const {
+  TickDelta delta;
+  delta.tick = tick_;
   for (const auto& [id, piece] : pieces_) {
     delta.spawned.push_back({id, piece.volume});
     delta.pieces.push_back({id, piece.pose});

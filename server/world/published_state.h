@@ -3,13 +3,15 @@
 // thread-safe.
 //
 // Invariants: ticks have no gap. A chunk's version is the last tick that changed it, and its hash is the sum
-// of its bricks' hashes; the field's hash is the sum over chunks. Every piece alive has its volume.
+// of its bricks' hashes, of which it has one at least; the field's hash is the sum over chunks. Every piece
+// alive has its volume.
 #pragma once
 
 #include <array>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -47,6 +49,8 @@ class PublishedState {
   /// A keyframe: one delta that takes an empty state to this one, with every edited brick, every piece, and
   /// no operations.
   TickDelta as_delta() const;
+  /// The same with these bricks alone, which are edited.
+  TickDelta as_delta(const std::set<BrickCoord>& bricks) const;
 
   Tick tick() const { return tick_; }
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
@@ -61,6 +65,10 @@ class PublishedState {
   std::optional<uint64_t> hash_at(ChunkCoord chunk, Tick version) const;
 
  private:
+  /// Everything but bricks.
+  TickDelta without_bricks() const;
+  /// The brick is no longer edited.
+  void revert(BrickCoord coord);
   /// Σ chunk hash, which is the field's; for CHECK_DEBUG.
   uint64_t sum_of_chunks() const;
 

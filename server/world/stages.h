@@ -96,6 +96,7 @@ class StageWatch {
     stage_ = stage;
     return before;
   }
+  TickStage stage() const { return stage_; }
   /// A tick begins: nothing is charged for the time since the last one.
   void restart(TickStage stage) {
     since_ = std::chrono::steady_clock::now();

@@ -38,6 +38,7 @@ struct AppliedOperation {
   std::vector<ChunkCoord> reads;   ///< chunks that apply() reads
   std::vector<ChunkCoord> writes;  ///< chunks that it changed
   std::vector<PieceId> created;
+  std::optional<TickStage> stage = std::nullopt;  ///< that applied it; nothing in a replay
 };
 
 /// A brick's state after the tick.
@@ -57,11 +58,13 @@ struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
   std::vector<BrickState> bricks;            ///< every brick that the tick changed, ordered
+  std::vector<BrickCoord> reverted;          ///< bricks that are no longer edited, ordered: a replay jumped
   std::vector<SpawnedPiece> spawned;         ///< pieces made in this tick, ordered; some may be gone again
   std::vector<PieceState> pieces;            ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
-  std::optional<ServiceLimits> service;  ///< those of them that are the network's; never in a recording
+  std::optional<ServiceLimits> service;     ///< those of them that are the network's; never in a recording
+  std::optional<PlaybackMessage> playback;  ///< where a replay stands; of a replay alone
   Ledger ledger;
   StageTimes times;
   TickWork work;

@@ -81,6 +81,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
+  delta.operations.back().stage = watch.stage();
   changed.insert(applied.changed.begin(), applied.changed.end());
   memory.note(applied.changed);
   const Loose loose = left_by(operation);

@@ -152,6 +152,10 @@ inline Lines words(const AdminAct& act) {
                                      ban.address, ban.minutes, ban.reason)};
           },
           [](const ListBans&) { return Lines{"list bans"}; },
+          [](const ControlReplay& control) {
+            return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
+                                     control.speed, name_of(control.move), control.value)};
+          },
           [](const LiftBan& lift) { return Lines{fmt::format("lift ban: address '{}'", lift.address)}; }},
       act);
 }
@@ -178,6 +182,10 @@ inline Lines describe(const PersonsMessage& m) {
 }
 inline Lines describe(const SaidMessage& m) {
   return {fmt::format("said: session {}, name '{}', text '{}'", m.session, m.name, m.text)};
+}
+inline Lines describe(const PlaybackMessage& m) {
+  return {fmt::format("playback: moment {} of {} to {}, speed {}, playing: {}, {} heeded", m.moment, m.first,
+                      m.last, m.speed, m.playing, m.heeded)};
 }
 inline Lines describe(const GoodbyeMessage&) {
   return {"goodbye"};

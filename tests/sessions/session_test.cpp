@@ -186,6 +186,7 @@ TEST_F(SessionTest, replay_gives_a_client_the_hash_of_every_tick) {
   EXPECT_EQ((*reader)->last_tick(), played->session->tick());
   LiveConfig config;
   config.replay.path = played->recording;
+  config.replay.at_end = AtEnd::end;
   LoopbackSession replay(config);
   ASSERT_EQ(replay.failure, "");
   SessionClient& viewer = replay.join(above_ground(0.0F, 0.0F), all_m);

@@ -49,6 +49,7 @@ class TrustingClient {
   std::vector<StatusMessage> statuses;
   std::vector<GroundMessage> grounds;
   std::vector<TileMessage> tiles;
+  std::vector<PlaybackMessage> playbacks;
   TrustingClient* before = nullptr;  ///< has the chunks that this one offered
   size_t kept = 0;
 
@@ -147,6 +148,7 @@ class TrustingClient {
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
   void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
   void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
+  void apply(const PlaybackMessage& message) { playbacks.push_back(message); }
   void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }

@@ -2,6 +2,7 @@
 // sessions. Exit status: 0 success, 1 failure or refusal, 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +25,12 @@ struct Options {
   uint32_t minutes = 0;
   std::string reason;
   bool json = false;
+  bool play = false, pause = false;
+  double speed = 0.0;
+  std::optional<uint64_t> to_tick;
+  std::optional<int64_t> steps;
+  std::optional<double> time_s;
+  bool next_event = false, previous_event = false;
 };
 
 int complain(const scree::Error& error, int code) {
@@ -106,6 +113,51 @@ int ban(const Options& options) {
                                                   options.minutes, options.reason}));
 }
 
+scree::ControlReplay wish_of(const Options& options) {
+  scree::ControlReplay wish;
+  if (options.play) wish.play = scree::ReplayPlay::play;
+  if (options.pause) wish.play = scree::ReplayPlay::pause;
+  wish.speed = static_cast<float>(options.speed);
+  const auto move = [&](scree::ReplayMove kind, int64_t value) {
+    wish.move = kind;
+    wish.value = value;
+  };
+  if (options.to_tick) move(scree::ReplayMove::to_tick, static_cast<int64_t>(*options.to_tick));
+  if (options.steps) move(scree::ReplayMove::by_ticks, *options.steps);
+  if (options.time_s) move(scree::ReplayMove::to_time, std::llround(*options.time_s * 1000.0));
+  if (options.next_event) move(scree::ReplayMove::next_event, 0);
+  if (options.previous_event) move(scree::ReplayMove::previous_event, 0);
+  return wish;
+}
+
+int control(const Options& options) {
+  const auto playback = scree::control_replay(options.server, wish_of(options));
+  if (!playback) return complain(playback.error(), exit_failed);
+  std::fputs((options.json ? scree::playback_json(*playback) : scree::playback_lines(*playback)).c_str(),
+             stdout);
+  return 0;
+}
+
+void add_control_options(CLI::App* command, Options& options) {
+  CLI::Option* play = command->add_flag("--play", options.play, "goes on");
+  command->add_flag("--pause", options.pause, "stands still")->excludes(play);
+  const double most = scree::replay_speed_most;
+  scree::bounded(command->add_option("--speed", options.speed,
+                                     "times real time, 0.1 to 16, negative: backwards; 0: as it is"),
+                 {-most, most})
+      ->capture_default_str();
+  CLI::Option_group* const moves = command->add_option_group("moves", "at most one");
+  scree::bounded(moves->add_option("--to", options.to_tick, "goes to this tick"),
+                 scree::whole_within(0, scree::whole_most));
+  scree::bounded(moves->add_option("--step", options.steps, "goes so many ticks on, or back: -1"),
+                 scree::whole_within(-scree::whole_most, scree::whole_most));
+  scree::bounded(moves->add_option("--time", options.time_s, "goes to this second of the recording"),
+                 {0.0, 1.0e9});
+  moves->add_flag("--next-event", options.next_event, "goes to the next tick in which something happened");
+  moves->add_flag("--previous-event", options.previous_event, "goes to the one before");
+  moves->require_option(0, 1);
+}
+
 using Run = int (*)(const Options&);
 
 /// A row each: what to run when the subcommand was given.
@@ -127,6 +179,8 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
       ->capture_default_str();
   for (CLI::App* command : {kicked, banned})
     command->add_option("--reason", options.reason, "told to who is sent away");
+  CLI::App* replay = add("replay", "controls a replay that a server plays, and prints where it stands");
+  add_control_options(replay, options);
   CLI::App* bans = add("bans", "lists the addresses that are refused");
   CLI::App* unban = add("unban", "lets an address in again");
   unban->add_option("ADDRESS", options.whom, "as bans lists it")->required();
@@ -136,6 +190,7 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
           {sessions, print_sessions},
           {kicked, kick},
           {banned, ban},
+          {replay, control},
           {bans, print_bans},
           {unban, [](const Options& o) { return told(scree::lift_ban(o.server, {o.whom})); }}};
 }

@@ -1,10 +1,16 @@
-// scree-replay: describes a recording, and verifies it by simulating it again.
+// scree-replay: describes a recording, verifies it by simulating it again, and exports what it says.
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "server/app/ground_giver.h"
+#include "server/replay/export_lines.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
@@ -23,6 +29,9 @@ struct Options {
   std::string path;
   std::string ground;
   bool json = false;
+  bool csv = false;
+  std::string events_path;
+  std::string ticks_path;
 };
 
 std::string hex(uint64_t hash) {
@@ -71,11 +80,32 @@ Result<Sums> sum_up(RecordingReader& recording) {
   return sums;
 }
 
+/// By kind; nothing where there is no log of events.
+Result<Json> count_events(RecordingReader& recording) {
+  if (!recording.events_from()) return Json();
+  std::array<uint64_t, kind_count<EventKind>> counts{};
+  const auto count = [&](const std::vector<Event>& events) {
+    for (const Event& event : events) ++counts[static_cast<size_t>(event.kind)];
+  };
+  const auto events = recording.events(recording.first_tick(), recording.last_tick());
+  if (!events) return tl::unexpected(events.error());
+  count(*events);
+  const auto rows = recording.machine(recording.first_tick(), recording.last_tick());
+  if (!rows) return tl::unexpected(rows.error());
+  for (const RecordedMachine& row : *rows) count(row.events);
+  Json json = Json::object();
+  for (const EventKind kind : all_kinds<EventKind>)
+    if (const uint64_t n = counts[static_cast<size_t>(kind)]; n > 0) json[std::string(name_of(kind))] = n;
+  return json;
+}
+
 int info(const Options& options) {
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
   const auto sums = sum_up(**recording);
   if (!sums) return complain(sums.error());
+  const auto events = count_events(**recording);
+  if (!events) return complain(events.error());
   const RecordingHeader& header = (*recording)->header();
   const WorldConfig& world = header.world;
   const Tick first = (*recording)->first_tick();
@@ -94,7 +124,9 @@ int info(const Options& options) {
             {"first_tick", first},
             {"ticks", ticks},
             {"seconds", static_cast<double>(ticks) / world.tick_rate_hz},
+            {"ended", (*recording)->is_ended()},
             {"keyframes", (*recording)->keyframes()},
+            {"events", *events},
             {"commands", sums->commands}};
   sums->operations.for_each([&](std::string_view name, uint64_t count) { json[std::string(name)] = count; });
   json.update({{"merges", sums->merges},
@@ -122,6 +154,7 @@ int verify_file(const Options& options) {
             {"ticks", report->ticks},
             {"ticks_recorded", (*recording)->last_tick() - (*recording)->first_tick() + 1},
             {"commands", report->commands},
+            {"events", report->events},
             {"restarts", report->restarts},
             {"field_hash", hex(report->field_hash)},
             {"state_hash", hex(report->state_hash)},
@@ -134,11 +167,79 @@ int verify_file(const Options& options) {
   return report->agrees() ? 0 : differs_or_failed;
 }
 
+/// Writes lines to a file, or to the standard output ("-"), as `write` gives them.
+Result<void> write_lines(const std::string& path, const std::function<Result<void>(const TakeLine&)>& write) {
+  const bool is_out = path == "-";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
+      is_out ? nullptr : std::fopen(path.c_str(), "w"), std::fclose);
+  std::FILE* const file = is_out ? stdout : opened.get();
+  if (file == nullptr) return fail(path + " cannot be written: " + std::strerror(errno));
+  auto written = write([file](const std::string& line) { std::fprintf(file, "%s\n", line.c_str()); });
+  if (std::fflush(file) != 0 || std::ferror(file) != 0)
+    return fail(path + " cannot be written: " + std::strerror(errno));
+  return written;
+}
+
+int export_lines(const Options& options) {
+  const auto ground = ground_giver(options.path, options.ground);
+  if (!ground) return complain(ground.error());
+  const auto format_of = [&](const std::string& path) {
+    return options.csv || path.ends_with(".csv") ? LineFormat::csv : LineFormat::jsonl;
+  };
+  if (!options.events_path.empty()) {
+    const auto written = write_lines(options.events_path, [&](const TakeLine& take) {
+      return export_events(options.path, *ground, format_of(options.events_path), take);
+    });
+    if (!written) return complain(written.error());
+  }
+  if (options.ticks_path.empty()) return 0;
+  const auto recording = RecordingReader::open(options.path);
+  if (!recording) return complain(recording.error());
+  const auto written = write_lines(options.ticks_path, [&](const TakeLine& take) {
+    return export_ticks(**recording, format_of(options.ticks_path), take);
+  });
+  return written ? 0 : complain(written.error());
+}
+
 CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what) {
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("FILE", options.path, "a recording")->required();
-  command->add_flag("--json", options.json, "prints JSON");
   return command;
+}
+
+void add_ground(CLI::App* command, Options& options) {
+  command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
+}
+
+using Run = int (*)(const Options&);
+
+/// A row each: what to run when the subcommand was given.
+std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options& options) {
+  CLI::App* info_command = add_command(app, options, "info", "says what a recording holds");
+  CLI::App* verify_command =
+      add_command(app, options, "verify",
+                  "simulates it again from the commands, and compares every tick's hash and events");
+  for (CLI::App* command : {info_command, verify_command})
+    command->add_flag("--json", options.json, "prints JSON");
+  CLI::App* events =
+      add_command(app, options, "events", "prints what happened, an event a line (JSON Lines)");
+  events->add_flag("--csv", options.csv, "prints CSV");
+  CLI::App* exported = add_command(
+      app, options, "export", "writes events and ticks as JSON Lines, or as CSV where the name ends in .csv");
+  exported->add_option("--events", options.events_path, "file of the events; -: the standard output");
+  exported->add_option("--ticks", options.ticks_path,
+                       "file of every tick's duration and ledger; -: the standard output");
+  exported->require_option(1, 0);
+  for (CLI::App* command : {verify_command, events, exported}) add_ground(command, options);
+  return {{info_command, info},
+          {verify_command, verify_file},
+          {events,
+           [](const Options& o) {
+             Options to_screen = o;
+             to_screen.events_path = "-";
+             return export_lines(to_screen);
+           }},
+          {exported, export_lines}};
 }
 
 int run(int argc, char** argv) {
@@ -146,15 +247,15 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   Options options;
-  const CLI::App* info_command = add_command(app, options, "info", "says what a recording holds");
-  add_command(app, options, "verify", "simulates it again from the commands, and compares every tick's hash")
-      ->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
+  const auto commands = add_commands(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  return info_command->parsed() ? info(options) : verify_file(options);
+  for (const auto& [command, run_command] : commands)
+    if (command->parsed()) return run_command(options);
+  return usage_error;
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ AdminMessage any_admin(FuzzInput& input) {
   if (input.below(4) != 0) admin.token = FuzzServer::admin_token;
   const std::string address = "10.0.0." + std::to_string(input.below(4));
   const uint64_t session = input.below(12);
-  switch (input.below(6)) {
+  switch (input.below(7)) {
     case 0:
       admin.act = ListSessions{};
       break;
@@ -101,6 +101,9 @@ AdminMessage any_admin(FuzzInput& input) {
       break;
     case 4:
       admin.act = LiftBan{input.flag() ? address : input.text(limits::address_bytes_max)};
+      break;
+    case 5:
+      admin.act = ControlReplay{ReplayPlay::play, 2.0F, ReplayMove::by_ticks, input.byte()};
       break;
     default:
       admin.act = any_settings(input);

@@ -1,0 +1,95 @@
+// The log of events: what happened in a world, and to the server that ran it, as recordings keep it and
+// --events writes it.
+//
+// World events follow from the simulation: who verifies a recording derives them again and compares. Events
+// of the machine (who joined, which tick was slow) do not, and are recorded apart.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/base/kind_table.h"
+
+namespace scree {
+
+/// The numbers are those in recordings: new ones come last.
+enum class EventKind : uint8_t {
+  carve,
+  fill,
+  paint,
+  dent,
+  crush,
+  broke,
+  fall,
+  merge,
+  setting,
+  rebuild,
+  join,
+  leave,
+  slow,
+};
+
+struct EventRow {
+  EventKind kind{};
+  std::string_view name;
+  bool of_machine = false;  ///< it does not follow from the simulation
+  std::string_view what;
+};
+
+constexpr EventRow row_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::carve:
+      return {kind, "carve", false, "a carve that was asked for; volume and pieces: cut out"};
+    case EventKind::fill:
+      return {kind, "fill", false, "a fill"};
+    case EventKind::paint:
+      return {kind, "paint", false, "a paint"};
+    case EventKind::dent:
+      return {kind, "dent", false, "a blow dented soft ground; volume and pieces: thrown out"};
+    case EventKind::crush:
+      return {kind, "crush", false, "a neck was crushed by the load on it; volume and pieces: cut out"};
+    case EventKind::broke:
+      return {kind, "break", false, "a blow broke a piece; volume and pieces: the fragments"};
+    case EventKind::fall:
+      return {kind, "fall", false, "loose terrain became a piece, or dust"};
+    case EventKind::merge:
+      return {kind, "merge", false, "a burst of merges in one tick; pieces: became terrain"};
+    case EventKind::setting:
+      return {kind, "setting", false, "a setting changed; text: its name and value"};
+    case EventKind::rebuild:
+      return {kind, "rebuild", true, "a server built the world anew from its saved value"};
+    case EventKind::join:
+      return {kind, "join", true, "a session joined, or came back; place: its eye; text: the person's name"};
+    case EventKind::leave:
+      return {kind, "leave", true, "a session's connection ended; text: the person's name"};
+    case EventKind::slow:
+      return {kind, "slow", true, "the tick's simulation took longer than a tick's time; ms: how long"};
+  }
+  return {};
+}
+
+struct Event {
+  EventKind kind{};
+  Tick tick = 0;
+  std::optional<glm::vec3> place_m{};  ///< nothing where it has no place
+  float volume_m3 = 0.0F;
+  uint32_t pieces = 0;
+  uint64_t session = 0;  ///< 0: it is nobody's
+  float ms = 0.0F;       ///< of the tick; of machine events alone, for a simulation knows no time
+  std::string text{};
+
+  bool operator==(const Event&) const = default;
+};
+
+/// What a recording holds of the machine at one of its ticks: the durations of the ticks since the last such
+/// row, this one's last, and the events in them.
+struct RecordedMachine {
+  Tick tick = 0;
+  std::vector<uint32_t> tick_us;
+  std::vector<Event> events;
+};
+
+}  // namespace scree

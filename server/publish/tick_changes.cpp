@@ -1,0 +1,38 @@
+// The part of a tick that all clients have in common (client_view.h).
+#include <algorithm>
+#include <iterator>
+
+#include "server/publish/client_view.h"
+
+namespace scree {
+
+TickChanges::TickChanges(const TickDelta& d, const PublishedState& before, const PublishedState& after,
+                         const Motions& m, const TerrainSource& ground)
+    : delta(d), state(after), motions(m), voxel_size_m(ground.voxel_size_m) {
+  for (const BrickState& brick : d.bricks) bricks[chunk_of(brick.coord)].push_back(&brick);
+  for (const auto& [chunk, list] : bricks) {
+    if (!before.chunks().contains(chunk)) fresh.insert(chunk);
+    orphan.insert(chunk);
+  }
+  for (const BrickCoord brick : d.reverted) reverted.insert(chunk_of(brick));
+  ended.reserve(d.operations.size());
+  needs.reserve(d.operations.size());
+  opens.reserve(d.operations.size());
+  for (const AppliedOperation& operation : d.operations) {
+    ended.push_back(pieces_ended_by(operation.operation));
+    for (const ChunkCoord chunk : operation.writes) orphan.erase(chunk);
+    std::vector<ChunkCoord>& needed = needs.emplace_back();
+    std::ranges::set_union(operation.reads, operation.writes, std::back_inserter(needed));
+    // The others are the same on every client: nothing but operations of this tick has ever changed them.
+    const auto unedited = [&](ChunkCoord chunk) { return !before.chunks().contains(chunk); };
+    std::erase_if(needed, unedited);
+    std::ranges::copy_if(operation.writes, std::back_inserter(opens.emplace_back()), unedited);
+    std::set<TileKey>& decide = tiles.emplace_back();
+    if (ground.heights == nullptr) continue;
+    for (const auto& chunks : {operation.reads, operation.writes})
+      for (const ChunkCoord chunk : chunks)
+        for (const TileKey key : tiles_of(*ground.heights, chunk, ground.voxel_size_m)) decide.insert(key);
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,153 @@
+#include "server/replay/export_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+#include "server/store/event_deriver.h"
+#include "server/store/event_lines.h"
+#include "server/world/settings.h"
+
+namespace scree {
+
+namespace {
+
+/// Ticks that are read at once.
+constexpr Tick batch_ticks = 3600;
+constexpr float us_per_ms = 1000.0F;
+
+using Durations = std::map<Tick, float>;
+
+struct Batch {
+  std::vector<Event> events;  ///< ordered by tick
+  Durations ms;
+};
+
+Result<Batch> read_batch(RecordingReader& recording, Tick from, Tick to) {
+  auto events = recording.events(from, to);
+  if (!events) return tl::unexpected(events.error());
+  const auto rows = recording.machine(from, to);
+  if (!rows) return tl::unexpected(rows.error());
+  Batch batch{std::move(*events), {}};
+  for (const RecordedMachine& row : *rows) {
+    const Tick first = row.tick + 1 - row.tick_us.size();
+    for (size_t i = 0; i < row.tick_us.size(); ++i)
+      batch.ms[first + i] = static_cast<float>(row.tick_us[i]) / us_per_ms;
+    for (const Event& event : row.events)
+      if (event.tick >= from && event.tick <= to) batch.events.push_back(event);
+  }
+  std::ranges::stable_sort(batch.events, {}, &Event::tick);
+  return batch;
+}
+
+class EventWriter {
+ public:
+  EventWriter(LineFormat format, uint32_t tick_rate_hz, const TakeLine& take)
+      : format_(format), tick_rate_hz_(tick_rate_hz), take_(take) {
+    if (format == LineFormat::csv) take(std::string(event_csv_heads));
+  }
+  void write(const Event& event, const Durations& ms) const {
+    EventContext context{tick_rate_hz_};
+    if (const auto known = ms.find(event.tick); known != ms.end()) context.tick_ms = known->second;
+    take_(format_ == LineFormat::csv ? csv_line(event, context) : json_line(event, context));
+  }
+
+ private:
+  LineFormat format_;
+  uint32_t tick_rate_hz_;
+  const TakeLine& take_;
+};
+
+Result<void> derive_events(const std::string& path, const GroundGiver& ground, const EventWriter& writer) {
+  auto source = ReplaySource::open(path, 0, ground);
+  if (!source) return tl::unexpected(source.error());
+  const WorldConfig& world = (*source)->header().world;
+  EventDeriver deriver(world.terrain.voxel_size_m, print(world));
+  for (;;) {
+    const auto delta = (*source)->next();
+    if (!delta) return tl::unexpected(delta.error());
+    if (*delta == nullptr) return {};
+    for (const Event& event : deriver.events_of(**delta)) writer.write(event, {});
+  }
+}
+
+struct LedgerColumn {
+  std::string_view name;
+  MassUnits (*of)(const Ledger&);
+};
+
+constexpr std::array ledger_columns = {
+    LedgerColumn{"terrain_m3", [](const Ledger& l) { return l.terrain; }},
+    LedgerColumn{"pieces_m3", [](const Ledger& l) { return l.pieces; }},
+    LedgerColumn{"dust_m3", [](const Ledger& l) { return l.dust; }},
+    LedgerColumn{"poured_m3", [](const Ledger& l) { return l.poured; }},
+    LedgerColumn{"moved_m3", [](const Ledger& l) { return l.moved; }},
+    LedgerColumn{"error_m3", [](const Ledger& l) { return l.error(); }},
+};
+
+std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, const Durations& ms,
+                      LineFormat format) {
+  const bool csv = format == LineFormat::csv;
+  const double voxel_m = world.terrain.voxel_size_m;
+  const double unit_m3 = voxel_m * voxel_m * voxel_m / units_per_voxel;
+  const Ledger ledger = from_recorded(frame.ledger);
+  const double time_s = static_cast<double>(frame.tick) / world.tick_rate_hz;
+  std::string line = csv ? fmt::format("{},{:.3f}", frame.tick, time_s)
+                         : fmt::format(R"({{"tick":{},"time_s":{:.3f})", frame.tick, time_s);
+  const auto took = ms.find(frame.tick);
+  if (took != ms.end())
+    line += csv ? fmt::format(",{:.3f}", took->second) : fmt::format(R"(,"ms":{:.3f})", took->second);
+  else if (csv)
+    line += ",";
+  line += csv ? fmt::format(",{}", frame.operations.size())
+              : fmt::format(R"(,"operations":{})", frame.operations.size());
+  for (const LedgerColumn& column : ledger_columns) {
+    const double value_m3 = static_cast<double>(column.of(ledger)) * unit_m3;
+    line += csv ? fmt::format(",{:.6f}", value_m3) : fmt::format(R"(,"{}":{:.6f})", column.name, value_m3);
+  }
+  return csv ? line : line + "}";
+}
+
+}  // namespace
+
+Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
+                           const TakeLine& take) {
+  const auto recording = RecordingReader::open(path);
+  if (!recording) return tl::unexpected(recording.error());
+  const EventWriter writer(format, (*recording)->header().world.tick_rate_hz, take);
+  if (!(*recording)->events_from()) return derive_events(path, ground, writer);
+  const Tick last = (*recording)->last_tick();
+  for (Tick from = (*recording)->first_tick(); from <= last; from += batch_ticks) {
+    const auto batch = read_batch(**recording, from, std::min(last, from + batch_ticks - 1));
+    if (!batch) return tl::unexpected(batch.error());
+    for (const Event& event : batch->events) writer.write(event, batch->ms);
+  }
+  return {};
+}
+
+Result<void> export_ticks(RecordingReader& recording, LineFormat format, const TakeLine& take) {
+  if (format == LineFormat::csv) {
+    std::string heads = "tick,time_s,ms,operations";
+    for (const LedgerColumn& column : ledger_columns) {
+      heads += ',';
+      heads += column.name;
+    }
+    take(heads);
+  }
+  Batch batch;
+  for (Tick tick = recording.first_tick(), read = tick; tick <= recording.last_tick(); ++tick) {
+    if (tick == read) {
+      read = tick + batch_ticks;
+      auto next = read_batch(recording, tick, read - 1);
+      if (!next) return tl::unexpected(next.error());
+      batch = std::move(*next);
+    }
+    const auto frame = recording.frame(tick);
+    if (!frame) return tl::unexpected(frame.error());
+    take(tick_line(*frame, recording.header().world, batch.ms, format));
+  }
+  return {};
+}
+
+}  // namespace scree

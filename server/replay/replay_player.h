@@ -1,0 +1,70 @@
+// Plays a recording as those who control it want: one tick for each tick of the server's time, whose numbers
+// go on without a gap whatever the moment of the recording does, so that nobody who looks is reset or cut.
+//
+// take() may be called from any thread; all else from one.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "server/replay/replay_source.h"
+
+namespace scree {
+
+namespace limits {
+/// Wishes that wait for the next tick; above: refused.
+inline constexpr size_t replay_wishes_max = 256;
+}  // namespace limits
+
+/// What a replay does at its end.
+enum class AtEnd : uint8_t { stay, loop, end };
+
+struct PlayerOptions {
+  AtEnd at_end = AtEnd::stay;
+  float speed = 1.0F;  ///< replay_speed_least to replay_speed_most
+  /// Jumps happen in ticks with poses alone, so that who gets a jump also gets which pieces are gone.
+  uint32_t ticks_per_transform = 3;
+};
+
+class ReplayPlayer {
+ public:
+  ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOptions& options);
+
+  const RecordingHeader& header() const { return source_->header(); }
+
+  /// What somebody wants, for the next ticks. Refused when too much waits.
+  Result<void> take(const ControlReplay& wish);
+
+  /// The next tick, with TickDelta::playback; null at the end, when it ends there.
+  Result<std::shared_ptr<const TickDelta>> next();
+
+  PlaybackMessage state() const;
+
+ private:
+  Result<void> heed(const ControlReplay& wish);
+  Result<Tick> target_of(const ControlReplay& wish);
+  Tick within(double tick) const;
+  Result<std::shared_ptr<const TickDelta>> move();
+  /// The whole ticks of the credit.
+  Tick take_due();
+  bool at_border() const;
+  bool may_jump() const { return (number_ + 1) % options_.ticks_per_transform == 0; }
+
+  std::unique_ptr<ReplaySource> source_;
+  PlayerOptions options_;
+  const Tick from_;  ///< where a loop begins again
+  float speed_;
+  bool playing_ = true;
+  bool begun_ = false;
+  std::optional<Tick> target_;  ///< of a jump that waits
+  double credit_ = 0.0;         ///< ticks of the recording that are due
+  Tick number_ = 0;             ///< of the last tick that was given out
+  uint64_t heeded_ = 0;         ///< wishes, their moves done
+  uint64_t moves_waiting_ = 0;  ///< wishes whose jump waits
+  std::mutex mutex_;
+  std::vector<ControlReplay> wishes_;  ///< guarded by mutex_
+};
+
+}  // namespace scree

@@ -1,0 +1,184 @@
+#include "server/replay/replay_state.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "server/world/applied_operation.h"
+#include "shared/base/check.h"
+#include "shared/operation/price.h"
+
+namespace scree {
+
+namespace {
+
+/// Ticks that can be taken back at once: as many as lie between two keyframes. The earliest are forgotten.
+constexpr size_t played_ticks_max = 600;
+
+std::string hex(uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace
+
+ReplaySource::State::State(std::unique_ptr<RecordingReader> r, RecordingHeader h)
+    : reader(std::move(r)), header(std::move(h)), field(header.world.terrain) {}
+
+Result<void> ReplaySource::State::check_hash(uint64_t recorded) const {
+  if (field.hash() == recorded) return {};
+  return damaged("the field's hash is " + hex(field.hash()) + ", recorded was " + hex(recorded) +
+                 ": the recording is damaged, or another release made it");
+}
+
+Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe, BricksBefore& before) {
+  played.clear();
+  tick = keyframe.tick;
+  pieces.clear();
+  poses.clear();
+  replace_edits(field, keyframe.bricks, before);
+  for (const PieceMessage& piece : keyframe.pieces) {
+    pieces[piece.id] = std::make_shared<const Volume>(piece.volume);
+    poses[piece.id] = piece.pose;
+  }
+  ledger = from_recorded(keyframe.ledger);
+  settings = keyframe.settings;
+  state_hash = keyframe.state_hash;
+  return check_hash(keyframe.field_hash);
+}
+
+Result<void> ReplaySource::State::restore_before(Tick wanted, BricksBefore& before) {
+  const auto keyframe = reader->keyframe_before(wanted);
+  if (!keyframe) return tl::unexpected(keyframe.error());
+  if (auto restored = restore(keyframe->value_or(RecordedKeyframe()), before); !restored) return restored;
+  if (tick < start()) return damaged("the recording has no state to start from");
+  return {};
+}
+
+Result<void> ReplaySource::State::apply_operation(const Operation& operation, TickDelta& delta,
+                                                  std::set<BrickCoord>& changed, BricksBefore* before) {
+  const float voxel_size_m = field.source().voxel_size_m;
+  if (const auto valid = validate(operation, pieces, voxel_size_m); !valid)
+    return damaged(valid.error().message);
+  work_us += price_us(operation, field, pieces);
+  const VoxelBox reads = read_box(operation, pieces, voxel_size_m);
+  const BricksBefore stood = before != nullptr ? edits_within(field, reads) : BricksBefore();
+  const Applied applied = apply(operation, field, pieces);
+  delta.operations.push_back(describe(operation, reads, applied));
+  changed.insert(applied.changed.begin(), applied.changed.end());
+  for (const CreatedPiece& piece : applied.created) delta.spawned.push_back({piece.id, pieces.at(piece.id)});
+  if (before == nullptr) return {};
+  for (const BrickCoord brick : applied.changed) {
+    const auto known = stood.find(brick);
+    before->try_emplace(brick, known == stood.end() ? std::nullopt : known->second);
+  }
+  return {};
+}
+
+Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickDelta& delta) {
+  for (const PieceState& moved : frame.moved) {
+    if (!pieces.contains(moved.id)) return damaged("piece " + std::to_string(moved.id) + " is not there");
+    poses[moved.id] = moved.pose;
+  }
+  std::erase_if(poses, [this](const auto& pose) { return !pieces.contains(pose.first); });
+  for (const auto& [id, volume] : pieces) {
+    const auto pose = poses.find(id);
+    if (pose == poses.end()) return damaged("piece " + std::to_string(id) + " is nowhere");
+    delta.pieces.push_back({id, pose->second});
+  }
+  CHECK(poses.size() == pieces.size());
+  return {};
+}
+
+Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* before, bool keeps) {
+  CHECK(tick < reader->last_tick());
+  const auto frame = reader->frame(tick + 1);
+  if (!frame) return tl::unexpected(frame.error());
+  PlayedTick undo;
+  if (keeps) undo = {{}, pieces, poses, ledger, settings, state_hash};
+  const bool notes = before != nullptr || keeps;
+  auto delta = std::make_shared<TickDelta>();
+  delta->tick = ++tick;
+  work_us = 0.0F;
+  std::set<BrickCoord> changed;
+  for (const Operation& operation : frame->operations)
+    if (auto applied = apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr); !applied)
+      return tl::unexpected(applied.error());
+  if (auto placed = place_pieces(*frame, *delta); !placed) return tl::unexpected(placed.error());
+  if (auto equal = check_hash(frame->field_hash); !equal) return tl::unexpected(equal.error());
+  for (const BrickCoord coord : changed) delta->bricks.push_back(published_brick(field, coord));
+  ledger = from_recorded(frame->ledger);
+  state_hash = frame->state_hash;
+  if (!frame->settings.empty()) settings = frame->settings;
+  delta->settings = frame->settings;
+  delta->ledger = ledger;
+  delta->field_hash = frame->field_hash;
+  delta->state_hash = state_hash;
+  if (before != nullptr) before->insert(undo.bricks.begin(), undo.bricks.end());
+  if (!keeps) played.clear();
+  if (keeps) played.push_back(std::move(undo));
+  if (played.size() > played_ticks_max) played.pop_front();
+  return delta;
+}
+
+void ReplaySource::State::take_back_one(BricksBefore& before) {
+  CHECK(!played.empty());
+  PlayedTick last = std::move(played.back());
+  played.pop_back();
+  take_back(field, last.bricks, before);
+  pieces = std::move(last.pieces);
+  poses = std::move(last.poses);
+  ledger = last.ledger;
+  settings = std::move(last.settings);
+  state_hash = last.state_hash;
+  --tick;
+}
+
+/// Backwards from the ticks that can be taken back; else from the state there is, or a keyframe, whichever is
+/// nearer. Who goes back may want to go on so: then the ticks up to there are kept.
+Result<void> ReplaySource::State::go_to(Tick wanted, BricksBefore& before) {
+  const bool back = wanted < tick;
+  if (back && tick - wanted <= played.size()) {
+    while (tick > wanted) take_back_one(before);
+    return {};
+  }
+  const auto nearest = reader->keyframe_tick_before(wanted);
+  if (!nearest) return tl::unexpected(nearest.error());
+  if (back || *nearest > tick)
+    if (auto restored = restore_before(wanted, before); !restored) return restored;
+  while (tick < wanted)
+    if (const auto delta = advance(&before, back); !delta) return tl::unexpected(delta.error());
+  CHECK_EQ(tick, wanted);
+  return {};
+}
+
+std::shared_ptr<TickDelta> ReplaySource::State::unchanged() const {
+  auto delta = std::make_shared<TickDelta>();
+  delta->tick = tick;
+  for (const auto& [id, volume] : pieces) delta->pieces.push_back({id, poses.at(id)});
+  delta->ledger = ledger;
+  delta->field_hash = field.hash();
+  delta->state_hash = state_hash;
+  return delta;
+}
+
+std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
+  auto delta = unchanged();
+  for (const ChunkCoord chunk : field.edited_chunks())
+    for (const BrickCoord coord : field.edited_bricks(chunk))
+      delta->bricks.push_back(published_brick(field, coord));
+  std::ranges::sort(delta->bricks, {}, &BrickState::coord);
+  for (const auto& [id, volume] : pieces) delta->spawned.push_back({id, volume});
+  delta->settings = settings;
+  return delta;
+}
+
+Result<bool> ReplaySource::State::begins_something(Tick at) {
+  const auto frame = reader->frame(at);
+  if (!frame) return tl::unexpected(frame.error());
+  return std::ranges::any_of(frame->operations, [](const Operation& operation) {
+    return pieces_merged_by(operation) == 0 && !std::holds_alternative<DiscardOperation>(operation);
+  });
+}
+
+}  // namespace scree

@@ -1,0 +1,69 @@
+// The state of a recording's world as it is played, without a simulation: the kernels apply the operations to
+// a plain field. Internal to ReplaySource.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "server/replay/brick_edits.h"
+#include "server/replay/replay_source.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+/// How a tick changed the state, as far as it is needed to take the tick back.
+struct PlayedTick {
+  BricksBefore bricks;
+  PieceTable pieces;
+  std::map<PieceId, QuantisedPose> poses;
+  Ledger ledger;
+  SettingValues settings;
+  uint64_t state_hash = 0;
+};
+
+struct ReplaySource::State {
+  State(std::unique_ptr<RecordingReader> r, RecordingHeader h);
+
+  /// The latest keyframe up to that tick, or the untouched terrain before tick 1; what it changes of the
+  /// bricks is noted.
+  Result<void> restore_before(Tick wanted, BricksBefore& before);
+  /// The next tick. What it changes of the bricks is noted in `before`, if that is not null; `keeps`: it can
+  /// be taken back.
+  Result<std::shared_ptr<TickDelta>> advance(BricksBefore* before = nullptr, bool keeps = false);
+  Result<void> go_to(Tick wanted, BricksBefore& before);
+  void take_back_one(BricksBefore& before);
+  std::shared_ptr<const TickDelta> whole_state();
+  /// Pieces, ledger and hashes as they stand.
+  std::shared_ptr<TickDelta> unchanged() const;
+  Tick start() const { return reader->first_tick() - 1; }
+  /// Whether an event may begin with the tick, for recordings without a log.
+  Result<bool> begins_something(Tick at);
+
+  std::unique_ptr<RecordingReader> reader;
+  const RecordingHeader header;  ///< with its ground
+  MapField field;
+  PieceTable pieces;
+  std::map<PieceId, QuantisedPose> poses;
+  Ledger ledger;
+  SettingValues settings;
+  uint64_t state_hash = 0;
+  Tick tick = 0;
+  bool keyframe_due = false;      ///< next() returns the whole state
+  float work_us = 0.0F;           ///< of the last tick's operations, by the model
+  std::deque<PlayedTick> played;  ///< the last ticks up to this one, that can be taken back
+
+ private:
+  Result<void> restore(const RecordedKeyframe& keyframe, BricksBefore& before);
+  Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
+                               BricksBefore* before);
+  Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
+  Result<void> check_hash(uint64_t recorded) const;
+  tl::unexpected<Error> damaged(const std::string& what) const {
+    return fail(reader->path() + ": at tick " + std::to_string(tick) + ": " + what);
+  }
+};
+
+}  // namespace scree

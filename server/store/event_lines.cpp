@@ -1,0 +1,62 @@
+#include "server/store/event_lines.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace scree {
+
+namespace {
+
+double seconds_of(const Event& event, const EventContext& context) {
+  return static_cast<double>(event.tick) / context.tick_rate_hz;
+}
+
+/// A thousandth is enough to find a place, and keeps lines short.
+double rounded(double value) {
+  return std::round(value * 1000.0) / 1000.0;
+}
+
+std::optional<float> ms_of(const Event& event, const EventContext& context) {
+  return event.ms > 0.0F ? std::optional(event.ms) : context.tick_ms;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string json_line(const Event& event, const EventContext& context) {
+  nlohmann::ordered_json line{
+      {"event", name_of(event.kind)}, {"tick", event.tick}, {"time_s", rounded(seconds_of(event, context))}};
+  if (event.place_m) {
+    line["x_m"] = rounded(event.place_m->x);
+    line["y_m"] = rounded(event.place_m->y);
+    line["z_m"] = rounded(event.place_m->z);
+  }
+  if (event.volume_m3 > 0.0F) line["volume_m3"] = rounded(event.volume_m3);
+  if (event.pieces > 0) line["pieces"] = event.pieces;
+  if (event.session != 0) line["session"] = event.session;
+  if (const auto ms = ms_of(event, context)) line["ms"] = rounded(*ms);
+  if (!event.text.empty()) line["text"] = event.text;
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string csv_line(const Event& event, const EventContext& context) {
+  std::string line = fmt::format("{},{:.3f},{}", event.tick, seconds_of(event, context), name_of(event.kind));
+  line += event.place_m
+              ? fmt::format(",{:.3f},{:.3f},{:.3f}", event.place_m->x, event.place_m->y, event.place_m->z)
+              : std::string(",,,");
+  line += event.volume_m3 > 0.0F ? fmt::format(",{:.3f}", event.volume_m3) : std::string(",");
+  line += event.pieces > 0 ? fmt::format(",{}", event.pieces) : std::string(",");
+  line += event.session != 0 ? fmt::format(",{}", event.session) : std::string(",");
+  const auto ms = ms_of(event, context);
+  line += ms ? fmt::format(",{:.3f}", *ms) : std::string(",");
+  return line + "," + quoted(event.text);
+}
+
+}  // namespace scree

@@ -1,0 +1,27 @@
+// Events as lines of text: JSON Lines (jsonlines.org) and CSV (RFC 4180). Pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "proto/event.h"
+
+namespace scree {
+
+/// How ticks become seconds, and what is known of the event's tick beside it.
+struct EventContext {
+  uint32_t tick_rate_hz = 60;
+  std::optional<float> tick_ms{};  ///< that the tick's simulation took: the event's cost
+};
+
+/// A line without its end: an object with event, tick, time_s, and what else the event has of x_m, y_m, z_m,
+/// volume_m3, pieces, session, ms and text.
+std::string json_line(const Event& event, const EventContext& context);
+
+/// A line without its end; fields that the event has not are empty.
+std::string csv_line(const Event& event, const EventContext& context);
+inline constexpr std::string_view event_csv_heads =
+    "tick,time_s,event,x_m,y_m,z_m,volume_m3,pieces,session,ms,text";
+
+}  // namespace scree

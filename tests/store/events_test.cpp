@@ -1,0 +1,231 @@
+// The log of events: what follows from the simulation is recorded and verified, what does not is kept apart;
+// a reader has both without simulating; files of them outlive a full disk.
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "proto/event_codec.h"
+#include "server/replay/export_lines.h"
+#include "server/replay/verify.h"
+#include "server/store/event_deriver.h"
+#include "server/store/event_lines.h"
+#include "server/store/event_log.h"
+#include "server/store/limits.h"
+#include "server/store/recording_writer.h"
+#include "tests/support/holds.h"
+#include "tests/support/recording_fixture.h"
+
+namespace scree {
+namespace {
+
+class EventsTest : public RecordingTest {
+ protected:
+  /// With events of the machine at two ticks.
+  void record_with_sessions() {
+    auto recorder = Recorder::create(path, {"test", small_world()});
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    for (size_t i = 0; i < deltas.size(); ++i) {
+      std::vector<Event> noted;
+      if (i == 4)
+        noted = {
+            {.kind = EventKind::join, .tick = 5, .place_m = glm::vec3(1, 2, 3), .session = 7, .text = "Ann"}};
+      if (i == 99) noted = {{.kind = EventKind::leave, .tick = 100, .session = 7, .text = "Ann"}};
+      (*recorder)->push(deltas[i], commands_by_tick[i], noted);
+    }
+    ASSERT_TRUE((*recorder)->finish().has_value());
+  }
+  std::vector<Event> recorded_events() const {
+    const auto reader = RecordingReader::open(path);
+    if (!reader) return {};
+    auto events = (*reader)->events((*reader)->first_tick(), (*reader)->last_tick());
+    EXPECT_TRUE(events.has_value()) << events.error().message;
+    return events ? *events : std::vector<Event>();
+  }
+  std::vector<std::string> exported(LineFormat format) const {
+    std::vector<std::string> lines;
+    const auto done =
+        export_events(path, {}, format, [&](const std::string& line) { lines.push_back(line); });
+    EXPECT_TRUE(done.has_value()) << done.error().message;
+    return lines;
+  }
+  VerifyReport verified() const {
+    const auto reader = RecordingReader::open(path);
+    EXPECT_TRUE(reader.has_value());
+    const auto report = verify(**reader);
+    EXPECT_TRUE(report.has_value()) << report.error().message;
+    return *report;
+  }
+};
+
+TEST_F(EventsTest, a_recording_has_every_carve_and_fill_with_tick_place_and_size) {
+  simulate(150);
+  record();
+  const std::vector<Event> events = recorded_events();
+  ASSERT_GE(events.size(), 4U);
+  EXPECT_EQ(events[0].kind, EventKind::carve);
+  EXPECT_EQ(events[0].tick, 10U);
+  EXPECT_EQ(events[0].place_m, glm::vec3(3.0F, 0.0F, 0.0F));
+  EXPECT_EQ(events[0].pieces, deltas[9]->operations[0].created.size());
+  EXPECT_GT(events[0].volume_m3, 0.5F);
+  EXPECT_LT(events[0].volume_m3, 4.2F) << "more than the sphere";
+  EXPECT_EQ(events[1].kind, EventKind::fill);
+  EXPECT_EQ(events[1].place_m, glm::vec3(-8.0F, 1.0F, 0.0F));
+  const auto merges = std::ranges::count(events, EventKind::merge, &Event::kind);
+  const auto bursts = std::ranges::count_if(deltas, [](const auto& delta) {
+    size_t merged = 0;
+    for (const AppliedOperation& applied : delta->operations) merged += pieces_merged_by(applied.operation);
+    return merged >= merge_burst_min;
+  });
+  EXPECT_EQ(merges, bursts);
+}
+
+TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) {
+  World world(small_world());
+  for (Tick tick = 1; tick <= 5; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 3) commands = {{1, 1, SettingsRequest{{{"impacts", "false"}}}}};
+    deltas.push_back(world.step(commands));
+    commands_by_tick.push_back(commands);
+  }
+  record();
+  const std::vector<Event> events = recorded_events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0], (Event{.kind = EventKind::setting, .tick = 3, .text = "impacts=false"}));
+  EXPECT_TRUE(verified().agrees());
+}
+
+TEST_F(EventsTest, verify_compares_the_worlds_events_and_leaves_the_machines_alone) {
+  simulate(150);
+  record_with_sessions();
+  const VerifyReport report = verified();
+  EXPECT_TRUE(report.agrees()) << report.difference;
+  EXPECT_EQ(report.events, recorded_events().size());
+  std::vector<Event> events = {recorded_events().front()};
+  events[0].volume_m3 += 1.0F;
+  put_recorded("events", 10, encode(std::span<const Event>(events)));
+  EXPECT_EQ(verified().first_difference, 10U);
+  EXPECT_TRUE(holds(verified().difference, "events")) << verified().difference;
+}
+
+TEST_F(EventsTest, events_of_the_machine_keep_their_tick_and_durations_cover_every_tick) {
+  simulate(150);
+  record_with_sessions();
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value());
+  EXPECT_EQ((*reader)->events_from(), 1U);
+  const auto rows = (*reader)->machine(1, 150);
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  size_t ticks = 0;
+  std::vector<Event> events;
+  for (const RecordedMachine& row : *rows) {
+    ticks += row.tick_us.size();
+    EXPECT_EQ(row.tick, ticks);
+    events.insert(events.end(), row.events.begin(), row.events.end());
+  }
+  EXPECT_EQ(ticks, 150U);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, EventKind::join);
+  EXPECT_EQ(events[0].tick, 5U);
+  EXPECT_EQ(events[0].text, "Ann");
+  EXPECT_EQ(events[1].tick, 100U);
+}
+
+TEST_F(EventsTest, export_writes_the_events_in_order_as_json_lines_and_as_csv) {
+  simulate(120);
+  record_with_sessions();
+  const auto lines = exported(LineFormat::jsonl);
+  ASSERT_GE(lines.size(), 4U);
+  Tick before = 0;
+  for (const std::string& line : lines) {
+    const auto json = nlohmann::json::parse(line);
+    EXPECT_GE(json["tick"].get<Tick>(), before);
+    before = json["tick"].get<Tick>();
+  }
+  const auto join = nlohmann::json::parse(lines[0]);
+  EXPECT_EQ(join["event"], "join");
+  EXPECT_EQ(join["text"], "Ann");
+  const auto carve = nlohmann::json::parse(lines[1]);
+  EXPECT_EQ(carve["event"], "carve");
+  EXPECT_TRUE(carve.contains("ms")) << "its tick's duration";
+  const auto csv = exported(LineFormat::csv);
+  ASSERT_EQ(csv.size(), lines.size() + 1);
+  EXPECT_EQ(csv[0], event_csv_heads);
+  EXPECT_TRUE(csv[1].starts_with("5,0.083,join,1.000,2.000,3.000,,,7,")) << csv[1];
+}
+
+TEST_F(EventsTest, export_of_ticks_has_a_line_each_whose_ledger_balances) {
+  simulate(40);
+  record();
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value());
+  std::vector<std::string> lines;
+  const auto done =
+      export_ticks(**reader, LineFormat::jsonl, [&](const std::string& l) { lines.push_back(l); });
+  ASSERT_TRUE(done.has_value()) << done.error().message;
+  ASSERT_EQ(lines.size(), 40U);
+  for (const std::string& line : lines) EXPECT_EQ(nlohmann::json::parse(line)["error_m3"], 0.0);
+  const auto carved = nlohmann::json::parse(lines[9]);
+  EXPECT_EQ(carved["tick"], 10);
+  EXPECT_GT(carved["pieces_m3"].get<double>(), 0.5);
+  EXPECT_GE(carved["operations"], 2);
+}
+
+TEST_F(EventsTest, a_recording_of_an_earlier_release_has_its_events_derived) {
+  simulate(150);
+  record();
+  const auto logged = recorded_events();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value());
+    ASSERT_TRUE(database->execute("DROP TABLE events; DROP TABLE machine").has_value());
+  }
+  EXPECT_TRUE(verified().agrees());
+  EXPECT_EQ(verified().events, 0U);
+  const auto derived = exported(LineFormat::jsonl);
+  ASSERT_EQ(derived.size(), logged.size());
+  EXPECT_EQ(derived[0], json_line(logged[0], {60}));
+}
+
+TEST_F(EventsTest, events_that_are_no_events_are_refused_by_name) {
+  simulate(20);
+  record();
+  const Event slow{.kind = EventKind::slow, .tick = 10};
+  for (const std::vector<uint8_t>& bytes :
+       {encode(std::span(&slow, 1)), std::vector<uint8_t>{0x0A, 0x02, 0x08, 0x7F},
+        std::vector<uint8_t>{0xFF}}) {
+    put_recorded("events", 10, bytes);
+    const auto reader = RecordingReader::open(path);
+    ASSERT_TRUE(reader.has_value());
+    const auto events = (*reader)->events(1, 20);
+    ASSERT_FALSE(events.has_value());
+    EXPECT_TRUE(holds(events.error().message, "tick 10")) << events.error().message;
+  }
+}
+
+TEST_F(EventsTest, the_log_appends_whole_lines) {
+  const std::string file = (folder / "events.jsonl").string();
+  for (int i = 0; i < 2; ++i) {
+    auto log = EventLog::open(file);
+    ASSERT_TRUE(log.has_value());
+    (*log)->push("{\"a\":1}");
+    (*log)->push("{\"b\":2}");
+    (*log)->flush();
+    EXPECT_EQ((*log)->status().written, 2U);
+  }
+  const auto bytes = read_file(file);
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"a\":1}\n{\"b\":2}\n{\"a\":1}\n{\"b\":2}\n");
+}
+
+TEST_F(EventsTest, a_full_disk_loses_lines_and_counts_them) {
+  auto log = EventLog::open("/dev/full");
+  ASSERT_TRUE(log.has_value());
+  for (int i = 0; i < 3; ++i) (*log)->push("{}");
+  (*log)->flush();
+  EXPECT_EQ((*log)->status().lost, 3U);
+  EXPECT_EQ((*log)->status().written, 0U);
+  EXPECT_TRUE(holds((*log)->status().error.value_or(""), "/dev/full")) << *(*log)->status().error;
+  EXPECT_FALSE(EventLog::open((folder / "missing" / "x").string()).has_value());
+}
+
+}  // namespace
+}  // namespace scree
