@@ -254,7 +254,9 @@ void LiveServer::State::count(TickSchedule::Delay delay) {
   ++report.late_ticks;
   if (delay.lost_ticks == 0) return;
   report.overruns += delay.lost_ticks;
-  spdlog::warn("tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
+  // A replay may take its time for a jump.
+  spdlog::log(config.replay.path.empty() ? spdlog::level::warn : spdlog::level::debug,
+              "tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
 }
 
 void LiveServer::State::run() {

@@ -1,5 +1,7 @@
 #include "server/app/tick_feed.h"
 
+#include <spdlog/spdlog.h>
+
 #include "server/replay/replay_source.h"
 
 namespace scree {
@@ -46,6 +48,9 @@ Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& 
   auto source = ReplaySource::open(options.path, options.from, ground);
   if (!source) return tl::unexpected(source.error());
   const WorldConfig world = (*source)->header().world;
+  if (!(*source)->is_ended())
+    spdlog::warn("{} is being written, or was cut short: it plays to its last whole tick, {}", options.path,
+                 (*source)->last_tick());
   const PlayerOptions player{options.at_end, options.speed, ticks_per_transform};
   return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), player), world};
 }

@@ -66,6 +66,9 @@ Tick ReplaySource::first_tick() const {
 Tick ReplaySource::last_tick() const {
   return state_->reader->last_tick();
 }
+bool ReplaySource::is_ended() const {
+  return state_->reader->is_ended();
+}
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::next() {
   return next(1);

@@ -24,6 +24,7 @@ class ReplaySource {
   Tick tick() const;        ///< the last one that was played; that before the first at the start
   Tick first_tick() const;  ///< the state before the recording's first tick
   Tick last_tick() const;
+  bool is_ended() const;  ///< RecordingReader::is_ended()
 
   /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
   /// recorded, is an error that names the tick.

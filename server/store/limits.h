@@ -9,9 +9,10 @@ namespace scree::limits {
 /// Ticks between two whole keyframes of a recording: 10 s at 60 Hz.
 inline constexpr uint64_t ticks_per_keyframe = 600;
 
-/// Ticks between two keyframes that hold what changed since the last whole one: half a second at 60 Hz.
-/// Seeking applies at most that many frames.
-inline constexpr uint64_t ticks_per_short_keyframe = 30;
+/// Ticks between two keyframes that hold what changed since the last whole one: 1 s at 60 Hz.
+/// Seeking applies at most that many frames. In a storm these keyframes are mostly the pieces alive, and take
+/// more than the frames do.
+inline constexpr uint64_t ticks_per_short_keyframe = 60;
 
 /// Bricks of a short keyframe; with more it is left out, and seeking applies more frames.
 inline constexpr size_t short_keyframe_bricks_max = 16384;

@@ -78,6 +78,61 @@ TEST_F(RecordingTest, seek_by_keyframe_gives_the_state_and_goes_on) {
   }
 }
 
+TEST_F(RecordingTest, a_keyframe_is_near_every_tick_and_has_the_whole_state) {
+  simulate(limits::ticks_per_keyframe + 100);
+  record();
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value());
+  PublishedState published;
+  for (const auto& delta : deltas) {
+    published.apply(*delta);
+    const Tick tick = delta->tick;
+    if (tick < 60 || tick % 7 != 0) continue;  // before the first carve there is nothing to keep
+    const auto near = (*reader)->keyframe_tick_before(tick);
+    ASSERT_TRUE(near.has_value());
+    EXPECT_LT(tick - *near, limits::ticks_per_short_keyframe) << tick;
+    if (tick != *near) continue;
+    const auto keyframe = (*reader)->keyframe_before(tick);
+    ASSERT_TRUE(keyframe.has_value() && keyframe->has_value());
+    EXPECT_EQ(encode(**keyframe), encode(to_recorded_keyframe(published.as_delta()))) << tick;
+  }
+}
+
+TEST_F(RecordingTest, a_recording_without_short_keyframes_seeks_by_the_others) {
+  simulate(limits::ticks_per_keyframe + 100);
+  record();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value() && database->execute("DROP TABLE short_keyframes").has_value());
+  }
+  const auto source = ReplaySource::open(path, limits::ticks_per_keyframe + 70);
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  const auto jumped = (*source)->jump(limits::ticks_per_keyframe - 70);
+  ASSERT_TRUE(jumped.has_value()) << jumped.error().message;
+  EXPECT_EQ((*jumped)->field_hash, deltas[limits::ticks_per_keyframe - 71]->field_hash);
+}
+
+TEST_F(RecordingTest, what_is_being_written_reads_as_it_stands_and_says_that_it_has_not_ended) {
+  simulate(15);
+  auto writer = RecordingWriter::create(path, {"test", small_world()});
+  ASSERT_TRUE(writer.has_value());
+  const auto add = [&](size_t from, size_t to) {
+    for (size_t i = from; i < to; ++i)
+      ASSERT_TRUE((*writer)->add(*deltas[i], commands_by_tick[i]).has_value());
+    ASSERT_TRUE((*writer)->commit().has_value());
+  };
+  add(0, 10);
+  const auto before = RecordingReader::open(path);
+  ASSERT_TRUE(before.has_value()) << before.error().message;
+  add(10, 15);
+  EXPECT_EQ((*before)->last_tick(), 10U);
+  const auto after = RecordingReader::open(path);
+  ASSERT_TRUE(after.has_value()) << after.error().message;
+  EXPECT_EQ((*after)->last_tick(), 15U);
+  EXPECT_FALSE((*after)->is_ended());
+  EXPECT_GT((*after)->bytes(), fs::file_size(path)) << "most of it lies in the log beside the file";
+}
+
 TEST_F(RecordingTest, seek_past_the_end_is_refused) {
   simulate(3);
   record();
