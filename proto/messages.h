@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
@@ -15,6 +16,7 @@
 #include "shared/base/latency.h"
 #include "shared/base/role.h"
 #include "shared/base/setting_value.h"
+#include "shared/field/brick_patch.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/request.h"
 
@@ -186,13 +188,6 @@ struct RefusalMessage {
   std::string name{};  ///< for programs: the same in every release (docs/protocol.md)
 };
 
-/// A brick's new codes and paint.
-struct BrickPatch {
-  BrickCoord coord;
-  Brick brick;
-  std::optional<Material> paint = std::nullopt;
-};
-
 /// One tick, as selected for this client. Apply operations in order, then patches, then drops, then pieces.
 struct FrameMessage {
   Tick tick = 0;
@@ -322,6 +317,7 @@ struct StatusMessage {
   Tick saved_tick = 0;  ///< what happened up to here outlives the server
   /// Edited chunks within this client's interest that it has not been sent as they are.
   uint32_t chunks_waiting = 0;
+  PagingStatus paging;
 };
 
 struct PlayerCursor {

@@ -69,6 +69,11 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_saving(showable(from.saving, limits::saving_bytes_max));
   to.set_saved_tick(from.saved_tick);
   to.set_chunks_waiting(from.chunks_waiting);
+  to.set_chunks_in(from.paging.chunks_in);
+  to.set_chunks_out(from.paging.chunks_out);
+  to.set_chunks_read(from.paging.chunks_read);
+  to.set_chunk_waits(from.paging.chunk_waits);
+  to.set_requests_held(from.paging.requests_held);
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
     added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
@@ -285,6 +290,8 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.saving = check.text(from.saving(), limits::saving_bytes_max, "saving");
   status.saved_tick = from.saved_tick();
   status.chunks_waiting = from.chunks_waiting();
+  status.paging = {from.chunks_in(), from.chunks_out(), from.chunks_read(), from.chunk_waits(),
+                   from.requests_held()};
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
   else

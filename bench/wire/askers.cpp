@@ -1,5 +1,6 @@
 #include "bench/wire/askers.h"
 
+#include <cmath>
 #include <cstring>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -41,6 +42,8 @@ struct Askers::Viewer {
   bool unseen = false;  ///< the last carve's operation has not come
   bool unanswered = false;
   bool counted = false;
+  glm::vec3 towards{1.0F, 0.0F, 0.0F};  ///< it walks, of unit length
+  double walked_s = 0.0;                ///< when it took its last step
 };
 
 Askers::Askers(const AskersConfig& config) : config_(config), epoll_(epoll_create1(0)) {}
@@ -106,6 +109,18 @@ void Askers::ask(Viewer& viewer, double now_s) {
   if (viewer.counted) ++times_.asked;
 }
 
+/// Ten steps a second; at the edge it turns back.
+void Askers::walk(Viewer& viewer, double now_s) {
+  constexpr double seconds_per_step = 0.1;
+  if (config_.speed_m_s <= 0.0F || now_s < viewer.walked_s + seconds_per_step) return;
+  viewer.walked_s = now_s;
+  glm::vec3& at_m = viewer.place_m;
+  at_m += viewer.towards * config_.speed_m_s * static_cast<float>(seconds_per_step);
+  if (std::abs(at_m.x) > config_.spread_m) viewer.towards.x = at_m.x > 0.0F ? -1.0F : 1.0F;
+  at_m.y = ground_height_m(config_.terrain, at_m.x, at_m.z);
+  if (!send_all(viewer.socket, InterestMessage{at_m, config_.interest_m})) lose(viewer);
+}
+
 /// False when it cannot be decoded. Decodes what tells of the viewer's own carve, and nothing else.
 bool Askers::take(Viewer& viewer, std::span<const uint8_t> body, double now_s) {
   const bool wanted = !body.empty() && (body[0] == reply_tag || (body[0] == frame_tag && viewer.unseen));
@@ -158,6 +173,8 @@ void Askers::run() {
       if (!sound) lose(viewer);
     }
     const double now_s = steady_now_s();
+    for (const auto& viewer : viewers_)
+      if (viewer->socket >= 0) walk(*viewer, now_s);
     for (const auto& viewer : viewers_)
       if (viewer->socket >= 0 && now_s >= viewer->next_s) ask(*viewer, now_s);
   }

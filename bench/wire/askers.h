@@ -23,6 +23,7 @@ struct AskersConfig {
   double seconds_per_carve = 4.0;  ///< of each viewer, on average
   float radius_m = 1.0F;
   uint32_t seeds = 8;
+  float speed_m_s = 0.0F;  ///< at which they walk, to and fro
 };
 
 /// By request, milliseconds.
@@ -55,6 +56,7 @@ class Askers {
   explicit Askers(const AskersConfig& config);
   void run();
   void ask(Viewer& viewer, double now_s);
+  void walk(Viewer& viewer, double now_s);
   bool take(Viewer& viewer, std::span<const uint8_t> body, double now_s);
   void lose(Viewer& viewer);
 

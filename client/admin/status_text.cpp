@@ -57,7 +57,13 @@ Json json_of(const StatusMessage& status) {
       {"work", json_of(status.work)},
       {"refusals", std::move(refusals)},
       {"saving", status.saving.empty() ? "none" : status.saving},
-      {"saved_tick", status.saved_tick}};
+      {"saved_tick", status.saved_tick},
+      {"chunks",
+       {{"in_memory", status.paging.chunks_in},
+        {"out", status.paging.chunks_out},
+        {"read_per_s", status.paging.chunks_read},
+        {"waits", status.paging.chunk_waits},
+        {"requests_held", status.paging.requests_held}}}};
 }
 
 std::string line(const std::string& name, const Json& value) {

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 #include <thread>
 
+#include "server/app/admission.h"
 #include "server/app/ground_giver.h"
 #include "server/app/live_events.h"
 #include "server/app/saved_world.h"
@@ -41,6 +42,10 @@ struct LiveServer::State {
   Result<void> open_world();
   Result<void> open_recorder();
   Result<void> open_events();
+  Saving saving() const;
+  void tell();
+  std::shared_ptr<const TickDelta> keep(std::shared_ptr<const TickDelta> delta, std::vector<Reply> refused);
+  Result<void> start_keeping();
   void run();
   bool step();
   bool wait_for_clients();
@@ -60,7 +65,9 @@ struct LiveServer::State {
   std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
   std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
   std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<SavedWorld> kept;  ///< null: the world ends with the server
+  std::unique_ptr<SavedWorld> kept;     ///< null: a replay
+  std::unique_ptr<TerrainPager> pager;  ///< likewise
+  Admission admission;
   std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace
@@ -70,7 +77,13 @@ struct LiveServer::State {
   bool record_failed = false;  ///< used by the simulation thread only
   bool saved = false;          ///< for good; used by the owner's thread only
 
+  const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();
+  uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only
+  uint32_t read_last_second = 0;
+  bool broken = false;  ///< the world does not stand between two ticks; used as saved is
+
   mutable std::mutex mutex;  ///< guards the members below
+  Saving told;
   std::condition_variable changed;
   bool stopping = false;
   bool running = true;
@@ -111,11 +124,8 @@ Result<void> LiveServer::State::open() {
   if (!listening) return tl::unexpected(listening.error());
   net = std::move(*listening);
   if (auto opened = open_recorder(); !opened) return opened;
-  if (kept != nullptr) {
-    KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
-    if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
-    if (auto started = kept->start(*feed->world(), std::move(keeping)); !started) return started;
-  }
+  if (kept != nullptr)
+    if (auto started = start_keeping(); !started) return started;
   if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
     const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
     report.settings = keyframe->settings;  // ticks say only what changes
@@ -127,14 +137,10 @@ Result<void> LiveServer::State::open() {
 }
 
 Result<void> LiveServer::State::open_world() {
-  if (config.world_path.empty()) {
-    auto live = live_feed(config.world, config.sim_threads);
-    if (!live) return tl::unexpected(live.error());
-    feed = std::move(*live);
-    return {};
-  }
-  auto opened = SavedWorld::open(config.world_path, config.world, config.sim_threads,
-                                 ground_giver(config.world_path, config.world));
+  const std::string& path = config.world_path;
+  auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
+                             : SavedWorld::open(path, config.world, config.sim_threads,
+                                                ground_giver(path, config.world), config.bricks_in_max);
   if (!opened) return tl::unexpected(opened.error());
   kept = std::move(*opened);
   feed = feed_of(kept->take_world());
@@ -142,13 +148,46 @@ Result<void> LiveServer::State::open_world() {
   config.net.service = config.world.service;
   config.net.world = kept->number();
   config.net.first_session = kept->first_session();
-  config.net.saving = [this] {
-    const KeeperStatus status = kept->status();
-    return Saving{status.given_up ? "failed" : std::string(row_of(config.durability).name),
-                  status.saved_tick};
-  };
-  report.world_path = config.world_path;
+  config.net.chunks = for_clients;
+  config.net.saving = [this] { return saving(); };
+  report.world_path = path;
   return {};
+}
+
+/// What clients are told; on the network thread.
+Saving LiveServer::State::saving() const {
+  const std::scoped_lock lock(mutex);
+  return told;
+}
+
+/// The file of a new world is made here.
+Result<void> LiveServer::State::start_keeping() {
+  KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
+  if (kept->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
+  if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
+  World& world = *feed->world();
+  if (auto started = kept->start(world, std::move(keeping)); !started) return started;
+  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max);
+  if (!opened) return tl::unexpected(opened.error());
+  pager = std::move(*opened);
+  tell();
+  return {};
+}
+
+/// Once a tick: how the world is kept, and where its terrain is.
+void LiveServer::State::tell() {
+  const KeeperStatus status = kept->status();
+  const PagerStatus paged = pager->status();
+  Saving now;
+  now.how = status.given_up ? "failed" : std::string(row_of(config.durability).name);
+  now.tick = status.saved_tick;
+  if (kept->is_temporary()) now = {};
+  if (feed->world()->tick() % config.world.tick_rate_hz == 0)
+    read_last_second =
+        static_cast<uint32_t>(paged.chunks_read - std::exchange(read_before, paged.chunks_read));
+  now.paging = {paged.chunks_in, paged.chunks_out, read_last_second, paged.waits, admission.held()};
+  const std::scoped_lock lock(mutex);
+  told = std::move(now);
 }
 
 Result<void> LiveServer::State::open_recorder() {
@@ -158,6 +197,10 @@ Result<void> LiveServer::State::open_recorder() {
   std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
   const bool goes_on =
       world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
+  if (world.field().pages() && world.field().chunks_out() > 0)
+    return fail(config.record_path +
+                ": a recording begins with all of the world's terrain, which is more than "
+                "half of the memory takes: raise memory-max, or do not record (--record)");
   auto recording = goes_on
                        ? Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()})
                        : Recorder::create(config.record_path, header);
@@ -201,38 +244,58 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
 /// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
+  Admitted admitted{commands.drain(), {}};
   if (World* world = feed->world()) {
     world->watch(net->is_watched());
     ahead->serve(world->field(), net->eyes_m());
+    pager->begin_tick();
+    admitted = admission.admit(std::move(admitted.commands), *pager, *world, !kept->status().error);
   }
-  std::vector<Command> waiting = commands.drain();
   TickSpan ran{steady_now_s(), 0.0};
-  const auto next = feed->next(waiting);
+  const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
   if (!next) {
+    broken = true;
     end(next.error().message);
     return false;
   }
-  const std::shared_ptr<const TickDelta>& delta = *next;
+  std::shared_ptr<const TickDelta> delta = *next;
   if (!delta) {
     spdlog::info("the recording ends here");
     end("");
     return false;
   }
   if (trace) trace_tick(*trace, begin, *delta);
+  std::vector<Event> noted = events ? events->take(*delta) : std::vector<Event>();
+  if (recorder) record(delta, std::move(admitted.commands), std::move(noted));
+  if (kept) delta = keep(std::move(delta), std::move(admitted.refused));
+  const Clock::time_point handing_over = Clock::now();
   {
     const TraceSpan span(trace.get(), "simulation", "hand over");
     net->publish(delta, ran);
   }
-  std::vector<Event> noted = events ? events->take(*delta) : std::vector<Event>();
-  if (recorder) record(delta, std::move(waiting), std::move(noted));
-  if (kept) kept->keep(*delta, *feed->world());
   const std::scoped_lock lock(mutex);
+  report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
   report.add(*delta);
   last_delta = delta;
   if (config.ticks_max != 0 && report.ticks >= config.ticks_max) running = false;
   if (time_is_over()) running = false;
   return running;
+}
+
+/// Saves the tick when it is due, and lets terrain go that nobody needs. Returns what clients are told: the
+/// recording has no requests that never reached the simulation.
+std::shared_ptr<const TickDelta> LiveServer::State::keep(std::shared_ptr<const TickDelta> delta,
+                                                         std::vector<Reply> refused) {
+  World& world = *feed->world();
+  admission.answered(delta->replies);
+  kept->keep(*delta, world, pager->pressed());
+  pager->end_tick(*delta, kept->status().saved_tick, net->eyes_m(), world.config().memory_max_mb);
+  tell();
+  if (refused.empty()) return delta;
+  auto told_delta = std::make_shared<TickDelta>(*delta);
+  told_delta->replies.insert(told_delta->replies.end(), refused.begin(), refused.end());
+  return told_delta;
 }
 
 /// False when the server is to stop.
@@ -310,7 +373,9 @@ Result<void> LiveServer::stop() {
   state_->net->stop();
   if (state_->kept && !state_->saved) {
     state_->saved = true;
-    if (const auto finished = state_->kept->finish(*state_->feed->world()); !finished)
+    if (state_->broken)
+      state_->kept->abandon();
+    else if (const auto finished = state_->kept->finish(*state_->feed->world()); !finished)
       state_->end(finished.error().message);
   }
   if (state_->recorder)
@@ -335,7 +400,12 @@ ServerReport LiveServer::report() const {
     report.record_waits = state_->recorder->waits();
     if (!report.error) report.error = state_->recorder->error();
   }
-  if (state_->kept) report.saving = state_->kept->status();
+  if (state_->kept && !state_->kept->is_temporary()) report.saving = state_->kept->status();
+  if (state_->pager) {
+    report.paging = state_->pager->status();
+    report.work.memory_mb = report.paging.memory_mb;
+    report.requests_held = state_->told.paging.requests_held;
+  }
   if (state_->events) report.events = state_->events->status();
   return report;
 }

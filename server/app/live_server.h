@@ -30,6 +30,7 @@ struct LiveConfig {
   std::string events_path;  ///< file of the log of events (live_events.h), that is appended to; empty: none
   std::string
       world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server
+  size_t bricks_in_max = 0;  ///< edited bricks in memory; 0: as many as the setting memory-max allows
   Durability durability = Durability::second;
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
   std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none

@@ -5,6 +5,11 @@
 #include <spdlog/spdlog.h>
 
 #include "crypto/signing_key.h"
+#include "server/app/temporary_world.h"
+#include "server/app/terrain_pager.h"
+#include "server/work/memory.h"
+#include "server/world/limits.h"
+#include "server/world/recorded_values.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 
@@ -26,7 +31,8 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
 }  // namespace
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
-                                                     size_t threads, const GroundGiver& ground) {
+                                                     size_t threads, const GroundGiver& ground,
+                                                     size_t bricks_max) {
   auto lock = WorldLock::take(path);
   if (!lock) return tl::unexpected(lock.error());
   std::unique_ptr<SavedWorld> kept(new SavedWorld(path, std::move(*lock)));
@@ -40,22 +46,65 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
   }
   auto file = WorldFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  auto rows = (*file)->read();
+  size_t chunks = 0;
+  auto world = restored(**file, threads, ground, bricks_max, *kept, chunks);
+  if (!world) return tl::unexpected(world.error());
+  tell_differences(path, config, (*world)->config());
+  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, (*world)->tick(),
+               chunks, (*world)->field().chunks_in().size());
+  kept->file_ = std::move(*file);
+  kept->world_ = std::move(*world);
+  return kept;
+}
+
+/// The world of the file; of its terrain as much as there is memory for.
+Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t threads,
+                                                    const GroundGiver& ground, size_t bricks_max,
+                                                    SavedWorld& kept, size_t& chunks) {
+  const std::string& path = file.path();
+  auto rows = file.read_moment();
   if (!rows) return tl::unexpected(rows.error());
   RecordedHeader& header = rows->world.moment.config;
   if (auto given = give_ground(header.ground, header.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
-  auto world = World::restore(rows->world, threads, rows->ground);
+  auto reader = chunk_reader(path);
+  if (!reader) return tl::unexpected(reader.error());
+  const auto config = config_of(header);
+  const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;
+  GroundMasses masses;
+  PagedTerrain terrain;
+  terrain.read = std::move(*reader);
+  terrain.bricks_max = bricks_max != 0 ? bricks_max : bricks_within(max_mb, {}) / 2;
+  terrain.each = [&](const PagedTerrain::Take& take) {
+    return file.each_chunk([&](const WorldChunk& chunk) {
+      ++chunks;
+      if (chunk.ground_mass) masses[chunk.chunk] = *chunk.ground_mass;
+      return take(chunk.chunk, chunk.bricks);
+    });
+  };
+  auto world = World::restore(rows->world, terrain, threads, masses);
   if (!world) return fail(path + ": damaged: " + world.error().message);
-  tell_differences(path, config, (*world)->config());
-  spdlog::info("{}: goes on at tick {} with {} pieces and {} edited chunks", path, (*world)->tick(),
-               rows->world.moment.pieces.size(), rows->chunks.size());
-  kept->file_ = std::move(*file);
-  kept->world_ = std::move(*world);
-  kept->ground_ = std::move(rows->ground);
-  kept->number_ = rows->header.world;
-  kept->first_session_ = first_free_session(rows->world.moment);
+  kept.number_ = rows->header.world;
+  kept.first_session_ = first_free_session(rows->world.moment);
+  return world;
+}
+
+Result<std::unique_ptr<SavedWorld>> SavedWorld::open_temporary(const WorldConfig& config, size_t threads) {
+  auto path = temporary_world_path();
+  if (!path) return tl::unexpected(path.error());
+  auto kept = open(*path, config, threads, {});
+  if (!kept) {
+    remove_world(*path);
+    return kept;
+  }
+  (*kept)->temporary_ = true;
   return kept;
+}
+
+SavedWorld::~SavedWorld() {
+  keeper_.reset();
+  file_.reset();
+  if (temporary_) remove_world(path_);
 }
 
 Result<void> SavedWorld::start(World& world, KeeperConfig config) {
@@ -63,17 +112,17 @@ Result<void> SavedWorld::start(World& world, KeeperConfig config) {
     const WorldSnapshot value = world.snapshot();
     WorldHeader header{.world = number_, .config = value.moment.config};
     header.config.program = "scree-server " SCREE_VERSION;
-    auto file = WorldFile::create(path_, header, value);
+    auto file = WorldFile::create(path_, header, value, !temporary_);
     if (!file) return tl::unexpected(file.error());
     file_ = std::move(*file);
   }
-  keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.keyframe(), world.config().terrain, ground_,
+  keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.tick(), world.config().terrain,
                                           std::move(config));
   return {};
 }
 
-void SavedWorld::keep(const TickDelta& delta, const World& world) {
-  if (keeper_->note(delta)) keeper_->save(world.moment());
+void SavedWorld::keep(const TickDelta& delta, const World& world, bool pressed) {
+  if (keeper_->note(delta, pressed)) keeper_->save(world.moment());
   complain();
 }
 
@@ -91,7 +140,15 @@ void SavedWorld::complain() {
     spdlog::warn("the world is not saved since tick {}, and is tried again: {}", status.saved_tick, now);
 }
 
+void SavedWorld::abandon() {
+  keeper_.reset();
+}
+
 Result<void> SavedWorld::finish(const World& world) {
+  if (temporary_) {
+    abandon();
+    return {};
+  }
   const Result<void> finished = keeper_->finish(world.moment());
   complain();
   return finished;

@@ -1,4 +1,5 @@
-// A world whose file keeps it: found again at the start, saved while it runs.
+// A world whose file keeps it: found again at the start, saved while it runs. Without a name the file is a
+// temporary one, which has room for terrain that is out of memory, and goes with the server.
 #pragma once
 
 #include <functional>
@@ -16,9 +17,13 @@ class SavedWorld {
  public:
   /// Takes the file for this process; where it exists, reads it, checks it, and makes the world that it
   /// holds. Start and stop are one way with a crash: nothing is read but what was saved. `threads`: of the
-  /// world (World::create). `ground` gives the one that the file names.
+  /// world (World::create). `ground` gives the one that the file names. `bricks_max`: edited bricks that it
+  /// takes into memory; 0: as memory-max says.
   static Result<std::unique_ptr<SavedWorld>> open(const std::string& path, const WorldConfig& config,
-                                                  size_t threads, const GroundGiver& ground);
+                                                  size_t threads, const GroundGiver& ground,
+                                                  size_t bricks_max = 0);
+  /// A new world in a file that is removed at the end, and after a crash by the next one that is opened.
+  static Result<std::unique_ptr<SavedWorld>> open_temporary(const WorldConfig& config, size_t threads);
 
   /// The world, once: the file's, or a new one of the configuration.
   std::unique_ptr<World> take_world() { return std::move(world_); }
@@ -29,22 +34,29 @@ class SavedWorld {
   /// Writes a new world's file, and begins to save. `world` is the one that was taken, and has not ticked
   /// yet.
   Result<void> start(World& world, KeeperConfig config);
-  /// After each tick of the world.
-  void keep(const TickDelta& delta, const World& world);
-  /// Saves the world as it stands, and ends. Returns the last error.
+  /// After each tick of the world. `pressed`: memory is short until it is saved.
+  void keep(const TickDelta& delta, const World& world, bool pressed = false);
+  /// Saves the world as it stands, and ends. Returns the last error. A temporary one is removed.
   Result<void> finish(const World& world);
+  /// Ends with what was saved: the world does not stand between two ticks.
+  void abandon();
+  const std::string& path() const { return path_; }
+  bool is_temporary() const { return temporary_; }
+  ~SavedWorld();
   /// From any thread, after start().
   KeeperStatus status() const { return keeper_->status(); }
 
  private:
   SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
+  static Result<std::unique_ptr<World>> restored(WorldFile& file, size_t threads, const GroundGiver& ground,
+                                                 size_t bricks_max, SavedWorld& kept, size_t& chunks);
   void complain();
 
   std::string path_;
   WorldLock lock_;
   std::unique_ptr<WorldFile> file_;
   std::unique_ptr<World> world_;
-  GroundMasses ground_;  ///< as the file says
+  bool temporary_ = false;
   uint64_t number_ = 0;
   uint64_t first_session_ = 1;
   std::unique_ptr<WorldKeeper> keeper_;

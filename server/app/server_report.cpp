@@ -125,7 +125,6 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   supports_given_up += work.supports_given_up;
   islands_put_off_most = std::max(islands_put_off_most, work.islands_put_off);
   islands_too_large += work.islands_too_large;
-  memory_mb = work.memory_mb;
 }
 
 void ServerReport::add(const TickDelta& delta) {
@@ -182,6 +181,7 @@ std::string to_json(const ServerReport& report) {
   for (const TickStageRow& row : tick_stages)
     stages[std::string(row.name)] = json_of(report.stages[index_of(row.stage)]);
   stages["tick"] = json_of(report.tick);
+  stages["whole_tick"] = json_of(report.whole_tick);
   json["stages_ms"] = stages;
   if (!report.record_path.empty())
     json["recording"] = {
@@ -189,6 +189,11 @@ std::string to_json(const ServerReport& report) {
   if (!report.events_path.empty())
     json["events"] = {
         {"path", report.events_path}, {"written", report.events.written}, {"lost", report.events.lost}};
+  json["chunks"] = {{"in_memory", report.paging.chunks_in},
+                    {"out", report.paging.chunks_out},
+                    {"read", report.paging.chunks_read},
+                    {"waits", report.paging.waits},
+                    {"requests_held", report.requests_held}};
   if (!report.world_path.empty()) json["world"] = json_of(report.world_path, report.saving);
   if (report.error) json["error"] = *report.error;
   return json.dump(2) + "\n";

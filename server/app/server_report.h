@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "server/app/terrain_pager.h"
 #include "server/net/durations.h"
 #include "server/net/net_server.h"
 #include "server/store/event_log.h"
@@ -52,6 +53,7 @@ struct ServerReport {
   uint64_t overruns = 0;                             ///< ticks of real time that were lost
   std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
   Durations tick;
+  Durations whole_tick;  ///< with all that the server does between two ticks of the world
   NetStats net;
   LatencyCounts latency;
   std::string record_path;
@@ -61,6 +63,8 @@ struct ServerReport {
   EventLog::Status events;
   std::string world_path;  ///< empty: the world ends with the server
   KeeperStatus saving;
+  PagerStatus paging;
+  uint64_t requests_held = 0;        ///< that waited for their terrain to be read
   std::optional<std::string> error;  ///< the reason of an early end
 
   void add(const TickDelta& delta);

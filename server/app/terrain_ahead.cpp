@@ -16,7 +16,8 @@ int square_of(ChunkCoord v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-/// The chunks of a ball, relative to its middle one, nearest first.
+}  // namespace
+
 std::vector<ChunkCoord> ball_of_chunks(int radius) {
   std::vector<ChunkCoord> ball;
   for (int x = -radius; x <= radius; ++x)
@@ -26,8 +27,6 @@ std::vector<ChunkCoord> ball_of_chunks(int radius) {
   std::ranges::stable_sort(ball, {}, square_of);
   return ball;
 }
-
-}  // namespace
 
 TerrainAhead::TerrainAhead(const TerrainSource& source)
     : source_(source), around_(ball_of_chunks(limits::ahead_chunks)), thread_([this] { run(); }) {}

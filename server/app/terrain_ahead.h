@@ -16,6 +16,9 @@
 
 namespace scree {
 
+/// The chunks of a ball, relative to its middle one, nearest first.
+std::vector<ChunkCoord> ball_of_chunks(int radius);
+
 class TerrainAhead {
  public:
   explicit TerrainAhead(const TerrainSource& source);

@@ -12,7 +12,11 @@ class LiveFeed final : public TickFeed {
  public:
   explicit LiveFeed(std::unique_ptr<World> world) : world_(std::move(world)) {}
   Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) override {
-    return world_->step(commands);
+    try {
+      return world_->step(commands);
+    } catch (const ChunkUnreadable& unreadable) {
+      return fail(std::string("the world cannot go on, and stays as it was saved: ") + unreadable.what());
+    }
   }
   World* world() override { return world_.get(); }
 
@@ -35,12 +39,6 @@ class RecordedFeed final : public TickFeed {
 
 std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world) {
   return std::make_unique<LiveFeed>(std::move(world));
-}
-
-Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads) {
-  auto world = World::create(config, threads);
-  if (!world) return tl::unexpected(world.error());
-  return feed_of(std::move(*world));
 }
 
 Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,

@@ -28,8 +28,6 @@ class TickFeed {
 };
 
 std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world);
-/// Refuses a configuration that no world runs with. `threads`: of the world (World::create).
-Result<std::unique_ptr<TickFeed>> live_feed(const WorldConfig& config, size_t threads);
 
 struct ReplayOptions {
   std::string path;  ///< empty: no replay

@@ -15,8 +15,12 @@ using Leaf = CodeTree::LeafNodeType;
 static_assert(Leaf::DIM == brick_size && Leaf::SIZE == brick_voxels);
 static_assert(sizeof(Brick) == brick_voxels && alignof(Brick) == 1 && std::is_standard_layout_v<Brick>);
 
-/// Tree level of a tile as large as a brick.
+/// Tree level of a tile as large as a brick, and as a region of 16 bricks a side.
 constexpr openvdb::Index brick_tile_level = 1;
+constexpr openvdb::Index region_tile_level = 2;
+
+using Region = CodeTree::RootNodeType::ChildNodeType::ChildNodeType;
+static_assert(Region::DIM == 16 * brick_size);
 
 openvdb::Coord origin(BrickCoord coord) {
   const VoxelCoord first = first_voxel(coord);
@@ -70,6 +74,14 @@ void VdbField::store_edited(BrickCoord coord, const Brick& brick) {
 void VdbField::erase_edited(BrickCoord coord) {
   tree_->set_tile(origin(coord), code_air, false);
   CHECK_DEBUG(find_edited(coord) == nullptr);
+}
+
+void VdbField::chunk_left(ChunkCoord chunk) {
+  const openvdb::Coord at = origin(brick_in_chunk(chunk, 0));
+  const Region* const region = tree_->accessor.probeConstNode<Region>(at);
+  if (region == nullptr || !region->getChildMask().isOff() || !region->getValueMask().isOff()) return;
+  tree_->tree.root().addTile(region_tile_level, at, code_air, false);
+  tree_->accessor.clear();
 }
 
 }  // namespace scree

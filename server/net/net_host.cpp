@@ -31,7 +31,7 @@ double burst_of(double requests_per_second) {
 
 PublisherConfig publisher_config(const NetConfig& config) {
   return {config.terrain, std::max(1U, config.tick_rate_hz), std::max(1U, config.ticks_per_transform),
-          config.heartbeat_s};
+          config.heartbeat_s, config.chunks};
 }
 
 }  // namespace

@@ -49,8 +49,9 @@ struct NetConfig {
   std::function<void(Event)> noted;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplay&)> control;
-  bool chat = true;        ///< whether persons' lines are passed on
-  size_t net_threads = 0;  ///< that encode and send; 0: as many as the machine has cores
+  bool chat = true;                     ///< whether persons' lines are passed on
+  std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
+  size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
 };
 
 /// Counts since the start.

@@ -17,12 +17,6 @@ uint64_t bit_of(int index) {
 
 }  // namespace
 
-uint64_t edited_bricks_of(const PublishedChunk& chunk) {
-  uint64_t edited = 0;
-  for (const auto& [coord, brick] : chunk.bricks) edited |= bit_of(index_in_chunk(coord));
-  return edited;
-}
-
 ChosenBricks choose_bricks(uint64_t lacking, int first, size_t bytes) {
   CHECK(0 <= first && first < bricks_per_chunk);
   size_t left = std::max<size_t>(1, bytes / limits::patch_brick_bytes);
@@ -41,7 +35,7 @@ ChunkMessage part_of_chunk(ChunkCoord coord, const PublishedChunk& chunk, uint64
   ChunkMessage part;
   part.chunk = coord;
   part.version = chunk.version;
-  part.edited = edited_bricks_of(chunk);
+  part.edited = chunk.edited;
   part.more = more;
   if (!more) part.hash = chunk.hash;
   for (const auto& [brick, state] : chunk.bricks)

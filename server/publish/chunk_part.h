@@ -9,9 +9,6 @@
 
 namespace scree {
 
-/// Which bricks of a chunk are edited: bit i for brick i (index_in_chunk).
-uint64_t edited_bricks_of(const PublishedChunk& chunk);
-
 struct ChosenBricks {
   uint64_t bricks = 0;  ///< bit i for brick i
   int next = 0;         ///< where to go on the next time

@@ -33,6 +33,8 @@ class EncodeCache {
   const Frame& frame(FrameSelection selection, const TickChanges& changes);
   SharedBytes chunk(ChunkCoord coord, const PublishedChunk& chunk);
   SharedBytes piece(PieceId id, const PublishedPiece& piece);
+  /// The chunk's bytes are let go. While nobody encodes.
+  void forget(ChunkCoord chunk) { chunks_.erase(chunk); }
 
  private:
   /// Written by who comes first, and constant afterwards.

@@ -68,6 +68,14 @@ inline constexpr double outbox_wait_s = 0.1;
 /// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
 
+/// Chunks out of memory that are read for one client before those are sent: what its budget sends in a few
+/// ticks. Above: they are asked for when these are sent.
+inline constexpr size_t chunks_read_ahead = 16;
+
+/// When more bricks are in memory than there should be, one of so many goes out, so that looking for chunks
+/// that nobody needs is rare.
+inline constexpr size_t page_out_parts = 8;
+
 /// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
 inline constexpr size_t encoded_chunks_max = 1024;
 

@@ -134,6 +134,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   // same object after apply(), so that no copy is needed.
   const TickChanges changes(delta, state_, state_, motions_, config_.terrain);
   state_.apply(delta);
+  take_chunks();
   motions_.track(delta, state_, has_poses(delta.tick));
   clock_.add(delta.times, delta.work);
   count_operations(delta);
@@ -143,6 +144,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   stream_ground(backlog, rest);
   stream_tiles(backlog, rest);
   add(std::move(rest));
+  page_out();
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
             stats_.ground_bytes + stats_.tile_bytes <=
@@ -173,6 +175,8 @@ void Publisher::serve_all(const TickChanges& changes, const std::function<Backlo
 void Publisher::add(Part&& part) {
   out_.insert(out_.end(), std::make_move_iterator(part.out.begin()), std::make_move_iterator(part.out.end()));
   stats_ += part.stats;
+  for (const ChunkCoord chunk : part.used) state_.use(chunk);
+  paged_.insert(paged_.end(), part.paged.begin(), part.paged.end());
 }
 
 void Publisher::count_operations(const TickDelta& delta) {
@@ -310,6 +314,7 @@ StatusMessage Publisher::status() const {
   status.latency = latency_;
   status.saving = saving_.how;
   status.saved_tick = saving_.tick;
+  status.paging = saving_.paging;
   for (size_t i = 0; i < refusal_reasons; ++i) {
     const auto reason = static_cast<Refusal>(i);
     if (refusals_.of(reason) > 0)

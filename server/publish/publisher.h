@@ -30,6 +30,7 @@
 #include "server/publish/limits.h"
 #include "server/publish/tick_clock.h"
 #include "server/publish/tile_stream.h"
+#include "server/world/chunk_supply.h"
 #include "shared/base/workers.h"
 #include "shared/operation/per_operation.h"
 
@@ -39,6 +40,7 @@ namespace scree {
 struct Saving {
   std::string how;
   Tick tick = 0;
+  PagingStatus paging = {};
 };
 
 struct PublisherConfig {
@@ -46,6 +48,7 @@ struct PublisherConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
   double heartbeat_s = limits::heartbeat_s;  ///< 0: a frame every tick
+  std::shared_ptr<ChunkSupply> chunks = {};  ///< null: all chunks stay in memory
 };
 
 /// Bytes for a client, length prefix included.
@@ -164,6 +167,7 @@ class Publisher {
   struct Part {
     std::vector<Outgoing> out;
     PublisherStats stats;
+    std::vector<ChunkCoord> used, paged;  ///< chunks that were sent; that are out
   };
   bool has_poses(Tick tick) const { return tick % config_.ticks_per_transform == 0; }
   void count_operations(const TickDelta& delta);
@@ -194,6 +198,8 @@ class Publisher {
   static void send(Client& client, SharedBytes bytes, Part& part);
 
   // ---- by the owner's thread alone
+  void take_chunks();
+  void page_out();
   void stream_ground(const std::function<Backlog(uint64_t)>& backlog, Part& part);
   void stream_tiles(const std::function<Backlog(uint64_t)>& backlog, Part& part);
 
@@ -213,6 +219,7 @@ class Publisher {
   Saving saving_;
   StatusMessage status_;  ///< of this tick
   std::vector<Outgoing> out_;
+  std::vector<ChunkCoord> paged_;  ///< chunks that clients want, and that are out
   std::vector<glm::vec3> eyes_m_;
   size_t watchers_ = 0;
 };

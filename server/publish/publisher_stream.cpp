@@ -30,6 +30,7 @@ void Publisher::stream_chunks(Client& client, const TickChanges& changes, Part& 
       std::min(client.chunk_credit_bytes + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (!client.offer.ready() || client.chunk_credit_bytes <= 0 || client.view.wanted_chunks() == 0) return;
   KeptMessage kept;
+  size_t read_ahead = 0;
   for (const ChunkCoord coord : client.view.next_chunks(changes, stream_batch)) {
     if (client.chunk_credit_bytes <= 0 || client.room_bytes <= 0) break;
     const PublishedChunk& chunk = state_.chunks().at(coord);
@@ -39,6 +40,12 @@ void Publisher::stream_chunks(Client& client, const TickChanges& changes, Part& 
       kept.hashes.push_back(chunk.hash);
       continue;
     }
+    if (!chunk.is_whole()) {
+      if (++read_ahead > limits::chunks_read_ahead) break;
+      part.paged.push_back(coord);
+      continue;
+    }
+    part.used.push_back(coord);
     const SharedBytes bytes =
         client.is_slow ? next_part(client, coord, chunk) : whole_chunk(client, coord, chunk);
     client.chunk_credit_bytes -= size_of(bytes);
@@ -57,7 +64,7 @@ SharedBytes Publisher::whole_chunk(Client& client, ChunkCoord coord, const Publi
 /// As much of the chunk as there is room for, and one brick at least.
 SharedBytes Publisher::next_part(Client& client, ChunkCoord coord, const PublishedChunk& chunk) {
   CHECK(client.room_bytes > 0);
-  const uint64_t edited = edited_bricks_of(chunk);
+  const uint64_t edited = chunk.edited;
   const ChosenBricks chosen = choose_bricks(client.view.lacks(coord) & edited, client.next_brick,
                                             static_cast<size_t>(client.room_bytes));
   if (chosen.bricks == edited) return whole_chunk(client, coord, chunk);

@@ -159,7 +159,7 @@ Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& selec
   if (code != SQLITE_ROW) {
     sqlite3_reset(statement);
     if (code == SQLITE_DONE) return std::optional<std::vector<uint8_t>>();
-    return failure("tick " + std::to_string(tick) + " cannot be read");
+    return failure("row " + std::to_string(tick) + " cannot be read");
   }
   const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 0));
   const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, 0));
@@ -167,7 +167,7 @@ Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& selec
   const int64_t checksum = sqlite3_column_int64(statement, 1);
   sqlite3_reset(statement);
   if (checksum != checksum_of(bytes))
-    return fail(path_ + ": damaged: the data of tick " + std::to_string(tick) + " is not what was recorded");
+    return fail(path_ + ": damaged: row " + std::to_string(tick) + " is not what was written");
   return std::optional(std::move(bytes));
 }
 

@@ -1,17 +1,9 @@
 #include "server/store/kept_terrain.h"
 
-namespace scree {
+#include "server/store/limits.h"
+#include "server/world/shared_brick.h"
 
-KeptTerrain::KeptTerrain(const TerrainSource& ground, const TickDelta& keyframe, const GroundMasses& known)
-    : ground_(ground) {
-  for (const BrickState& state : keyframe.bricks) {
-    Chunk& chunk = chunks_[chunk_of(state.coord)];
-    chunk.bricks[state.coord] = state;
-    chunk.hash += state.hash;
-  }
-  for (const auto& [coord, mass] : known)
-    if (const auto chunk = chunks_.find(coord); chunk != chunks_.end()) chunk->second.ground_mass = mass;
-}
+namespace scree {
 
 MassUnits KeptTerrain::ground_of(Chunk& chunk, BrickCoord brick) const {
   if (chunk.measured == nullptr)
@@ -19,19 +11,36 @@ MassUnits KeptTerrain::ground_of(Chunk& chunk, BrickCoord brick) const {
   return (*chunk.measured)[static_cast<size_t>(index_in_chunk(brick))];
 }
 
-void KeptTerrain::change(const ChangedBricks& bricks) {
+Result<KeptTerrain::Chunk*> KeptTerrain::chunk_at(ChunkCoord coord) {
+  if (const auto found = chunks_.find(coord); found != chunks_.end()) return &found->second;
+  const auto saved = read_(coord);
+  if (!saved) return tl::unexpected(saved.error());
+  Chunk& chunk = chunks_[coord];
+  if (!saved->has_value()) return &chunk;
+  for (const BrickPatch& patch : (*saved)->bricks)
+    chunk.bricks[patch.coord] = {patch.coord, shared_copy(patch.brick),
+                                 brick_hash(patch.coord, patch.brick, patch.paint), patch.paint};
+  chunk.hash = (*saved)->hash;
+  if ((*saved)->ground_mass) {
+    chunk.ground_mass = *(*saved)->ground_mass;
+    return &chunk;
+  }
+  for (const auto& [brick, ignored] : chunk.bricks) chunk.ground_mass += ground_of(chunk, brick);
+  return &chunk;
+}
+
+Result<void> KeptTerrain::change(const ChangedBricks& bricks) {
   for (const auto& [coord, state] : bricks) {
-    Chunk& chunk = chunks_[chunk_of(coord)];
-    if (!chunk.ground_mass) {
-      chunk.ground_mass = 0;
-      for (const auto& [known, ignored] : chunk.bricks) *chunk.ground_mass += ground_of(chunk, known);
-    }
-    if (!chunk.bricks.contains(coord)) *chunk.ground_mass += ground_of(chunk, coord);
+    const Result<Chunk*> found = chunk_at(chunk_of(coord));
+    if (!found) return tl::unexpected(found.error());
+    Chunk& chunk = **found;
+    if (!chunk.bricks.contains(coord)) chunk.ground_mass += ground_of(chunk, coord);
     BrickState& slot = chunk.bricks[coord];
     chunk.hash += state.hash - slot.hash;
     slot = state;
     unsaved_.insert(chunk_of(coord));
   }
+  return {};
 }
 
 std::vector<WorldChunk> KeptTerrain::unsaved(Tick tick) const {
@@ -42,6 +51,13 @@ std::vector<WorldChunk> KeptTerrain::unsaved(Tick tick) const {
     for (const auto& [brick, state] : chunk.bricks) kept.bricks.push_back({brick, *state.brick, state.paint});
   }
   return list;
+}
+
+void KeptTerrain::saved() {
+  if (chunks_.size() > limits::chunks_between_saves_max)
+    std::erase_if(chunks_, [this](const auto& entry) { return !unsaved_.contains(entry.first); });
+  if (chunks_.size() > limits::chunks_between_saves_max) chunks_.clear();
+  unsaved_.clear();
 }
 
 }  // namespace scree

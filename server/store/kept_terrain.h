@@ -1,9 +1,12 @@
-// A keeper's copy of a world's edited terrain: which chunks a save has to write, and what their rows hold.
-// One thread at a time. Internal to server/store.
+// Which chunks of a world's terrain a save has to write, and what their rows hold: all of a chunk's edited
+// bricks. Those that did not change since the last save are read from its row. One thread at a time. Internal
+// to server/store.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -18,26 +21,33 @@ using ChangedBricks = std::unordered_map<BrickCoord, BrickState, CoordHash>;
 
 class KeptTerrain {
  public:
-  /// `keyframe`: every edited brick (World::keyframe); `known`: what the ground weighs under them, as far as
-  /// the file says. The rest is measured when its chunk changes.
-  KeptTerrain(const TerrainSource& ground, const TickDelta& keyframe, const GroundMasses& known);
+  /// A chunk as it was saved; nothing when it never was.
+  using ReadSaved = std::function<Result<std::optional<WorldChunk>>(ChunkCoord)>;
 
-  void change(const ChangedBricks& bricks);
+  KeptTerrain(const TerrainSource& ground, ReadSaved read) : ground_(ground), read_(std::move(read)) {}
+
+  /// An error is one of reading; then some bricks are taken, and the next change() may not follow.
+  Result<void> change(const ChangedBricks& bricks);
   /// The rows of all chunks that changed since saved(), as of that tick.
   std::vector<WorldChunk> unsaved(Tick tick) const;
-  void saved() { unsaved_.clear(); }
+  /// Forgets chunks, when there are more than limits::chunks_between_saves_max.
+  void saved();
+  size_t chunks() const { return chunks_.size(); }
 
  private:
   struct Chunk {
     std::map<BrickCoord, BrickState> bricks;
     uint64_t hash = 0;
-    std::optional<MassUnits> ground_mass;   ///< under the bricks
+    MassUnits ground_mass = 0;              ///< under the bricks
     std::unique_ptr<MassByBrick> measured;  ///< null until it is needed
   };
+  /// The chunk, as it was saved unless it is here already.
+  Result<Chunk*> chunk_at(ChunkCoord coord);
   /// Mass of the ground in a brick. Generates its chunk, once.
   MassUnits ground_of(Chunk& chunk, BrickCoord brick) const;
 
   TerrainSource ground_;
+  ReadSaved read_;
   std::unordered_map<ChunkCoord, Chunk, CoordHash> chunks_;
   std::set<ChunkCoord> unsaved_;
 };

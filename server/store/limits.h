@@ -17,6 +17,10 @@ inline constexpr uint64_t ticks_per_short_keyframe = 60;
 /// Bricks of a short keyframe; with more it is left out, and seeking applies more frames.
 inline constexpr size_t short_keyframe_bricks_max = 16384;
 
+/// Edited bricks that a recording keeps in memory for its keyframes: 170 MB, of which a server has most
+/// anyway. Above: there are no more keyframes, and seeking starts from the last one.
+inline constexpr size_t recorded_bricks_max = size_t{1} << 18;
+
 /// Seconds of frames in one transaction: a crash loses at most that much of a recording.
 inline constexpr double seconds_per_commit = 0.5;
 
@@ -31,6 +35,16 @@ inline constexpr size_t noted_events_max = 1024;
 
 /// Bytes of one row of a recording; a longer one is refused as damaged.
 inline constexpr size_t row_bytes_max = size_t{1} << 29;
+
+/// Chunks that the storage thread keeps from one save to the next, so that chunks that change again and again
+/// are not read again: about 40 MB. Above: they are forgotten after a save.
+inline constexpr size_t chunks_between_saves_max = 512;
+
+/// Chunks that wait for the thread that reads them, or to be taken. Above: whoever wants more asks again.
+inline constexpr size_t chunks_asked_max = 1024;
+
+/// Ticks until a chunk that could not be read is tried again; until then nobody waits for it.
+inline constexpr double unreadable_retry_s = 2.0;
 
 /// Pages in SQLite's write-ahead log, a file beside the recording. Above: SQLite merges them into the file.
 inline constexpr int wal_pages_max = 4096;

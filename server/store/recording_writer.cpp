@@ -36,6 +36,7 @@ struct RecordingWriter::State {
   Result<void> put_short_keyframe();
   Result<void> put_events(const TickDelta& delta, std::span<const Event> noted);
   Result<void> put_machine();
+  void forget_terrain();
 
   Database database;
   Statement insert_frame;
@@ -49,6 +50,7 @@ struct RecordingWriter::State {
   RecordedMachine machine;   ///< since its last row
   bool logs = false;         ///< it has a row of the machine's from this process
   PublishedState published;  ///< after the last tick that was added
+  bool terrain_forgotten = false;  ///< there are no more keyframes: seeking starts from an earlier one
   bool in_transaction = false;
   ThreadCheck storage_thread;
 };
@@ -128,6 +130,14 @@ Result<void> RecordingWriter::State::put_machine() {
   if (machine.tick_us.empty()) return {};
   const RecordedMachine row = std::exchange(machine, {});
   return database.put(put_machine_row, row.tick, encode(row));
+}
+
+/// When it is more than a recording may keep in memory; from then on always.
+void RecordingWriter::State::forget_terrain() {
+  if (published.bricks_in() > limits::recorded_bricks_max) terrain_forgotten = true;
+  if (!terrain_forgotten) return;
+  const std::vector<ChunkCoord> in(published.chunks_in().begin(), published.chunks_in().end());
+  for (const ChunkCoord chunk : in) published.page_out(chunk);
 }
 
 /// The state, and the keyframe from which a replay begins there.
@@ -251,6 +261,8 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
   if (auto put = state.put_events(delta, noted); !put) return put;
   state.published.apply(delta);
+  state.forget_terrain();
+  if (state.terrain_forgotten) return {};
   for (const BrickState& brick : delta.bricks) state.changed.insert(brick.coord);
   if (delta.tick % limits::ticks_per_keyframe == 0) return state.put_keyframe(state.published.as_delta());
   return delta.tick % limits::ticks_per_short_keyframe == 0 ? state.put_short_keyframe() : Result<void>();

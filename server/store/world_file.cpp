@@ -38,6 +38,10 @@ Result<void> check_free(const std::string& path) {
   return {};
 }
 
+std::string synchronous(bool durable) {
+  return durable ? "FULL" : "OFF";
+}
+
 std::vector<WorldChunk> chunks_of(const WorldSnapshot& world) {
   std::map<ChunkCoord, WorldChunk> chunks;
   for (const BrickPatch& patch : world.bricks) {
@@ -66,10 +70,11 @@ struct WorldFile::State {
   Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
 
   Database database;
-  Statement put_header, put_moment, put_chunk, put_piece, delete_piece;
+  Statement put_header, put_moment, put_chunk, put_piece, delete_piece, get_chunk;
   std::set<PieceId> pieces;  ///< that have rows
   uint64_t bytes_written = 0;
   bool is_full = false;  ///< the last save found no room
+  bool durable = true;   ///< saves are synced
 };
 
 Result<void> WorldFile::State::prepare() {
@@ -116,7 +121,7 @@ WorldFile::WorldFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
 WorldFile::~WorldFile() = default;
 
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
-                                                     const WorldSnapshot& world) {
+                                                     const WorldSnapshot& world, bool durable) {
   if (auto free = check_free(path); !free) return tl::unexpected(free.error());
   std::error_code error;
   const std::string unfinished = path + "-new";
@@ -126,8 +131,8 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
     if (!database) return tl::unexpected(database.error());
     State state(std::move(*database));
     Database& file = state.database;
-    if (auto done = file.execute("PRAGMA page_size = 4096; PRAGMA synchronous = FULL; BEGIN;" +
-                                 world_schema::create_tables());
+    if (auto done = file.execute("PRAGMA page_size = 4096; PRAGMA synchronous = " + synchronous(durable) +
+                                 "; BEGIN;" + world_schema::create_tables());
         !done)
       return done;
     if (auto done = state.prepare(); !done) return done;
@@ -141,8 +146,10 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
   }
   std::filesystem::rename(unfinished, path, error);
   if (error) return fail(path + " cannot be made: " + error.message());
-  sync_folder_of(path);
-  return open(path);
+  if (durable) sync_folder_of(path);
+  auto file = open(path);
+  if (file) (*file)->state_->durable = durable;
+  return file;
 }
 
 Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
@@ -157,12 +164,18 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
 
 namespace {
 
+Result<WorldChunk> chunk_of_row(uint64_t key, std::span<const uint8_t> data) {
+  auto decoded = decode_world_chunk(data);
+  if (decoded && world_schema::chunk_key(decoded->chunk) != key) return fail("it is another chunk's");
+  return decoded;
+}
+
 /// Reads the rows of a file, table by table.
 class Reading {
  public:
   Reading(Database& database, LostRows* lost) : database_(database), lost_(lost) {}
 
-  Result<WorldRows> run() {
+  Result<WorldRows> run(bool with_chunks) {
     if (auto done = one("header", [&](auto data) { return take(decode_world_header(data), rows_.header); });
         !done)
       return tl::unexpected(done.error());
@@ -177,11 +190,30 @@ class Reading {
     }
     if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
       return tl::unexpected(done.error());
-    if (auto done = every("chunks", [&](uint64_t key, auto data) { return chunk(key, data); }); !done)
-      return tl::unexpected(done.error());
+    if (with_chunks) {
+      const auto keep = [&](WorldChunk decoded) {
+        auto& bricks = rows_.world.bricks;
+        bricks.insert(bricks.end(), decoded.bricks.begin(), decoded.bricks.end());
+        decoded.bricks.clear();
+        if (decoded.ground_mass) rows_.ground[decoded.chunk] = *decoded.ground_mass;
+        rows_.chunks.push_back(std::move(decoded));
+        return Result<void>();
+      };
+      if (auto done = chunks(keep); !done) return tl::unexpected(done.error());
+    }
     std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
     if (!has_moment_) begin_anew();
     return std::move(rows_);
+  }
+
+  /// Calls `take` for each chunk.
+  template <typename Take>
+  Result<void> chunks(Take&& take_chunk) {
+    return every("chunks", [&](uint64_t key, auto data) -> Result<void> {
+      auto decoded = chunk_of_row(key, data);
+      if (!decoded) return tl::unexpected(decoded.error());
+      return take_chunk(std::move(*decoded));
+    });
   }
 
  private:
@@ -256,18 +288,6 @@ class Reading {
     return {};
   }
 
-  Result<void> chunk(uint64_t key, Bytes data) {
-    auto decoded = decode_world_chunk(data);
-    if (!decoded) return tl::unexpected(decoded.error());
-    if (world_schema::chunk_key(decoded->chunk) != key) return fail("it is another chunk's");
-    auto& bricks = rows_.world.bricks;
-    bricks.insert(bricks.end(), decoded->bricks.begin(), decoded->bricks.end());
-    decoded->bricks.clear();
-    if (decoded->ground_mass) rows_.ground[decoded->chunk] = *decoded->ground_mass;
-    rows_.chunks.push_back(std::move(*decoded));
-    return {};
-  }
-
   Database& database_;
   LostRows* lost_;
   WorldRows rows_;
@@ -284,17 +304,44 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
     lost->reasons.push_back(whole.error().message);
   }
   if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-  auto rows = Reading(file, lost).run();
+  auto rows = Reading(file, lost).run(true);
   if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
   return rows;
+}
+
+Result<WorldRows> WorldFile::read_moment() {
+  Database& file = state_->database;
+  if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
+  return Reading(file, nullptr).run(false);
+}
+
+Result<void> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take) {
+  return Reading(state_->database, nullptr).chunks(take);
+}
+
+Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {
+  State& s = *state_;
+  if (s.get_chunk == nullptr) {
+    auto prepared = s.database.prepare(world_schema::one_of("chunks"));
+    if (!prepared) return tl::unexpected(prepared.error());
+    s.get_chunk = std::move(*prepared);
+  }
+  const uint64_t key = world_schema::chunk_key(chunk);
+  const auto row = s.database.get(s.get_chunk, key);
+  if (!row) return tl::unexpected(row.error());
+  if (!row->has_value()) return std::optional<WorldChunk>();
+  auto decoded = chunk_of_row(key, **row);
+  if (!decoded)
+    return fail(path() + ": damaged: row " + std::to_string(key) +
+                " of its chunks: " + decoded.error().message);
+  return std::optional(std::move(*decoded));
 }
 
 /// The log, the statements, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
-  const std::string settings =
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = " +
-      std::to_string(limits::wal_pages_max) + ";";
+  const std::string settings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = " + synchronous(durable) +
+                               "; PRAGMA wal_autocheckpoint = " + std::to_string(limits::wal_pages_max) + ";";
   if (auto done = database.execute(settings); !done) return done;
   const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
     pieces.insert(id);

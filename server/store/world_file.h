@@ -4,7 +4,9 @@
 // writes (world_lock.h); others may read meanwhile. One thread at a time.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +33,10 @@ struct LostRows {
 class WorldFile {
  public:
   /// Makes a file of a world, whose ground is there; an error if the file exists. It appears under its name
-  /// when it is whole.
+  /// when it is whole. Unless it is `durable`, nothing is synced to the disk, now and later: a crash of the
+  /// machine may leave anything.
   static Result<std::unique_ptr<WorldFile>> create(const std::string& path, const WorldHeader& header,
-                                                   const WorldSnapshot& world);
+                                                   const WorldSnapshot& world, bool durable = true);
   /// Refuses what is no world, and one of another release, by name.
   static Result<std::unique_ptr<WorldFile>> open(const std::string& path);
   ~WorldFile();
@@ -42,6 +45,14 @@ class WorldFile {
   /// out and told there: only the header must be whole. Without the moment no piece goes on. Whether they
   /// agree with each other World::restore() says.
   Result<WorldRows> read(LostRows* lost = nullptr);
+
+  /// As read(), but of the terrain nothing: the header, and the world's moment.
+  Result<WorldRows> read_moment();
+  /// Calls `take` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of
+  /// `take`, or a damaged row.
+  Result<void> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take);
+  /// One chunk as it was saved last; nothing when it has no row. From any thread, if no other uses this file.
+  Result<std::optional<WorldChunk>> read_chunk(ChunkCoord chunk);
 
   /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
   /// returns. After an error the file is as it was.

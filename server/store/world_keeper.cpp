@@ -36,8 +36,10 @@ struct WorldKeeper::State {
     ChangedBricks bricks;
   };
 
-  State(KeeperConfig c, std::unique_ptr<WorldFile> f, KeptTerrain t)
-      : config(std::move(c)), file(std::move(f)), terrain(std::move(t)) {}
+  State(KeeperConfig c, std::unique_ptr<WorldFile> f, const TerrainSource& ground)
+      : config(std::move(c)),
+        file(std::move(f)),
+        terrain(ground, [this](ChunkCoord chunk) { return file->read_chunk(chunk); }) {}
   void run();
   void write(Due due);
 
@@ -51,7 +53,7 @@ struct WorldKeeper::State {
 
   // Of the storage thread.
   std::unique_ptr<WorldFile> file;
-  KeptTerrain terrain;  ///< as of the last save that was taken
+  KeptTerrain terrain;  ///< what the next save has to write; reads `file`
   std::thread thread;
 
   mutable std::mutex mutex;  ///< guards the members below
@@ -62,11 +64,11 @@ struct WorldKeeper::State {
 };
 
 void WorldKeeper::State::write(Due due) {
-  terrain.change(due.bricks);
   const Tick tick = due.moment.tick;
   if (config.before_save) config.before_save(tick);
   Stopwatch watch;
-  const Result<void> saved = file->save(due.moment, terrain.unsaved(tick));
+  const Result<void> taken = terrain.change(due.bricks);
+  const Result<void> saved = taken ? file->save(due.moment, terrain.unsaved(tick)) : taken;
   const double ms = watch.lap_ms();
   if (saved) terrain.saved();
   const std::scoped_lock lock(mutex);
@@ -80,7 +82,7 @@ void WorldKeeper::State::write(Due due) {
     return;
   }
   ++status.failures;
-  status.given_up = !file->is_full();
+  status.given_up = !taken || !file->is_full();
 }
 
 void WorldKeeper::State::run() {
@@ -97,14 +99,13 @@ void WorldKeeper::State::run() {
   }
 }
 
-WorldKeeper::WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe,
-                         const TerrainSource& ground, const GroundMasses& known, KeeperConfig config)
-    : state_(
-          std::make_unique<State>(std::move(config), std::move(file), KeptTerrain(ground, keyframe, known))) {
+WorldKeeper::WorldKeeper(std::unique_ptr<WorldFile> file, Tick tick, const TerrainSource& ground,
+                         KeeperConfig config)
+    : state_(std::make_unique<State>(std::move(config), std::move(file), ground)) {
   State& s = *state_;
   s.period = period_of(s.config);
-  s.next_due = s.period == 0 ? 0 : keyframe.tick + s.period;
-  s.status.saved_tick = keyframe.tick;
+  s.next_due = s.period == 0 ? 0 : tick + s.period;
+  s.status.saved_tick = tick;
   s.thread = std::thread([&s] { s.run(); });
 }
 
@@ -117,12 +118,13 @@ WorldKeeper::~WorldKeeper() {
   if (state_->thread.joinable()) state_->thread.join();
 }
 
-bool WorldKeeper::note(const TickDelta& delta) {
+bool WorldKeeper::note(const TickDelta& delta, bool pressed) {
   State& s = *state_;
   if (s.over) return false;
   for (const BrickState& state : delta.bricks) s.gathered[state.coord] = state;
   const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
-  if (!by_clock && !(s.config.durability == Durability::tick && something_happened(delta))) return false;
+  if (!by_clock && !pressed && !(s.config.durability == Durability::tick && something_happened(delta)))
+    return false;
   const std::scoped_lock lock(s.mutex);
   if (s.status.given_up) {
     s.over = true;

@@ -62,18 +62,17 @@ struct KeeperStatus {
 
 class WorldKeeper {
  public:
-  /// `file` holds this world, as of `keyframe`, which has its edits (World::keyframe); `known`: what the
-  /// ground weighs under them, as far as the file says (WorldRows::ground).
-  WorldKeeper(std::unique_ptr<WorldFile> file, const TickDelta& keyframe, const TerrainSource& ground,
-              const GroundMasses& known, KeeperConfig config);
+  /// `file` holds this world, as of `tick`.
+  WorldKeeper(std::unique_ptr<WorldFile> file, Tick tick, const TerrainSource& ground, KeeperConfig config);
   /// Writes what was handed over, and joins the thread.
   ~WorldKeeper();
   WorldKeeper(const WorldKeeper&) = delete;
   WorldKeeper& operator=(const WorldKeeper&) = delete;
 
   /// Takes what a tick changed; every tick, in order. True: the world is to be saved as of this tick now, by
-  /// save(). One thread calls this, save() and finish().
-  bool note(const TickDelta& delta);
+  /// save(). `pressed`: memory is short until it is saved, so that it is due at once. One thread calls this,
+  /// save() and finish().
+  bool note(const TickDelta& delta, bool pressed = false);
   void save(WorldMoment moment);
   /// Saves the last tick, waits until it is written, and ends. Returns the last error.
   Result<void> finish(WorldMoment moment);

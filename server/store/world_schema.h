@@ -37,6 +37,10 @@ inline std::string all_of(const std::string& table) {
   return "SELECT key, data, checksum FROM " + table + " ORDER BY key";
 }
 
+inline std::string one_of(const std::string& table) {
+  return "SELECT data, checksum FROM " + table + " WHERE key = ?1";
+}
+
 /// 21 bits a coordinate: worlds reach a few thousand chunks.
 inline uint64_t chunk_key(ChunkCoord chunk) {
   constexpr int32_t half = 1 << 20;

@@ -98,10 +98,14 @@ inline constexpr double region_memory_bytes = 36.0 * 1024.0;
 inline constexpr double generated_chunk_bytes = 34.0 * 1024.0;
 inline constexpr int region_bits = 4;
 
-/// Share of all memory that generated chunks may take; and the share that requests leave to merges of pieces,
-/// which are never refused.
+/// What is left in memory of an edited chunk that is out, in the field and in the published state, bytes.
+inline constexpr double chunk_out_bytes = 512.0;
+
+/// Share of all memory that generated chunks may take; the share that requests leave to merges of pieces,
+/// which never wait; and the share that is free after chunks went out.
 inline constexpr double generated_memory_share = 0.125;
 inline constexpr double merge_memory_share = 0.0625;
+inline constexpr double page_out_share = 0.125;
 
 /// Requests of all clients that wait for a tick with room for them. A client may have as many waiting as
 /// there are places left, so that one more client always finds one. Above: refused.

@@ -1,32 +1,31 @@
-// What a world's terrain takes in memory, by a model of the simulation's state alone: edited bricks in the
-// field, in the published state and in a recording, the regions of OpenVDB's tree that hold them, and
-// generated chunks. So every server of the same requests refuses the same ones. Not thread-safe.
+// What a server's terrain takes in memory, by a model: edited bricks in the field, in the published state and
+// in a recording, the regions of OpenVDB's tree that hold them, what is left of chunks that are out, and
+// generated chunks. Which chunks are in memory depends on the disk's speed, so the simulation never asks.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <set>
-#include <span>
 
 #include "shared/field/field.h"
 
 namespace scree {
 
-class TerrainMemory {
- public:
-  /// These bricks were edited.
-  void note(std::span<const BrickCoord> bricks);
+/// Of a field that pages.
+struct TerrainMemory {
+  size_t bricks = 0;      ///< edited ones, in memory
+  size_t regions = 0;     ///< of OpenVDB's tree with some of them
+  size_t chunks_out = 0;  ///< edited chunks that are not in memory
 
-  /// Bytes in use with so many edited bricks, and all that generated chunks may take.
-  double used_bytes(size_t edited_bricks, uint32_t max_mb) const;
-  /// A bound of added_bytes() that costs nothing.
-  static double most_added_bytes(const VoxelBox& box);
-  /// The most bytes that an edit of that box may add.
-  double added_bytes(const VoxelBox& box, const Field& field) const;
-
- private:
-  std::set<BrickCoord> regions_;  ///< those with edited bricks, in regions
+  bool operator==(const TerrainMemory&) const = default;
 };
+TerrainMemory memory_of(const Field& field);
+
+/// Bytes in use, and all that generated chunks may take when all memory is so many megabytes.
+double used_bytes(const TerrainMemory& memory, uint32_t max_mb);
+/// The most bytes that an edit of that box may add.
+double added_bytes(const VoxelBox& box, const Field& field);
+/// Edited bricks in memory above which chunks that nobody needs go out.
+size_t bricks_within(uint32_t max_mb, const TerrainMemory& memory);
 
 /// Generated chunks that a field may keep when all memory is so many megabytes.
 size_t generated_chunks_within(uint32_t max_mb);

@@ -24,6 +24,7 @@ constexpr Row rows[] = {
     {Refusal::pieces_share, "pieces_share"},
     {Refusal::requests_waiting, "requests_waiting"},
     {Refusal::memory_max, "memory_max"},
+    {Refusal::terrain_unreadable, "terrain_unreadable"},
     {Refusal::session_over, "session_over"},
     {Refusal::replay, "replay"},
     {Refusal::requests_per_second, "requests_per_second"},

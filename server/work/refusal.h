@@ -24,6 +24,7 @@ enum class Refusal : uint8_t {
   pieces_share,
   requests_waiting,
   memory_max,
+  terrain_unreadable,
   session_over,
   // Of a request, by the network side.
   replay,

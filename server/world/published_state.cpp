@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "server/world/shared_brick.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -22,21 +23,71 @@ void remember(ChunkHistory& history, Tick version, uint64_t hash) {
 
 }  // namespace
 
+/// What changed of a chunk whose bricks are out gives no hash: the delta tells it.
+void PublishedState::apply_terrain(const TickDelta& delta) {
+  std::unordered_set<ChunkCoord, CoordHash> touched;
+  for (const BrickState& state : delta.bricks) {
+    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.paint));
+    touched.insert(chunk_of(state.coord));
+    PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
+    const auto [slot, is_new] = chunk.bricks.try_emplace(state.coord);
+    if (is_new) ++bricks_in_;
+    chunk.hash += state.hash - slot->second.hash;
+    chunk.edited |= uint64_t{1} << index_in_chunk(state.coord);
+    slot->second = state;
+    in_.insert(chunk_of(state.coord));
+  }
+  for (const ChunkState& state : delta.chunks) {
+    touched.insert(state.chunk);
+    PublishedChunk& chunk = chunks_[state.chunk];
+    CHECK_DEBUG((chunk.edited & ~state.edited) == 0);
+    chunk.hash = state.hash;
+    chunk.edited = state.edited;
+  }
+  for (const ChunkCoord coord : touched) {
+    PublishedChunk& chunk = chunks_[coord];
+    chunk.version = chunk.used = delta.tick;
+    remember(chunk.history, chunk.version, chunk.hash);
+  }
+}
+
+void PublishedState::page_out(ChunkCoord coord) {
+  PublishedChunk& chunk = chunks_.at(coord);
+  bricks_in_ -= chunk.bricks.size();
+  chunk.bricks.clear();
+  if (!chunk.history.entries.empty()) chunk.history.entries = {chunk.history.entries.back()};
+  in_.erase(coord);
+}
+
+bool PublishedState::page_in(ChunkCoord coord, std::span<const BrickPatch> bricks) {
+  const auto found = chunks_.find(coord);
+  if (found == chunks_.end()) return false;
+  PublishedChunk& chunk = found->second;
+  std::map<BrickCoord, BrickState> whole = chunk.bricks;
+  for (const BrickPatch& patch : bricks)
+    if (chunk_of(patch.coord) == coord && !whole.contains(patch.coord))
+      whole[patch.coord] = {patch.coord, shared_copy(patch.brick),
+                            brick_hash(patch.coord, patch.brick, patch.paint), patch.paint};
+  uint64_t hash = 0, edited = 0;
+  for (const auto& [brick, state] : whole) {
+    hash += state.hash;
+    edited |= uint64_t{1} << index_in_chunk(brick);
+  }
+  if (hash != chunk.hash || edited != chunk.edited) return false;
+  bricks_in_ += whole.size() - chunk.bricks.size();
+  chunk.bricks = std::move(whole);
+  chunk.used = tick_;
+  in_.insert(coord);
+  return true;
+}
+
 void PublishedState::apply(const TickDelta& delta) {
   CHECK(tick_ == 0 || delta.tick == tick_ + 1);
   CHECK_DEBUG(std::ranges::adjacent_find(delta.bricks, std::ranges::greater_equal{}, &BrickState::coord) ==
               delta.bricks.end());
   CHECK_DEBUG(std::ranges::is_sorted(delta.pieces, {}, &PieceState::id));
   tick_ = delta.tick;
-  for (const BrickState& state : delta.bricks) {
-    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.paint));
-    PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
-    BrickState& slot = chunk.bricks[state.coord];
-    chunk.hash += state.hash - slot.hash;
-    slot = state;
-    chunk.version = delta.tick;
-    remember(chunk.history, chunk.version, chunk.hash);
-  }
+  apply_terrain(delta);
   for (const BrickCoord coord : delta.reverted) revert(coord);
   std::map<PieceId, PublishedPiece> alive;
   for (const PieceState& piece : delta.pieces) {
@@ -63,9 +114,13 @@ void PublishedState::revert(BrickCoord coord) {
   const auto found = chunks_.find(chunk_of(coord));
   CHECK(found != chunks_.end() && found->second.bricks.contains(coord));
   PublishedChunk& chunk = found->second;
+  CHECK(chunk.is_whole());
   chunk.hash -= chunk.bricks.at(coord).hash;
+  chunk.edited &= ~(uint64_t{1} << index_in_chunk(coord));
   chunk.bricks.erase(coord);
+  --bricks_in_;
   if (chunk.bricks.empty()) {
+    in_.erase(found->first);
     chunks_.erase(found);
     return;
   }
@@ -80,6 +135,7 @@ uint64_t PublishedState::sum_of_chunks() const {
 }
 
 TickDelta PublishedState::as_delta() const {
+  CHECK_DEBUG(std::ranges::all_of(chunks_, [](const auto& entry) { return entry.second.is_whole(); }));
   TickDelta delta = without_bricks();
   for (const auto& [coord, chunk] : chunks_)
     for (const auto& [brick, state] : chunk.bricks) delta.bricks.push_back(state);

@@ -2,17 +2,23 @@
 // recorder writes keyframes from it; neither reads the simulation. Buffers are shared and immutable. Not
 // thread-safe.
 //
+// A chunk's bricks may be out of memory (page_out): then its version, its hash, and which bricks are edited
+// are known, and of its bricks those that changed since.
+//
 // Invariants: ticks have no gap. A chunk's version is the last tick that changed it, and its hash is the sum
 // of its bricks' hashes, of which it has one at least; the field's hash is the sum over chunks. Every piece
 // alive has its volume.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "server/world/tick_delta.h"
@@ -30,10 +36,15 @@ struct ChunkHistory {
 };
 
 struct PublishedChunk {
-  Tick version = 0;   ///< the tick that changed it last
-  uint64_t hash = 0;  ///< Σ brick_hash of the edited bricks
+  Tick version = 0;     ///< the tick that changed it last
+  uint64_t hash = 0;    ///< Σ brick_hash of the edited bricks
+  uint64_t edited = 0;  ///< bit i for brick i (index_in_chunk)
   std::map<BrickCoord, BrickState> bricks;
   ChunkHistory history;
+  Tick used = 0;  ///< as of PublishedState::use()
+
+  /// Whether all of its edited bricks are in memory.
+  bool is_whole() const { return bricks.size() == static_cast<size_t>(std::popcount(edited)); }
 };
 
 struct PublishedPiece {
@@ -46,8 +57,19 @@ class PublishedState {
   /// Applies the next tick. The first may have any number, as a keyframe; then there is no gap.
   void apply(const TickDelta& delta);
 
+  /// Drops the bricks of a chunk.
+  void page_out(ChunkCoord chunk);
+  /// Puts back what was read of a chunk, but for bricks that changed since. False, and the chunk is as it
+  /// was, when they are not its bricks.
+  [[nodiscard]] bool page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks);
+  /// Notes that somebody needs the chunk's bricks.
+  void use(ChunkCoord chunk) { chunks_.at(chunk).used = tick_; }
+  /// Chunks with bricks in memory, and the number of these bricks.
+  const std::unordered_set<ChunkCoord, CoordHash>& chunks_in() const { return in_; }
+  size_t bricks_in() const { return bricks_in_; }
+
   /// A keyframe: one delta that takes an empty state to this one, with every edited brick, every piece, and
-  /// no operations.
+  /// no operations. All chunks are whole.
   TickDelta as_delta() const;
   /// The same with these bricks alone, which are edited.
   TickDelta as_delta(const std::set<BrickCoord>& bricks) const;
@@ -72,8 +94,12 @@ class PublishedState {
   /// Σ chunk hash, which is the field's; for CHECK_DEBUG.
   uint64_t sum_of_chunks() const;
 
+  void apply_terrain(const TickDelta& delta);
+
   Tick tick_ = 0;
   std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
+  std::unordered_set<ChunkCoord, CoordHash> in_;
+  size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
   Ledger ledger_;
   SettingValues settings_;

@@ -1,11 +1,11 @@
 #include "server/world/request_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "server/fracture/even_seeds.h"
 #include "server/work/limits.h"
+#include "server/work/memory.h"
 #include "server/work/price.h"
 #include "server/world/buried_stage.h"
 #include "server/world/cut_stage.h"
@@ -283,42 +283,9 @@ Checked check(const World::State& state, const Command& command) {
   return std::visit(Checking{state}, command.body);
 }
 
-/// The shape of a request that edits terrain.
-const Shape* shape_of(const Request& request) {
-  return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
-                               [](const FillRequest& fill) { return &fill.shape; },
-                               [](const PaintRequest& paint) { return &paint.shape; },
-                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
-                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
-                    request);
-}
-
-/// Refuses an edit whose terrain may not fit in memory.
-Checked check_memory(const World::State& state, const Command& command) {
-  const Shape* const shape = shape_of(command.body);
-  if (shape == nullptr) return {};
-  constexpr double mb = 1024.0 * 1024.0;
-  const uint32_t max_mb = state.config.memory_max_mb;
-  const double max_bytes = max_mb * mb * (1.0 - limits::merge_memory_share);
-  const double used_bytes = state.memory.used_bytes(state.field.edited_brick_count(), max_mb);
-  const VoxelBox box = band_box(in_voxels(*shape, state.config.terrain.voxel_size_m));
-  if (used_bytes + TerrainMemory::most_added_bytes(box) <= max_bytes) return {};
-  const double added_bytes = state.memory.added_bytes(box, state.field);
-  if (used_bytes + added_bytes <= max_bytes) return {};
-  const auto whole = [&](double bytes) {
-    return std::to_string(static_cast<uint64_t>(std::ceil(bytes / mb)));
-  };
-  return refuse(
-      Refusal::memory_max,
-      "the terrain takes about " + whole(used_bytes) + " of " + std::to_string(max_mb) +
-          " MB (memory-max) and this edit may add " + whole(added_bytes) +
-          " MB: edit where terrain has been edited before, or have the limit raised (--memory-max)");
-}
-
 /// Carries out one request, or refuses it: what was valid when it came may not be any more.
 Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
-  if (Checked room = check_memory(state, command); !room) return tl::unexpected(room.error());
   return std::visit(Executing{state, party_of(command), grant, delta}, command.body);
 }
 

@@ -49,6 +49,13 @@ struct BrickState {
   std::optional<Material> paint = std::nullopt;
 };
 
+/// A chunk's state after the tick.
+struct ChunkState {
+  ChunkCoord chunk;
+  uint64_t hash = 0;    ///< Field::chunk_hash()
+  uint64_t edited = 0;  ///< bit i: brick i of the chunk is edited
+};
+
 struct SpawnedPiece {
   PieceId id = 0;
   std::shared_ptr<const Volume> volume;
@@ -58,9 +65,12 @@ struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
   std::vector<BrickState> bricks;            ///< every brick that the tick changed, ordered
-  std::vector<BrickCoord> reverted;          ///< bricks that are no longer edited, ordered: a replay jumped
-  std::vector<SpawnedPiece> spawned;         ///< pieces made in this tick, ordered; some may be gone again
-  std::vector<PieceState> pieces;            ///< every piece alive after the tick, ordered by id
+  std::vector<BrickCoord> reverted;  ///< bricks that are no longer edited, ordered: a replay jumped
+  /// Every chunk that the tick changed; in a keyframe also those whose bricks are in no memory, and not among
+  /// `bricks`. Empty: all chunks are in memory, and their hashes follow from `bricks`.
+  std::vector<ChunkState> chunks;
+  std::vector<SpawnedPiece> spawned;  ///< pieces made in this tick, ordered; some may be gone again
+  std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
   std::optional<ServiceLimits> service;     ///< those of them that are the network's; never in a recording

@@ -53,13 +53,15 @@ void describe_physics(World::State& state, TickDelta& delta) {
 
 void publish(World::State& state, TickDelta& delta) {
   for (const BrickCoord coord : state.changed) delta.bricks.push_back(state.brick_state(coord));
+  if (state.field.pages()) {
+    std::set<ChunkCoord> chunks;
+    for (const BrickCoord coord : state.changed) chunks.insert(chunk_of(coord));
+    for (const ChunkCoord chunk : chunks) delta.chunks.push_back(state.chunk_state(chunk));
+  }
   state.changed.clear();
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = state.ledger;
   state.work.report(delta.work);
-  constexpr double mb = 1024.0 * 1024.0;
-  delta.work.memory_mb = static_cast<uint32_t>(
-      state.memory.used_bytes(state.field.edited_brick_count(), state.config.memory_max_mb) / mb);
   delta.field_hash = state.field.hash();
   delta.state_hash = state.hash();
   CHECK_EQ(delta.pieces.size(), state.pieces.size());

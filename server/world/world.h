@@ -5,6 +5,7 @@
 // which shares the bodies' work with others of its own; all results are in the TickDelta.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -25,6 +26,17 @@ struct WorldSnapshot;
 /// it generates the chunk.
 using GroundMasses = std::map<ChunkCoord, MassUnits>;
 
+/// Terrain that comes chunk by chunk, and whose chunks may be out of memory (Field::page_by).
+struct PagedTerrain {
+  /// The edited bricks of a chunk, in order.
+  using Take = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
+  /// Calls `take` once for each edited chunk, and ends at the first error. `ground` of restore(), which may
+  /// grow meanwhile, is read afterwards.
+  std::function<Result<void>(const Take& take)> each;
+  ReadChunk read;
+  size_t bricks_max = 0;  ///< chunks that come when so many are in memory are out
+};
+
 class World {
  public:
   /// Refuses a configuration beyond its limits. `threads`: that step() takes, its caller's included; 0: as
@@ -35,6 +47,9 @@ class World {
   /// measured anew, but for the ground's where `ground` knows it.
   static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, size_t threads = 1,
                                                 const GroundMasses& ground = {});
+  /// The same of a value without bricks, whose terrain is `terrain`.
+  static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, const PagedTerrain& terrain,
+                                                size_t threads, const GroundMasses& ground);
   /// The same of what is left of a damaged value: masses and hashes are taken as measured, what is missing is
   /// booked as poured or as dust, and bodies without a piece, or pieces without a body, are left out.
   static Result<std::unique_ptr<World>> salvage(WorldSnapshot value);
@@ -61,7 +76,7 @@ class World {
   /// The whole state.
   WorldSnapshot snapshot();
   /// One delta that takes an empty PublishedState to this world: every edited brick, every piece and every
-  /// setting, without operations.
+  /// setting, without operations. Of chunks that are out, what is known of them.
   TickDelta keyframe();
   /// For reading between steps; only apply() changes it.
   Field& field();

@@ -32,8 +32,9 @@ constexpr PieceId next_piece_max = UINT32_MAX - (PieceId{1} << 24U);
 class Restoring {
  public:
   /// `measure`: masses and hashes are not compared but taken as they are measured.
-  Restoring(World::State& state, const WorldSnapshot& value, const GroundMasses& ground, bool measure)
-      : s_(state), value_(value), m_(value.moment), ground_(ground), measure_(measure) {}
+  Restoring(World::State& state, const WorldSnapshot& value, const GroundMasses& ground,
+            const PagedTerrain* paged, bool measure)
+      : s_(state), value_(value), m_(value.moment), ground_(ground), paged_(paged), measure_(measure) {}
 
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
@@ -69,16 +70,43 @@ class Restoring {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most;
   }
 
-  Result<void> terrain() {
-    std::vector<BrickCoord> coords;
-    for (const BrickPatch& patch : value_.bricks) {
-      if (!coords.empty() && !(coords.back() < patch.coord)) return fail("its bricks are not in order");
+  Result<void> enter(std::span<const BrickPatch> bricks) {
+    const BrickPatch* last = nullptr;
+    for (const BrickPatch& patch : bricks) {
+      if (last != nullptr && !(last->coord < patch.coord)) return fail("its bricks are not in order");
       if (!in_world(patch.coord)) return fail("a brick lies outside the world");
       s_.field.set_brick(patch.coord, patch.brick);
       s_.field.paint_brick(patch.coord, patch.paint);
-      coords.push_back(patch.coord);
+      last = &patch;
     }
-    s_.memory.note(coords);
+    return {};
+  }
+
+  /// A chunk that comes after memory is full is out from the start.
+  Result<void> enter_paged(const PagedTerrain& from) {
+    s_.field.page_by(from.read);
+    return from.each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
+      if (bricks.empty() || s_.field.has_edits(chunk)) return fail("a chunk comes twice, or without bricks");
+      if (s_.field.bricks_in() < from.bricks_max) return enter(bricks);
+      PagedChunk left;
+      for (const BrickPatch& patch : bricks) {
+        if (chunk_of(patch.coord) != chunk || !in_world(patch.coord))
+          return fail("a brick lies outside its chunk, or the world");
+        const uint64_t bit = uint64_t{1} << index_in_chunk(patch.coord);
+        if ((left.bricks & bit) != 0) return fail("a brick comes twice");
+        left.bricks |= bit;
+        left.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+        left.mass += brick_mass(patch.brick);
+      }
+      s_.field.add_out(chunk, left);
+      return {};
+    });
+  }
+
+  Result<void> terrain() {
+    if (Result<void> entered = enter(value_.bricks); !entered) return entered;
+    if (paged_ != nullptr)
+      if (Result<void> entered = enter_paged(*paged_); !entered) return entered;
     if (!measure_ && s_.field.hash() != m_.field_hash)
       return fail("its terrain is not the one that was saved");
     return {};
@@ -197,16 +225,18 @@ class Restoring {
   const WorldSnapshot& value_;
   const WorldMoment& m_;
   const GroundMasses& ground_;
+  const PagedTerrain* const paged_;  ///< null: all terrain is in the value
   const bool measure_;
 };
 
 Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_t threads,
-                                               const GroundMasses& ground, bool measure) {
+                                               const GroundMasses& ground, const PagedTerrain* paged,
+                                               bool measure) {
   const auto config = config_of(value.moment.config);
   if (!config) return tl::unexpected(config.error());
   if (Result<void> there = check_ground(*config); !there) return tl::unexpected(there.error());
   auto state = std::make_unique<World::State>(*config, threads);
-  if (Result<void> done = Restoring(*state, value, ground, measure).run(); !done)
+  if (Result<void> done = Restoring(*state, value, ground, paged, measure).run(); !done)
     return fail("the world cannot go on: " + done.error().message);
   return state;
 }
@@ -215,7 +245,15 @@ Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_
 
 Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, size_t threads,
                                               const GroundMasses& ground) {
-  auto state = state_of(value, threads, ground, false);
+  auto state = state_of(value, threads, ground, nullptr, false);
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+}
+
+Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, const PagedTerrain& terrain,
+                                              size_t threads, const GroundMasses& ground) {
+  CHECK(value.bricks.empty());
+  auto state = state_of(value, threads, ground, &terrain, false);
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
 }
@@ -232,7 +270,7 @@ Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
   }
   moment.pieces = std::move(pieces);
   moment.motion.bodies = std::move(bodies);
-  auto state = state_of(value, 1, {}, true);
+  auto state = state_of(value, 1, {}, nullptr, true);
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
 }
@@ -269,9 +307,12 @@ WorldMoment World::moment() const {
 WorldSnapshot World::snapshot() {
   WorldSnapshot value{moment(), {}};
   Field& field = state_->field;
-  for (const ChunkCoord chunk : field.edited_chunks())
+  for (const ChunkCoord chunk : field.edited_chunks()) {
+    const bool was_out = field.is_out(chunk);
     for (const BrickCoord coord : field.edited_bricks(chunk))
       value.bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+    if (was_out) field.page_out(chunk);
+  }
   std::ranges::sort(value.bricks, {}, &BrickPatch::coord);
   return value;
 }
@@ -280,8 +321,11 @@ TickDelta World::keyframe() {
   State& s = *state_;
   TickDelta delta;
   delta.tick = s.tick;
-  for (const ChunkCoord chunk : s.field.edited_chunks())
+  for (const ChunkCoord chunk : s.field.edited_chunks()) {
+    if (s.field.pages()) delta.chunks.push_back(s.chunk_state(chunk));
+    if (s.field.is_out(chunk)) continue;
     for (const BrickCoord coord : s.field.edited_bricks(chunk)) delta.bricks.push_back(s.brick_state(coord));
+  }
   std::ranges::sort(delta.bricks, {}, &BrickState::coord);
   for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
   for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});

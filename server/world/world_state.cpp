@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "server/work/limits.h"
+#include "server/work/memory.h"
 #include "server/world/applied_operation.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
+#include "server/world/shared_brick.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
@@ -51,15 +53,6 @@ Loose left_by(const Operation& operation) {
                     operation);
 }
 
-/// All uniform bricks of one kind are the same object.
-std::shared_ptr<const Brick> shared_copy(const Brick& brick) {
-  static const auto air = std::make_shared<const Brick>(air_brick());
-  static const auto solid = std::make_shared<const Brick>(solid_brick());
-  const Brick* const uniform = uniform_equivalent(brick);
-  if (uniform == nullptr) return std::make_shared<const Brick>(brick);
-  return uniform == &air_brick() ? air : solid;
-}
-
 }  // namespace
 
 World::State::State(const WorldConfig& world_config, size_t threads)
@@ -83,7 +76,6 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   delta.operations.push_back(describe(operation, reads, applied));
   delta.operations.back().stage = watch.stage();
   changed.insert(applied.changed.begin(), applied.changed.end());
-  memory.note(applied.changed);
   const Loose loose = left_by(operation);
   if (loose == Loose::islands) cut.insert(applied.changed.begin(), applied.changed.end());
   if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
@@ -128,13 +120,22 @@ BrickState World::State::brick_state(BrickCoord coord) {
   return {coord, std::move(brick), hash, paint};
 }
 
+ChunkState World::State::chunk_state(ChunkCoord chunk) const {
+  uint64_t edited = 0;
+  for (const BrickCoord brick : field.edited_bricks(chunk)) edited |= uint64_t{1} << index_in_chunk(brick);
+  return {chunk, field.chunk_hash(chunk), edited};
+}
+
 MassUnits World::State::measure_terrain(const GroundMasses& ground) {
   MassUnits gain = 0;
   for (const ChunkCoord chunk : field.edited_chunks()) {
     const auto known = ground.find(chunk);
     if (known != ground.end()) gain -= known->second;
+    const std::optional<PagedChunk> paged = field.paged(chunk);
+    if (paged) gain += paged->mass;
+    if (paged && known != ground.end()) continue;
     for (const BrickCoord coord : field.edited_bricks(chunk)) {
-      gain += brick_mass(field.brick(coord));
+      if (!paged) gain += brick_mass(field.brick(coord));
       if (known == ground.end()) gain -= brick_mass(field.generated_brick(coord));
     }
   }

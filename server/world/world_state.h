@@ -16,7 +16,6 @@
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/recombine/rest.h"
-#include "server/work/memory.h"
 #include "server/work/piece_shares.h"
 #include "server/work/request_queue.h"
 #include "server/work/work.h"
@@ -43,6 +42,7 @@ struct World::State {
   uint64_t hash() const;
   /// The brick as it is published.
   BrickState brick_state(BrickCoord coord);
+  ChunkState chunk_state(ChunkCoord chunk) const;
   /// World::measure_terrain(); `ground`: where it is known what the ground weighs.
   MassUnits measure_terrain(const GroundMasses& ground = {});
   /// The sum of the pieces' masses.
@@ -69,7 +69,6 @@ struct World::State {
   Tick cut_at = 0;              ///< tick in which one of them, or what they are parts of, was cut last
   Tick island_at = 0;           ///< tick in which an island fell last
   WorkBudget work;
-  TerrainMemory memory;
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner

@@ -117,8 +117,10 @@ void Field::forget_generated() {
 }
 
 Field::LastChunk& Field::last_chunk(ChunkCoord chunk) {
-  if (!last_ || last_->coord != chunk || below_ != nullptr) last_ = {chunk, edited_bits(chunk), nullptr};
-  return *last_;
+  if (last_ && last_->coord == chunk && below_ == nullptr) return *last_;
+  if (read_ != nullptr)
+    if (const auto found = edited_.find(chunk); found != edited_.end()) use(chunk, found->second);
+  return last_.emplace(LastChunk{chunk, edited_bits(chunk), nullptr});
 }
 
 const Brick& Field::generated_brick(BrickCoord coord) {
@@ -138,21 +140,23 @@ Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
 
 const Brick& Field::brick(BrickCoord coord) {
   const bool edited = ((last_chunk(chunk_of(coord)).edited >> index_in_chunk(coord)) & 1U) != 0;
-  CHECK_DEBUG(edited == is_edited(coord));
+  CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
   return edited ? *find_edited(coord) : generated_brick(coord);
 }
 
 void Field::set_brick(BrickCoord coord, const Brick& brick) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
   EditedChunk& chunk = edited_[chunk_of(coord)];
+  if (read_ != nullptr) use(chunk_of(coord), chunk);
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
   const std::optional<Material> paint = painted(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
-  CHECK_DEBUG(edited == is_edited(coord));
+  CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
   uint64_t change = brick_hash(coord, brick, paint);
   if (edited) change -= brick_hash(coord, *find_edited(coord), paint);
   store_edited(coord, brick);
   edited_bricks_ += edited ? 0 : 1;
+  bricks_in_ += edited || read_ == nullptr ? 0 : 1;
   chunk.bricks |= bit;
   if (paint) chunk.paint[index_in_chunk(coord)] = *paint;  // a layer's own from now on
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
@@ -164,6 +168,8 @@ std::optional<Material> Field::painted(BrickCoord coord) const {
   const auto chunk = edited_.find(chunk_of(coord));
   const bool own = chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0;
   if (!own) return below_ == nullptr ? std::nullopt : below_->painted(coord);
+  // Bringing a chunk in changes nothing that can be seen.
+  if (chunk->second.out) const_cast<Field*>(this)->use(chunk->first, const_cast<EditedChunk&>(chunk->second));
   const auto paint = chunk->second.paint.find(index_in_chunk(coord));
   if (paint == chunk->second.paint.end()) return std::nullopt;
   return paint->second;
@@ -186,7 +192,7 @@ void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
 }
 
 void Field::forget_chunk(ChunkCoord chunk) {
-  CHECK(below_ == nullptr);
+  CHECK(below_ == nullptr && read_ == nullptr);
   const auto found = edited_.find(chunk);
   if (found == edited_.end()) return;
   last_.reset();

@@ -2,7 +2,8 @@
 //
 // Any brick can be read: edited ones come from the store, others are generated and cached. A field may be a
 // layer over another one: what was edited in the layer is the layer's, all else reads as the one below does,
-// as that stands at the time. Not thread-safe.
+// as that stands at the time. A field that is no layer, and has none over it, may leave chunks out of memory
+// (paging.h). Not thread-safe.
 // Invariants: hash() is the sum of brick_hash over the edited bricks with their paint, chunk_hash() the same
 // sum over one chunk; painted bricks are edited ones.
 #pragma once
@@ -11,11 +12,13 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "shared/field/material.h"
+#include "shared/field/paging.h"
 #include "shared/field/terrain.h"
 #include "shared/field/window.h"
 
@@ -45,7 +48,9 @@ class Field {
     uint64_t edited;
   };
   ChunkBricks chunk_bricks(ChunkCoord chunk);
-  bool is_edited(BrickCoord coord) const { return find_edited(coord) != nullptr; }
+  bool is_edited(BrickCoord coord) const {
+    return ((edited_bits(chunk_of(coord)) >> index_in_chunk(coord)) & 1U) != 0;
+  }
   /// Whether any brick of the chunk is edited.
   bool has_edits(ChunkCoord chunk) const { return edited_bits(chunk) != 0; }
   /// Marks the brick as edited, even when the codes are those generated.
@@ -77,6 +82,32 @@ class Field {
     return below_ == nullptr ? edited_bricks_ : below_->edited_brick_count() + edited_bricks_;
   }
 
+  /// From now on edited chunks may be out; `read` gives their bricks. Whoever reads or writes one that is out
+  /// waits for `read`; ChunkUnreadable is thrown when it fails, or gives other bricks than were dropped.
+  void page_by(ReadChunk read);
+  bool pages() const { return read_ != nullptr; }
+  /// Drops the codes and paint of an edited chunk that is in.
+  void page_out(ChunkCoord chunk);
+  /// Puts back what was read of a chunk that is out. False, and nothing changes, when it is something else.
+  [[nodiscard]] bool page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks);
+  /// Enters a chunk without edits as one that is out.
+  void add_out(ChunkCoord chunk, const PagedChunk& left);
+  bool is_out(ChunkCoord chunk) const;
+  /// What is left of a chunk; nothing when it is in, or not edited.
+  std::optional<PagedChunk> paged(ChunkCoord chunk) const;
+  /// A turn is a tick: begins the next, so that idle_chunks() knows which chunks nobody asked for lately.
+  void begin_turn();
+  /// Chunks that are in, and that nobody read or wrote for at least so many turns, the longest idle first.
+  std::vector<ChunkCoord> idle_chunks(uint64_t turns) const;
+  /// As if somebody had asked for a chunk that is in now: it is not idle.
+  void keep(ChunkCoord chunk);
+  /// Of a field that pages: edited chunks in memory, in any order, and their edited bricks.
+  const std::unordered_set<ChunkCoord, CoordHash>& chunks_in() const { return in_; }
+  size_t bricks_in() const { return bricks_in_; }
+  size_t chunks_out() const { return edited_.size() - in_.size(); }
+  /// Times that somebody waited for a chunk that was out.
+  uint64_t page_waits() const { return page_waits_; }
+
  protected:
   /// As find_edited() of the field below; null when there is none.
   const Brick* find_below(BrickCoord coord) const {
@@ -85,12 +116,17 @@ class Field {
   virtual const Brick* find_edited(BrickCoord coord) const = 0;
   virtual void store_edited(BrickCoord coord, const Brick& brick) = 0;
   virtual void erase_edited(BrickCoord coord) = 0;
+  /// No brick of the chunk is stored any more.
+  virtual void chunk_left(ChunkCoord /*chunk*/) {}
 
  private:
   struct EditedChunk {
     uint64_t hash = 0;
     uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
     std::map<int, Material> paint;  ///< by index in the chunk
+    bool out = false;
+    MassUnits mass = 0;  ///< of a chunk that is out
+    uint64_t used = 0;   ///< turn in which somebody asked for it last
   };
   /// The chunk of the last call: most calls in a row are about the same one.
   struct LastChunk {
@@ -104,6 +140,9 @@ class Field {
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
   void forget_generated();
   LastChunk& last_chunk(ChunkCoord chunk);
+  /// Notes that somebody asks for the chunk, and brings it in if it is out.
+  void use(ChunkCoord chunk, EditedChunk& edited);
+  void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
   Field* below_ = nullptr;  ///< of a layer
@@ -113,6 +152,11 @@ class Field {
   size_t generated_chunks_max_;
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
+  ReadChunk read_;                                ///< null: all chunks are in
+  std::unordered_set<ChunkCoord, CoordHash> in_;  ///< of a field that pages
+  size_t bricks_in_ = 0;                          ///< likewise
+  uint64_t turn_ = 0;
+  uint64_t page_waits_ = 0;
 };
 
 /// A field whose edited bricks lie in a hash map: the client's, and the tests'.

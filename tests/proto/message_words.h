@@ -284,6 +284,10 @@ inline Lines describe(const StatusMessage& m) {
                           m.pieces, m.field_hash)};
   if (!m.saving.empty()) lines.push_back(fmt::format("saving '{}', saved tick {}", m.saving, m.saved_tick));
   if (m.chunks_waiting != 0) lines.push_back(fmt::format("{} chunks waiting", m.chunks_waiting));
+  if (m.paging != PagingStatus{})
+    lines.push_back(fmt::format("chunks: {} in memory, {} out, {} read, {} waits, {} requests held",
+                                m.paging.chunks_in, m.paging.chunks_out, m.paging.chunks_read,
+                                m.paging.chunk_waits, m.paging.requests_held));
   return lines;
 }
 inline Lines describe(const CursorsMessage& m) {

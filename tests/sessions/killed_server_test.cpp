@@ -3,13 +3,13 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
+#include "bench/support/server_process.h"
 #include "client/bot/bot.h"
 #include "server/replay/verify.h"
 #include "server/store/world_file.h"
 #include "server/world/world.h"
 #include "shared/base/random.h"
 #include "tests/support/patience.h"
-#include "tests/support/server_process.h"
 #include "tests/support/test_folder.h"
 
 namespace scree {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/support/server_process.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
 #include "tests/support/run_program.h"
-#include "tests/support/server_process.h"
 #include "tests/support/test_folder.h"
 
 namespace scree {

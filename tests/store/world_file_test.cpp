@@ -69,7 +69,7 @@ class WorldFileTest : public ::testing::Test {
 TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
   make();
   EXPECT_EQ(value_in_file(), encode(world->snapshot()));
-  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
                      {.durability = Durability::tick, .before_save = {}});
   for (Tick tick = 31; tick <= 90; ++tick) {
     std::vector<Command> commands;
@@ -98,7 +98,7 @@ TEST_F(WorldFileTest, without_durability_a_world_is_saved_every_autosave_or_only
   for (const auto& [autosave_s, saves] : {std::pair{0.25, 3U}, {0.0, 0U}}) {
     make();
     ASSERT_TRUE(file->read().has_value());
-    WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+    WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
                        {.durability = Durability::off, .autosave_s = autosave_s, .before_save = {}});
     std::vector<Tick> due;
     for (int i = 0; i < 45; ++i) {
@@ -140,7 +140,7 @@ TEST_F(WorldFileTest, rows_without_the_grounds_mass_are_read_and_a_keeper_adds_i
   ASSERT_TRUE(rows.has_value()) << rows.error().message;
   EXPECT_TRUE(rows->ground.empty());
   EXPECT_EQ(refusal_of(path), "");
-  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, rows->ground, {.before_save = {}});
+  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain, {.before_save = {}});
   keeper.note(*world->step(std::vector<Command>{carve_at(1.0F, 1)}));
   ASSERT_TRUE(keeper.finish(world->moment()).has_value());
   const auto reopened = WorldFile::open(path);
@@ -206,7 +206,7 @@ TEST_F(WorldFileTest, what_a_full_disk_left_out_is_saved_when_there_is_room_agai
   FaultyDisk disk;
   make();
   disk.full = true;
-  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
                      {.durability = Durability::tick, .before_save = {}});
   const auto carve = [&](uint32_t request) {
     const auto delta =
@@ -229,7 +229,7 @@ TEST_F(WorldFileTest, after_any_other_error_nothing_is_told_as_saved_any_more) {
   FaultyDisk disk;
   make();
   disk.dies_after = disk.writes + 3;
-  WorldKeeper keeper(std::move(file), world->keyframe(), flat_terrain, {},
+  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
                      {.durability = Durability::tick, .before_save = {}});
   for (uint32_t i = 1; i <= 5; ++i) {
     const auto delta = world->step(std::vector<Command>{carve_at(static_cast<float>(i), i)});

@@ -122,6 +122,7 @@ inline std::vector<ServerMessage> server_messages() {
   status.tick_median_ms = 1.5F;
   status.tick_worst_ms = 8.25F;
   status.stages = {{"carve", 0.0F}, {"bodies", 2.5F}, {"publish", 1e-3F}};
+  status.paging = {4000, 127000, 250, 3, uint64_t{1} << 40U};
   status.field_hash = 1ULL << 63U;
   status.repairs = 2;
   status.chunks_waiting = 77;

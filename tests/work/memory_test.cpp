@@ -4,35 +4,47 @@
 
 #include "server/work/limits.h"
 #include "shared/base/limits.h"
+#include "tests/support/chunk_shelf.h"
 
 namespace scree {
 namespace {
 
-TEST(terrain_memory, bricks_and_their_regions_count_once) {
+TEST(terrain_memory, bricks_and_their_regions_count_while_they_are_in_memory) {
   MapField field({TerrainKind::flat, 1, 0.25F});
-  TerrainMemory memory;
-  const double nothing = memory.used_bytes(0, 512);
-  const std::vector<BrickCoord> bricks{{0, 0, 0}, {1, 0, 0}, {100, 0, 0}};
-  for (const BrickCoord brick : bricks) field.set_brick(brick, solid_brick());
-  memory.note(bricks);
-  memory.note(bricks);
-  field.set_brick(bricks[0], air_brick());
-  EXPECT_EQ(field.edited_brick_count(), 3U);
-  EXPECT_DOUBLE_EQ(memory.used_bytes(3, 512) - nothing,
+  ChunkShelf shelf;
+  field.page_by(shelf.reader());
+  const TerrainMemory none = memory_of(field);
+  EXPECT_EQ(none, TerrainMemory());
+  for (const BrickCoord brick : {BrickCoord{0, 0, 0}, {1, 0, 0}, {100, 0, 0}})
+    field.set_brick(brick, solid_brick());
+  field.set_brick({0, 0, 0}, air_brick());
+  EXPECT_EQ(memory_of(field), (TerrainMemory{3, 2, 0}));
+  EXPECT_DOUBLE_EQ(used_bytes(memory_of(field), 512) - used_bytes(none, 512),
                    3.0 * limits::brick_memory_bytes + 2.0 * limits::region_memory_bytes);
+  shelf.take_all(field);
+  EXPECT_EQ(memory_of(field), (TerrainMemory{0, 0, 2}));
+  EXPECT_DOUBLE_EQ(used_bytes(memory_of(field), 512) - used_bytes(none, 512), 2.0 * limits::chunk_out_bytes);
 }
 
 TEST(terrain_memory, an_edit_adds_what_was_not_edited_before) {
   MapField field({TerrainKind::flat, 1, 0.25F});
-  TerrainMemory memory;
   const VoxelBox box{{0, 0, 0}, {16, 8, 8}};  // two bricks
-  EXPECT_DOUBLE_EQ(memory.added_bytes(box, field),
-                   2.0 * limits::brick_memory_bytes + limits::region_memory_bytes);
-  const std::vector<BrickCoord> one{{0, 0, 0}};
-  field.set_brick(one[0], solid_brick());
-  memory.note(one);
-  EXPECT_DOUBLE_EQ(memory.added_bytes(box, field), limits::brick_memory_bytes);
-  EXPECT_GE(TerrainMemory::most_added_bytes(box), memory.added_bytes(box, field));
+  EXPECT_DOUBLE_EQ(added_bytes(box, field), 2.0 * limits::brick_memory_bytes + limits::region_memory_bytes);
+  field.set_brick({0, 0, 0}, solid_brick());
+  EXPECT_DOUBLE_EQ(added_bytes(box, field), limits::brick_memory_bytes + limits::region_memory_bytes);
+  field.set_brick({1, 0, 0}, solid_brick());
+  EXPECT_DOUBLE_EQ(added_bytes(box, field), 0.0);
+}
+
+TEST(terrain_memory, so_many_bricks_leave_a_share_of_the_memory_free) {
+  const TerrainMemory memory{0, 100, 10000};
+  TerrainMemory full = memory;
+  full.bricks = bricks_within(512, memory);
+  EXPECT_GT(full.bricks, 100000U);
+  constexpr double all = 512.0 * 1024.0 * 1024.0;
+  EXPECT_LE(used_bytes(full, 512), all * (1.0 - limits::page_out_share));
+  EXPECT_GE(used_bytes(full, 512), all * (1.0 - limits::page_out_share) - limits::brick_memory_bytes);
+  EXPECT_EQ(bricks_within(1, memory), 0U);
 }
 
 TEST(terrain_memory, generated_chunks_keep_to_their_share) {

@@ -10,6 +10,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
+#include "bench/wire/paged_world.h"
 #include "server/app/live_server.h"
 #include "server/app/saved_world.h"
 #include "shared/base/check.h"
@@ -229,6 +230,7 @@ BenchReport run_storage_bench(const BenchOptions& options) {
   save_a_crowd(report, folder);
   for (const uint32_t carves_a_side : {4U, 32U, 100U, 316U})
     if (!options.quick || carves_a_side <= 32) start_up(report, folder, carves_a_side);
+  roam_a_paged_world(report, folder / "paged", options.quick);
   options.progress(1.0);
   return report;
 }

@@ -42,6 +42,7 @@ class ServerProcess {
   ServerProcess& operator=(const ServerProcess&) = delete;
 
   uint16_t port() const { return port_; }
+  pid_t process() const { return process_; }
   /// Sends the signal, once, and waits; the exit status, or -1 when the signal ended it.
   int end(int signal) {
     if (process_ <= 0) return -1;

@@ -1,0 +1,122 @@
+#include "server/app/admission.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "server/app/limits.h"
+#include "server/work/limits.h"
+#include "shared/base/overloaded.h"
+
+namespace scree {
+
+namespace {
+
+constexpr double mb = 1024.0 * 1024.0;
+
+/// The shape of a request that edits terrain.
+const Shape* shape_of(const Request& request) {
+  return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
+                               [](const FillRequest& fill) { return &fill.shape; },
+                               [](const PaintRequest& paint) { return &paint.shape; },
+                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
+                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
+                    request);
+}
+
+Refused no_memory(double used_bytes, double added_bytes, uint32_t max_mb) {
+  const auto whole = [](double bytes) {
+    return std::to_string(static_cast<uint64_t>(std::ceil(bytes / mb)));
+  };
+  return {Refusal::memory_max,
+          "the terrain takes about " + whole(used_bytes) + " of " + std::to_string(max_mb) +
+              " MB (memory-max) and this edit may add " + whole(added_bytes) +
+              " MB: edit where terrain has been edited before, or have the limit raised (--memory-max)"};
+}
+
+Reply refusal_of(const Command& command, const Refused& refused) {
+  Reply reply{command.session, command.request, refused.message, 0};
+  reply.reason = refused.reason;
+  return reply;
+}
+
+}  // namespace
+
+tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, TerrainPager& pager,
+                                                           World& world, bool room_will_come) {
+  const WorldConfig& config = world.config();
+  const Shape* const shape = shape_of(held.command.body);
+  if (shape == nullptr || !validate(*shape)) return Verdict::admit;  // the simulation refuses what is invalid
+  const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
+  if (Window::count(box) > limits::admitted_voxels_max) return Verdict::admit;  // likewise
+  const VoxelBox around = box.grown(limits::admitted_margin_voxels);
+  const bool waited_long =
+      world.tick() - held.since > static_cast<Tick>(limits::held_seconds_max * config.tick_rate_hz);
+  if (!pager.is_in(around)) {
+    if (const auto reason = pager.unreadable(around))
+      return tl::unexpected(Refused{Refusal::terrain_unreadable,
+                                    "the terrain here cannot be read from the world's file: " + *reason});
+    if (!waited_long) return Verdict::hold;
+  }
+  const uint32_t max_mb = config.memory_max_mb;
+  const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
+  const double added = added_bytes(box, world.field());
+  if (added == 0.0 || used + added <= max_mb * mb * (1.0 - limits::merge_memory_share)) {
+    reserved_bytes_[{held.command.session, held.command.request}] += added;
+    reserved_sum_bytes_ += added;
+    return Verdict::admit;
+  }
+  if (room_will_come && !waited_long) return Verdict::hold;
+  return tl::unexpected(no_memory(used, added, max_mb));
+}
+
+Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, World& world,
+                          bool room_will_come) {
+  const Tick tick = world.tick();
+  std::set<uint64_t> leaving, blocked;
+  for (Command& command : arrived) {
+    if (std::holds_alternative<LeaveRequest>(command.body)) leaving.insert(command.session);
+    held_.push_back({std::move(command), tick});
+  }
+  Admitted admitted;
+  std::deque<Held> still_held;
+  for (Held& one : held_) {
+    // Who leaves is answered by the simulation, whatever waits.
+    if (leaving.contains(one.command.session)) {
+      admitted.commands.push_back(std::move(one.command));
+      continue;
+    }
+    if (blocked.contains(one.command.session)) {
+      still_held.push_back(std::move(one));
+      continue;
+    }
+    const auto verdict = judge(one, pager, world, room_will_come);
+    if (!verdict) {
+      admitted.refused.push_back(refusal_of(one.command, verdict.error()));
+    } else if (*verdict == Verdict::admit) {
+      admitted.commands.push_back(std::move(one.command));
+    } else if (still_held.size() >= limits::requests_waiting_max) {
+      admitted.refused.push_back(refusal_of(
+          one.command,
+          {Refusal::requests_waiting, "too many requests wait for terrain to be read: ask again"}));
+    } else {
+      held_count_ += one.since == tick ? 1 : 0;
+      blocked.insert(one.command.session);
+      still_held.push_back(std::move(one));
+    }
+  }
+  held_ = std::move(still_held);
+  return admitted;
+}
+
+void Admission::answered(const std::vector<Reply>& replies) {
+  for (const Reply& reply : replies) {
+    const auto found = reserved_bytes_.find({reply.session, reply.request});
+    if (found == reserved_bytes_.end()) continue;
+    reserved_sum_bytes_ -= found->second;
+    reserved_bytes_.erase(found);
+  }
+  if (reserved_bytes_.empty()) reserved_sum_bytes_ = 0.0;
+}
+
+}  // namespace scree

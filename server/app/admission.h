@@ -1,0 +1,49 @@
+// What stands between clients' requests and the simulation: an edit waits here until the chunks that it
+// touches are in memory, and is refused when there is no room for it, or when they cannot be read.
+//
+// The simulation gets a command when nothing of that is open any more, and the tick that gets it is what a
+// recording says. So neither depends on the speed of a disk. A session's commands keep their order. Used by
+// the simulation's thread alone.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "server/app/terrain_pager.h"
+#include "server/work/command.h"
+#include "server/world/world.h"
+
+namespace scree {
+
+struct Admitted {
+  std::vector<Command> commands;  ///< for the next tick
+  std::vector<Reply> refused;
+};
+
+class Admission {
+ public:
+  /// The commands that arrived, and those that waited. `room_will_come`: chunks go out when they are saved.
+  Admitted admit(std::vector<Command> arrived, TerrainPager& pager, World& world, bool room_will_come);
+  /// The tick answered these.
+  void answered(const std::vector<Reply>& replies);
+  /// Commands that had to wait, since the start.
+  uint64_t held() const { return held_count_; }
+
+ private:
+  struct Held {
+    Command command;
+    Tick since = 0;
+  };
+  enum class Verdict { admit, hold };
+  tl::expected<Verdict, Refused> judge(const Held& held, TerrainPager& pager, World& world,
+                                       bool room_will_come);
+
+  std::deque<Held> held_;
+  std::map<std::pair<uint64_t, uint32_t>, double> reserved_bytes_;  ///< of edits that have no answer yet
+  double reserved_sum_bytes_ = 0.0;
+  uint64_t held_count_ = 0;
+};
+
+}  // namespace scree

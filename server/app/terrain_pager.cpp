@@ -1,0 +1,170 @@
+#include "server/app/terrain_pager.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "server/app/limits.h"
+#include "server/app/terrain_ahead.h"
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr double mb = 1024.0 * 1024.0;
+
+ChunkCoord chunk_at(glm::vec3 place_m, float voxel_size_m) {
+  const glm::vec3 world{limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m};
+  const glm::vec3 at = glm::clamp(place_m, -world, world) / voxel_size_m;
+  return chunk_of(VoxelCoord{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)});
+}
+
+}  // namespace
+
+Result<ReadChunk> chunk_reader(const std::string& path) {
+  auto opened = WorldFile::open(path);
+  if (!opened) return tl::unexpected(opened.error());
+  return [file = std::shared_ptr<WorldFile>(std::move(*opened))](
+             ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
+    auto read = file->read_chunk(chunk);
+    if (!read) return tl::unexpected(read.error());
+    if (!read->has_value()) return fail(file->path() + " does not have a chunk any more");
+    return std::move((*read)->bricks);
+  };
+}
+
+TerrainPager::TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
+                           std::shared_ptr<ChunkFetcher> clients)
+    : field_(field),
+      bricks_max_(bricks_max),
+      own_(std::move(own)),
+      clients_(std::move(clients)),
+      around_(ball_of_chunks(limits::ahead_chunks)) {}
+
+Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path, Field& field,
+                                                         std::shared_ptr<ChunkFetcher> clients,
+                                                         size_t bricks_max) {
+  auto reader = chunk_reader(path);
+  if (!reader) return tl::unexpected(reader.error());
+  auto own = std::make_shared<ChunkFetcher>();
+  for (ChunkFetcher* const fetcher : {own.get(), clients.get()})
+    if (Result<void> started = fetcher->start(path); !started) return tl::unexpected(started.error());
+  field.page_by(std::move(*reader));
+  return std::unique_ptr<TerrainPager>(
+      new TerrainPager(field, bricks_max, std::move(own), std::move(clients)));
+}
+
+/// A chunk that does not fit came in meanwhile, or was read before its last change was saved.
+void TerrainPager::begin_tick() {
+  field_.begin_turn();
+  for (const SuppliedChunk& chunk : own_->take())
+    if (field_.is_out(chunk.chunk)) static_cast<void>(field_.page_in(chunk.chunk, chunk.bricks));
+}
+
+void TerrainPager::want(ChunkCoord chunk) {
+  if (field_.is_out(chunk))
+    own_->ask(chunk);
+  else
+    field_.keep(chunk);
+}
+
+bool TerrainPager::is_in(const VoxelBox& box) {
+  bool all = true;
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    want(chunk);
+    all = all && !field_.is_out(chunk);
+  });
+  return all;
+}
+
+std::optional<std::string> TerrainPager::unreadable(const VoxelBox& box) const {
+  std::optional<std::string> reason;
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    if (!reason && field_.is_out(chunk)) reason = own_->unreadable(chunk);
+  });
+  return reason;
+}
+
+void TerrainPager::look_around_eyes(std::span<const glm::vec3> eyes_m) {
+  if (eyes_m.empty() || !is_crowded()) return;
+  ticks_around_ = eyes_m.size() * around_.size() / limits::pager_looks_per_tick;
+  for (size_t looks = 0; looks < limits::pager_looks_per_tick; ++looks) {
+    const glm::vec3 eye_m = eyes_m[eye_ % eyes_m.size()];
+    want(chunk_at(eye_m, field_.source().voxel_size_m) + around_[step_]);
+    if (++step_ < around_.size()) continue;
+    step_ = 0;
+    ++eye_;
+  }
+}
+
+/// Around where a piece is, and where it will be; each piece every limits::piece_look_ticks ticks.
+void TerrainPager::look_around_pieces(const TickDelta& delta) {
+  if (!is_crowded()) return places_m_.clear();
+  constexpr auto every = limits::piece_look_ticks;
+  const float dx = field_.source().voxel_size_m, half_m = 0.5F * chunk_size * dx;
+  for (const PieceState& piece : delta.pieces) {
+    if (piece.id % every != delta.tick % every) continue;
+    const glm::vec3 at_m = dequantise(piece.pose).position_m;
+    const auto [known, is_new] = places_m_.try_emplace(piece.id, at_m);
+    const glm::vec3 ahead_m =
+        at_m + (at_m - known->second) * (static_cast<float>(limits::piece_ahead_ticks) / every);
+    known->second = at_m;
+    for (const glm::vec3 place_m : {at_m, ahead_m})
+      for (int corner = 0; corner < 8; ++corner)
+        want(chunk_at(
+            place_m + half_m * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), dx));
+  }
+  if (places_m_.size() > 2 * delta.pieces.size() + limits::pieces_forgotten_min) places_m_.clear();
+}
+
+void TerrainPager::page_out(Tick saved) {
+  if (saved != saved_) std::erase_if(unsaved_, [&](const auto& one) { return one.second <= saved; });
+  saved_ = saved;
+  clients_->saved_up_to(saved);
+  clients_->allow_bricks(bricks_allowed_);
+  pressed_ = false;
+  if (field_.bricks_in() <= bricks_allowed_) return;
+  const size_t wanted = bricks_allowed_ - bricks_allowed_ / limits::pager_parts;
+  const uint64_t idle = std::max<uint64_t>(limits::pager_idle_ticks, 2 * ticks_around_);
+  size_t went = 0, unsaved = 0;
+  for (const ChunkCoord chunk : field_.idle_chunks(idle)) {
+    if (field_.bricks_in() <= wanted || went == limits::page_out_per_tick) break;
+    if (unsaved_.contains(chunk)) {
+      ++unsaved;
+      continue;
+    }
+    field_.page_out(chunk);
+    ++went;
+  }
+  pressed_ = went == 0 && unsaved > 0;
+}
+
+void TerrainPager::end_tick(const TickDelta& delta, Tick saved, std::span<const glm::vec3> eyes_m,
+                            uint32_t memory_max_mb) {
+  for (const ChunkState& chunk : delta.chunks) unsaved_[chunk.chunk] = delta.tick;
+  if (delta.tick % limits::pager_count_ticks == 0 || memory_ == TerrainMemory()) memory_ = memory_of(field_);
+  bricks_allowed_ = bricks_max_ != 0 ? bricks_max_ : bricks_within(memory_max_mb, memory_);
+  look_around_eyes(eyes_m);
+  look_around_pieces(delta);
+  page_out(saved);
+  note_status(memory_max_mb);
+}
+
+void TerrainPager::note_status(uint32_t memory_max_mb) {
+  PagerStatus now;
+  now.chunks_in = static_cast<uint32_t>(field_.chunks_in().size());
+  now.chunks_out = static_cast<uint32_t>(field_.chunks_out());
+  now.chunks_read = own_->chunks_read() + clients_->chunks_read() + field_.page_waits();
+  now.waits = field_.page_waits();
+  now.memory_mb = static_cast<uint32_t>(used_bytes(memory_, memory_max_mb) / mb);
+  const std::scoped_lock lock(mutex_);
+  status_ = now;
+}
+
+PagerStatus TerrainPager::status() const {
+  const std::scoped_lock lock(mutex_);
+  return status_;
+}
+
+}  // namespace scree

@@ -1,0 +1,129 @@
+#include "server/store/chunk_fetcher.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <spdlog/spdlog.h>
+#include <thread>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "server/store/limits.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+struct ChunkFetcher::State {
+  void run(std::atomic<uint64_t>& read);
+
+  struct Failure {
+    std::string reason;
+    double until_s = 0.0;
+  };
+  struct Came {
+    SuppliedChunk chunk;
+    std::string error;  ///< empty: there is none
+  };
+
+  std::unique_ptr<WorldFile> file;  ///< of the thread
+
+  // Of whoever asks.
+  std::unordered_set<ChunkCoord, CoordHash> asked;
+  std::unordered_map<ChunkCoord, Failure, CoordHash> failed;
+
+  std::mutex mutex;  ///< guards the members below
+  std::condition_variable changed;
+  std::deque<ChunkCoord> queue;
+  std::vector<Came> came;
+  bool stopping = false;
+  std::thread thread;
+};
+
+void ChunkFetcher::State::run(std::atomic<uint64_t>& read) {
+  for (;;) {
+    ChunkCoord next;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [this] { return stopping || !queue.empty(); });
+      if (stopping) return;
+      next = queue.front();
+      queue.pop_front();
+    }
+    Came one{{next, {}}, {}};
+    if (auto chunk = file->read_chunk(next); !chunk)
+      one.error = chunk.error().message;
+    else if (!chunk->has_value())
+      one.error = file->path() + " does not have the chunk any more";
+    else
+      one.chunk.bricks = std::move((*chunk)->bricks);
+    read.fetch_add(1, std::memory_order_relaxed);
+    const std::scoped_lock lock(mutex);
+    came.push_back(std::move(one));
+  }
+}
+
+ChunkFetcher::ChunkFetcher() : state_(std::make_unique<State>()) {}
+
+ChunkFetcher::~ChunkFetcher() {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+Result<void> ChunkFetcher::start(const std::string& path) {
+  CHECK(!state_->thread.joinable());
+  auto file = WorldFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  state_->file = std::move(*file);
+  state_->thread = std::thread([this] { state_->run(read_); });
+  return {};
+}
+
+void ChunkFetcher::ask(ChunkCoord chunk) {
+  State& s = *state_;
+  if (s.asked.size() >= limits::chunks_asked_max || s.asked.contains(chunk)) return;
+  if (const auto failure = s.failed.find(chunk); failure != s.failed.end()) {
+    if (steady_now_s() < failure->second.until_s) return;
+    s.failed.erase(failure);
+  }
+  s.asked.insert(chunk);
+  {
+    const std::scoped_lock lock(s.mutex);
+    s.queue.push_back(chunk);
+  }
+  s.changed.notify_all();
+}
+
+std::vector<SuppliedChunk> ChunkFetcher::take() {
+  State& s = *state_;
+  std::vector<State::Came> came;
+  {
+    const std::scoped_lock lock(s.mutex);
+    came.swap(s.came);
+  }
+  std::vector<SuppliedChunk> chunks;
+  for (State::Came& one : came) {
+    s.asked.erase(one.chunk.chunk);
+    if (one.error.empty()) {
+      chunks.push_back(std::move(one.chunk));
+      continue;
+    }
+    if (s.failed.empty()) spdlog::error("a part of the world cannot be read: {}", one.error);
+    if (s.failed.size() >= limits::chunks_asked_max) s.failed.clear();
+    s.failed[one.chunk.chunk] = {one.error, steady_now_s() + limits::unreadable_retry_s};
+  }
+  return chunks;
+}
+
+std::optional<std::string> ChunkFetcher::unreadable(ChunkCoord chunk) const {
+  const auto failure = state_->failed.find(chunk);
+  if (failure == state_->failed.end()) return std::nullopt;
+  return failure->second.reason;
+}
+
+}  // namespace scree

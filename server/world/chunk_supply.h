@@ -1,0 +1,31 @@
+// Where the bricks of edited chunks come from that the published state does not hold.
+#pragma once
+
+#include <vector>
+
+#include "shared/base/ids.h"
+#include "shared/field/brick_patch.h"
+
+namespace scree {
+
+/// What was read of a chunk; it is checked before it is used. Empty when it cannot be read.
+struct SuppliedChunk {
+  ChunkCoord chunk;
+  std::vector<BrickPatch> bricks;
+};
+
+/// Reads elsewhere: nobody waits. One thread makes all calls.
+class ChunkSupply {
+ public:
+  virtual ~ChunkSupply() = default;
+  /// Edited bricks that whoever asks may keep, but for those that are not saved yet.
+  virtual size_t bricks_max() = 0;
+  /// Chunks whose last change was in this tick, or earlier, can be had.
+  virtual Tick saved_tick() = 0;
+  /// Asks for a chunk, unless it is on its way or too many are: then the caller asks again.
+  virtual void ask(ChunkCoord chunk) = 0;
+  /// Those that came since the last call.
+  virtual std::vector<SuppliedChunk> take() = 0;
+};
+
+}  // namespace scree

@@ -1,0 +1,193 @@
+// A world under a tiny bound of terrain in memory: what is carved far away goes to the file and comes back,
+// and everything is as if it had never gone.
+#include "server/app/terrain_pager.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "proto/world_codec.h"
+#include "server/app/admission.h"
+#include "server/app/saved_world.h"
+#include "server/app/temporary_world.h"
+#include "server/store/database.h"
+#include "server/world/limits.h"
+#include "server/world/world_snapshot.h"
+#include "tests/support/flat_world.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+class PagerTest : public ::testing::Test {
+ protected:
+  void open(size_t bricks_max) {
+    auto opened = SavedWorld::open(path, config, 1, {}, bricks_max);
+    ASSERT_TRUE(opened.has_value()) << opened.error().message;
+    kept = std::move(*opened);
+    world = kept->take_world();
+    ASSERT_TRUE(kept->start(*world, {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}}));
+    auto paging = TerrainPager::open(path, world->field(), std::make_shared<ChunkFetcher>(), bricks_max);
+    ASSERT_TRUE(paging.has_value()) << paging.error().message;
+    pager = std::move(*paging);
+  }
+  /// A tick as a server makes it.
+  std::shared_ptr<const TickDelta> step(std::vector<Command> arrived = {}) {
+    pager->begin_tick();
+    Admitted admitted = admission.admit(std::move(arrived), *pager, *world, true);
+    for (Reply& reply : admitted.refused) refused.push_back(std::move(reply));
+    const auto delta = world->step(admitted.commands);
+    admission.answered(delta->replies);
+    for (const Reply& reply : delta->replies) EXPECT_EQ(reply.refusal, "");
+    answers += delta->replies.size();
+    kept->keep(*delta, *world, pager->pressed());
+    pager->end_tick(*delta, kept->status().saved_tick, {}, world->config().memory_max_mb);
+    handed.push_back(std::move(admitted.commands));
+    hashes.push_back(delta->state_hash);
+    return delta;
+  }
+  /// Ticks until it is so.
+  template <typename Condition>
+  void step_until(Condition&& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+      step();
+      std::this_thread::yield();
+    }
+  }
+  Command carve(float x_m) {
+    CarveRequest request;
+    request.shape = sphere({x_m, 0.0F, 0.0F}, 1.5F);
+    request.seeds = 3;
+    request.random_seed = ++asked;
+    request.impact_m = {x_m, 2.0F, 0.0F};
+    return {1, asked, request};
+  }
+
+  TestFolder folder;
+  std::string path = folder / "world";
+  WorldConfig config = flat_world();
+  std::unique_ptr<SavedWorld> kept;
+  std::unique_ptr<World> world;
+  std::unique_ptr<TerrainPager> pager;
+  Admission admission;
+  uint32_t asked = 0;
+  size_t answers = 0;
+  std::vector<Reply> refused;
+  std::vector<std::vector<Command>> handed;  ///< to the simulation, by tick, as a recording has them
+  std::vector<uint64_t> hashes;
+};
+
+TEST_F(PagerTest, a_session_under_a_tiny_bound_has_the_hashes_of_one_without) {
+  open(60);
+  for (int i = 0; i < 6; ++i) {
+    step({carve(60.0F * static_cast<float>(i)), carve(60.0F * static_cast<float>(i) + 2.0F)});
+    for (int tick = 0; tick < 20; ++tick) step();
+  }
+  step_until([&] { return world->field().is_out({0, -1, 0}) || world->field().is_out({0, 0, 0}); });
+  EXPECT_LT(world->field().bricks_in(), world->field().edited_brick_count());
+  const size_t before = answers;
+  step({carve(0.5F), carve(1.0F), carve(240.0F)});
+  EXPECT_EQ(answers, before) << "the edit waits for its terrain, and later ones of its session for it";
+  EXPECT_EQ(admission.held(), 1U);
+  step_until([&] { return answers == before + 3; });
+  for (int tick = 0; tick < 100; ++tick) step();
+  EXPECT_EQ(pager->status().waits, 0U);
+  EXPECT_GT(pager->status().chunks_read, 0U);
+  EXPECT_TRUE(refused.empty());
+  EXPECT_LE(kept->status().saved_tick, world->tick());
+
+  World whole(config);
+  for (size_t i = 0; i < handed.size(); ++i)
+    ASSERT_EQ(whole.step(handed[i])->state_hash, hashes[i]) << "tick " << i + 1;
+  EXPECT_EQ(world->measure_terrain(), whole.measure_terrain());
+  EXPECT_EQ(encode(world->snapshot()), encode(whole.snapshot()));
+  ASSERT_TRUE(kept->finish(*world).has_value());
+
+  // The file has it all, and the world goes on from it under the same bound.
+  pager.reset();
+  world.reset();
+  kept.reset();
+  open(60);
+  EXPECT_LE(world->field().bricks_in(), 60U + 64U);
+  EXPECT_EQ(encode(world->snapshot()), encode(whole.snapshot()));
+}
+
+TEST_F(PagerTest, terrain_that_cannot_be_read_is_refused_by_name_and_the_rest_goes_on) {
+  open(20);
+  for (int i = 0; i < 4; ++i) {
+    step({carve(60.0F * static_cast<float>(i))});
+    step();
+  }
+  step_until([&] { return world->field().is_out({0, -1, 0}); });
+  auto file = Database::open(path);
+  ASSERT_TRUE(file.has_value() && file->execute("DELETE FROM chunks").has_value());
+  step({carve(0.0F)});
+  step_until([&] { return !refused.empty(); });
+  EXPECT_EQ(refused.front().reason, Refusal::terrain_unreadable);
+  EXPECT_NE(refused.front().refusal.find(path), std::string::npos) << refused.front().refusal;
+  const size_t before = answers;
+  step({carve(400.0F)});
+  step_until([&] { return answers == before + 1; });
+}
+
+TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will_come) {
+  config.memory_max_mb = limits::memory_max_min_mb;
+  // Paint of 8 m edits at most 9³ bricks and costs no pieces.
+  const auto paint = [&](uint32_t at) {
+    const float x_m = 40.0F * static_cast<float>(at % 40) - 800.0F, z_m = 40.0F * static_cast<float>(at / 40);
+    return Command{1, at, PaintRequest{box({x_m, 0.0F, z_m}, glm::vec3(4.6F)), Material::ice}};
+  };
+  open(0);
+  uint32_t at = 0;
+  std::vector<Reply> answered;
+  const auto ask = [&](std::vector<Command> commands, bool room_comes) {
+    Admitted admitted = admission.admit(std::move(commands), *pager, *world, room_comes);
+    for (const Command& command : admitted.commands)
+      answered.push_back({command.session, command.request, {}, 0});
+    return admitted;
+  };
+  while (at < 4000 && refused.empty()) refused = ask({paint(++at)}, false).refused;
+  ASSERT_FALSE(refused.empty());
+  EXPECT_GT(at, 50U);
+  EXPECT_EQ(refused.front().reason, Refusal::memory_max);
+  EXPECT_NE(refused.front().refusal.find("--memory-max"), std::string::npos) << refused.front().refusal;
+  const size_t before = answered.size();
+  EXPECT_TRUE(ask({paint(++at)}, true).refused.empty());
+  EXPECT_EQ(answered.size(), before) << "it waits for room";
+  EXPECT_EQ(admission.held(), 1U);
+  admission.answered(std::exchange(answered, {}));
+  ask({}, true);
+  EXPECT_EQ(answered.size(), 1U);
+}
+
+TEST(temporary_world, goes_with_its_server_and_a_left_one_with_the_next) {
+  TestFolder folder;
+  ::setenv("XDG_CACHE_HOME", (folder / "").c_str(), 1);
+  const auto files = [&] {
+    size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "scree"))
+      count += entry.exists() ? 1 : 0;
+    return count;
+  };
+  {
+    auto kept = SavedWorld::open_temporary(flat_world(), 1);
+    ASSERT_TRUE(kept.has_value()) << kept.error().message;
+    const auto world = (*kept)->take_world();
+    ASSERT_TRUE((*kept)->start(*world, {.durability = Durability::off, .before_save = {}}));
+    EXPECT_TRUE(std::filesystem::exists((*kept)->path()));
+    EXPECT_TRUE((*kept)->finish(*world).has_value());
+  }
+  EXPECT_EQ(files(), 0U);
+  const std::string left = folder / "scree/paged-1-1.world";
+  std::ofstream(left) << "left behind";
+  EXPECT_TRUE(temporary_world_path().has_value());
+  EXPECT_EQ(files(), 0U);
+  ::unsetenv("XDG_CACHE_HOME");
+}
+
+}  // namespace
+}  // namespace scree
