@@ -136,7 +136,9 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
     if (paged && known != ground.end()) continue;
     for (const BrickCoord coord : field.edited_bricks(chunk)) {
       if (!paged) gain += brick_mass(field.brick(coord));
-      if (known == ground.end()) gain -= brick_mass(field.generated_brick(coord));
+      if (known != ground.end()) continue;
+      const GeneratedChunk& generated = field.chunk_bricks(chunk).generated;
+      gain -= brick_mass(*generated.bricks[static_cast<size_t>(index_in_chunk(coord))]);
     }
   }
   return gain;
