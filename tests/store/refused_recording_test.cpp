@@ -148,7 +148,7 @@ TEST_F(RecordingTest, data_that_is_not_what_its_checksum_says_is_refused) {
   EXPECT_TRUE((*reader)->frame(3).has_value());
   const auto frame = (*reader)->frame(4);
   ASSERT_FALSE(frame.has_value());
-  EXPECT_NE(frame.error().message.find("tick 4 is not what was recorded"), std::string::npos)
+  EXPECT_NE(frame.error().message.find("row 4 is not what was written"), std::string::npos)
       << frame.error().message;
 }
 
