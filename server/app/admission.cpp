@@ -12,8 +12,6 @@ namespace scree {
 
 namespace {
 
-constexpr double mb = 1024.0 * 1024.0;
-
 /// The shape of a request that edits terrain.
 const Shape* shape_of(const Request& request) {
   return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
@@ -26,7 +24,7 @@ const Shape* shape_of(const Request& request) {
 
 Refused no_memory(double used_bytes, double added_bytes, uint32_t max_mb) {
   const auto whole = [](double bytes) {
-    return std::to_string(static_cast<uint64_t>(std::ceil(bytes / mb)));
+    return std::to_string(static_cast<uint64_t>(std::ceil(bytes / bytes_per_mb)));
   };
   return {Refusal::memory_max,
           "the terrain takes about " + whole(used_bytes) + " of " + std::to_string(max_mb) +
@@ -61,7 +59,7 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, Ter
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
   const double added = added_bytes(box, world.field());
-  if (added == 0.0 || used + added <= max_mb * mb * (1.0 - limits::merge_memory_share)) {
+  if (added == 0.0 || used + added <= max_mb * bytes_per_mb * (1.0 - limits::merge_memory_share)) {
     reserved_bytes_[{held.command.session, held.command.request}] += added;
     reserved_sum_bytes_ += added;
     return Verdict::admit;

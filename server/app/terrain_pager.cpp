@@ -12,8 +12,6 @@ namespace scree {
 
 namespace {
 
-constexpr double mb = 1024.0 * 1024.0;
-
 ChunkCoord chunk_at(glm::vec3 place_m, float voxel_size_m) {
   const glm::vec3 world{limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m};
   const glm::vec3 at = glm::clamp(place_m, -world, world) / voxel_size_m;
@@ -157,7 +155,7 @@ void TerrainPager::note_status(uint32_t memory_max_mb) {
   now.chunks_out = static_cast<uint32_t>(field_.chunks_out());
   now.chunks_read = own_->chunks_read() + clients_->chunks_read() + field_.page_waits();
   now.waits = field_.page_waits();
-  now.memory_mb = static_cast<uint32_t>(used_bytes(memory_, memory_max_mb) / mb);
+  now.memory_mb = static_cast<uint32_t>(used_bytes(memory_, memory_max_mb) / bytes_per_mb);
   const std::scoped_lock lock(mutex_);
   status_ = now;
 }

@@ -256,7 +256,7 @@ void Publisher::send_playback(Client& client, const PlaybackMessage& now, Tick t
     if (known == now) return;
   }
   client.playback = now;
-  send(client, bytes_of(now), part);
+  send(client, share(now), part);
 }
 
 void Publisher::send_cursors(Client& client, Part& part) {

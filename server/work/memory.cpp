@@ -11,8 +11,6 @@ namespace scree {
 
 namespace {
 
-constexpr double mb = 1024.0 * 1024.0;
-
 BrickCoord region_of(BrickCoord brick) {
   return {brick.x >> limits::region_bits, brick.y >> limits::region_bits, brick.z >> limits::region_bits};
 }
@@ -51,12 +49,12 @@ double added_bytes(const VoxelBox& box, const Field& field) {
 }
 
 size_t bricks_within(uint32_t max_mb, const TerrainMemory& memory) {
-  const double room = max_mb * mb * (1.0 - limits::page_out_share) - other_bytes(memory, max_mb);
+  const double room = max_mb * bytes_per_mb * (1.0 - limits::page_out_share) - other_bytes(memory, max_mb);
   return static_cast<size_t>(std::max(room, 0.0) / limits::brick_memory_bytes);
 }
 
 size_t generated_chunks_within(uint32_t max_mb) {
-  const double share = max_mb * mb * limits::generated_memory_share;
+  const double share = max_mb * bytes_per_mb * limits::generated_memory_share;
   return static_cast<size_t>(std::clamp(share / limits::generated_chunk_bytes, 1.0,
                                         static_cast<double>(limits::generated_chunks_max)));
 }

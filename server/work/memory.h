@@ -10,6 +10,9 @@
 
 namespace scree {
 
+/// Of memory's megabytes, 2^20.
+inline constexpr double bytes_per_mb = 1024.0 * 1024.0;
+
 /// Of a field that pages.
 struct TerrainMemory {
   size_t bricks = 0;      ///< edited ones, in memory

@@ -11,7 +11,6 @@
 namespace scree {
 namespace {
 
-constexpr glm::vec3 gravity_m_s2(0.0F, -9.81F, 0.0F);
 /// Air stops a puff: part of its speed that is lost, a second.
 constexpr float drag_per_s = 2.2F;
 constexpr float rise_m_s = 0.10F;

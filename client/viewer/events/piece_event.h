@@ -9,6 +9,8 @@
 
 namespace scree {
 
+inline constexpr glm::vec3 gravity_m_s2{0.0F, -9.81F, 0.0F};
+
 enum class PieceEventKind : uint8_t { strike, crack, settle };
 
 struct PieceEvent {

@@ -19,7 +19,6 @@ constexpr float settle_m_s = 0.4F;
 constexpr double gap_s = 0.5;
 /// A piece that appears within so much of where a predicted one was until now: the same break.
 constexpr float takes_place_m = 1.5F;
-constexpr glm::vec3 gravity_m_s2(0.0F, -9.81F, 0.0F);
 
 }  // namespace
 
