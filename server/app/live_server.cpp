@@ -1,177 +1,23 @@
 #include "server/app/live_server.h"
 
-#include <chrono>
-#include <condition_variable>
-#include <filesystem>
-#include <mutex>
 #include <spdlog/spdlog.h>
-#include <thread>
 
-#include "server/app/admission.h"
-#include "server/app/ground_giver.h"
-#include "server/app/live_events.h"
-#include "server/app/saved_world.h"
-#include "server/app/terrain_ahead.h"
-#include "server/app/tick_schedule.h"
-#include "server/app/tick_trace.h"
-#include "server/store/recorder.h"
-#include "server/world/settings.h"
-#include "server/world/world_snapshot.h"
-#include "shared/base/check.h"
+#include "server/app/live_server_state.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Period at which a server that waits for its first clients counts them.
 constexpr std::chrono::milliseconds wait_period{5};
 
-Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
-
 }  // namespace
-
-struct LiveServer::State {
-  explicit State(const LiveConfig& c) : config(c) {}
-
-  Result<void> open();
-  Result<void> open_world();
-  Result<void> open_recorder();
-  Result<void> open_events();
-  Saving saving() const;
-  void tell();
-  std::shared_ptr<const TickDelta> keep(std::shared_ptr<const TickDelta> delta, std::vector<Reply> refused);
-  Result<void> start_keeping();
-  void run();
-  bool step();
-  bool wait_for_clients();
-  bool time_is_over() const {
-    return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
-  }
-  void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
-              std::vector<Event> noted);
-  /// Notes nothing where nobody wants to know.
-  bool has_events() const { return !config.events_path.empty() || !config.record_path.empty(); }
-  void count(TickSchedule::Delay delay);
-  bool sleep_until(Clock::time_point when);
-  void end(const std::string& error);
-
-  LiveConfig config;
-  CommandQueue commands;
-  std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
-  std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
-  std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<SavedWorld> kept;     ///< null: a replay
-  std::unique_ptr<TerrainPager> pager;  ///< likewise
-  Admission admission;
-  std::unique_ptr<NetServer> net;
-  std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
-  std::unique_ptr<Trace> trace;         ///< null: no trace
-  std::thread thread;
-  Clock::time_point started = Clock::now();
-  Clock::duration period{};
-  bool record_failed = false;  ///< used by the simulation thread only
-  bool saved = false;          ///< for good; used by the owner's thread only
-
-  const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();
-  uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only
-  uint32_t read_last_second = 0;
-  bool broken = false;  ///< the world does not stand between two ticks; used as saved is
-
-  mutable std::mutex mutex;  ///< guards the members below
-  Saving told;
-  std::condition_variable changed;
-  bool stopping = false;
-  bool running = true;
-  ServerReport report;
-  std::shared_ptr<const TickDelta> last_delta;
-};
-
-Result<void> LiveServer::State::open() {
-  config.net.service = config.world.service;  // those of a recording are not this server's
-  const Digest given = config.world.ground;
-  const bool keeps = !config.record_path.empty() || !config.world_path.empty();
-  CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
-  if (!config.replay.path.empty()) {
-    if (!config.record_path.empty())
-      return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
-    if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
-    if (!config.events_path.empty())
-      return fail("a replay's events are its recording's: scree replay export (--events)");
-    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
-                              config.net.ticks_per_transform);
-    if (!replay) return tl::unexpected(replay.error());
-    feed = std::move(replay->feed);
-    config.world = replay->world;
-    config.net.replay = true;
-    config.net.control = [this](const ControlReplay& wish) { return feed->control(wish); };
-  } else if (auto opened = open_world(); !opened) {
-    return opened;
-  }
-  if (config.world.ground != given && given != Digest{})
-    return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
-                hex_of(given) + " (--ground)");
-  config.net.terrain = config.world.terrain;
-  config.net.tick_rate_hz = config.world.tick_rate_hz;
-  period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
-  if (auto opened = open_events(); !opened) return opened;
-  // The port comes first: a server that cannot listen leaves no empty recording behind.
-  auto listening = NetServer::listen(config.net, commands);
-  if (!listening) return tl::unexpected(listening.error());
-  net = std::move(*listening);
-  if (auto opened = open_recorder(); !opened) return opened;
-  if (kept != nullptr)
-    if (auto started = start_keeping(); !started) return started;
-  if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
-    const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
-    report.settings = keyframe->settings;  // ticks say only what changes
-    net->publish(keyframe);
-  }
-  if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
-  if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
-  return {};
-}
-
-Result<void> LiveServer::State::open_world() {
-  const std::string& path = config.world_path;
-  auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
-                             : SavedWorld::open(path, config.world, config.sim_threads,
-                                                ground_giver(path, config.world), config.bricks_in_max);
-  if (!opened) return tl::unexpected(opened.error());
-  kept = std::move(*opened);
-  feed = feed_of(kept->take_world());
-  config.world = feed->world()->config();
-  config.net.service = config.world.service;
-  config.net.world = kept->number();
-  config.net.first_session = kept->first_session();
-  config.net.chunks = for_clients;
-  config.net.saving = [this] { return saving(); };
-  report.world_path = path;
-  return {};
-}
 
 /// What clients are told; on the network thread.
 Saving LiveServer::State::saving() const {
   const std::scoped_lock lock(mutex);
   return told;
-}
-
-/// The file of a new world is made here.
-Result<void> LiveServer::State::start_keeping() {
-  KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
-  if (kept->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
-  if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
-  World& world = *feed->world();
-  if (auto started = kept->start(world, std::move(keeping)); !started) return started;
-  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max);
-  if (!opened) return tl::unexpected(opened.error());
-  pager = std::move(*opened);
-  tell();
-  return {};
 }
 
 /// Once a tick: how the world is kept, and where its terrain is.
@@ -188,38 +34,6 @@ void LiveServer::State::tell() {
   now.paging = {paged.chunks_in, paged.chunks_out, read_last_second, paged.waits, admission.held()};
   const std::scoped_lock lock(mutex);
   told = std::move(now);
-}
-
-Result<void> LiveServer::State::open_recorder() {
-  if (config.record_path.empty()) return {};
-  const RecordingHeader header{"scree-server " SCREE_VERSION, config.world};
-  World& world = *feed->world();
-  std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
-  const bool goes_on =
-      world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
-  if (world.field().pages() && world.field().chunks_out() > 0)
-    return fail(config.record_path +
-                ": a recording begins with all of the world's terrain, which is more than "
-                "half of the memory takes: raise memory-max, or do not record (--record)");
-  auto recording = goes_on
-                       ? Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()})
-                       : Recorder::create(config.record_path, header);
-  if (!recording) return tl::unexpected(recording.error());
-  recorder = std::move(*recording);
-  report.record_path = config.record_path;
-  return {};
-}
-
-Result<void> LiveServer::State::open_events() {
-  if (!has_events()) return {};
-  auto opened = LiveEvents::open(config.events_path, config.world, print(config.world));
-  if (!opened) return tl::unexpected(opened.error());
-  events = std::move(*opened);
-  config.net.noted = [this](Event event) { events->note(std::move(event)); };
-  if (const World* world = feed->world(); world->tick() > 0)
-    events->note({.kind = EventKind::rebuild, .text = config.world_path});
-  report.events_path = config.events_path;
-  return {};
 }
 
 void LiveServer::State::end(const std::string& error) {
@@ -394,7 +208,7 @@ ServerReport LiveServer::report() const {
   ServerReport report = state_->report;
   report.net = net;
   report.latency = state_->net->latency();
-  report.seconds = std::chrono::duration<double>(Clock::now() - state_->started).count();
+  report.seconds = std::chrono::duration<double>(State::Clock::now() - state_->started).count();
   if (state_->recorder) {
     report.ticks_recorded = state_->recorder->ticks_written();
     report.record_waits = state_->recorder->waits();

@@ -47,9 +47,9 @@ struct RecordingWriter::State {
   Statement put_short_keyframe_row;
   std::set<BrickCoord> changed;  ///< since the last keyframe
   std::optional<EventDeriver> deriver;
-  RecordedMachine machine;   ///< since its last row
-  bool logs = false;         ///< it has a row of the machine's from this process
-  PublishedState published;  ///< after the last tick that was added
+  RecordedMachine machine;         ///< since its last row
+  bool logs = false;               ///< it has a row of the machine's from this process
+  PublishedState published;        ///< after the last tick that was added
   bool terrain_forgotten = false;  ///< there are no more keyframes: seeking starts from an earlier one
   bool in_transaction = false;
   ThreadCheck storage_thread;

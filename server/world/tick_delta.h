@@ -65,7 +65,7 @@ struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
   std::vector<BrickState> bricks;            ///< every brick that the tick changed, ordered
-  std::vector<BrickCoord> reverted;  ///< bricks that are no longer edited, ordered: a replay jumped
+  std::vector<BrickCoord> reverted;          ///< bricks that are no longer edited, ordered: a replay jumped
   /// Every chunk that the tick changed; in a keyframe also those whose bricks are in no memory, and not among
   /// `bricks`. Empty: all chunks are in memory, and their hashes follow from `bricks`.
   std::vector<ChunkState> chunks;

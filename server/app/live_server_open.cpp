@@ -1,0 +1,121 @@
+// LiveServer's opening: world, network, recording, log of events.
+#include <filesystem>
+
+#include "server/app/ground_giver.h"
+#include "server/app/live_server_state.h"
+#include "server/world/settings.h"
+#include "server/world/world_snapshot.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+Result<void> LiveServer::State::open() {
+  config.net.service = config.world.service;  // those of a recording are not this server's
+  const Digest given = config.world.ground;
+  const bool keeps = !config.record_path.empty() || !config.world_path.empty();
+  CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
+  if (!config.replay.path.empty()) {
+    if (!config.record_path.empty())
+      return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
+    if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
+    if (!config.events_path.empty())
+      return fail("a replay's events are its recording's: scree replay export (--events)");
+    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
+                              config.net.ticks_per_transform);
+    if (!replay) return tl::unexpected(replay.error());
+    feed = std::move(replay->feed);
+    config.world = replay->world;
+    config.net.replay = true;
+    config.net.control = [this](const ControlReplay& wish) { return feed->control(wish); };
+  } else if (auto opened = open_world(); !opened) {
+    return opened;
+  }
+  if (config.world.ground != given && given != Digest{})
+    return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
+                hex_of(given) + " (--ground)");
+  config.net.terrain = config.world.terrain;
+  config.net.tick_rate_hz = config.world.tick_rate_hz;
+  period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
+  if (auto opened = open_events(); !opened) return opened;
+  // The port comes first: a server that cannot listen leaves no empty recording behind.
+  auto listening = NetServer::listen(config.net, commands);
+  if (!listening) return tl::unexpected(listening.error());
+  net = std::move(*listening);
+  if (auto opened = open_recorder(); !opened) return opened;
+  if (kept != nullptr)
+    if (auto started = start_keeping(); !started) return started;
+  if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
+    const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
+    report.settings = keyframe->settings;  // ticks say only what changes
+    net->publish(keyframe);
+  }
+  if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
+  if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
+  return {};
+}
+
+Result<void> LiveServer::State::open_world() {
+  const std::string& path = config.world_path;
+  auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
+                             : SavedWorld::open(path, config.world, config.sim_threads,
+                                                ground_giver(path, config.world), config.bricks_in_max);
+  if (!opened) return tl::unexpected(opened.error());
+  kept = std::move(*opened);
+  feed = feed_of(kept->take_world());
+  config.world = feed->world()->config();
+  config.net.service = config.world.service;
+  config.net.world = kept->number();
+  config.net.first_session = kept->first_session();
+  config.net.chunks = for_clients;
+  config.net.saving = [this] { return saving(); };
+  report.world_path = path;
+  return {};
+}
+
+/// The file of a new world is made here.
+Result<void> LiveServer::State::start_keeping() {
+  KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
+  if (kept->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
+  if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
+  World& world = *feed->world();
+  if (auto started = kept->start(world, std::move(keeping)); !started) return started;
+  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max);
+  if (!opened) return tl::unexpected(opened.error());
+  pager = std::move(*opened);
+  tell();
+  return {};
+}
+
+Result<void> LiveServer::State::open_recorder() {
+  if (config.record_path.empty()) return {};
+  const RecordingHeader header{"scree-server " SCREE_VERSION, config.world};
+  World& world = *feed->world();
+  std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
+  const bool goes_on =
+      world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
+  if (world.field().pages() && world.field().chunks_out() > 0)
+    return fail(config.record_path +
+                ": a recording begins with all of the world's terrain, which is more than "
+                "half of the memory takes: raise memory-max, or do not record (--record)");
+  auto recording = goes_on
+                       ? Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()})
+                       : Recorder::create(config.record_path, header);
+  if (!recording) return tl::unexpected(recording.error());
+  recorder = std::move(*recording);
+  report.record_path = config.record_path;
+  return {};
+}
+
+Result<void> LiveServer::State::open_events() {
+  if (!has_events()) return {};
+  auto opened = LiveEvents::open(config.events_path, config.world, print(config.world));
+  if (!opened) return tl::unexpected(opened.error());
+  events = std::move(*opened);
+  config.net.noted = [this](Event event) { events->note(std::move(event)); };
+  if (const World* world = feed->world(); world->tick() > 0)
+    events->note({.kind = EventKind::rebuild, .text = config.world_path});
+  report.events_path = config.events_path;
+  return {};
+}
+
+}  // namespace scree

@@ -1,0 +1,83 @@
+// What a LiveServer is made of: for its own two sources, which open it (live_server_open.cpp) and run it
+// (live_server.cpp).
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "server/app/admission.h"
+#include "server/app/live_events.h"
+#include "server/app/live_server.h"
+#include "server/app/saved_world.h"
+#include "server/app/terrain_ahead.h"
+#include "server/app/terrain_pager.h"
+#include "server/app/tick_schedule.h"
+#include "server/app/tick_trace.h"
+#include "server/store/recorder.h"
+
+namespace scree {
+
+struct LiveServer::State {
+  using Clock = std::chrono::steady_clock;
+  static Clock::duration seconds(double s) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+  }
+
+  explicit State(const LiveConfig& c) : config(c) {}
+
+  Result<void> open();
+  Result<void> open_world();
+  Result<void> open_recorder();
+  Result<void> open_events();
+  Saving saving() const;
+  void tell();
+  std::shared_ptr<const TickDelta> keep(std::shared_ptr<const TickDelta> delta, std::vector<Reply> refused);
+  Result<void> start_keeping();
+  void run();
+  bool step();
+  bool wait_for_clients();
+  bool time_is_over() const {
+    return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
+  }
+  void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
+              std::vector<Event> noted);
+  /// Notes nothing where nobody wants to know.
+  bool has_events() const { return !config.events_path.empty() || !config.record_path.empty(); }
+  void count(TickSchedule::Delay delay);
+  bool sleep_until(Clock::time_point when);
+  void end(const std::string& error);
+
+  LiveConfig config;
+  CommandQueue commands;
+  std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
+  std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<SavedWorld> kept;     ///< null: a replay
+  std::unique_ptr<TerrainPager> pager;  ///< likewise
+  Admission admission;
+  std::unique_ptr<NetServer> net;
+  std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
+  std::unique_ptr<Trace> trace;         ///< null: no trace
+  std::thread thread;
+  Clock::time_point started = Clock::now();
+  Clock::duration period{};
+  bool record_failed = false;  ///< used by the simulation thread only
+  bool saved = false;          ///< for good; used by the owner's thread only
+
+  const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();
+  uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only
+  uint32_t read_last_second = 0;
+  bool broken = false;  ///< the world does not stand between two ticks; used as saved is
+
+  mutable std::mutex mutex;  ///< guards the members below
+  Saving told;
+  std::condition_variable changed;
+  bool stopping = false;
+  bool running = true;
+  ServerReport report;
+  std::shared_ptr<const TickDelta> last_delta;
+};
+
+}  // namespace scree
