@@ -5,6 +5,7 @@
 
 #include "server/publish/limits.h"
 #include "server/world/world.h"
+#include "shared/field/chunk_distance.h"
 #include "tests/support/publisher_fixture.h"
 
 namespace scree {
@@ -161,6 +162,28 @@ TEST_F(PublisherTest, small_radius_holds_exactly_what_is_near) {
   EXPECT_LT(publisher.view(session)->held().size(), source.field().edited_chunks().size());
   expect_held_equal(session);
   EXPECT_EQ(followers.at(session).mismatches, 0U);
+}
+
+TEST_F(PublisherTest, of_many_chunks_a_joiner_gets_exactly_those_that_are_near) {
+  for (PieceId i = 0; i < 100; ++i) {
+    const glm::vec3 place_m(16.0F * static_cast<float>(i % 10), 0.0F, 16.0F * static_cast<float>(i / 10));
+    tick({source.carve(place_m, 2.0F, 3)});
+    tick({source.stamp(1 + 3 * i)});
+  }
+  constexpr glm::vec3 eye_m(70.0F, 2.0F, 70.0F);
+  join(session, eye_m, 10.0F);
+  for (int i = 0; i < 30; ++i) tick();
+  const auto& held = publisher.view(session)->held();
+  size_t edited = 0, near = 0;
+  for (const ChunkCoord chunk : source.field().edited_chunks()) {
+    ++edited;
+    const bool is_near = distance_to_chunk_m(eye_m, chunk, flat_terrain.voxel_size_m) <= 10.0F;
+    near += is_near ? 1 : 0;
+    EXPECT_EQ(held.contains(chunk), is_near);
+  }
+  EXPECT_EQ(held.size(), near);
+  EXPECT_GT(near, 0U);
+  EXPECT_GT(edited, 300U) << "more than there are places near";
 }
 
 TEST_F(PublisherTest, equal_clients_share_the_same_bytes) {
