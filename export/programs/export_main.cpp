@@ -13,6 +13,7 @@
 #include "import/programs/program.h"
 #include "server/app/ground_giver.h"
 #include "server/store/world_file.h"
+#include "shared/base/limits.h"
 #include "shared/base/option_check.h"
 
 namespace scree {
@@ -72,7 +73,8 @@ Result<ChunkBox> given_box(const Options& options, float voxel_size_m) {
   const std::vector<float>& m = options.box_m;
   for (size_t axis = 0; axis < 3; ++axis)
     if (!(m[axis] < m[axis + 3]) || !(std::abs(m[axis]) <= 8192.0F) || !(std::abs(m[axis + 3]) <= 8192.0F))
-      return fail("--box is x,y,z of its lowest corner, then of its highest, in metres");
+      return fail(
+          "--box is x,y,z of its lowest corner, then of its highest, in metres, within 8192 of the origin");
   const ChunkBox box = chunks_of({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, voxel_size_m);
   if (auto few = check_count(box); !few) return tl::unexpected(few.error());
   return box;
@@ -175,7 +177,7 @@ void declare(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->expected(6);
   app.add_option("--cell", options.cell_m, "metres between a .tif's samples; unless said, the voxels' size")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(double{limits::voxel_size_min_m}, 1024.0));
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include "export/vdb/vdb_export.h"
 
+#include <initializer_list>
+#include <map>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
+#include <string>
+#include <utility>
 
 #include "export/whole_file.h"
 #include "import/vdb/vdb_names.h"
@@ -107,15 +111,28 @@ void close_walls(const VoxelBox& box, FloatGrid& grid) {
   }
 }
 
-Result<uint64_t> write(const Grids& grids, const std::string& path) {
+/// OpenVDB does not notice that a disk is full: the file is read again. The grids are released meanwhile.
+Result<uint64_t> write(Grids grids, const std::string& path) {
   return write_whole(path, [&](const std::string& unfinished) -> Result<void> {
     try {
-      openvdb::io::File file(unfinished);
-      file.write({grids.surface, grids.material});
-      file.close();
+      std::map<std::string, openvdb::Index64> active;
+      {
+        openvdb::io::File file(unfinished);
+        file.write({grids.surface, grids.material});
+        file.close();
+        for (const openvdb::GridBase::Ptr& grid :
+             std::initializer_list<openvdb::GridBase::Ptr>{grids.surface, grids.material})
+          active[grid->getName()] = grid->activeVoxelCount();
+        grids = {};
+      }
+      openvdb::io::File written(unfinished);
+      written.open(false);
+      for (const auto& [name, count] : active)
+        if (written.readGrid(name)->activeVoxelCount() != count)
+          return fail("what was written is not whole: is the disk full?");
       return {};
     } catch (const std::exception& failure) {
-      return fail(failure.what());
+      return fail(std::string("it cannot be written whole (") + failure.what() + ")");
     }
   });
 }
@@ -133,9 +150,10 @@ Result<VdbExported> export_vdb(Field& field, const ChunkBox& box, const std::str
   close_walls(box.voxels(), *grids.surface);
   grids.surface->pruneGrid();
   grids.material->pruneGrid();
-  const auto bytes = write(grids, path);
+  const uint64_t active_voxels = grids.surface->activeVoxelCount();
+  const auto bytes = write(std::move(grids), path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return VdbExported{grids.surface->activeVoxelCount(), *bytes};
+  return VdbExported{active_voxels, *bytes};
 }
 
 }  // namespace scree

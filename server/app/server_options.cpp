@@ -250,6 +250,13 @@ void name_environment(CLI::App& app) {
   }
 }
 
+/// Nothing after an option is a mistake, as of a script whose variable is not set.
+void refuse_empty(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_expected_min() > 0 && option->get_type_size() > 0)
+      option->check([](const std::string& value) { return value.empty() ? "must not be empty" : ""; }, "");
+}
+
 void declare(CLI::App& app, Raw& raw) {
   add_network(app, raw);
   add_world(app, raw);
@@ -259,6 +266,7 @@ void declare(CLI::App& app, Raw& raw) {
   add_keeping(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
+  refuse_empty(app);
 }
 
 /// What is wrong with this entry of the file, taken as an option alone; empty: nothing.

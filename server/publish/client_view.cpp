@@ -1,15 +1,14 @@
 #include "server/publish/client_view.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "server/publish/chunks_near.h"
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
-#include "shared/base/limits.h"
 #include "shared/field/chunk_distance.h"
 
 namespace scree {
@@ -227,29 +226,10 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
   drop_far(held_);
   drop_far(stale_);
   wanted_.clear();
-  want_near(changes);
+  for_each_chunk_near(changes.state.chunks(), eye_m_, radius_m_, changes.voxel_size_m, [&](ChunkCoord chunk) {
+    if (!held_.contains(chunk)) wanted_.insert(chunk);
+  });
   for (const auto& [chunk, lacking] : stale_) wanted_.insert(chunk);
-}
-
-/// By the places within the radius, where they are fewer than the chunks that there are: a world may have
-/// many.
-void ClientView::want_near(const TickChanges& changes) {
-  const auto& chunks = changes.state.chunks();
-  const auto want = [&](ChunkCoord chunk) {
-    if (!held_.contains(chunk) && near(chunk, changes.voxel_size_m)) wanted_.insert(chunk);
-  };
-  const float side_m = static_cast<float>(chunk_size) * changes.voxel_size_m;
-  const double places = std::pow(2.0 * radius_m_ / side_m + 3.0, 3.0);
-  const float far_m = std::max({std::abs(eye_m_.x), std::abs(eye_m_.y), std::abs(eye_m_.z)}) + radius_m_;
-  if (places >= static_cast<double>(chunks.size()) || far_m > 2.0F * limits::world_half_width_m) {
-    for (const auto& [chunk, published] : chunks) want(chunk);
-    return;
-  }
-  const glm::vec3 first = (eye_m_ - radius_m_) / side_m, last = (eye_m_ + radius_m_) / side_m;
-  for (int z = floor_to_int(first.z) - 1; z <= floor_to_int(last.z) + 1; ++z)
-    for (int y = floor_to_int(first.y) - 1; y <= floor_to_int(last.y) + 1; ++y)
-      for (int x = floor_to_int(first.x) - 1; x <= floor_to_int(last.x) + 1; ++x)
-        if (chunks.contains({x, y, z})) want({x, y, z});
 }
 
 void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,

@@ -141,7 +141,6 @@ class ClientView {
   void select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
                    FrameSelection& frame);
   void rescan(const TickChanges& changes, const ChunkSet& changed, FrameSelection& frame);
-  void want_near(const TickChanges& changes);
   /// False when the client does not have it.
   bool forget(PieceId piece);
   /// Whether the invariants hold, and `changed` chunks are held; for CHECK_DEBUG.

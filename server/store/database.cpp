@@ -119,7 +119,18 @@ Result<void> Database::run(const Statement& prepared, uint64_t key) {
 Result<void> Database::each(const std::string& select, const TakeRow& take) {
   const auto prepared = prepare(select);
   if (!prepared) return tl::unexpected(prepared.error());
-  sqlite3_stmt* statement = prepared->get();
+  return each_of(*prepared, take);
+}
+
+Result<void> Database::each(const std::string& select, uint64_t key, const TakeRow& take) {
+  const auto prepared = prepare(select);
+  if (!prepared) return tl::unexpected(prepared.error());
+  sqlite3_bind_int64(prepared->get(), 1, static_cast<int64_t>(key));
+  return each_of(*prepared, take);
+}
+
+Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
+  sqlite3_stmt* statement = prepared.get();
   CHECK_EQ(sqlite3_column_count(statement), 3);
   for (;;) {
     const int code = sqlite3_step(statement);

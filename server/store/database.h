@@ -48,6 +48,8 @@ class Database {
   /// matches its checksum. Ends at the first error, also one of `take`.
   using TakeRow = std::function<Result<void>(uint64_t key, std::span<const uint8_t> data, bool whole)>;
   Result<void> each(const std::string& select, const TakeRow& take);
+  /// The same with the parameter (key).
+  Result<void> each(const std::string& select, uint64_t key, const TakeRow& take);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
   /// Whether the last failure was that the disk has no room.
@@ -59,6 +61,7 @@ class Database {
   const std::string& path() const { return path_; }
 
  private:
+  Result<void> each_of(const Statement& prepared, const TakeRow& take);
   Database(std::string path, sqlite3* database) : path_(std::move(path)), database_(database) {}
   tl::unexpected<Error> failure(const std::string& what) const;
 

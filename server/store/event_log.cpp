@@ -4,6 +4,8 @@
 #include <condition_variable>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <thread>
 #include <unistd.h>
@@ -12,6 +14,21 @@
 #include "server/store/limits.h"
 
 namespace scree {
+
+namespace {
+
+/// As a crash may have left it.
+bool ends_within_a_line(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown) || std::filesystem::file_size(path, unknown) == 0)
+    return false;
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(-1, std::ios::end);
+  char last = '\n';
+  return in.get(last) && last != '\n';
+}
+
+}  // namespace
 
 struct EventLog::State {
   void run();
@@ -90,11 +107,14 @@ EventLog::~EventLog() {
 }
 
 Result<std::unique_ptr<EventLog>> EventLog::open(const std::string& path) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  // A pipe that nobody reads is refused, not waited for.
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (file < 0) return fail(path + " cannot be written: " + std::strerror(errno) + " (--events)");
   auto state = std::make_unique<State>();
   state->path = path;
   state->file = file;
+  state->torn = ends_within_a_line(path);
+  ::fcntl(file, F_SETFL, O_WRONLY | O_APPEND);
   state->thread = std::thread([s = state.get()] { s->run(); });
   return std::unique_ptr<EventLog>(new EventLog(std::move(state)));
 }

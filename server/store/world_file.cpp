@@ -10,6 +10,7 @@
 #include "proto/limits.h"
 #include "server/store/ground_mass.h"
 #include "server/store/limits.h"
+#include "server/store/readable_rows.h"
 #include "server/store/world_schema.h"
 #include "shared/base/check.h"
 
@@ -257,17 +258,20 @@ class Reading {
   /// All rows of a table; those that are not whole are lost, or an error.
   template <typename Take>
   Result<void> every(const std::string& table, Take&& take_row) {
-    auto read = database_.each(world_schema::all_of(table),
-                               [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
-                                 rows_.bytes += data.size();
-                                 const std::string name = "row " + std::to_string(key) + " of its " + table;
-                                 if (!whole) return lose(name + " is not what was saved");
-                                 if (auto taken = take_row(key, data); !taken)
-                                   return lose(name + ": " + taken.error().message);
-                                 return {};
-                               });
-    if (read || lost_ == nullptr) return read;
-    return lose("the rest of its " + table + " cannot be read (" + read.error().message + ")");
+    const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
+      rows_.bytes += data.size();
+      const std::string name = "row " + std::to_string(key) + " of its " + table;
+      if (!whole) return lose(name + " is not what was saved");
+      if (auto taken = take_row(key, data); !taken) return lose(name + ": " + taken.error().message);
+      return {};
+    };
+    if (lost_ == nullptr) return database_.each(world_schema::all_of(table), row);
+    return each_readable(database_, world_schema::all_from(table), row,
+                         [&](uint64_t first, uint64_t last, const std::string& why) {
+                           lost_->reasons.push_back("rows " + std::to_string(first) + " to " +
+                                                    std::to_string(last) + " of its " + table +
+                                                    " cannot be read (" + why + ")");
+                         });
   }
 
   Result<void> lose(const std::string& what) {
@@ -299,12 +303,13 @@ class Reading {
 
 Result<WorldRows> WorldFile::read(LostRows* lost) {
   Database& file = state_->database;
-  if (auto whole = check_pages(file); !whole) {
-    if (lost == nullptr) return tl::unexpected(whole.error());
-    lost->reasons.push_back(whole.error().message);
+  if (lost != nullptr) {
+    if (auto whole = check_pages(file); !whole) lost->reasons.push_back(whole.error().message);
+    return Reading(file, lost).run(true);
   }
+  if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
   if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-  auto rows = Reading(file, lost).run(true);
+  auto rows = Reading(file, nullptr).run(true);
   if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
   return rows;
 }

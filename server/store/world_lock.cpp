@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/file.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -22,8 +24,15 @@ std::string process_in(int file) {
 
 }  // namespace
 
+/// By links a file has several paths: all of them lead to the same lock, or are refused.
 Result<WorldLock> WorldLock::take(const std::string& world_path) {
-  const std::string path = world_path + "-lock";
+  std::error_code unknown;  // then the path is as it was given, and opening it says why
+  const std::filesystem::path real = std::filesystem::weakly_canonical(world_path, unknown);
+  if (std::filesystem::hard_link_count(real, unknown) > 1 && !unknown)
+    return fail(world_path +
+                " has another name, too (a hard link), by which another server might use it: copy it, "
+                "and remove one of the names");
+  const std::string path = (real.empty() ? world_path : real.string()) + "-lock";
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file < 0)
     return fail(world_path + ": " + path + " cannot be written (" + std::strerror(errno) +

@@ -37,6 +37,11 @@ inline std::string all_of(const std::string& table) {
   return "SELECT key, data, checksum FROM " + table + " ORDER BY key";
 }
 
+/// From the key ?1 on.
+inline std::string all_from(const std::string& table) {
+  return "SELECT key, data, checksum FROM " + table + " WHERE key >= ?1 ORDER BY key";
+}
+
 inline std::string one_of(const std::string& table) {
   return "SELECT data, checksum FROM " + table + " WHERE key = ?1";
 }

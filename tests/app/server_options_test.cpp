@@ -224,6 +224,14 @@ TEST(ServerOptions, what_is_no_number_is_refused_at_the_start_by_its_range) {
   EXPECT_EQ(exit_code({"--replay", "r", "--from", "-1"}), 2);
 }
 
+TEST(ServerOptions, nothing_after_an_option_is_a_mistake) {
+  for (const char* option :
+       {"--world", "--record", "--replay", "--ground", "--bans", "--admin-token", "--bind"}) {
+    const std::string words = words_for({option, ""});
+    EXPECT_TRUE(holds(words, "must not be empty")) << words;
+  }
+}
+
 TEST(ServerOptions, reports_and_traces_are_tried_at_the_start) {
   for (const char* option : {"--report", "--trace"}) {
     const std::string words = words_for({option, "/no/such/folder/file.json"});

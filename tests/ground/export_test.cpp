@@ -1,9 +1,12 @@
 // Exports: surfaces that touch themselves are closed, colours of points, elevation models, and what comes
 // back when they are imported.
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
+#include <sys/resource.h>
 
 #include "export/elevation.h"
 #include "export/gdal/geotiff_export.h"
@@ -171,6 +174,23 @@ TEST_F(ExportTest, carved_ground_by_heights_comes_back_by_tif_with_its_volume) {
   for (const float at_m : {-20.0F, 0.5F, 17.0F})
     EXPECT_NEAR(ground_height_m({.heights = *again}, at_m + 0.125F, at_m + 0.125F),
                 ground_height_m(hills.source(), at_m, at_m), 0.13F);
+}
+
+/// A disk without room is stood for by a bound of this process's files.
+TEST_F(ExportTest, a_vdb_that_finds_no_room_is_an_error_and_leaves_the_file_before_it) {
+  const std::string path = folder_ / "full.vdb";
+  std::ofstream(path) << "before";
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little{4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  const auto exported = export_vdb(field_, box_, path, quiet);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(exported.has_value());
+  EXPECT_NE(exported.error().message.find("whole"), std::string::npos) << exported.error().message;
+  EXPECT_EQ(std::filesystem::file_size(path), 6U);
 }
 
 TEST_F(ExportTest, a_carved_field_comes_back_by_vdb_the_same_and_resampled_with_its_volume) {

@@ -1,8 +1,10 @@
 // The log of events: what follows from the simulation is recorded and verified, what does not is kept apart;
 // a reader has both without simulating; files of them outlive a full disk.
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "proto/event_codec.h"
 #include "server/replay/export_lines.h"
@@ -214,6 +216,23 @@ TEST_F(EventsTest, the_log_appends_whole_lines) {
   }
   const auto bytes = read_file(file);
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"a\":1}\n{\"b\":2}\n{\"a\":1}\n{\"b\":2}\n");
+}
+
+TEST_F(EventsTest, a_line_that_a_crash_has_cut_does_not_spoil_the_next) {
+  const std::string file = (folder / "events.jsonl").string();
+  std::ofstream(file) << "{\"half";
+  auto log = EventLog::open(file);
+  ASSERT_TRUE(log.has_value());
+  (*log)->push("{}");
+  (*log)->flush();
+  const auto bytes = read_file(file);
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"half\n{}\n");
+}
+
+TEST_F(EventsTest, a_pipe_that_nobody_reads_is_refused) {
+  const std::string pipe = (folder / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_FALSE(EventLog::open(pipe).has_value());
 }
 
 TEST_F(EventsTest, a_full_disk_loses_lines_and_counts_them) {

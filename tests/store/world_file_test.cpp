@@ -175,18 +175,6 @@ TEST_F(WorldFileTest, a_log_that_a_world_of_that_name_left_behind_is_not_taken_f
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST_F(WorldFileTest, a_world_belongs_to_one_process) {
-  const auto first = WorldLock::take(path);
-  ASSERT_TRUE(first.has_value()) << first.error().message;
-  const auto second = WorldLock::take(path);
-  ASSERT_FALSE(second.has_value());
-  EXPECT_NE(second.error().message.find("process " + std::to_string(::getpid())), std::string::npos)
-      << second.error().message;
-  const auto nowhere = WorldLock::take(folder / "no folder/world");
-  ASSERT_FALSE(nowhere.has_value());
-  EXPECT_NE(nowhere.error().message.find("cannot be written"), std::string::npos);
-}
-
 TEST_F(WorldFileTest, a_save_that_finds_no_room_leaves_the_last_one_and_a_later_one_has_all) {
   FaultyDisk disk;
   make();

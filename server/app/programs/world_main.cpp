@@ -9,6 +9,7 @@
 #include "server/app/ground_giver.h"
 #include "server/app/recorded_past.h"
 #include "server/store/ground_mass.h"
+#include "server/store/readable_rows.h"
 #include "server/store/world_file.h"
 #include "server/store/world_lock.h"
 #include "server/world/recorded_values.h"
@@ -140,14 +141,26 @@ int backup(const Options& options) {
   return check({.path = options.to, .ground = options.ground, .json = options.json});
 }
 
+/// Read from a copy, for reading a file may change it.
+Result<WorldRows> salvaged_rows(const Options& options, LostRows& lost) {
+  const std::string copy = options.to + "-copy";
+  Result<WorldRows> rows = [&]() -> Result<WorldRows> {
+    if (auto copied = copy_for_reading(options.path, copy); !copied) return tl::unexpected(copied.error());
+    const auto file = WorldFile::open(copy);
+    if (!file) return tl::unexpected(file.error());
+    return (*file)->read(&lost);
+  }();
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(copy + end, ignored);
+  return rows;
+}
+
 /// Keeps what is whole in a new file; the damaged one stays as it is.
 int repair(const Options& options) {
   const auto lock = WorldLock::take(options.path);
   if (!lock) return complain(lock.error());
-  const auto file = WorldFile::open(options.path);
-  if (!file) return complain(file.error());
   LostRows lost;
-  auto rows = (*file)->read(&lost);
+  auto rows = salvaged_rows(options, lost);
   if (!rows) return complain(rows.error());
   if (const auto found = find_ground_of(*rows, options); !found) return complain(found.error());
   auto world = World::salvage(rows->world);
@@ -156,6 +169,8 @@ int repair(const Options& options) {
   const auto made = WorldFile::create(options.to, rows->header, value);
   if (!made) return complain(made.error());
   const WorldMoment& before = rows->world.moment;
+  if (lost.reasons.empty() && value.moment.field_hash != before.field_hash)
+    lost.reasons.emplace_back("its chunks are whole, but are not all that were saved");
   print({{"file", options.path},
          {"repaired", options.to},
          {"lost", lost.reasons},
