@@ -78,6 +78,7 @@ BenchReport run_memory_bench(const BenchOptions& options) {
   report.metric("edited_bricks", static_cast<double>(world.field().edited_brick_count()));
   report.check("resident_most_mb", most_mb <= memory_max_mb,
                fmt::format("{:.0f}, at most {}", most_mb, memory_max_mb));
+  report.check("asked", asked == edits, fmt::format("{} edits before the limit, wanted {}", asked, edits));
   report.check("answered", accepted + refused == asked, fmt::format("{} of {}", accepted + refused, asked));
   return report;
 }
