@@ -7,6 +7,7 @@
 #include "server/app/limits.h"
 #include "server/work/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -41,20 +42,23 @@ Reply refusal_of(const Command& command, const Refused& refused) {
 }  // namespace
 
 tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, TerrainPager& pager,
-                                                           World& world, bool room_will_come) {
+                                                           World& world, double now_s, bool room_will_come) {
   const WorldConfig& config = world.config();
   const Shape* const shape = shape_of(held.command.body);
   if (shape == nullptr || !validate(*shape)) return Verdict::admit;  // the simulation refuses what is invalid
   const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
   if (Window::count(box) > limits::admitted_voxels_max) return Verdict::admit;  // likewise
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
-  const bool waited_long =
-      world.tick() - held.since > static_cast<Tick>(limits::held_seconds_max * config.tick_rate_hz);
+  const bool waited_long = now_s - held.since_s > limits::held_seconds_max;
   if (!pager.is_in(around)) {
     if (const auto reason = pager.unreadable(around))
       return tl::unexpected(Refused{Refusal::terrain_unreadable,
                                     "the terrain here cannot be read from the world's file: " + *reason});
     if (!waited_long) return Verdict::hold;
+    return tl::unexpected(
+        Refused{Refusal::terrain_unreadable, "the terrain here was not read from the world's file in " +
+                                                 std::to_string(static_cast<int>(limits::held_seconds_max)) +
+                                                 " s: ask again"});
   }
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
@@ -70,11 +74,11 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, Ter
 
 Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, World& world,
                           bool room_will_come) {
-  const Tick tick = world.tick();
+  const double now_s = steady_now_s();
   std::set<uint64_t> leaving, blocked;
   for (Command& command : arrived) {
     if (std::holds_alternative<LeaveRequest>(command.body)) leaving.insert(command.session);
-    held_.push_back({std::move(command), tick});
+    held_.push_back({std::move(command), now_s});
   }
   Admitted admitted;
   std::deque<Held> still_held;
@@ -88,7 +92,7 @@ Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, Wor
       still_held.push_back(std::move(one));
       continue;
     }
-    const auto verdict = judge(one, pager, world, room_will_come);
+    const auto verdict = judge(one, pager, world, now_s, room_will_come);
     if (!verdict) {
       admitted.refused.push_back(refusal_of(one.command, verdict.error()));
     } else if (*verdict == Verdict::admit) {
@@ -98,7 +102,7 @@ Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, Wor
           one.command,
           {Refusal::requests_waiting, "too many requests wait for terrain to be read: ask again"}));
     } else {
-      held_count_ += one.since == tick ? 1 : 0;
+      held_count_ += one.since_s == now_s ? 1 : 0;
       blocked.insert(one.command.session);
       still_held.push_back(std::move(one));
     }

@@ -34,10 +34,10 @@ class Admission {
  private:
   struct Held {
     Command command;
-    Tick since = 0;
+    double since_s = 0.0;  ///< by steady_now_s(): what it waits for is a disk
   };
   enum class Verdict { admit, hold };
-  tl::expected<Verdict, Refused> judge(const Held& held, TerrainPager& pager, World& world,
+  tl::expected<Verdict, Refused> judge(const Held& held, TerrainPager& pager, World& world, double now_s,
                                        bool room_will_come);
 
   std::deque<Held> held_;

@@ -38,8 +38,7 @@ inline constexpr size_t page_out_per_tick = 32;
 /// Ticks between two counts of what is in memory.
 inline constexpr unsigned pager_count_ticks = 8;
 
-/// Seconds that an edit waits for its terrain to be read, or for room in memory. Above: it is carried out all
-/// the same, and the tick waits for the terrain; or it is refused.
+/// Seconds that an edit waits for its terrain to be read, or for room in memory. Above: it is refused.
 inline constexpr double held_seconds_max = 5.0;
 
 /// Terrain around an edit's box that must be in memory, too, voxels: what hangs loose is searched there.
