@@ -4,12 +4,19 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
 namespace scree {
+
+/// The program scree-server beside the one that runs; it may not have been built.
+inline std::filesystem::path server_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scree-server";
+}
 
 class ServerProcess {
  public:
@@ -43,6 +50,13 @@ class ServerProcess {
 
   uint16_t port() const { return port_; }
   pid_t process() const { return process_; }
+  /// Most memory that lay in RAM at once, MiB; 0 when it has ended.
+  double most_resident_mib() const {
+    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024.0;
+    return 0.0;
+  }
   /// Sends the signal, once, and waits; the exit status, or -1 when the signal ended it.
   int end(int signal) {
     if (process_ <= 0) return -1;

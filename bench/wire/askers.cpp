@@ -98,7 +98,12 @@ void Askers::stop() {
 void Askers::ask(Viewer& viewer, double now_s) {
   viewer.next_s = now_s + config_.seconds_per_carve * (0.5 + static_cast<double>(random_.unit()));
   if (viewer.unanswered) return;  // an honest person waits
-  const auto near = [&](float at_m) { return at_m + (random_.unit() * 2.0F - 1.0F) * 6.0F; };
+  if (config_.carves_max != 0 && asked_ == config_.carves_max) return;
+  ++asked_;
+  const float around_m = config_.anywhere ? config_.spread_m : 6.0F;
+  const auto near = [&](float at_m) {
+    return (config_.anywhere ? 0.0F : at_m) + (random_.unit() * 2.0F - 1.0F) * around_m;
+  };
   viewer.random_seed = random_.next();
   const CarveRequest blow = blow_at(config_.terrain, near(viewer.place_m.x), near(viewer.place_m.z),
                                     config_.radius_m, config_.seeds, viewer.random_seed);
@@ -130,6 +135,7 @@ bool Askers::take(Viewer& viewer, std::span<const uint8_t> body, double now_s) {
   const double ms = (now_s - viewer.sent_s) * 1000.0;
   if (const auto* reply = std::get_if<ReplyMessage>(&*message)) {
     viewer.unanswered = false;
+    ++answered_;
     if (!reply->refusal.empty()) viewer.unseen = false;
     if (!viewer.counted) return true;
     times_.reply.push_back({ms, reply->latency});
@@ -177,6 +183,7 @@ void Askers::run() {
       if (viewer->socket >= 0) walk(*viewer, now_s);
     for (const auto& viewer : viewers_)
       if (viewer->socket >= 0 && now_s >= viewer->next_s) ask(*viewer, now_s);
+    finished_ = (config_.carves_max != 0 && answered_ == config_.carves_max) || lost_ == viewers_.size();
   }
 }
 

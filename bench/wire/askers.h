@@ -24,6 +24,8 @@ struct AskersConfig {
   float radius_m = 1.0F;
   uint32_t seeds = 8;
   float speed_m_s = 0.0F;  ///< at which they walk, to and fro
+  bool anywhere = false;   ///< they carve all over the spread, instead of near where they stand
+  size_t carves_max = 0;   ///< of all together; 0: no end
 };
 
 /// By request, milliseconds.
@@ -47,6 +49,9 @@ class Askers {
   void count(bool on) { counting_ = on; }
   /// Ends the thread; after this the times can be read.
   void stop();
+  /// All of carves_max have been asked for and answered, or nobody is left.
+  bool finished() const { return finished_; }
+  size_t answered() const { return answered_; }
 
   const AskedTimes& times() const { return times_; }
   size_t lost() const { return lost_; }  ///< connections that ended, or brought what cannot be decoded
@@ -67,6 +72,9 @@ class Askers {
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> counting_{false};
+  std::atomic<bool> finished_{false};
+  std::atomic<size_t> answered_{0};
+  size_t asked_ = 0;
   AskedTimes times_;
   size_t lost_ = 0;
 };

@@ -144,14 +144,6 @@ std::string make_world(BenchReport& report, const std::string& path, const Plan&
   return {};
 }
 
-/// Most memory of the process that lay in RAM at once, MiB.
-double most_resident_mib(pid_t process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024.0;
-  return 0.0;
-}
-
 void note(BenchReport& report, const nlohmann::json& told, double resident_mib, const Plan& plan) {
   const auto& tick = told["stages_ms"]["whole_tick"];
   const double p99 = tick["p99"].get<double>();
@@ -174,7 +166,7 @@ void note(BenchReport& report, const nlohmann::json& told, double resident_mib, 
 
 void roam_a_paged_world(BenchReport& report, const std::string& path, bool quick) {
   const Plan plan = quick ? Plan{uint64_t{64} << 20U, 256, 5.0} : Plan{uint64_t{4} << 30U, 512, 60.0};
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "scree-server";
+  const fs::path program = server_program();
   if (!fs::exists(program)) {
     fmt::print(stderr, "storage: no paged world: {} is not built\n", program.string());
     return;
@@ -191,7 +183,7 @@ void roam_a_paged_world(BenchReport& report, const std::string& path, bool quick
   ServerProcess server(program.c_str(), {"--world", path, "--report", told});
   CHECK(server.port() != 0);
   report.metric("paged_start_s", watch.lap_ms() * 1e-3);
-  report.metric("paged_start_resident_mib", most_resident_mib(server.process()));
+  report.metric("paged_start_resident_mib", server.most_resident_mib());
   auto viewers = Askers::connect({.port = server.port(),
                                   .terrain = config.terrain,
                                   .viewers = 8,
@@ -206,7 +198,7 @@ void roam_a_paged_world(BenchReport& report, const std::string& path, bool quick
   (*viewers)->count(true);
   std::this_thread::sleep_for(std::chrono::duration<double>(plan.seconds));
   (*viewers)->stop();
-  const double resident_mib = most_resident_mib(server.process());
+  const double resident_mib = server.most_resident_mib();
   report.metric("paged_resident_most_mib", resident_mib);
   report.metric("paged_viewers_lost", static_cast<double>((*viewers)->lost()));
   report.metric("paged_asked", static_cast<double>((*viewers)->times().asked));
