@@ -125,6 +125,19 @@ std::vector<Cost> large_carve(Cutter cutter) {
   return stand.costs();
 }
 
+/// The largest carves into few pieces, each where nobody was before.
+std::vector<Cost> large_pieces(int carves) {
+  Stand stand({});
+  const TerrainSource terrain = stand.world().config().terrain;
+  for (int i = 0; i < carves; ++i) {
+    const float x_m = -900.0F + 90.0F * static_cast<float>(i % 20), z_m = 100.0F * static_cast<float>(i / 20);
+    stand.step({{0, 0, blow_at(terrain, x_m, z_m, limits::edit_reach_max_m, 8, static_cast<uint32_t>(i))}});
+    for (int tick = 0; tick < 30; ++tick) stand.step({});
+  }
+  stand.settle(3600);
+  return stand.costs();
+}
+
 std::vector<Cost> first_edit() {
   std::vector<Cost> costs;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
@@ -167,6 +180,7 @@ BenchReport run_worst_bench(const BenchOptions& options) {
       {"large_carve_field", [] { return large_carve(Cutter::field); }},
       {"large_carve_slice", [] { return large_carve(Cutter::slice); }},
       {"large_carve_conform", [] { return large_carve(Cutter::conform); }},
+      {"large_pieces", [&] { return large_pieces(options.quick ? 5 : 40); }},
       {"first_edit", first_edit},
   };
   double done = 0.0;

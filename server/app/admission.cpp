@@ -41,15 +41,17 @@ Reply refusal_of(const Command& command, const Refused& refused) {
 
 }  // namespace
 
-tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, TerrainPager& pager,
-                                                           World& world, double now_s, bool room_will_come) {
+tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, const EditGround& ground,
+                                                           double now_s) {
+  const auto& [world, pager, ahead, room_will_come] = ground;
   const WorldConfig& config = world.config();
   const Shape* const shape = shape_of(held.command.body);
   if (shape == nullptr || !validate(*shape)) return Verdict::admit;  // the simulation refuses what is invalid
   const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
   if (Window::count(box) > limits::admitted_voxels_max) return Verdict::admit;  // likewise
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
-  const bool waited_long = now_s - held.since_s > limits::held_seconds_max;
+  const double waited_s = now_s - held.since_s;
+  const bool waited_long = waited_s > limits::held_seconds_max;
   if (!pager.is_in(around)) {
     if (const auto reason = pager.unreadable(around))
       return tl::unexpected(Refused{Refusal::terrain_unreadable,
@@ -60,6 +62,8 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, Ter
                                                  std::to_string(static_cast<int>(limits::held_seconds_max)) +
                                                  " s: ask again"});
   }
+  if (ahead != nullptr && !ahead->has(world.field(), around) && waited_s <= limits::generated_wait_s)
+    return Verdict::hold;
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
   const double added = added_bytes(box, world.field());
@@ -72,8 +76,7 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, Ter
   return tl::unexpected(no_memory(used, added, max_mb));
 }
 
-Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, World& world,
-                          bool room_will_come) {
+Admitted Admission::admit(std::vector<Command> arrived, const EditGround& ground) {
   const double now_s = steady_now_s();
   std::set<uint64_t> leaving, blocked;
   for (Command& command : arrived) {
@@ -92,7 +95,7 @@ Admitted Admission::admit(std::vector<Command> arrived, TerrainPager& pager, Wor
       still_held.push_back(std::move(one));
       continue;
     }
-    const auto verdict = judge(one, pager, world, now_s, room_will_come);
+    const auto verdict = judge(one, ground, now_s);
     if (!verdict) {
       admitted.refused.push_back(refusal_of(one.command, verdict.error()));
     } else if (*verdict == Verdict::admit) {

@@ -1,5 +1,6 @@
 // What stands between clients' requests and the simulation: an edit waits here until the chunks that it
-// touches are in memory, and is refused when there is no room for it, or when they cannot be read.
+// touches are in memory, and a little until their terrain is generated. It is refused when there is no room
+// for it, or when they cannot be read.
 //
 // The simulation gets a command when nothing of that is open any more, and the tick that gets it is what a
 // recording says. So neither depends on the speed of a disk. A session's commands keep their order. Used by
@@ -11,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
 #include "server/work/command.h"
 #include "server/world/world.h"
@@ -22,10 +24,18 @@ struct Admitted {
   std::vector<Reply> refused;
 };
 
+/// What edits wait for.
+struct EditGround {
+  World& world;
+  TerrainPager& pager;
+  TerrainAhead* ahead = nullptr;  ///< null: ticks generate what they need
+  bool room_will_come = false;    ///< chunks go out when they are saved
+};
+
 class Admission {
  public:
-  /// The commands that arrived, and those that waited. `room_will_come`: chunks go out when they are saved.
-  Admitted admit(std::vector<Command> arrived, TerrainPager& pager, World& world, bool room_will_come);
+  /// The commands that arrived, and those that waited.
+  Admitted admit(std::vector<Command> arrived, const EditGround& ground);
   /// The tick answered these.
   void answered(const std::vector<Reply>& replies);
   /// Commands that had to wait, since the start.
@@ -37,8 +47,7 @@ class Admission {
     double since_s = 0.0;  ///< by steady_now_s(): what it waits for is a disk
   };
   enum class Verdict { admit, hold };
-  tl::expected<Verdict, Refused> judge(const Held& held, TerrainPager& pager, World& world, double now_s,
-                                       bool room_will_come);
+  tl::expected<Verdict, Refused> judge(const Held& held, const EditGround& ground, double now_s);
 
   std::deque<Held> held_;
   std::map<std::pair<uint64_t, uint32_t>, double> reserved_bytes_;  ///< of edits that have no answer yet

@@ -10,11 +10,18 @@ namespace scree::limits {
 inline constexpr int catch_up_ticks_max = 5;
 
 /// Radius around each client's eye within which terrain is generated before anything touches it, chunks: 32 m
-/// at voxels of 0.25 m, the reach of a viewer's tools. Beyond: the first touch generates it, inside its tick.
+/// at voxels of 0.25 m, the reach of a viewer's tools. Beyond: edits wait for it.
 inline constexpr int ahead_chunks = 4;
 
 /// Chunks that a tick tests for being generated: a few microseconds.
 inline constexpr size_t ahead_looks_per_tick = 64;
+
+/// Chunks that edits wait for at once, to be generated: some two seconds' work. Above: more are asked for
+/// when these have come.
+inline constexpr size_t ahead_asked_max = 1024;
+
+/// Seconds that an edit waits for its terrain to be generated. Above: its tick generates what is lacking.
+inline constexpr double generated_wait_s = 0.25;
 
 /// Chunks that a tick tests for being out of memory, around eyes: some 10 us. The radius is ahead_chunks.
 inline constexpr size_t pager_looks_per_tick = 128;

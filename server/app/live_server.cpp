@@ -63,7 +63,10 @@ bool LiveServer::State::step() {
     world->watch(net->is_watched());
     ahead->serve(world->field(), net->eyes_m());
     pager->begin_tick();
-    admitted = admission.admit(std::move(admitted.commands), *pager, *world, !kept->status().error);
+    // Steps by hand do not wait for a thread.
+    TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
+    admitted =
+        admission.admit(std::move(admitted.commands), {*world, *pager, generator, !kept->status().error});
   }
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);

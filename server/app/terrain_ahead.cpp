@@ -48,7 +48,10 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
     ready.swap(ready_);
     idle = wanted_.empty();
   }
-  for (Ready& each : ready) field.adopt_generated(each.coord, std::move(each.chunk));
+  for (Ready& each : ready) {
+    coming_.erase(each.coord);
+    field.adopt_generated(each.coord, std::move(each.chunk));
+  }
   const size_t room = field.generated_chunks_max() / 2;
   if (!idle || eyes_m.empty() || field.generated_chunks() >= room) return;
   std::vector<ChunkCoord> wanted = look_around(field, eyes_m);
@@ -57,6 +60,19 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
   const std::scoped_lock lock(mutex_);
   wanted_ = std::move(wanted);
   wake_.notify_all();
+}
+
+bool TerrainAhead::has(const Field& field, const VoxelBox& box) {
+  std::vector<ChunkCoord> lacking;
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    if (!field.has_generated(chunk)) lacking.push_back(chunk);
+  });
+  if (lacking.empty()) return true;
+  const std::scoped_lock lock(mutex_);
+  for (const ChunkCoord chunk : lacking)
+    if (coming_.size() < limits::ahead_asked_max && coming_.insert(chunk).second) asked_.push_back(chunk);
+  wake_.notify_all();
+  return false;
 }
 
 /// Those of the next limits::ahead_looks_per_tick chunks around an eye that the field lacks.
@@ -81,15 +97,20 @@ std::vector<ChunkCoord> TerrainAhead::look_around(const Field& field, std::span<
 void TerrainAhead::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return stopping_ || !wanted_.empty(); });
+    wake_.wait(lock, [this] { return stopping_ || !asked_.empty() || !wanted_.empty(); });
     if (stopping_) return;
-    const ChunkCoord coord = wanted_.back();
+    const bool was_asked = !asked_.empty();
+    const ChunkCoord coord = was_asked ? asked_.front() : wanted_.back();
     lock.unlock();
     GeneratedChunk chunk = generate_chunk(source_, coord);
     lock.lock();
-    // Kept until now: serve() requests chunks only while none is wanted.
-    CHECK(!wanted_.empty() && wanted_.back() == coord);
-    wanted_.pop_back();
+    if (was_asked) {
+      asked_.pop_front();
+    } else {
+      // Kept until now: serve() requests chunks only while none is wanted.
+      CHECK(!wanted_.empty() && wanted_.back() == coord);
+      wanted_.pop_back();
+    }
     ready_.push_back({coord, std::move(chunk)});
   }
 }

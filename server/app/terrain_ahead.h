@@ -1,15 +1,17 @@
-// Generates the terrain around clients' eyes before anything touches it, so that the first carve there costs
-// a tick no more than later ones. A chunk's content is a function of its place, so the thread and the time of
-// its generation make no difference to the simulation.
+// Generates terrain before anything touches it: around clients' eyes, and where edits wait for it, so that
+// the first carve at a place costs a tick no more than later ones. A chunk's content is a function of its
+// place, so the thread and the time of its generation make no difference to the simulation.
 //
 // One worker thread; the simulation thread calls the public functions.
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <glm/vec3.hpp>
 #include <mutex>
 #include <span>
 #include <thread>
+#include <unordered_set>
 #include <vector>
 
 #include "shared/field/field.h"
@@ -33,6 +35,10 @@ class TerrainAhead {
   /// a tick.
   void serve(Field& field, std::span<const glm::vec3> eyes_m);
 
+  /// Whether the field has the terrain of all chunks that the box touches. Those that it lacks are generated
+  /// before what lies around eyes, at most limits::ahead_asked_max at a time, and handed over by serve().
+  bool has(const Field& field, const VoxelBox& box);
+
  private:
   struct Ready {
     ChunkCoord coord;
@@ -43,14 +49,16 @@ class TerrainAhead {
   void run();
 
   const TerrainSource source_;
-  std::vector<ChunkCoord> around_;  ///< chunks relative to an eye's, nearest first
-  size_t eye_ = 0;                  ///< the eye at which the next look begins
-  size_t step_ = 0;                 ///< the entry of `around_` at which it begins
+  std::vector<ChunkCoord> around_;                    ///< chunks relative to an eye's, nearest first
+  size_t eye_ = 0;                                    ///< the eye at which the next look begins
+  size_t step_ = 0;                                   ///< the entry of `around_` at which it begins
+  std::unordered_set<ChunkCoord, CoordHash> coming_;  ///< asked for by has(), and not handed over
 
   std::mutex mutex_;  ///< guards the members below
   std::condition_variable wake_;
   bool stopping_ = false;
-  std::vector<ChunkCoord> wanted_;  ///< chunks to generate, the next one last
+  std::deque<ChunkCoord> asked_;    ///< chunks to generate first
+  std::vector<ChunkCoord> wanted_;  ///< then these, the next one last
   std::vector<Ready> ready_;
   std::thread thread_;
 };

@@ -62,6 +62,17 @@ TEST(TerrainAhead, an_eye_far_out_of_the_world_counts_at_its_edge) {
   EXPECT_TRUE(serve_until(ahead, field, eyes_m, [&] { return field.has_generated({512, 0, 0}); }));
 }
 
+TEST(TerrainAhead, what_an_edit_asks_for_comes_before_what_lies_around_eyes) {
+  MapField field(terrain);
+  TerrainAhead ahead(terrain);
+  const VoxelBox box{{10000, -5, 3000}, {10130, 70, 3001}};  // far from the eye
+  EXPECT_FALSE(ahead.has(field, box));
+  const glm::vec3 eyes_m[] = {{1.0F, 2.0F, 3.0F}};
+  EXPECT_TRUE(serve_until(ahead, field, eyes_m, [&] { return ahead.has(field, box); }));
+  for_each_chunk(box, [&](ChunkCoord chunk) { EXPECT_TRUE(field.has_generated(chunk)); });
+  EXPECT_FALSE(all_there(field));
+}
+
 TEST(TerrainAhead, a_field_that_is_half_full_is_left_alone) {
   MapField field(terrain);
   const int room = static_cast<int>(limits::generated_chunks_max / 2);

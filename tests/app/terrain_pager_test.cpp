@@ -36,7 +36,7 @@ class PagerTest : public ::testing::Test {
   /// A tick as a server makes it.
   std::shared_ptr<const TickDelta> step(std::vector<Command> arrived = {}) {
     pager->begin_tick();
-    Admitted admitted = admission.admit(std::move(arrived), *pager, *world, true);
+    Admitted admitted = admission.admit(std::move(arrived), {*world, *pager, nullptr, true});
     for (Reply& reply : admitted.refused) refused.push_back(std::move(reply));
     const auto delta = world->step(admitted.commands);
     admission.answered(delta->replies);
@@ -135,6 +135,27 @@ TEST_F(PagerTest, terrain_that_cannot_be_read_is_refused_by_name_and_the_rest_go
   step_until([&] { return answers == before + 1; });
 }
 
+TEST_F(PagerTest, an_edit_waits_a_little_for_its_terrain_to_be_generated) {
+  open(0);
+  TerrainAhead ahead(config.terrain);
+  const auto ask = [&](std::vector<Command> arrived) {
+    return admission.admit(std::move(arrived), {*world, *pager, &ahead, true}).commands.size();
+  };
+  EXPECT_EQ(ask({carve(0.0F)}), 0U);
+  EXPECT_EQ(admission.held(), 1U);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (ask({}) == 0) {  // nobody hands the terrain over
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  while (!ahead.has(world->field(), VoxelBox{{-30, -30, -30}, {30, 30, 30}})) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    ahead.serve(world->field(), {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(ask({carve(0.0F)}), 1U) << "what is there is not waited for";
+}
+
 TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will_come) {
   config.memory_max_mb = limits::memory_max_min_mb;
   // Paint of 8 m edits at most 9³ bricks and costs no pieces.
@@ -146,7 +167,7 @@ TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will
   uint32_t at = 0;
   std::vector<Reply> answered;
   const auto ask = [&](std::vector<Command> commands, bool room_comes) {
-    Admitted admitted = admission.admit(std::move(commands), *pager, *world, room_comes);
+    Admitted admitted = admission.admit(std::move(commands), {*world, *pager, nullptr, room_comes});
     for (const Command& command : admitted.commands)
       answered.push_back({command.session, command.request, {}, 0});
     return admitted;
