@@ -107,7 +107,9 @@ std::shared_ptr<const TickDelta> LiveServer::State::keep(std::shared_ptr<const T
   World& world = *feed->world();
   admission.answered(delta->replies);
   kept->keep(*delta, world, pager->pressed());
-  pager->end_tick(*delta, kept->status().saved_tick, net->eyes_m(), world.config().memory_max_mb);
+  const std::vector<ChunkCoord>& soon = outlook.look(*delta, world.config().terrain.voxel_size_m);
+  static_cast<void>(ahead->has(world.field(), soon));
+  pager->end_tick(*delta, kept->status().saved_tick, net->eyes_m(), soon, world.config().memory_max_mb);
   tell();
   if (refused.empty()) return delta;
   auto told_delta = std::make_shared<TickDelta>(*delta);

@@ -10,6 +10,7 @@
 #include "server/app/admission.h"
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
+#include "server/app/piece_outlook.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
@@ -56,6 +57,7 @@ struct LiveServer::State {
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<SavedWorld> kept;     ///< null: a replay
   std::unique_ptr<TerrainPager> pager;  ///< likewise
+  PieceOutlook outlook;
   Admission admission;
   std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain

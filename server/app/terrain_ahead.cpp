@@ -63,10 +63,15 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
 }
 
 bool TerrainAhead::has(const Field& field, const VoxelBox& box) {
+  std::vector<ChunkCoord> chunks;
+  for_each_chunk(box, [&](ChunkCoord chunk) { chunks.push_back(chunk); });
+  return has(field, chunks);
+}
+
+bool TerrainAhead::has(const Field& field, std::span<const ChunkCoord> chunks) {
   std::vector<ChunkCoord> lacking;
-  for_each_chunk(box, [&](ChunkCoord chunk) {
+  for (const ChunkCoord chunk : chunks)
     if (!field.has_generated(chunk)) lacking.push_back(chunk);
-  });
   if (lacking.empty()) return true;
   const std::scoped_lock lock(mutex_);
   for (const ChunkCoord chunk : lacking)

@@ -38,6 +38,8 @@ class TerrainAhead {
   /// Whether the field has the terrain of all chunks that the box touches. Those that it lacks are generated
   /// before what lies around eyes, at most limits::ahead_asked_max at a time, and handed over by serve().
   bool has(const Field& field, const VoxelBox& box);
+  /// The same for chunks that something will touch soon.
+  bool has(const Field& field, std::span<const ChunkCoord> chunks);
 
  private:
   struct Ready {

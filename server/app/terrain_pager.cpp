@@ -1,24 +1,13 @@
 #include "server/app/terrain_pager.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "server/app/limits.h"
+#include "server/app/piece_outlook.h"
 #include "server/app/terrain_ahead.h"
 #include "shared/base/check.h"
-#include "shared/base/limits.h"
 
 namespace scree {
-
-namespace {
-
-ChunkCoord chunk_at(glm::vec3 place_m, float voxel_size_m) {
-  const glm::vec3 world{limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m};
-  const glm::vec3 at = glm::clamp(place_m, -world, world) / voxel_size_m;
-  return chunk_of(VoxelCoord{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)});
-}
-
-}  // namespace
 
 Result<ReadChunk> chunk_reader(const std::string& path) {
   auto opened = WorldFile::open(path);
@@ -96,26 +85,6 @@ void TerrainPager::look_around_eyes(std::span<const glm::vec3> eyes_m) {
   }
 }
 
-/// Around where a piece is, and where it will be; each piece every limits::piece_look_ticks ticks.
-void TerrainPager::look_around_pieces(const TickDelta& delta) {
-  if (!is_crowded()) return places_m_.clear();
-  constexpr auto every = limits::piece_look_ticks;
-  const float dx = field_.source().voxel_size_m, half_m = 0.5F * chunk_size * dx;
-  for (const PieceState& piece : delta.pieces) {
-    if (piece.id % every != delta.tick % every) continue;
-    const glm::vec3 at_m = dequantise(piece.pose).position_m;
-    const auto [known, is_new] = places_m_.try_emplace(piece.id, at_m);
-    const glm::vec3 ahead_m =
-        at_m + (at_m - known->second) * (static_cast<float>(limits::piece_ahead_ticks) / every);
-    known->second = at_m;
-    for (const glm::vec3 place_m : {at_m, ahead_m})
-      for (int corner = 0; corner < 8; ++corner)
-        want(chunk_at(
-            place_m + half_m * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), dx));
-  }
-  if (places_m_.size() > 2 * delta.pieces.size() + limits::pieces_forgotten_min) places_m_.clear();
-}
-
 void TerrainPager::page_out(Tick saved) {
   if (saved != saved_) std::erase_if(unsaved_, [&](const auto& one) { return one.second <= saved; });
   saved_ = saved;
@@ -139,12 +108,13 @@ void TerrainPager::page_out(Tick saved) {
 }
 
 void TerrainPager::end_tick(const TickDelta& delta, Tick saved, std::span<const glm::vec3> eyes_m,
-                            uint32_t memory_max_mb) {
+                            std::span<const ChunkCoord> soon, uint32_t memory_max_mb) {
   for (const ChunkState& chunk : delta.chunks) unsaved_[chunk.chunk] = delta.tick;
   if (delta.tick % limits::pager_count_ticks == 0 || memory_ == TerrainMemory()) memory_ = memory_of(field_);
   bricks_allowed_ = bricks_max_ != 0 ? bricks_max_ : bricks_within(memory_max_mb, memory_);
   look_around_eyes(eyes_m);
-  look_around_pieces(delta);
+  if (is_crowded())
+    for (const ChunkCoord chunk : soon) want(chunk);
   page_out(saved);
   note_status(memory_max_mb);
 }

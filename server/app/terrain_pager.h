@@ -40,9 +40,10 @@ class TerrainPager {
 
   /// Puts chunks in that were read, before a tick.
   void begin_tick();
-  /// Of the tick that ended: `saved`: the tick up to which the file has everything.
+  /// Of the tick that ended: `saved`: the tick up to which the file has everything. `soon`: chunks that
+  /// pieces will touch.
   void end_tick(const TickDelta& delta, Tick saved, std::span<const glm::vec3> eyes_m,
-                uint32_t memory_max_mb);
+                std::span<const ChunkCoord> soon, uint32_t memory_max_mb);
   /// Chunks that nobody needs would go out if they were saved.
   bool pressed() const { return pressed_; }
 
@@ -59,7 +60,6 @@ class TerrainPager {
                std::shared_ptr<ChunkFetcher> clients);
   void want(ChunkCoord chunk);
   void look_around_eyes(std::span<const glm::vec3> eyes_m);
-  void look_around_pieces(const TickDelta& delta);
   void page_out(Tick saved);
   /// Whether chunks are out, or may soon have to go.
   bool is_crowded() const { return field_.chunks_out() > 0 || field_.bricks_in() > bricks_allowed_ / 2; }
@@ -75,7 +75,6 @@ class TerrainPager {
   size_t bricks_allowed_ = 0;
   std::unordered_map<ChunkCoord, Tick, CoordHash> unsaved_;  ///< chunks that changed since, and when
   Tick saved_ = 0;
-  std::unordered_map<PieceId, glm::vec3> places_m_;  ///< of pieces, when they were looked at last
   TerrainMemory memory_;
   bool pressed_ = false;
 

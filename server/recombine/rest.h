@@ -55,6 +55,9 @@ class RestDetector {
   std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
                               std::span<const RestSupport> supports, size_t merges_max, bool hurried = false);
 
+  /// The last of the pieces that update() returned do not merge now.
+  void put_off_more(size_t pieces) { put_off_ += pieces; }
+
   /// All that update() needs to go on.
   RestValue value() const;
   /// Goes on from there. Whether the ids are of living pieces does not matter.
@@ -62,7 +65,7 @@ class RestDetector {
 
   /// Number of pieces at rest in the last update, on the ground or not.
   size_t at_rest() const { return at_rest_; }
-  /// Number of pieces beyond `merges_max` that could have merged in the last update.
+  /// Number of pieces that could have merged in the last update, and did not.
   size_t put_off() const { return put_off_; }
 
  private:

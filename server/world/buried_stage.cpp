@@ -101,9 +101,10 @@ void merge_buried(World::State& state, TickDelta& delta) {
   const bool merging = state.config.methods.recombine != Recombination::off;
   for (const PieceId id : state.buried) {
     if (!state.bodies.contains(id)) continue;
-    const bool affordable = now.empty() || state.work.affords(merge_cost_us(state.config.methods.recombine));
+    const float cost_us = merge_cost_us(state, id);
+    const bool affordable = now.empty() || state.work.affords(cost_us);
     if (merging && affordable) {
-      state.work.spend(merge_cost_us(state.config.methods.recombine));
+      state.work.spend(cost_us);
       now.push_back(id);
     } else if (!state.bodies.state(id).frozen) {
       state.bodies.freeze(id);

@@ -96,9 +96,9 @@ inline constexpr uint32_t dent_seeds = 4;
 inline constexpr float dent_throw = 0.3F;
 inline constexpr float dent_energy_share = 0.1F;
 
-/// Merges in a tick whose budget is used up: half a millisecond, which so many fewer bodies save in a few
-/// ticks.
-inline constexpr uint32_t merges_per_tick_min = 16;
+/// Merges of a tick whose budget is used up may cost so much, microseconds: 16 of small pieces, which so many
+/// fewer bodies save in a few ticks. One piece merges in any case.
+inline constexpr float merge_least_us = 1000.0F;
 
 /// Clients at once that a server may be asked for.
 inline constexpr uint32_t sessions_max_max = 4096;

@@ -10,58 +10,12 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/operation/prepared_stamp.h"
+#include "shared/operation/price.h"
 #include "shared/operation/stamp_groups.h"
 #include "shared/recombine/posed_piece.h"
 #include "shared/recombine/stamp_method.h"
 
 namespace scree {
-
-float merge_cost_us(Recombination recombination) {
-  switch (recombination) {
-    case Recombination::slices:
-      return limits::slices_cost_us;
-    case Recombination::sphere:
-      return limits::sphere_cost_us;
-    case Recombination::stamp:
-    case Recombination::off:
-      break;
-  }
-  return limits::stamp_cost_us;
-}
-
-namespace {
-
-/// Merges in this tick: WorldConfig::merges_per_tick_max, or fewer, down to limits::merges_per_tick_min, as
-/// far as the tick's budget goes.
-size_t merges_max(const World::State& state) {
-  const uint32_t most = state.config.merges_per_tick_max;
-  const auto room = static_cast<int>(state.work.left_us() / merge_cost_us(state.config.methods.recombine));
-  const auto least = static_cast<int>(std::min(limits::merges_per_tick_min, most));
-  return static_cast<size_t>(std::clamp(room, least, static_cast<int>(most)));
-}
-
-}  // namespace
-
-void settle(World::State& state, TickDelta& delta) {
-  const bool merging = state.config.methods.recombine != Recombination::off;
-  std::vector<RestPiece> alive;
-  for (const BodyState& body : state.bodies.states())
-    if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
-  const BodyContacts contacts = state.bodies.contacts();
-  std::vector<RestSupport> supports;
-  for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});
-  delta.work.merging_sooner = merging && state.work.crowded();
-  std::vector<PieceId> ready = state.rest.update(alive, contacts.on_terrain, supports,
-                                                 merging ? merges_max(state) : limits::freezes_per_tick_max,
-                                                 delta.work.merging_sooner);
-  if (!merging) {
-    for (const PieceId id : ready) state.bodies.freeze(id);
-    return;
-  }
-  delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
-  state.work.spend(merge_cost_us(state.config.methods.recombine) * static_cast<float>(ready.size()));
-  state.at_rest = std::move(ready);
-}
 
 namespace {
 
@@ -78,6 +32,53 @@ StampMethod method_of(Recombination recombination) {
   }
   return StampMethod::stamp;
 }
+
+/// How many of the pieces, from the first on, merge in this tick: as many as the rest of its budget pays, or
+/// limits::merge_least_us where that is more; one at least.
+size_t affordable(const World::State& state, const std::vector<PieceId>& ready) {
+  const float most_us = std::max(state.work.left_us(), limits::merge_least_us);
+  float sum_us = 0.0F;
+  size_t count = 0;
+  while (count < ready.size() && (sum_us += merge_cost_us(state, ready[count])) <= most_us) ++count;
+  return std::min(std::max<size_t>(count, 1), ready.size());
+}
+
+}  // namespace
+
+float merge_cost_us(const World::State& state, PieceId id) {
+  return merge_price_us(method_of(state.config.methods.recombine),
+                        static_cast<float>(state.pieces.at(id)->window.codes.size()));
+}
+
+float least_merge_cost_us(const World::State& state) {
+  return merge_price_us(method_of(state.config.methods.recombine), 0.0F);
+}
+
+void settle(World::State& state, TickDelta& delta) {
+  const bool merging = state.config.methods.recombine != Recombination::off;
+  std::vector<RestPiece> alive;
+  for (const BodyState& body : state.bodies.states())
+    if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
+  const BodyContacts contacts = state.bodies.contacts();
+  std::vector<RestSupport> supports;
+  for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});
+  delta.work.merging_sooner = merging && state.work.crowded();
+  std::vector<PieceId> ready = state.rest.update(
+      alive, contacts.on_terrain, supports,
+      merging ? state.config.merges_per_tick_max : limits::freezes_per_tick_max, delta.work.merging_sooner);
+  if (!merging) {
+    for (const PieceId id : ready) state.bodies.freeze(id);
+    return;
+  }
+  const size_t now = affordable(state, ready);
+  state.rest.put_off_more(ready.size() - now);
+  ready.resize(now);
+  delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
+  for (const PieceId id : ready) state.work.spend(merge_cost_us(state, id));
+  state.at_rest = std::move(ready);
+}
+
+namespace {
 
 /// The smaller pieces that lie in a merging piece's volume, as rubble under a heavy piece does. Merged before
 /// it they become terrain with all their mass; afterwards there would be no room for it.

@@ -5,8 +5,9 @@
 
 namespace scree {
 
-/// Cost of a merge by the model, microseconds. `off` never merges.
-float merge_cost_us(Recombination recombination);
+/// Cost of a merge by the model, microseconds: of a living piece, and of a small one. `off` never merges.
+float merge_cost_us(const World::State& state, PieceId id);
+float least_merge_cost_us(const World::State& state);
 
 /// Finds the pieces that may merge in this tick (State::at_rest), from the ground up. With
 /// Recombination::off, freezes them instead and finds none. Call once a tick, after the bodies' step.

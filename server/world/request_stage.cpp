@@ -181,7 +181,7 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
   const Shape in_field = in_voxels(shape, state.config.terrain.voxel_size_m);
   const std::vector<PieceId> enclosed = pieces_within(
       state, band_box(in_field), [&](glm::vec3 p_voxels) { return distance(in_field, p_voxels) < 0.0F; });
-  state.work.spend(merge_cost_us(recombination) * static_cast<float>(enclosed.size()));
+  for (const PieceId id : enclosed) state.work.spend(merge_cost_us(state, id));
   merge_pieces(state, enclosed, delta);
   return static_cast<uint32_t>(enclosed.size());
 }
@@ -248,8 +248,7 @@ float cost_with(const World::State& state, const WaitingRequest& request, const 
 
 /// Time in the tick that is kept for pieces at rest that could not merge in the last one.
 float relief_us(const World::State& state) {
-  const float wanted =
-      merge_cost_us(state.config.methods.recombine) * static_cast<float>(state.rest.put_off());
+  const float wanted = least_merge_cost_us(state) * static_cast<float>(state.rest.put_off());
   return std::min(wanted, limits::relief_share * state.work.budget_us());
 }
 

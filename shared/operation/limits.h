@@ -20,10 +20,12 @@ inline constexpr float polygons_cost_us = 6000.0F;
 inline constexpr float polygons_voxel_cost_us = 0.9F;
 inline constexpr float polygons_piece_cost_us = 350.0F;
 
-/// A merge, by method.
+/// A merge, by method, and a voxel of the piece's window: with the largest pieces, of 60,000 voxels, that is
+/// nearly all.
 inline constexpr float stamp_cost_us = 55.0F;
 inline constexpr float slices_cost_us = 60.0F;
 inline constexpr float sphere_cost_us = 170.0F;
+inline constexpr float stamp_voxel_cost_us = 0.02F;
 
 /// An island that is lifted, and a voxel of its box, both with hull, surface points and convex parts.
 inline constexpr float lift_cost_us = 400.0F;

@@ -20,7 +20,7 @@ size_t untouched_chunks(const VoxelBox& box, const Field& field) {
   return count;
 }
 
-float merge_price_us(StampMethod method) {
+float stamp_price_us(StampMethod method) {
   switch (method) {
     case StampMethod::slices:
       return limits::slices_cost_us;
@@ -37,9 +37,7 @@ struct OperationPricing {
   const PieceTable& pieces;
 
   float voxels_of_piece(PieceId id) const { return voxels_of(pieces.at(id)->window.box); }
-  float merge_us(PieceId id, StampMethod method) const {
-    return merge_price_us(method) + limits::cut_voxel_cost_us * voxels_of_piece(id);
-  }
+  float merge_us(PieceId id, StampMethod method) const { return merge_price_us(method, voxels_of_piece(id)); }
 
   float operator()(const CarveOperation& carve) const {
     const float voxels = voxels_of(band_box(in_voxels(carve.shape, field.source().voxel_size_m)));
@@ -91,6 +89,10 @@ float cut_price_us(Cutter cutter, float voxels, uint32_t pieces) {
     return limits::polygons_cost_us + limits::polygons_voxel_cost_us * voxels +
            limits::polygons_piece_cost_us * count;
   return limits::cut_cost_us + limits::cut_voxel_cost_us * voxels + limits::piece_cost_us * count;
+}
+
+float merge_price_us(StampMethod method, float voxels) {
+  return stamp_price_us(method) + limits::stamp_voxel_cost_us * voxels;
 }
 
 float lift_price_us(const VoxelBox& box) {

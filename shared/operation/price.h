@@ -20,6 +20,8 @@ bool cuts_polygons(Cutter cutter);
 float edit_price_us(const Shape& shape, const Field& field);
 /// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.
 float cut_price_us(Cutter cutter, float voxels, uint32_t pieces);
+/// Merging a piece whose window has so many voxels.
+float merge_price_us(StampMethod method, float voxels);
 /// Lifting an island of that box, with its hulls and body.
 float lift_price_us(const VoxelBox& box);
 

@@ -10,6 +10,7 @@
 
 #include "proto/world_codec.h"
 #include "server/app/admission.h"
+#include "server/app/piece_outlook.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
 #include "server/store/database.h"
@@ -43,7 +44,9 @@ class PagerTest : public ::testing::Test {
     for (const Reply& reply : delta->replies) EXPECT_EQ(reply.refusal, "");
     answers += delta->replies.size();
     kept->keep(*delta, *world, pager->pressed());
-    pager->end_tick(*delta, kept->status().saved_tick, {}, world->config().memory_max_mb);
+    pager->end_tick(*delta, kept->status().saved_tick, {},
+                    outlook.look(*delta, world->config().terrain.voxel_size_m),
+                    world->config().memory_max_mb);
     handed.push_back(std::move(admitted.commands));
     hashes.push_back(delta->state_hash);
     return delta;
@@ -73,6 +76,7 @@ class PagerTest : public ::testing::Test {
   std::unique_ptr<SavedWorld> kept;
   std::unique_ptr<World> world;
   std::unique_ptr<TerrainPager> pager;
+  PieceOutlook outlook;
   Admission admission;
   uint32_t asked = 0;
   size_t answers = 0;

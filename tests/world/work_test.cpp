@@ -230,16 +230,20 @@ TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
     return born;
   };
   spawn(state, cut, where_it_was, delta);
-  for (int tick = 0; tick < 300 && state.at_rest.size() <= limits::merges_per_tick_min; ++tick) {
+  const auto most = static_cast<size_t>(limits::merge_least_us / least_merge_cost_us(state));
+  for (int tick = 0; tick < 300 && state.at_rest.size() <= most; ++tick) {
     state.bodies.step();
     settle(state, delta);
   }
-  ASSERT_GT(state.at_rest.size(), limits::merges_per_tick_min);
+  ASSERT_GT(state.at_rest.size(), most);
   const size_t could_merge = state.at_rest.size() + delta.work.merges_put_off;
   state.work.spend(1e6F);
   settle(state, delta);
-  EXPECT_EQ(state.at_rest.size(), limits::merges_per_tick_min);
-  EXPECT_GE(delta.work.merges_put_off, could_merge - limits::merges_per_tick_min) << "more have come to rest";
+  float sum_us = 0.0F;
+  for (const PieceId id : state.at_rest) sum_us += merge_cost_us(state, id);
+  EXPECT_LE(sum_us, limits::merge_least_us);
+  EXPECT_GT(sum_us, 0.5F * limits::merge_least_us);
+  EXPECT_GE(delta.work.merges_put_off, could_merge - state.at_rest.size()) << "more have come to rest";
 }
 
 TEST(work, without_merging_what_rests_is_frozen_and_thaws_for_the_next_blow) {
