@@ -133,6 +133,9 @@ Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, cons
   std::vector<float> surface(side * width);
   for (int z = box.lo.z; z < box.hi.z; ++z) {
     for (int x = box.lo.x; x < box.hi.x; ++x) {
+      progress((static_cast<double>(z - box.lo.z) +
+                static_cast<double>(x - box.lo.x) / static_cast<double>(box.hi.x - box.lo.x)) /
+               static_cast<double>(box.hi.z - box.lo.z));
       const Columns columns = read_columns(field, box, x, z);
       const size_t first = static_cast<size_t>(x - box.lo.x) * side;
       for (size_t dx = 0; dx < side; ++dx)
@@ -144,8 +147,8 @@ Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, cons
                                 std::span(surface).subspan(dz * width, width));
           !added)
         return tl::unexpected(added.error());
-    progress(static_cast<double>(z + 1 - box.lo.z) / static_cast<double>(box.hi.z - box.lo.z));
   }
+  progress(1.0);
   if (auto ended = rows.end_row(); !ended) return tl::unexpected(ended.error());
   if (rows.sums().lowest_m > rows.sums().highest_m) return fail("there is no rock in the box");
   return rows.sums();

@@ -1,6 +1,7 @@
 #include "export/exported.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "export/limits.h"
@@ -29,9 +30,14 @@ size_t ChunkBox::count() const {
   return static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z);
 }
 
+/// What ends at a chunk's border does not touch the next one.
 ChunkBox chunks_of(glm::vec3 lo_m, glm::vec3 hi_m, float voxel_size_m) {
-  const ChunkCoord last = chunk_at(hi_m, voxel_size_m);
-  return {chunk_at(lo_m, voxel_size_m), last + ChunkCoord{1, 1, 1}};
+  const auto last = [&](float m) { return static_cast<int>(std::ceil(m / voxel_size_m)) - 1; };
+  const ChunkCoord lowest = chunk_at(lo_m, voxel_size_m),
+                   highest = chunk_of(VoxelCoord{last(hi_m.x), last(hi_m.y), last(hi_m.z)});
+  return {lowest,
+          {std::max(lowest.x, highest.x) + 1, std::max(lowest.y, highest.y) + 1,
+           std::max(lowest.z, highest.z) + 1}};
 }
 
 Result<void> check_count(const ChunkBox& box) {

@@ -7,6 +7,7 @@
 #include "client/bot/tally.h"
 #include "client/connection/come_again.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -26,7 +27,7 @@ Bot::Bot(BotConfig config, Log log)
       carver_(config_.carver, config_.random_seed),
       eye_m_(config_.carver.centre_m),
       rejoin_(config_.cache) {
-  report_.server = config_.host + ":" + std::to_string(config_.port);
+  report_.server = endpoint_text(config_.host, config_.port);
 }
 
 Bot::~Bot() {

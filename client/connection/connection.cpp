@@ -14,6 +14,7 @@
 #include "client/connection/limits.h"
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
+#include "shared/base/text.h"
 #include "transport/asio_link_clock.h"
 #include "transport/link_transport.h"
 #include "transport/tcp_transport.h"
@@ -299,8 +300,7 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
     const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
     const std::vector<ClientMessage>& then) {
   const auto failed = [&server](const std::string& why, const std::string& refusal = {}) {
-    return tl::unexpected(
-        ConnectionEnd{{server.host + ":" + std::to_string(server.port) + ": " + why}, refusal});
+    return tl::unexpected(ConnectionEnd{{endpoint_text(server.host, server.port) + ": " + why}, refusal});
   };
   hello.token = server.token;
   std::vector<ClientMessage> first{std::move(hello)};

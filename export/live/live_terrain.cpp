@@ -7,6 +7,7 @@
 #include "client/cache/rejoin.h"
 #include "export/limits.h"
 #include "shared/base/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -98,10 +99,11 @@ class Fetcher {
   Result<void> follow_until(const std::function<bool()>& done, const std::function<std::string()>& missing) {
     while (!done()) {
       if (Clock::now() >= ends_)
-        return fail(fmt::format("{}:{}: not complete within {} s (--timeout): {}", how_.server.host,
-                                how_.server.port, how_.within.count(), missing()));
+        return fail(fmt::format("{}: not complete within {} s (--timeout): {}",
+                                endpoint_text(how_.server.host, how_.server.port), how_.within.count(),
+                                missing()));
       if (auto followed = follow(); !followed)
-        return fail(fmt::format("{}:{}: {}", how_.server.host, how_.server.port, followed.error().message));
+        return fail(endpoint_text(how_.server.host, how_.server.port) + ": " + followed.error().message);
     }
     return {};
   }

@@ -170,6 +170,8 @@ void add_recordings(CLI::App& app, Raw& raw) {
                      "records the session to this new file; goes on with it where the --world does");
   CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
   replay->excludes(record);
+  for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate"})
+    replay->excludes(app.get_option(of_the_recording));
   bounded(app.add_option("--from", live.replay.from, "tick of the recording to start after"),
           whole_within(0, whole_most))
       ->needs(replay);

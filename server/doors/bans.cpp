@@ -1,9 +1,11 @@
 #include "server/doors/bans.h"
 
 #include <asio/ip/address.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 #include "server/doors/limits.h"
 
@@ -88,16 +90,18 @@ const Ban* Bans::find(const std::string& address, uint64_t now_s) const {
   return found == bans_.end() || has_ended(found->second, now_s) ? nullptr : &found->second;
 }
 
-/// Beside the old one, then in its place: a server that ends halfway loses none.
+/// Beside the old one, on the disk, then in its place: whatever ends the server, or the machine, none is lost
+/// of before.
 Result<void> Bans::write() const {
   if (path_.empty()) return {};
-  const std::string fresh = path_ + ".new";
-  std::ofstream file(fresh);
-  for (const auto& [key, ban] : bans_) file << key << ' ' << ban.until_s << ' ' << ban.reason << '\n';
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(fresh, path_, error);
-  if (file && !error) return {};
+  std::ostringstream lines;
+  for (const auto& [key, ban] : bans_) lines << key << ' ' << ban.until_s << ' ' << ban.reason << '\n';
+  const std::string fresh = path_ + ".new", text = lines.str();
+  std::FILE* const file = std::fopen(fresh.c_str(), "wb");
+  bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+                 std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  if (file != nullptr) written = std::fclose(file) == 0 && written;
+  if (written && std::rename(fresh.c_str(), path_.c_str()) == 0) return {};
   return fail("the bans cannot be written to " + path_ + " (--bans): they hold until the server ends");
 }
 

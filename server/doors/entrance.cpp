@@ -10,6 +10,7 @@
 #include "proto/codec.h"
 #include "server/doors/limits.h"
 #include "shared/base/check.h"
+#include "shared/base/text.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -37,7 +38,7 @@ void tune(asio::ip::tcp::socket& socket) {
 }  // namespace
 
 Result<void> Entrance::listen(const std::string& bind, uint16_t port) {
-  const std::string where = bind + ":" + std::to_string(port);
+  const std::string where = endpoint_text(bind, port);
   asio::error_code error;
   const auto address = asio::ip::make_address(bind, error);
   if (error) return fail("cannot listen on " + where + ": '" + bind + "' is no IP address (--bind)");

@@ -9,6 +9,7 @@
 #include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -18,7 +19,7 @@ ClientSession::ClientSession(std::shared_ptr<Transport> transport, std::string a
       id_(id),
       host_(host),
       times_(times),
-      peer_(transport_->address() + ":" + std::to_string(transport_->port())),
+      peer_(endpoint_text(transport_->address(), transport_->port())),
       address_(std::move(address)),
       phase_since_s_(now_s),
       progress_s_(now_s),

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,5 +18,8 @@ std::optional<std::string_view> fault_of_text(std::string_view text);
 /// The text cut to the limit at the end of a character, each character that may not be shown replaced by a
 /// space, each byte that is no UTF-8 by '?'. fault_of_text() finds nothing in it.
 std::string showable(std::string_view text, size_t bytes_max);
+
+/// "host:port", an IPv6 address in brackets.
+std::string endpoint_text(std::string_view host, uint16_t port);
 
 }  // namespace scree

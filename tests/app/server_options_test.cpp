@@ -65,6 +65,8 @@ TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--voxel-size", "nan"}), 2);
   EXPECT_EQ(exit_code({"--pieces-max", "0"}), 2);
   EXPECT_EQ(exit_code({"--record", "a", "--replay", "b"}), 2);
+  EXPECT_EQ(exit_code({"--replay", "r", "--terrain", "flat"}), 2) << "the recording has its own";
+  EXPECT_EQ(exit_code({"--tick-rate", "30", "--replay", "r"}), 2);
   EXPECT_EQ(exit_code({"--loop"}), 2);
   EXPECT_EQ(exit_code({"--net-threads", "65"}), 2);
   EXPECT_EQ(exit_code({"--sim-threads", "65"}), 2);

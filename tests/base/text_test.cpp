@@ -7,6 +7,13 @@
 namespace scree {
 namespace {
 
+TEST(Text, an_ipv6_address_with_a_port_stands_in_brackets) {
+  EXPECT_EQ(endpoint_text("127.0.0.1", 7777), "127.0.0.1:7777");
+  EXPECT_EQ(endpoint_text("::1", 7777), "[::1]:7777");
+  EXPECT_EQ(endpoint_text("[fe80::2]", 1), "[fe80::2]:1");
+  EXPECT_EQ(endpoint_text("scree.example", 80), "scree.example:80");
+}
+
 TEST(Text, every_script_may_be_shown) {
   for (const char* text : {"", "scree", "Größe 5 µm", "Привет", "日本語", "𝔘𝔫𝔦", "\xE2\x82\xAC"})
     EXPECT_FALSE(fault_of_text(text).has_value()) << text;

@@ -148,6 +148,15 @@ TEST_F(ExportTest, an_elevation_model_has_the_highest_surface_and_nothing_where_
   EXPECT_NEAR(row[9], 100.0, 0.26);
 }
 
+TEST_F(ExportTest, a_box_that_ends_at_a_chunks_border_does_not_touch_the_next_one) {
+  const float side_m = chunk_size * voxel_m;
+  const ChunkBox box = chunks_of({-side_m, 0.0F, -0.1F}, {side_m, 2.0F * side_m, 0.1F}, voxel_m);
+  EXPECT_EQ(box.lo, (ChunkCoord{-1, 0, -1}));
+  EXPECT_EQ(box.hi, (ChunkCoord{1, 2, 1}));
+  EXPECT_EQ(chunks_of({0.0F, 0.0F, 0.0F}, glm::vec3(side_m + 0.1F), voxel_m).hi, (ChunkCoord{2, 2, 2}));
+  EXPECT_EQ(chunks_of(glm::vec3(1.0F), glm::vec3(1.1F), voxel_m).count(), 1U);
+}
+
 TEST_F(ExportTest, an_elevation_model_that_cannot_be_is_refused) {
   const ChunkBox sky = chunks_of({0.0F, 100.0F, 0.0F}, {7.0F, 107.0F, 7.0F}, voxel_m);
   EXPECT_FALSE(export_geotiff(field_, sky, folder_ / "sky.tif", {}, quiet)) << "no rock";

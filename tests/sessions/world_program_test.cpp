@@ -101,6 +101,10 @@ TEST_F(WorldProgramTest, damage_is_named_and_repair_keeps_the_rest) {
   EXPECT_GT(ran.json.at("chunks_kept"), 0);
   expect_whole(repaired);
   EXPECT_EQ(run("repair " + world + " " + repaired).code, 1) << "it exists already";
+  const Ran foreign = run("repair " + recording + " " + (folder / "again.world"));
+  EXPECT_EQ(foreign.code, 1);
+  EXPECT_NE(foreign.said.find(recording), std::string::npos) << foreign.said;
+  EXPECT_EQ(foreign.said.find("-copy"), std::string::npos) << "the user's file is named: " << foreign.said;
 }
 
 TEST_F(WorldProgramTest, backup_and_compact_leave_the_world_as_it_is) {

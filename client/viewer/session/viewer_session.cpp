@@ -9,6 +9,7 @@
 #include "client/connection/come_again.h"
 #include "client/viewer/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/text.h"
 
 namespace scree {
 namespace {
@@ -293,7 +294,7 @@ void ViewerSession::foresee(const Request& asked, uint32_t number, double now_s)
 }
 
 std::string ViewerSession::description() const {
-  const std::string where = server_.host + ":" + std::to_string(server_.port);
+  const std::string where = endpoint_text(server_.host, server_.port);
   if (connection_) {
     const WelcomeMessage& welcome = connection_->welcome();
     return where + (welcome.replay ? " (a recording)" : ", as " + std::string(name_of(welcome.role)));

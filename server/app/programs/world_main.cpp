@@ -141,17 +141,26 @@ int backup(const Options& options) {
   return check({.path = options.to, .ground = options.ground, .json = options.json});
 }
 
+/// The text with the path of the user's file instead of the copy's.
+std::string told_of(std::string text, const std::string& copy, const std::string& path) {
+  for (size_t at = text.find(copy); at != std::string::npos; at = text.find(copy, at + path.size()))
+    text.replace(at, copy.size(), path);
+  return text;
+}
+
 /// Read from a copy, for reading a file may change it.
 Result<WorldRows> salvaged_rows(const Options& options, LostRows& lost) {
   const std::string copy = options.to + "-copy";
+  const auto copied = copy_for_reading(options.path, copy);
   Result<WorldRows> rows = [&]() -> Result<WorldRows> {
-    if (auto copied = copy_for_reading(options.path, copy); !copied) return tl::unexpected(copied.error());
-    const auto file = WorldFile::open(copy);
+    const auto file = copied ? WorldFile::open(copy) : tl::unexpected(copied.error());
     if (!file) return tl::unexpected(file.error());
     return (*file)->read(&lost);
   }();
   std::error_code ignored;
   for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(copy + end, ignored);
+  for (std::string& reason : lost.reasons) reason = told_of(std::move(reason), copy, options.path);
+  if (copied && !rows) return fail(told_of(rows.error().message, copy, options.path));
   return rows;
 }
 
