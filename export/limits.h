@@ -13,6 +13,10 @@ inline constexpr size_t export_triangles_max = size_t{1} << 26;
 /// Chunks of one export: an hour or so. Above: refused.
 inline constexpr size_t export_chunks_max = size_t{1} << 22;
 
+/// Edited bricks of a kept world in memory, 170 MB. Above: those that were read first are let go, and read
+/// again when they are asked for.
+inline constexpr size_t export_bricks_max = size_t{1} << 18;
+
 /// Time that a server may take to welcome a session, milliseconds. Above: it counts as not there.
 inline constexpr std::chrono::milliseconds export_connect_ms{10'000};
 

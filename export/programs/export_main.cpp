@@ -5,6 +5,7 @@
 
 #include "client/connection/endpoint_options.h"
 #include "export/gdal/geotiff_export.h"
+#include "export/limits.h"
 #include "export/live/live_terrain.h"
 #include "export/mesh_export.h"
 #include "export/surface_file.h"
@@ -12,7 +13,7 @@
 #include "ground/ground_file.h"
 #include "import/programs/program.h"
 #include "server/app/ground_giver.h"
-#include "server/store/world_file.h"
+#include "server/store/stored_field.h"
 #include "shared/base/limits.h"
 #include "shared/base/option_check.h"
 
@@ -41,21 +42,17 @@ struct Exported {
 
 /// A world's terrain with its edits. Its pieces are no rock of the terrain.
 Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
-  const auto file = WorldFile::open(options.from);
+  auto file = WorldFile::open(options.from);
   if (!file) return tl::unexpected(file.error());
-  auto rows = (*file)->read();
+  if (auto held = (*file)->hold_moment(); !held) return tl::unexpected(held.error());
+  auto rows = (*file)->read_moment();
   if (!rows) return tl::unexpected(rows.error());
   const auto giver = ground_giver(options.from, options.ground);
   if (!giver) return tl::unexpected(giver.error());
   RecordedHeader& config = rows->world.moment.config;
   if (auto given = give_ground(config.ground, config.terrain, *giver); !given)
     return fail(options.from + ": " + given.error().message);
-  auto field = std::make_unique<MapField>(config.terrain);
-  for (const BrickPatch& brick : rows->world.bricks) {
-    field->set_brick(brick.coord, brick.brick);
-    field->paint_brick(brick.coord, brick.paint);
-  }
-  return field;
+  return stored_field(std::move(*file), config.terrain, limits::export_bricks_max);
 }
 
 Result<std::unique_ptr<Field>> field_of(const Options& options) {
@@ -152,7 +149,13 @@ Result<void> run(const Options& options) {
   const auto what = options.live ? read_server(options, line) : read_file(options);
   if (!what) return tl::unexpected(what.error());
   line["chunks"] = what->box.count();
-  const auto written = with_bar([&](const Progress& progress) { return write(options, *what, progress); });
+  const auto written = with_bar([&](const Progress& progress) -> Result<Json> {
+    try {
+      return write(options, *what, progress);
+    } catch (const ChunkUnreadable& unreadable) {  // of a kept world's file
+      return fail(unreadable.what());
+    }
+  });
   if (!written) return tl::unexpected(written.error());
   line.update(*written);
   std::printf("%s\n", line.dump().c_str());

@@ -121,18 +121,24 @@ Result<void> SavedWorld::start(World& world, KeeperConfig config) {
   return {};
 }
 
-void SavedWorld::keep(const TickDelta& delta, const World& world, bool pressed) {
-  if (keeper_->note(delta, pressed)) keeper_->save(world.moment());
-  complain();
+void SavedWorld::keep(const TickDelta& delta, World& world, bool pressed) {
+  const KeeperStatus status = keeper_->status();
+  if (keeper_->note(delta, pressed || !status.lacking.empty()))
+    keeper_->save(world.moment(), chunk_now(world.field()));
+  complain(status);
 }
 
 /// Each failure once.
-void SavedWorld::complain() {
-  const KeeperStatus status = keeper_->status();
+void SavedWorld::complain(const KeeperStatus& status) {
   const std::string now = status.error.value_or("");
   if (now == complaint_) return;
   complaint_ = now;
-  if (now.empty())
+  if (temporary_ && !now.empty())
+    spdlog::warn(
+        "terrain cannot leave memory{}: edits are refused once it is full (memory-max); give the server a "
+        "folder with room (XDG_CACHE_HOME), or a world to keep (--world): {}",
+        status.given_up ? " any more" : ", which is tried again", now);
+  else if (now.empty())
     spdlog::info("the world is saved again, up to tick {}", status.saved_tick);
   else if (status.given_up)
     spdlog::error("the world is not saved any more; the file holds tick {}: {}", status.saved_tick, now);
@@ -144,13 +150,13 @@ void SavedWorld::abandon() {
   keeper_.reset();
 }
 
-Result<void> SavedWorld::finish(const World& world) {
+Result<void> SavedWorld::finish(World& world) {
   if (temporary_) {
     abandon();
     return {};
   }
-  const Result<void> finished = keeper_->finish(world.moment());
-  complain();
+  const Result<void> finished = keeper_->finish(world.moment(), chunk_now(world.field()));
+  complain(keeper_->status());
   return finished;
 }
 

@@ -35,9 +35,9 @@ class SavedWorld {
   /// yet.
   Result<void> start(World& world, KeeperConfig config);
   /// After each tick of the world. `pressed`: memory is short until it is saved.
-  void keep(const TickDelta& delta, const World& world, bool pressed = false);
+  void keep(const TickDelta& delta, World& world, bool pressed = false);
   /// Saves the world as it stands, and ends. Returns the last error. A temporary one is removed.
-  Result<void> finish(const World& world);
+  Result<void> finish(World& world);
   /// Ends with what was saved: the world does not stand between two ticks.
   void abandon();
   const std::string& path() const { return path_; }
@@ -50,7 +50,7 @@ class SavedWorld {
   SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
   static Result<std::unique_ptr<World>> restored(WorldFile& file, size_t threads, const GroundGiver& ground,
                                                  size_t bricks_max, SavedWorld& kept, size_t& chunks);
-  void complain();
+  void complain(const KeeperStatus& status);
 
   std::string path_;
   WorldLock lock_;

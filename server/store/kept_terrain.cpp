@@ -29,18 +29,34 @@ Result<KeptTerrain::Chunk*> KeptTerrain::chunk_at(ChunkCoord coord) {
   return &chunk;
 }
 
-Result<void> KeptTerrain::change(const ChangedBricks& bricks) {
+void KeptTerrain::change(const ChangedBricks& bricks) {
   for (const auto& [coord, state] : bricks) {
-    const Result<Chunk*> found = chunk_at(chunk_of(coord));
-    if (!found) return tl::unexpected(found.error());
+    const ChunkCoord at = chunk_of(coord);
+    if (lacking_.contains(at)) continue;
+    const Result<Chunk*> found = chunk_at(at);
+    if (!found) {
+      lacking_[at] = found.error().message;
+      continue;
+    }
     Chunk& chunk = **found;
     if (!chunk.bricks.contains(coord)) chunk.ground_mass += ground_of(chunk, coord);
     BrickState& slot = chunk.bricks[coord];
     chunk.hash += state.hash - slot.hash;
     slot = state;
-    unsaved_.insert(chunk_of(coord));
+    unsaved_.insert(at);
   }
-  return {};
+}
+
+void KeptTerrain::take_whole(ChunkCoord coord, const std::vector<BrickState>& bricks) {
+  Chunk chunk;
+  for (const BrickState& state : bricks) {
+    chunk.hash += state.hash;
+    chunk.ground_mass += ground_of(chunk, state.coord);
+    chunk.bricks[state.coord] = state;
+  }
+  chunks_.insert_or_assign(coord, std::move(chunk));
+  unsaved_.insert(coord);
+  lacking_.erase(coord);
 }
 
 std::vector<WorldChunk> KeptTerrain::unsaved(Tick tick) const {

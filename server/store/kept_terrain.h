@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -26,8 +27,12 @@ class KeptTerrain {
 
   KeptTerrain(const TerrainSource& ground, ReadSaved read) : ground_(ground), read_(std::move(read)) {}
 
-  /// An error is one of reading; then some bricks are taken, and the next change() may not follow.
-  Result<void> change(const ChangedBricks& bricks);
+  /// Changes of a chunk whose row cannot be read are left out: lacking() names it until take_whole().
+  void change(const ChangedBricks& bricks);
+  /// Takes all edited bricks of a chunk as they are; its row need not be read.
+  void take_whole(ChunkCoord chunk, const std::vector<BrickState>& bricks);
+  /// Chunks whose rows cannot be read, and why not.
+  const std::map<ChunkCoord, std::string>& lacking() const { return lacking_; }
   /// The rows of all chunks that changed since saved(), as of that tick.
   std::vector<WorldChunk> unsaved(Tick tick) const;
   /// Forgets chunks, when there are more than limits::chunks_between_saves_max.
@@ -50,6 +55,7 @@ class KeptTerrain {
   ReadSaved read_;
   std::unordered_map<ChunkCoord, Chunk, CoordHash> chunks_;
   std::set<ChunkCoord> unsaved_;
+  std::map<ChunkCoord, std::string> lacking_;
 };
 
 }  // namespace scree

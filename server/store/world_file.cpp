@@ -160,6 +160,9 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
   auto state = std::make_unique<State>(std::move(*database));
   if (auto format = check_format(state->database, world_schema::world); !format)
     return tl::unexpected(format.error());
+  if (auto done = state->database.execute("PRAGMA cache_size = -" + std::to_string(limits::page_cache_kib));
+      !done)
+    return tl::unexpected(done.error());
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
 }
 
@@ -312,6 +315,13 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
   auto rows = Reading(file, nullptr).run(true);
   if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
   return rows;
+}
+
+/// Without SQLite's log a reader would keep the first save out.
+Result<void> WorldFile::hold_moment() {
+  const auto mode = state_->database.text("PRAGMA journal_mode");
+  if (!mode) return tl::unexpected(mode.error());
+  return *mode == "wal" ? state_->database.execute("BEGIN") : Result<void>();
 }
 
 Result<WorldRows> WorldFile::read_moment() {

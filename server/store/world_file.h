@@ -46,6 +46,9 @@ class WorldFile {
   /// agree with each other World::restore() says.
   Result<WorldRows> read(LostRows* lost = nullptr);
 
+  /// All that is read from now on is as of one moment, whatever is saved meanwhile, unless nobody has saved
+  /// yet; the log beside the file grows until this object is gone. Not for who saves.
+  Result<void> hold_moment();
   /// As read(), but of the terrain nothing: the header, and the world's moment.
   Result<WorldRows> read_moment();
   /// Calls `take` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of

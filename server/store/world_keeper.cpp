@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "server/store/kept_terrain.h"
+#include "server/world/shared_brick.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 
@@ -20,6 +22,15 @@ bool something_happened(const TickDelta& delta) {
          !delta.replies.empty() || !delta.settings.empty() || delta.work.requests_waiting > 0;
 }
 
+/// Why a save waits for chunks.
+std::string reason_of(const std::map<ChunkCoord, std::string>& lacking) {
+  const auto& [chunk, reason] = *lacking.begin();
+  return "chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
+         std::to_string(chunk.z) +
+         (lacking.size() == 1 ? "" : " and " + std::to_string(lacking.size() - 1) + " more") +
+         " must be written anew: " + reason;
+}
+
 /// Ticks between saves that are due whatever happens; 0: none.
 Tick period_of(const KeeperConfig& config) {
   const double seconds = config.durability == Durability::off ? config.autosave_s : 1.0;
@@ -29,11 +40,25 @@ Tick period_of(const KeeperConfig& config) {
 
 }  // namespace
 
+ChunkNow chunk_now(Field& field) {
+  return [&field](ChunkCoord chunk) {
+    std::vector<BrickState> bricks;
+    if (field.is_out(chunk)) return bricks;
+    for (const BrickCoord coord : field.edited_bricks(chunk)) {
+      const Brick& brick = field.brick(coord);
+      const auto paint = field.painted(coord);
+      bricks.push_back({coord, shared_copy(brick), brick_hash(coord, brick, paint), paint});
+    }
+    return bricks;
+  };
+}
+
 struct WorldKeeper::State {
   /// One save.
   struct Due {
     WorldMoment moment;
     ChangedBricks bricks;
+    std::map<ChunkCoord, std::vector<BrickState>> whole;  ///< chunks that were lacking
   };
 
   State(KeeperConfig c, std::unique_ptr<WorldFile> f, const TerrainSource& ground)
@@ -42,6 +67,7 @@ struct WorldKeeper::State {
         terrain(ground, [this](ChunkCoord chunk) { return file->read_chunk(chunk); }) {}
   void run();
   void write(Due due);
+  std::map<ChunkCoord, std::vector<BrickState>> whole_chunks(const ChunkNow& now) const;
 
   KeeperConfig config;
   Tick period = 0;
@@ -67,14 +93,19 @@ void WorldKeeper::State::write(Due due) {
   const Tick tick = due.moment.tick;
   if (config.before_save) config.before_save(tick);
   Stopwatch watch;
-  const Result<void> taken = terrain.change(due.bricks);
-  const Result<void> saved = taken ? file->save(due.moment, terrain.unsaved(tick)) : taken;
+  terrain.change(due.bricks);
+  for (const auto& [chunk, bricks] : due.whole) terrain.take_whole(chunk, bricks);
+  const bool lacks = !terrain.lacking().empty();
+  const Result<void> saved =
+      lacks ? fail(reason_of(terrain.lacking())) : file->save(due.moment, terrain.unsaved(tick));
   const double ms = watch.lap_ms();
   if (saved) terrain.saved();
   const std::scoped_lock lock(mutex);
   status.bytes_written = file->bytes_written();
   status.save_worst_ms = std::max(status.save_worst_ms, ms);
   status.error = saved ? std::nullopt : std::optional(saved.error().message);
+  status.lacking.clear();
+  for (const auto& [chunk, reason] : terrain.lacking()) status.lacking.push_back(chunk);
   if (saved) {
     CHECK(tick >= status.saved_tick);
     status.saved_tick = tick;
@@ -82,7 +113,7 @@ void WorldKeeper::State::write(Due due) {
     return;
   }
   ++status.failures;
-  status.given_up = !taken || !file->is_full();
+  status.given_up = !lacks && !file->is_full();
 }
 
 void WorldKeeper::State::run() {
@@ -140,30 +171,39 @@ bool WorldKeeper::note(const TickDelta& delta, bool pressed) {
   return true;
 }
 
-void WorldKeeper::save(WorldMoment moment) {
+/// Those that are lacking, as far as the world has them.
+std::map<ChunkCoord, std::vector<BrickState>> WorldKeeper::State::whole_chunks(const ChunkNow& now) const {
+  std::map<ChunkCoord, std::vector<BrickState>> whole;
+  if (!now) return whole;
+  for (const ChunkCoord chunk : status.lacking)
+    if (std::vector<BrickState> bricks = now(chunk); !bricks.empty()) whole[chunk] = std::move(bricks);
+  return whole;
+}
+
+void WorldKeeper::save(WorldMoment moment, const ChunkNow& now) {
   State& s = *state_;
   {
     const std::scoped_lock lock(s.mutex);
     CHECK(!s.waiting && !s.stopping);
-    s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {})};
+    s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {}), s.whole_chunks(now)};
   }
   s.changed.notify_all();
 }
 
-Result<void> WorldKeeper::finish(WorldMoment moment) {
+Result<void> WorldKeeper::finish(WorldMoment moment, const ChunkNow& now) {
   State& s = *state_;
   {
     const std::scoped_lock lock(s.mutex);
-    if (s.waiting) {  // nobody needs the older one: its bricks go with the last
-      for (auto& [coord, state] : s.gathered) s.waiting->bricks[coord] = std::move(state);
-      s.waiting->moment = std::move(moment);
-    } else {
-      s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {})};
-    }
+    if (!s.waiting) s.waiting = State::Due{};
+    // Nobody needs an older one: its bricks go with the last.
+    for (auto& [coord, state] : s.gathered) s.waiting->bricks[coord] = std::move(state);
+    s.waiting->moment = moment;
+    for (auto& [chunk, bricks] : s.whole_chunks(now)) s.waiting->whole[chunk] = std::move(bricks);
     s.stopping = true;
   }
   s.changed.notify_all();
   if (s.thread.joinable()) s.thread.join();
+  if (auto whole = s.whole_chunks(now); !whole.empty()) s.write({std::move(moment), {}, std::move(whole)});
   s.file.reset();
   const std::scoped_lock lock(s.mutex);
   if (s.status.error) return fail(*s.status.error);

@@ -3,9 +3,10 @@
 //
 // At most one save waits while another is written; while one waits, what changes is gathered for the next
 // (skipped saves are counted). Each is one transaction of one tick, and told as saved when it is on the disk.
-// When the disk has no room, the next save writes all that is missing. After any other error nothing is saved
-// any more: what the disk holds is not known then, and the file is looked at by the next start. The
-// simulation goes on in both cases.
+// When the disk has no room, the next save writes all that is missing. Where the row of a chunk that changed
+// cannot be read, the next save writes the chunk anew, as the world has it. After any other error nothing is
+// saved any more: what the disk holds is not known then, and the file is looked at by the next start. The
+// simulation goes on in all cases.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/store/world_file.h"
 #include "server/world/tick_delta.h"
@@ -58,7 +60,13 @@ struct KeeperStatus {
   double save_worst_ms = 0.0;
   bool given_up = false;
   std::optional<std::string> error;  ///< of the last save, if it failed
+  std::vector<ChunkCoord> lacking;   ///< chunks whose rows cannot be read, which the next save needs whole
 };
+
+/// The edited bricks of a chunk as the world has them now; empty: it does not have them.
+using ChunkNow = std::function<std::vector<BrickState>(ChunkCoord)>;
+/// Of a world's field, which has what changed until it is saved.
+ChunkNow chunk_now(Field& field);
 
 class WorldKeeper {
  public:
@@ -73,9 +81,10 @@ class WorldKeeper {
   /// save(). `pressed`: memory is short until it is saved, so that it is due at once. One thread calls this,
   /// save() and finish().
   bool note(const TickDelta& delta, bool pressed = false);
-  void save(WorldMoment moment);
+  /// `now` is asked for chunks that are lacking.
+  void save(WorldMoment moment, const ChunkNow& now = {});
   /// Saves the last tick, waits until it is written, and ends. Returns the last error.
-  Result<void> finish(WorldMoment moment);
+  Result<void> finish(WorldMoment moment, const ChunkNow& now = {});
 
   /// From any thread.
   KeeperStatus status() const;

@@ -88,17 +88,11 @@ class Restoring {
     return from.each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
       if (bricks.empty() || s_.field.has_edits(chunk)) return fail("a chunk comes twice, or without bricks");
       if (s_.field.bricks_in() < from.bricks_max) return enter(bricks);
-      PagedChunk left;
-      for (const BrickPatch& patch : bricks) {
-        if (chunk_of(patch.coord) != chunk || !in_world(patch.coord))
-          return fail("a brick lies outside its chunk, or the world");
-        const uint64_t bit = uint64_t{1} << index_in_chunk(patch.coord);
-        if ((left.bricks & bit) != 0) return fail("a brick comes twice");
-        left.bricks |= bit;
-        left.hash += brick_hash(patch.coord, patch.brick, patch.paint);
-        left.mass += brick_mass(patch.brick);
-      }
-      s_.field.add_out(chunk, left);
+      const auto left = paged_of(chunk, bricks);
+      if (!left) return tl::unexpected(left.error());
+      for (const BrickPatch& patch : bricks)
+        if (!in_world(patch.coord)) return fail("a brick lies outside the world");
+      s_.field.add_out(chunk, *left);
       return {};
     });
   }

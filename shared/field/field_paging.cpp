@@ -7,22 +7,19 @@
 
 namespace scree {
 
-namespace {
-
-/// Whether these are all bricks of the chunk as they were when it went out.
-bool is_what_left(ChunkCoord chunk, const PagedChunk& left, std::span<const BrickPatch> bricks) {
-  uint64_t bits = 0, hash = 0;
+Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
+  if (bricks.empty()) return fail("a chunk comes without bricks");
+  PagedChunk left;
   for (const BrickPatch& patch : bricks) {
-    if (chunk_of(patch.coord) != chunk) return false;
+    if (chunk_of(patch.coord) != chunk) return fail("a brick lies outside its chunk");
     const uint64_t bit = uint64_t{1} << index_in_chunk(patch.coord);
-    if ((bits & bit) != 0) return false;
-    bits |= bit;
-    hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    if ((left.bricks & bit) != 0) return fail("a brick comes twice");
+    left.bricks |= bit;
+    left.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    left.mass += brick_mass(patch.brick);
   }
-  return bits == left.bricks && hash == left.hash;
+  return left;
 }
-
-}  // namespace
 
 void Field::page_by(ReadChunk read) {
   CHECK(below_ == nullptr && read != nullptr);
@@ -77,7 +74,8 @@ bool Field::is_out(ChunkCoord chunk) const {
 bool Field::page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
   const std::optional<PagedChunk> left = paged(chunk);
   CHECK(left.has_value());
-  if (!is_what_left(chunk, *left, bricks)) return false;
+  const Result<PagedChunk> read = paged_of(chunk, bricks);
+  if (!read || read->bricks != left->bricks || read->hash != left->hash) return false;
   enter(chunk, edited_.at(chunk), bricks);
   return true;
 }
@@ -116,6 +114,11 @@ void Field::keep(ChunkCoord chunk) {
 void Field::begin_turn() {
   ++turn_;
   last_.reset();
+}
+
+bool Field::is_idle(ChunkCoord chunk, uint64_t turns) const {
+  const auto found = edited_.find(chunk);
+  return found != edited_.end() && !found->second.out && found->second.used + turns <= turn_;
 }
 
 std::vector<ChunkCoord> Field::idle_chunks(uint64_t turns) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct PagedChunk {
   uint64_t bricks = 0;  ///< bit i: brick i of the chunk is edited; not 0
   MassUnits mass = 0;   ///< of the edited bricks
 };
+
+/// What these bricks leave when they are the edited ones of a chunk; an error when they cannot be.
+Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks);
 
 /// A chunk that is out is needed at once, and cannot be read: no result without it would be right, so what
 /// needs it ends. The message names the file.

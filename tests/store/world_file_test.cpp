@@ -6,65 +6,16 @@
 #include <map>
 #include <thread>
 
-#include "server/store/ground_mass.h"
 #include "server/store/world_keeper.h"
 #include "server/store/world_lock.h"
 #include "server/world/world.h"
 #include "tests/store/faulty_disk.h"
+#include "tests/store/kept_world.h"
 #include "tests/support/recording_fixture.h"
 #include "tests/support/test_folder.h"
 
 namespace scree {
 namespace {
-
-WorldHeader header_of(const WorldSnapshot& value) {
-  WorldHeader header{.world = 77, .config = value.moment.config};
-  header.config.program = "test";
-  return header;
-}
-
-/// A small world with pieces in the air, at tick 30.
-std::unique_ptr<World> busy_world() {
-  auto world = std::make_unique<World>(small_world());
-  for (Tick tick = 1; tick <= 30; ++tick) {
-    std::vector<Command> commands;
-    if (tick % 10 == 1) commands = {carve_at(static_cast<float>(tick) / 3.0F, static_cast<uint32_t>(tick))};
-    world->step(commands);
-  }
-  return world;
-}
-
-std::string refusal_of(const std::string& path) {
-  const auto file = WorldFile::open(path);
-  if (!file) return file.error().message;
-  const auto rows = (*file)->read();
-  if (!rows) return rows.error().message;
-  const auto world = World::restore(rows->world);
-  return world ? std::string() : world.error().message;
-}
-
-class WorldFileTest : public ::testing::Test {
- protected:
-  void make() {
-    world = busy_world();
-    auto made = WorldFile::create(path, header_of(world->snapshot()), world->snapshot());
-    ASSERT_TRUE(made.has_value()) << made.error().message;
-    file = std::move(*made);
-  }
-  std::vector<uint8_t> value_in_file() {
-    auto reopened = WorldFile::open(path);
-    EXPECT_TRUE(reopened.has_value()) << reopened.error().message;
-    if (!reopened) return {};
-    const auto rows = (*reopened)->read();
-    EXPECT_TRUE(rows.has_value()) << rows.error().message;
-    return rows ? encode(rows->world) : std::vector<uint8_t>();
-  }
-
-  TestFolder folder;
-  std::string path = folder / "world.scree";
-  std::unique_ptr<World> world;
-  std::unique_ptr<WorldFile> file;
-};
 
 TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
   make();
@@ -92,64 +43,6 @@ TEST_F(WorldFileTest, the_first_save_after_the_file_was_made_drops_pieces_that_a
   ASSERT_FALSE(world->snapshot().moment.pieces.empty());
   EXPECT_TRUE(file->save(World(small_world()).moment(), {}).has_value());
   EXPECT_TRUE(file->read().value().world.moment.pieces.empty());
-}
-
-TEST_F(WorldFileTest, without_durability_a_world_is_saved_every_autosave_or_only_at_the_end) {
-  for (const auto& [autosave_s, saves] : {std::pair{0.25, 3U}, {0.0, 0U}}) {
-    make();
-    ASSERT_TRUE(file->read().has_value());
-    WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
-                       {.durability = Durability::off, .autosave_s = autosave_s, .before_save = {}});
-    std::vector<Tick> due;
-    for (int i = 0; i < 45; ++i) {
-      const auto delta = world->step({});
-      if (!keeper.note(*delta)) continue;
-      due.push_back(delta->tick);
-      keeper.save(world->moment());
-      while (keeper.status().saved_tick < delta->tick) std::this_thread::yield();
-    }
-    EXPECT_EQ(due.size(), saves);
-    if (!due.empty()) {
-      EXPECT_EQ(due.front(), 45U);
-    }
-    EXPECT_EQ(keeper.status().saves, saves);
-    ASSERT_TRUE(keeper.finish(world->moment()).has_value());
-    EXPECT_EQ(value_in_file(), encode(world->snapshot()));
-    std::filesystem::remove(path);
-  }
-}
-
-TEST_F(WorldFileTest, rows_without_the_grounds_mass_are_read_and_a_keeper_adds_it) {
-  make();
-  WorldMoment moment = world->moment();
-  std::vector<WorldChunk> chunks;
-  for (const BrickPatch& patch : world->snapshot().bricks) {
-    if (chunks.empty() || chunks.back().chunk != chunk_of(patch.coord)) {
-      const auto found = std::ranges::find(chunks, chunk_of(patch.coord), &WorldChunk::chunk);
-      if (found != chunks.end()) {
-        std::rotate(found, found + 1, chunks.end());
-      } else {
-        chunks.push_back({chunk_of(patch.coord), 30, 0, {}, {}});
-      }
-    }
-    chunks.back().hash += brick_hash(patch.coord, patch.brick, patch.paint);
-    chunks.back().bricks.push_back(patch);
-  }
-  ASSERT_TRUE(file->save(moment, chunks).has_value());
-  auto rows = file->read();
-  ASSERT_TRUE(rows.has_value()) << rows.error().message;
-  EXPECT_TRUE(rows->ground.empty());
-  EXPECT_EQ(refusal_of(path), "");
-  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain, {.before_save = {}});
-  keeper.note(*world->step(std::vector<Command>{carve_at(1.0F, 1)}));
-  ASSERT_TRUE(keeper.finish(world->moment()).has_value());
-  const auto reopened = WorldFile::open(path);
-  rows = (*reopened)->read();
-  ASSERT_TRUE(rows.has_value()) << rows.error().message;
-  EXPECT_GT(rows->ground.size(), 0U);
-  const GroundMasses measured = measured_ground(flat_terrain, rows->world.bricks);
-  for (const auto& [chunk, mass] : rows->ground) EXPECT_EQ(measured.at(chunk), mass);
-  EXPECT_TRUE(World::restore(rows->world, 1, rows->ground).has_value());
 }
 
 TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
@@ -188,46 +81,6 @@ TEST_F(WorldFileTest, a_save_that_finds_no_room_leaves_the_last_one_and_a_later_
   EXPECT_EQ(refusal_of(path), "");  // the last one
   disk.full = false;
   file.reset();
-}
-
-TEST_F(WorldFileTest, what_a_full_disk_left_out_is_saved_when_there_is_room_again) {
-  FaultyDisk disk;
-  make();
-  disk.full = true;
-  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
-                     {.durability = Durability::tick, .before_save = {}});
-  const auto carve = [&](uint32_t request) {
-    const auto delta =
-        world->step(std::vector<Command>{carve_at(2.0F + static_cast<float>(request), request)});
-    if (keeper.note(*delta)) keeper.save(world->moment());
-  };
-  carve(1);
-  while (keeper.status().failures == 0) std::this_thread::yield();
-  EXPECT_FALSE(keeper.status().given_up);
-  EXPECT_EQ(keeper.status().saved_tick, 30U);
-  EXPECT_TRUE(keeper.status().error.has_value());
-  disk.full = false;
-  carve(2);
-  ASSERT_TRUE(keeper.finish(world->moment()).has_value());
-  EXPECT_EQ(keeper.status().saved_tick, 32U);
-  EXPECT_EQ(value_in_file(), encode(world->snapshot()));
-}
-
-TEST_F(WorldFileTest, after_any_other_error_nothing_is_told_as_saved_any_more) {
-  FaultyDisk disk;
-  make();
-  disk.dies_after = disk.writes + 3;
-  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
-                     {.durability = Durability::tick, .before_save = {}});
-  for (uint32_t i = 1; i <= 5; ++i) {
-    const auto delta = world->step(std::vector<Command>{carve_at(static_cast<float>(i), i)});
-    if (keeper.note(*delta)) keeper.save(world->moment());
-  }
-  EXPECT_FALSE(keeper.finish(world->moment()).has_value());
-  EXPECT_TRUE(keeper.status().given_up);
-  EXPECT_EQ(keeper.status().saved_tick, 30U);
-  disk.crash();
-  EXPECT_EQ(refusal_of(path), "");
 }
 
 /// A session of saves as a keeper would make them: each tick's moment, and the chunks that it changed.

@@ -1,0 +1,53 @@
+#include "server/store/stored_field.h"
+
+#include <deque>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+/// Reads a chunk of the file, in place of those that were read first.
+class Shelf {
+ public:
+  Shelf(std::unique_ptr<WorldFile> file, Field& field, size_t bricks_max)
+      : file_(std::move(file)), field_(field), bricks_max_(bricks_max) {}
+
+  Result<std::vector<BrickPatch>> read(ChunkCoord chunk) {
+    while (field_.bricks_in() >= bricks_max_ && !read_.empty()) {
+      field_.page_out(read_.front());
+      read_.pop_front();
+    }
+    auto row = file_->read_chunk(chunk);
+    if (!row) return tl::unexpected(row.error());
+    if (!row->has_value()) return fail(file_->path() + " does not have a chunk any more");
+    read_.push_back(chunk);
+    return std::move((*row)->bricks);
+  }
+
+ private:
+  std::unique_ptr<WorldFile> file_;
+  Field& field_;
+  const size_t bricks_max_;
+  std::deque<ChunkCoord> read_;  ///< that are in, the first one first
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, const TerrainSource& source,
+                                            size_t bricks_max) {
+  auto field = std::make_unique<MapField>(source);
+  WorldFile& rows = *file;
+  const auto shelf = std::make_shared<Shelf>(std::move(file), *field, bricks_max);
+  field->page_by([shelf](ChunkCoord chunk) { return shelf->read(chunk); });
+  const auto read = rows.each_chunk([&](const WorldChunk& chunk) -> Result<void> {
+    const auto left = paged_of(chunk.chunk, chunk.bricks);
+    if (!left) return fail(rows.path() + ": damaged: " + left.error().message);
+    field->add_out(chunk.chunk, *left);
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
+  return field;
+}
+
+}  // namespace scree
