@@ -86,8 +86,8 @@ class Importer {
         grounds_(std::move(grounds)),
         under_(grounds_.under),
         bare_(grounds_.bare) {
-    under_.bound_generated(fields_chunks_max);
-    bare_.bound_generated(fields_chunks_max);
+    under_.bound_generated(fields_bytes_max);
+    bare_.bound_generated(fields_bytes_max);
   }
 
   const Grounds& grounds() const { return grounds_; }
@@ -126,7 +126,7 @@ class Importer {
   }
 
  private:
-  static constexpr size_t fields_chunks_max = 512;
+  static constexpr size_t fields_bytes_max = size_t{16} << 20U;
 
   /// And the chunks that are all rock, where the ground is not.
   std::set<ChunkCoord> with_interior(const std::set<ChunkCoord>& surface, const VoxelBox& box) {

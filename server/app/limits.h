@@ -37,13 +37,34 @@ inline constexpr size_t pieces_forgotten_min = 1024;
 /// Ticks for which nobody asked for a chunk that goes out of memory.
 inline constexpr uint64_t pager_idle_ticks = 60;
 
-/// When more bricks are in memory than there should be, one of so many goes out, at most so many chunks in a
-/// tick: a fraction of a millisecond.
-inline constexpr size_t pager_parts = 8;
-inline constexpr size_t page_out_per_tick = 32;
+/// When more bricks are in memory than there should be, at most so many chunks go out in a tick, and at most
+/// so many that were read come in: a fraction of a millisecond each.
+inline constexpr size_t page_out_per_tick = 16;
+inline constexpr size_t page_in_per_tick = 16;
 
-/// Ticks between two counts of what is in memory.
-inline constexpr unsigned pager_count_ticks = 8;
+/// Ticks between two looks for chunks that nobody needs, at least, and between two counts of the regions of
+/// OpenVDB's tree: each looks at all chunks in memory.
+inline constexpr uint64_t pager_look_ticks = 8;
+inline constexpr unsigned pager_count_ticks = 64;
+
+/// Share of memory-max that the process should leave free in RAM. Above: malloc gives back what it holds for
+/// nothing, and where that does not do, terrain goes out until it does.
+inline constexpr double resident_margin_share = 0.0625;
+
+/// Share of memory-max by which terrain gives way at most to what the model does not know of. Above: the
+/// limit does not hold, but some terrain stays in memory.
+inline constexpr double beyond_share_max = 0.25;
+
+/// Part of what is free by which terrain may grow again after it gave way, at each count.
+inline constexpr double beyond_relief = 1.0 / 16.0;
+
+/// Arenas of malloc; and bytes of a block that it takes from the system and gives back by itself, more than a
+/// carve's windows take.
+inline constexpr int heap_arenas = 4;
+inline constexpr int heap_block_bytes = 4 * 1024 * 1024;
+
+/// Milliseconds between two looks at what the process has in RAM.
+inline constexpr int resident_look_ms = 500;
 
 /// Seconds that an edit waits for its terrain to be read, or for room in memory. Above: it is refused.
 inline constexpr double held_seconds_max = 5.0;

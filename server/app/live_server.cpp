@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/app/limits.h"
 #include "server/app/live_server_state.h"
 #include "shared/base/timing.h"
 
@@ -58,6 +59,8 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
 /// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
+  const double cpu_before_s = thread_cpu_s();
+  Stopwatch watch;
   Admitted admitted{commands.drain(), {}};
   if (World* world = feed->world()) {
     world->watch(net->is_watched());
@@ -68,6 +71,7 @@ bool LiveServer::State::step() {
     admitted =
         admission.admit(std::move(admitted.commands), {*world, *pager, generator, !kept->status().error});
   }
+  const double terrain_in_ms = watch.lap_ms();
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
@@ -85,7 +89,9 @@ bool LiveServer::State::step() {
   if (trace) trace_tick(*trace, begin, *delta);
   std::vector<Event> noted = events ? events->take(*delta) : std::vector<Event>();
   if (recorder) record(delta, std::move(admitted.commands), std::move(noted));
+  watch.lap_ms();
   if (kept) delta = keep(std::move(delta), std::move(admitted.refused));
+  const double keep_ms = watch.lap_ms();
   const Clock::time_point handing_over = Clock::now();
   {
     const TraceSpan span(trace.get(), "simulation", "hand over");
@@ -93,6 +99,9 @@ bool LiveServer::State::step() {
   }
   const std::scoped_lock lock(mutex);
   report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
+  report.whole_tick_cpu.add((thread_cpu_s() - cpu_before_s) * 1e3);
+  report.terrain_in.add(terrain_in_ms);
+  report.keep.add(keep_ms);
   report.add(*delta);
   last_delta = delta;
   if (config.ticks_max != 0 && report.ticks >= config.ticks_max) running = false;
@@ -109,6 +118,7 @@ std::shared_ptr<const TickDelta> LiveServer::State::keep(std::shared_ptr<const T
   kept->keep(*delta, world, pager->pressed());
   const std::vector<ChunkCoord>& soon = outlook.look(*delta, world.config().terrain.voxel_size_m);
   static_cast<void>(ahead->has(world.field(), soon));
+  resident->bound(world.config().memory_max_mb * bytes_per_mb * (1.0 - limits::resident_margin_share));
   pager->end_tick(*delta, kept->status().saved_tick, net->eyes_m(), soon, world.config().memory_max_mb);
   tell();
   if (refused.empty()) return delta;
@@ -220,6 +230,7 @@ ServerReport LiveServer::report() const {
     if (!report.error) report.error = state_->recorder->error();
   }
   if (state_->kept && !state_->kept->is_temporary()) report.saving = state_->kept->status();
+  report.resident_mb = resident_bytes() / bytes_per_mb;
   if (state_->pager) {
     report.paging = state_->pager->status();
     report.work.memory_mb = report.paging.memory_mb;

@@ -79,7 +79,9 @@ Result<void> LiveServer::State::start_keeping() {
   if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
   World& world = *feed->world();
   if (auto started = kept->start(world, std::move(keeping)); !started) return started;
-  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max);
+  resident = std::make_unique<ResidentMemory>();
+  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max,
+                                   [seen = resident.get()] { return seen->bytes(); });
   if (!opened) return tl::unexpected(opened.error());
   pager = std::move(*opened);
   tell();

@@ -11,6 +11,7 @@
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
 #include "server/app/piece_outlook.h"
+#include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
@@ -55,8 +56,9 @@ struct LiveServer::State {
   std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
   std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
   std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<SavedWorld> kept;     ///< null: a replay
-  std::unique_ptr<TerrainPager> pager;  ///< likewise
+  std::unique_ptr<SavedWorld> kept;          ///< null: a replay
+  std::unique_ptr<TerrainPager> pager;       ///< likewise
+  std::unique_ptr<ResidentMemory> resident;  ///< likewise
   PieceOutlook outlook;
   Admission admission;
   std::unique_ptr<NetServer> net;

@@ -182,7 +182,11 @@ std::string to_json(const ServerReport& report) {
     stages[std::string(row.name)] = json_of(report.stages[index_of(row.stage)]);
   stages["tick"] = json_of(report.tick);
   stages["whole_tick"] = json_of(report.whole_tick);
+  stages["whole_tick_cpu"] = json_of(report.whole_tick_cpu);
+  stages["terrain_in"] = json_of(report.terrain_in);
+  stages["keep"] = json_of(report.keep);
   json["stages_ms"] = stages;
+  json["resident_mb"] = report.resident_mb;
   if (!report.record_path.empty())
     json["recording"] = {
         {"path", report.record_path}, {"ticks", report.ticks_recorded}, {"waits", report.record_waits}};

@@ -53,7 +53,10 @@ struct ServerReport {
   uint64_t overruns = 0;                             ///< ticks of real time that were lost
   std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
   Durations tick;
-  Durations whole_tick;  ///< with all that the server does between two ticks of the world
+  Durations whole_tick;        ///< with all that the server does between two ticks of the world
+  Durations whole_tick_cpu;    ///< of it the processor time of the simulation's thread
+  Durations terrain_in, keep;  ///< of it before the world's tick, and after it: saving, terrain that goes out
+  double resident_mb = 0.0;    ///< what the process has in RAM
   NetStats net;
   LatencyCounts latency;
   std::string record_path;

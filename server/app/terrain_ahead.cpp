@@ -52,26 +52,27 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
     coming_.erase(each.coord);
     field.adopt_generated(each.coord, std::move(each.chunk));
   }
-  const size_t room = field.generated_chunks_max() / 2;
-  if (!idle || eyes_m.empty() || field.generated_chunks() >= room) return;
+  if (!idle || eyes_m.empty()) return;
   std::vector<ChunkCoord> wanted = look_around(field, eyes_m);
   if (wanted.empty()) return;
+  const size_t chunk_bytes = field.generated_bytes() / std::max<size_t>(1, field.generated_chunks());
+  if (round_.size() * chunk_bytes > field.generated_bytes_max() / 2) return;
   std::ranges::reverse(wanted);
   const std::scoped_lock lock(mutex_);
   wanted_ = std::move(wanted);
   wake_.notify_all();
 }
 
-bool TerrainAhead::has(const Field& field, const VoxelBox& box) {
+bool TerrainAhead::has(Field& field, const VoxelBox& box) {
   std::vector<ChunkCoord> chunks;
   for_each_chunk(box, [&](ChunkCoord chunk) { chunks.push_back(chunk); });
   return has(field, chunks);
 }
 
-bool TerrainAhead::has(const Field& field, std::span<const ChunkCoord> chunks) {
+bool TerrainAhead::has(Field& field, std::span<const ChunkCoord> chunks) {
   std::vector<ChunkCoord> lacking;
   for (const ChunkCoord chunk : chunks)
-    if (!field.has_generated(chunk)) lacking.push_back(chunk);
+    if (!field.keep_generated(chunk)) lacking.push_back(chunk);
   if (lacking.empty()) return true;
   const std::scoped_lock lock(mutex_);
   for (const ChunkCoord chunk : lacking)
@@ -81,10 +82,10 @@ bool TerrainAhead::has(const Field& field, std::span<const ChunkCoord> chunks) {
 }
 
 /// Those of the next limits::ahead_looks_per_tick chunks around an eye that the field lacks.
-std::vector<ChunkCoord> TerrainAhead::look_around(const Field& field, std::span<const glm::vec3> eyes_m) {
+std::vector<ChunkCoord> TerrainAhead::look_around(Field& field, std::span<const glm::vec3> eyes_m) {
   if (step_ >= around_.size()) {
     step_ = 0;
-    ++eye_;
+    if (++eye_ % eyes_m.size() == 0) round_.clear();
   }
   const glm::vec3 world{limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m};
   const glm::vec3 eye = glm::clamp(eyes_m[eye_ % eyes_m.size()], -world, world) / source_.voxel_size_m;
@@ -94,7 +95,8 @@ std::vector<ChunkCoord> TerrainAhead::look_around(const Field& field, std::span<
   const size_t end = std::min(step_ + limits::ahead_looks_per_tick, around_.size());
   for (; step_ < end; ++step_) {
     const ChunkCoord chunk = middle + around_[step_];
-    if (!field.has_generated(chunk)) lacking.push_back(chunk);
+    round_.insert(chunk);
+    if (!field.keep_generated(chunk)) lacking.push_back(chunk);
   }
   return lacking;
 }

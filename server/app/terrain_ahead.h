@@ -30,16 +30,17 @@ class TerrainAhead {
   TerrainAhead& operator=(const TerrainAhead&) = delete;
 
   /// Hands the generated chunks to the field, which has the constructor's source, and requests chunks that it
-  /// lacks around the eyes (metres): the nearest first, limits::ahead_looks_per_tick at a time. Requests none
-  /// when the field is so full that it would drop generated chunks (Field::generated_chunks_max). Call once
-  /// a tick.
+  /// lacks around the eyes (metres): the nearest first, limits::ahead_looks_per_tick at a time; those that it
+  /// has count as used. Requests none when all that lies around the eyes would fill more than half of what
+  /// the field may keep (Field::generated_bytes_max): it would drop what was made before. Call once a tick.
   void serve(Field& field, std::span<const glm::vec3> eyes_m);
 
-  /// Whether the field has the terrain of all chunks that the box touches. Those that it lacks are generated
-  /// before what lies around eyes, at most limits::ahead_asked_max at a time, and handed over by serve().
-  bool has(const Field& field, const VoxelBox& box);
+  /// Whether the field has the terrain of all chunks that the box touches; they count as used. Those that it
+  /// lacks are generated before what lies around eyes, at most limits::ahead_asked_max at a time, and handed
+  /// over by serve().
+  bool has(Field& field, const VoxelBox& box);
   /// The same for chunks that something will touch soon.
-  bool has(const Field& field, std::span<const ChunkCoord> chunks);
+  bool has(Field& field, std::span<const ChunkCoord> chunks);
 
  private:
   struct Ready {
@@ -47,13 +48,14 @@ class TerrainAhead {
     GeneratedChunk chunk;
   };
 
-  std::vector<ChunkCoord> look_around(const Field& field, std::span<const glm::vec3> eyes_m);
+  std::vector<ChunkCoord> look_around(Field& field, std::span<const glm::vec3> eyes_m);
   void run();
 
   const TerrainSource source_;
-  std::vector<ChunkCoord> around_;                    ///< chunks relative to an eye's, nearest first
+  std::vector<ChunkCoord> around_;                    ///< chunks relative to an eye, nearest first
   size_t eye_ = 0;                                    ///< the eye at which the next look begins
   size_t step_ = 0;                                   ///< the entry of `around_` at which it begins
+  std::unordered_set<ChunkCoord, CoordHash> round_;   ///< looked at since all eyes were
   std::unordered_set<ChunkCoord, CoordHash> coming_;  ///< asked for by has(), and not handed over
 
   std::mutex mutex_;  ///< guards the members below

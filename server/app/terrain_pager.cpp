@@ -22,16 +22,18 @@ Result<ReadChunk> chunk_reader(const std::string& path) {
 }
 
 TerrainPager::TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
-                           std::shared_ptr<ChunkFetcher> clients)
+                           std::shared_ptr<ChunkFetcher> clients, std::function<double()> resident_bytes)
     : field_(field),
       bricks_max_(bricks_max),
       own_(std::move(own)),
       clients_(std::move(clients)),
+      resident_bytes_(std::move(resident_bytes)),
       around_(ball_of_chunks(limits::ahead_chunks)) {}
 
 Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path, Field& field,
                                                          std::shared_ptr<ChunkFetcher> clients,
-                                                         size_t bricks_max) {
+                                                         size_t bricks_max,
+                                                         std::function<double()> resident_bytes) {
   auto reader = chunk_reader(path);
   if (!reader) return tl::unexpected(reader.error());
   auto own = std::make_shared<ChunkFetcher>();
@@ -39,13 +41,13 @@ Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path
     if (Result<void> started = fetcher->start(path); !started) return tl::unexpected(started.error());
   field.page_by(std::move(*reader));
   return std::unique_ptr<TerrainPager>(
-      new TerrainPager(field, bricks_max, std::move(own), std::move(clients)));
+      new TerrainPager(field, bricks_max, std::move(own), std::move(clients), std::move(resident_bytes)));
 }
 
 /// A chunk that does not fit came in meanwhile, or was read before its last change was saved.
 void TerrainPager::begin_tick() {
   field_.begin_turn();
-  for (const SuppliedChunk& chunk : own_->take())
+  for (const SuppliedChunk& chunk : own_->take(limits::page_in_per_tick))
     if (field_.is_out(chunk.chunk)) static_cast<void>(field_.page_in(chunk.chunk, chunk.bricks));
 }
 
@@ -85,37 +87,65 @@ void TerrainPager::look_around_eyes(std::span<const glm::vec3> eyes_m) {
   }
 }
 
-void TerrainPager::page_out(Tick saved) {
+/// Chunks that nobody needs are looked for when all that were found are gone: there are many to look at.
+void TerrainPager::page_out(Tick tick, Tick saved) {
   if (saved != saved_) std::erase_if(unsaved_, [&](const auto& one) { return one.second <= saved; });
   saved_ = saved;
   clients_->saved_up_to(saved);
   clients_->allow_bricks(bricks_allowed_);
-  pressed_ = false;
-  if (field_.bricks_in() <= bricks_allowed_) return;
-  const size_t wanted = bricks_allowed_ - bricks_allowed_ / limits::pager_parts;
+  if (field_.bricks_in() <= bricks_allowed_) {
+    pressed_ = false;
+    return;
+  }
   const uint64_t idle = std::max<uint64_t>(limits::pager_idle_ticks, 2 * ticks_around_);
-  size_t went = 0, unsaved = 0;
-  for (const ChunkCoord chunk : field_.idle_chunks(idle)) {
-    if (field_.bricks_in() <= wanted || went == limits::page_out_per_tick) break;
+  if (idle_.empty()) {
+    if (tick < look_again_) return;
+    look_again_ = tick + limits::pager_look_ticks;
+    any_went_ = any_unsaved_ = false;
+    idle_ = field_.idle_chunks(idle);
+    std::ranges::reverse(idle_);
+  }
+  size_t went = 0;
+  while (went < limits::page_out_per_tick && field_.bricks_in() > bricks_allowed_ && !idle_.empty()) {
+    const ChunkCoord chunk = idle_.back();
+    idle_.pop_back();
+    if (!field_.is_idle(chunk, idle)) continue;
     if (unsaved_.contains(chunk)) {
-      ++unsaved;
+      any_unsaved_ = true;
       continue;
     }
     field_.page_out(chunk);
+    any_went_ = true;
     ++went;
   }
-  pressed_ = went == 0 && unsaved > 0;
+  pressed_ = idle_.empty() && any_unsaved_ && !any_went_;
+}
+
+/// What is in RAM beyond the limit is taken from the terrain's share, and given back slowly.
+void TerrainPager::count_memory(uint32_t memory_max_mb) {
+  double beyond = memory_.beyond_bytes;
+  if (resident_bytes_) {
+    const double max_bytes = memory_max_mb * bytes_per_mb;
+    const double over = resident_bytes_() - max_bytes * (1.0 - limits::resident_margin_share);
+    beyond += over > 0.0 ? over : over * limits::beyond_relief;
+    beyond = std::clamp(beyond, 0.0, max_bytes * limits::beyond_share_max);
+  }
+  memory_ = memory_of(field_);
+  memory_.beyond_bytes = beyond;
+  counted_ = true;
 }
 
 void TerrainPager::end_tick(const TickDelta& delta, Tick saved, std::span<const glm::vec3> eyes_m,
                             std::span<const ChunkCoord> soon, uint32_t memory_max_mb) {
   for (const ChunkState& chunk : delta.chunks) unsaved_[chunk.chunk] = delta.tick;
-  if (delta.tick % limits::pager_count_ticks == 0 || memory_ == TerrainMemory()) memory_ = memory_of(field_);
+  if (delta.tick % limits::pager_count_ticks == 0 || !counted_) count_memory(memory_max_mb);
+  memory_.bricks = field_.bricks_in();
+  memory_.chunks_out = field_.chunks_out();
   bricks_allowed_ = bricks_max_ != 0 ? bricks_max_ : bricks_within(memory_max_mb, memory_);
   look_around_eyes(eyes_m);
   if (is_crowded())
     for (const ChunkCoord chunk : soon) want(chunk);
-  page_out(saved);
+  page_out(delta.tick, saved);
   note_status(memory_max_mb);
 }
 

@@ -5,6 +5,7 @@
 // counted as a wait. Used between ticks, by the simulation's thread alone, but for status().
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <mutex>
@@ -35,8 +36,11 @@ class TerrainPager {
   /// Of the world's file, from which the field's chunks can be read again. `bricks_max`: edited bricks in
   /// memory; 0: as many as memory_max_mb allows.
   /// `clients`: supplies their copies, on the network thread; it is started.
+  /// `resident_bytes` tells what the process has in RAM, by which terrain gives way to what the model does
+  /// not know of; null: to nothing.
   static Result<std::unique_ptr<TerrainPager>> open(const std::string& path, Field& field,
-                                                    std::shared_ptr<ChunkFetcher> clients, size_t bricks_max);
+                                                    std::shared_ptr<ChunkFetcher> clients, size_t bricks_max,
+                                                    std::function<double()> resident_bytes = {});
 
   /// Puts chunks in that were read, before a tick.
   void begin_tick();
@@ -57,25 +61,32 @@ class TerrainPager {
 
  private:
   TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
-               std::shared_ptr<ChunkFetcher> clients);
+               std::shared_ptr<ChunkFetcher> clients, std::function<double()> resident_bytes);
   void want(ChunkCoord chunk);
   void look_around_eyes(std::span<const glm::vec3> eyes_m);
-  void page_out(Tick saved);
+  void page_out(Tick tick, Tick saved);
   /// Whether chunks are out, or may soon have to go.
   bool is_crowded() const { return field_.chunks_out() > 0 || field_.bricks_in() > bricks_allowed_ / 2; }
+  void count_memory(uint32_t memory_max_mb);
   void note_status(uint32_t memory_max_mb);
 
   Field& field_;
   const size_t bricks_max_;  ///< 0: by memory
   std::shared_ptr<ChunkFetcher> own_;
   std::shared_ptr<ChunkFetcher> clients_;
-  std::vector<ChunkCoord> around_;  ///< an eye, nearest first
-  size_t eye_ = 0, step_ = 0;       ///< where the next look begins
-  uint64_t ticks_around_ = 0;       ///< until all eyes have been looked at
+  const std::function<double()> resident_bytes_;  ///< null: nobody knows
+  std::vector<ChunkCoord> around_;                ///< an eye, nearest first
+  size_t eye_ = 0, step_ = 0;                     ///< where the next look begins
+  uint64_t ticks_around_ = 0;                     ///< until all eyes have been looked at
   size_t bricks_allowed_ = 0;
   std::unordered_map<ChunkCoord, Tick, CoordHash> unsaved_;  ///< chunks that changed since, and when
   Tick saved_ = 0;
   TerrainMemory memory_;
+  bool counted_ = false;  ///< memory_ is of this field
+
+  std::vector<ChunkCoord> idle_;  ///< that nobody needed at the last look, the longest idle last
+  Tick look_again_ = 0;           ///< for idle chunks, not before
+  bool any_went_ = false, any_unsaved_ = false;  ///< since the last look
   bool pressed_ = false;
 
   mutable std::mutex mutex_;  ///< guards the member below

@@ -75,6 +75,16 @@ FrameMessage frame_of(const FrameSelection& selection, const TickChanges& change
 void EncodeCache::start_tick() {
   frames_.clear();
   pieces_.clear();
+  if (chunk_bytes_ <= limits::encoded_chunk_bytes_max) return;
+  chunks_.clear();
+  chunk_bytes_ = 0;
+}
+
+void EncodeCache::forget(ChunkCoord chunk) {
+  const auto known = chunks_.find(chunk);
+  if (known == chunks_.end()) return;
+  chunk_bytes_ -= known->second.encoded->size();
+  chunks_.erase(known);
 }
 
 /// Selections are long: those that others have made are compared without the lock.
@@ -113,11 +123,10 @@ const EncodeCache::Frame& EncodeCache::frame(FrameSelection selection, const Tic
 
 std::shared_ptr<EncodeCache::Encoded> EncodeCache::entry_of(ChunkCoord coord, const PublishedChunk& chunk) {
   const std::scoped_lock lock(mutex_);
-  if (chunks_.size() >= limits::encoded_chunks_max && !chunks_.contains(coord)) chunks_.clear();
   EncodedChunk& known = chunks_[coord];
-  if (!known.encoded || known.version != chunk.version || known.hash != chunk.hash)
-    known = {chunk.version, chunk.hash, std::make_shared<Encoded>()};
-  CHECK(chunks_.size() <= limits::encoded_chunks_max);
+  if (known.encoded && known.version == chunk.version && known.hash == chunk.hash) return known.encoded;
+  if (known.encoded) chunk_bytes_ -= known.encoded->size();  // of a tick before: nobody encodes it now
+  known = {chunk.version, chunk.hash, std::make_shared<Encoded>()};
   return known.encoded;
 }
 
@@ -132,6 +141,7 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
     for (const auto& [brick, state] : chunk.bricks)
       message.bricks.push_back({brick, *state.brick, state.paint});
     entry->bytes = share(std::move(message));
+    chunk_bytes_ += entry->size();
     CHECK_DEBUG(decodes(entry->bytes));
   });
   return entry->bytes;

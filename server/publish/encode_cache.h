@@ -1,10 +1,11 @@
 // Encodes a tick's frames, chunks and pieces once; all clients with the same selection share the bytes. Holds
-// at most limits::encoded_chunks_max chunks.
+// at most limits::encoded_chunk_bytes_max of chunks, and what one tick encodes.
 //
 // frame(), chunk() and piece() may be called by several threads at once: who asks first encodes, others that
 // ask for the same wait for it. start_tick() is called while nobody does.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -34,7 +35,7 @@ class EncodeCache {
   SharedBytes chunk(ChunkCoord coord, const PublishedChunk& chunk);
   SharedBytes piece(PieceId id, const PublishedPiece& piece);
   /// The chunk's bytes are let go. While nobody encodes.
-  void forget(ChunkCoord chunk) { chunks_.erase(chunk); }
+  void forget(ChunkCoord chunk);
 
  private:
   /// Written by who comes first, and constant afterwards.
@@ -45,6 +46,8 @@ class EncodeCache {
   struct Encoded {
     SharedBytes bytes;
     std::once_flag once;
+
+    size_t size() const { return bytes ? bytes->size() : 0; }
   };
   struct EncodedChunk {
     Tick version = 0;
@@ -59,6 +62,8 @@ class EncodeCache {
   std::unordered_multimap<uint64_t, std::unique_ptr<EncodedFrame>> frames_;  ///< by a hash of the selection
   std::unordered_map<ChunkCoord, EncodedChunk, CoordHash> chunks_;
   std::map<PieceId, Encoded> pieces_;
+
+  std::atomic<size_t> chunk_bytes_{0};
 };
 
 }  // namespace scree

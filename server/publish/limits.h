@@ -50,7 +50,7 @@ inline constexpr int ground_work_per_tick = 8;
 
 /// Bytes of encoded ground kept to be sent to several clients. Above: all of it is forgotten, and generated
 /// again on demand.
-inline constexpr size_t ground_kept_bytes_max = 32 * 1024 * 1024;
+inline constexpr size_t ground_kept_bytes_max = 8 * 1024 * 1024;
 
 /// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
 inline constexpr uint32_t rescan_ticks_min = 6;
@@ -72,12 +72,16 @@ inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;
 /// ticks. Above: they are asked for when these are sent.
 inline constexpr size_t chunks_read_ahead = 16;
 
+/// Chunks that were read and are taken in a tick, for all clients together: about 1 ms. Above: they wait.
+inline constexpr size_t chunks_taken_per_tick = 32;
+
 /// When more bricks are in memory than there should be, one of so many goes out, so that looking for chunks
 /// that nobody needs is rare.
 inline constexpr size_t page_out_parts = 8;
 
-/// Encoded chunks kept to be sent to several clients. Above: all are forgotten, and encoded again on demand.
-inline constexpr size_t encoded_chunks_max = 1024;
+/// Bytes of encoded chunks kept from one tick to the next, to be sent to several clients: some 800 chunks.
+/// Above: all are forgotten, and encoded again on demand.
+inline constexpr size_t encoded_chunk_bytes_max = 8 * 1024 * 1024;
 
 /// Seconds for which no chunks are sent to a client that has announced an offer; then it is as one without.
 inline constexpr double offer_wait_s = 1.0;

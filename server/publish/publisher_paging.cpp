@@ -1,6 +1,7 @@
 // Publisher's chunks that are out of memory: they are read when a client wants them, and go when nobody does.
 #include <algorithm>
 
+#include "server/publish/limits.h"
 #include "server/publish/publisher.h"
 
 namespace scree {
@@ -9,7 +10,7 @@ namespace scree {
 /// or damaged: it is asked for again while somebody wants it.
 void Publisher::take_chunks() {
   if (config_.chunks == nullptr) return;
-  for (const SuppliedChunk& chunk : config_.chunks->take()) {
+  for (const SuppliedChunk& chunk : config_.chunks->take(limits::chunks_taken_per_tick)) {
     const auto known = state_.chunks().find(chunk.chunk);
     if (known == state_.chunks().end() || known->second.is_whole()) continue;
     static_cast<void>(state_.page_in(chunk.chunk, chunk.bricks));

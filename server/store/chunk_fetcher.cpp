@@ -36,7 +36,7 @@ struct ChunkFetcher::State {
   std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
   std::deque<ChunkCoord> queue;
-  std::vector<Came> came;
+  std::deque<Came> came;
   bool stopping = false;
   std::thread thread;
 };
@@ -99,12 +99,15 @@ void ChunkFetcher::ask(ChunkCoord chunk) {
   s.changed.notify_all();
 }
 
-std::vector<SuppliedChunk> ChunkFetcher::take() {
+std::vector<SuppliedChunk> ChunkFetcher::take(size_t chunks_max) {
   State& s = *state_;
   std::vector<State::Came> came;
   {
     const std::scoped_lock lock(s.mutex);
-    came.swap(s.came);
+    while (!s.came.empty() && came.size() < chunks_max) {
+      came.push_back(std::move(s.came.front()));
+      s.came.pop_front();
+    }
   }
   std::vector<SuppliedChunk> chunks;
   for (State::Came& one : came) {

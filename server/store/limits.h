@@ -37,11 +37,16 @@ inline constexpr size_t noted_events_max = 1024;
 inline constexpr size_t row_bytes_max = size_t{1} << 29;
 
 /// Chunks that the storage thread keeps from one save to the next, so that chunks that change again and again
-/// are not read again: about 40 MB. Above: they are forgotten after a save.
-inline constexpr size_t chunks_between_saves_max = 512;
+/// are not read again: at most 10 MiB. Above: they are forgotten after a save.
+inline constexpr size_t chunks_between_saves_max = 256;
 
-/// Chunks that wait for the thread that reads them, or to be taken. Above: whoever wants more asks again.
-inline constexpr size_t chunks_asked_max = 1024;
+/// Chunks that wait for the thread that reads them, or to be taken, for the simulation and for clients each:
+/// at most 4.5 MiB when all were read. Above: whoever wants more asks again.
+inline constexpr size_t chunks_asked_max = 128;
+
+/// What SQLite keeps of a file's pages for one connection, KiB: rows are read once, only the upper pages of
+/// the tables again and again. A world that is kept has four connections.
+inline constexpr int page_cache_kib = 1024;
 
 /// Ticks until a chunk that could not be read is tried again; until then nobody waits for it.
 inline constexpr double unreadable_retry_s = 2.0;

@@ -89,14 +89,19 @@ inline constexpr float debt_budgets_max = 16.0F;
 /// Share of a tick's budget that pays back debt at least, however many bodies there are.
 inline constexpr float payback_share = 0.1F;
 
-/// Memory, bytes: the program with its libraries, pieces and clients; an edited brick in the field (with
-/// OpenVDB's leaf), in the published state and in a recording's; a region of OpenVDB's tree, 16 bricks wide,
-/// that holds some; a generated chunk at most. As measured by the bench memory, rounded up.
-inline constexpr double fixed_memory_bytes = 80.0 * 1024.0 * 1024.0;
-inline constexpr double brick_memory_bytes = 1200.0;
+/// Memory, bytes: the program with its libraries and threads; chunks that wait to be written, or were read
+/// and wait to be taken (server/store/limits.h), what SQLite and the network keep of chunks
+/// (server/publish/limits.h); pieces and clients.
+inline constexpr double fixed_memory_bytes = (40.0 + 10.0 + 9.0 + 4.0 + 16.0 + 11.0) * 1024.0 * 1024.0;
+
+/// An edited brick: OpenVDB's leaf and its codes take 640, the published state's brick and its place among
+/// the chunk's 656, as malloc rounds them. A region of OpenVDB's tree, 16 bricks wide, that holds some.
+inline constexpr double brick_memory_bytes = 1296.0;
 inline constexpr double region_memory_bytes = 36.0 * 1024.0;
-inline constexpr double generated_chunk_bytes = 34.0 * 1024.0;
 inline constexpr int region_bits = 4;
+
+/// Generated chunks take so much more than their bytes in the heap.
+inline constexpr double generated_heap_factor = 1.1;
 
 /// What is left in memory of an edited chunk that is out, in the field and in the published state, bytes.
 inline constexpr double chunk_out_bytes = 512.0;

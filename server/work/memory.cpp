@@ -17,8 +17,8 @@ BrickCoord region_of(BrickCoord brick) {
 
 /// Bytes beside the bricks that are in memory.
 double other_bytes(const TerrainMemory& memory, uint32_t max_mb) {
-  return limits::fixed_memory_bytes +
-         static_cast<double>(generated_chunks_within(max_mb)) * limits::generated_chunk_bytes +
+  return limits::fixed_memory_bytes + memory.beyond_bytes +
+         static_cast<double>(generated_bytes_within(max_mb)) * limits::generated_heap_factor +
          static_cast<double>(memory.chunks_out) * limits::chunk_out_bytes +
          static_cast<double>(memory.regions) * limits::region_memory_bytes;
 }
@@ -29,7 +29,7 @@ TerrainMemory memory_of(const Field& field) {
   CHECK(field.pages());
   std::unordered_set<BrickCoord, CoordHash> regions;
   for (const ChunkCoord chunk : field.chunks_in()) regions.insert(region_of(brick_in_chunk(chunk, 0)));
-  return {field.bricks_in(), regions.size(), field.chunks_out()};
+  return {field.bricks_in(), regions.size(), field.chunks_out(), 0.0};
 }
 
 double used_bytes(const TerrainMemory& memory, uint32_t max_mb) {
@@ -53,10 +53,10 @@ size_t bricks_within(uint32_t max_mb, const TerrainMemory& memory) {
   return static_cast<size_t>(std::max(room, 0.0) / limits::brick_memory_bytes);
 }
 
-size_t generated_chunks_within(uint32_t max_mb) {
+size_t generated_bytes_within(uint32_t max_mb) {
   const double share = max_mb * bytes_per_mb * limits::generated_memory_share;
-  return static_cast<size_t>(std::clamp(share / limits::generated_chunk_bytes, 1.0,
-                                        static_cast<double>(limits::generated_chunks_max)));
+  return static_cast<size_t>(
+      std::clamp(share / limits::generated_heap_factor, 1.0, double{limits::generated_bytes_max}));
 }
 
 }  // namespace scree

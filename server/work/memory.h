@@ -1,6 +1,7 @@
-// What a server's terrain takes in memory, by a model: edited bricks in the field, in the published state and
-// in a recording, the regions of OpenVDB's tree that hold them, what is left of chunks that are out, and
-// generated chunks. Which chunks are in memory depends on the disk's speed, so the simulation never asks.
+// What a server takes in memory, by a model: edited bricks in the field and in the published state, the
+// regions of OpenVDB's tree that hold them, what is left of chunks that are out, generated chunks, and what
+// does not depend on the terrain (limits::fixed_memory_bytes). Which chunks are in memory depends on the
+// disk's speed, so the simulation never asks.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +16,10 @@ inline constexpr double bytes_per_mb = 1024.0 * 1024.0;
 
 /// Of a field that pages.
 struct TerrainMemory {
-  size_t bricks = 0;      ///< edited ones, in memory
-  size_t regions = 0;     ///< of OpenVDB's tree with some of them
-  size_t chunks_out = 0;  ///< edited chunks that are not in memory
+  size_t bricks = 0;          ///< edited ones, in memory
+  size_t regions = 0;         ///< of OpenVDB's tree with some of them
+  size_t chunks_out = 0;      ///< edited chunks that are not in memory
+  double beyond_bytes = 0.0;  ///< that the process has in RAM and the model does not know of
 
   bool operator==(const TerrainMemory&) const = default;
 };
@@ -30,7 +32,7 @@ double added_bytes(const VoxelBox& box, const Field& field);
 /// Edited bricks in memory above which chunks that nobody needs go out.
 size_t bricks_within(uint32_t max_mb, const TerrainMemory& memory);
 
-/// Generated chunks that a field may keep when all memory is so many megabytes.
-size_t generated_chunks_within(uint32_t max_mb);
+/// Bytes of generated chunks that a field may keep when all memory is so many megabytes.
+size_t generated_bytes_within(uint32_t max_mb);
 
 }  // namespace scree

@@ -24,8 +24,8 @@ class ChunkSupply {
   virtual Tick saved_tick() = 0;
   /// Asks for a chunk, unless it is on its way or too many are: then the caller asks again.
   virtual void ask(ChunkCoord chunk) = 0;
-  /// Those that came since the last call.
-  virtual std::vector<SuppliedChunk> take() = 0;
+  /// Those that came, in order, at most so many at once.
+  virtual std::vector<SuppliedChunk> take(size_t chunks_max) = 0;
 };
 
 }  // namespace scree

@@ -207,7 +207,7 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
   if (before.methods.recombine == Recombination::off && state.config.methods.recombine != Recombination::off)
     state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
-  state.field.bound_generated(generated_chunks_within(state.config.memory_max_mb));
+  state.field.bound_generated(generated_bytes_within(state.config.memory_max_mb));
   return 0U;
 }
 

@@ -64,7 +64,7 @@ World::State::State(const WorldConfig& world_config, size_t threads)
       requests(limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz)) {
   WorldConfig parsed = config;
   CHECK(set_all(parsed, print(config)) && parsed == config);
-  field.bound_generated(generated_chunks_within(config.memory_max_mb));
+  field.bound_generated(generated_bytes_within(config.memory_max_mb));
 }
 
 Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,

@@ -79,9 +79,10 @@ inline constexpr double log_lines_burst = 8.0;
 /// Radius of interest that a client may ask for, metres; more is cut to this.
 inline constexpr float interest_radius_max_m = 256.0F;
 
-/// Generated chunks kept in memory by a field (32 KiB each at most), unless it is given a lower bound; above:
-/// all are dropped and made anew on demand.
-inline constexpr size_t generated_chunks_max = 8192;
+/// Bytes of generated chunks kept in memory by a field, unless it is given a lower bound: 0.6 KiB for a chunk
+/// of air or rock, some 10 KiB for one with a surface. Above: those that were not used lately are dropped,
+/// and made anew on demand.
+inline constexpr size_t generated_bytes_max = size_t{64} << 20U;
 
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
 inline constexpr int64_t piece_mass_min = 2 * 254;

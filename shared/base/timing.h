@@ -2,12 +2,20 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace scree {
 
 /// Seconds of the clock that never goes back.
 inline double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Seconds of processor time that the calling thread has taken.
+inline double thread_cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
 class Stopwatch {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -81,12 +82,12 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material
 }
 
 Field::Field(const TerrainSource& source)
-    : source_(source), generated_chunks_max_(limits::generated_chunks_max) {
+    : source_(source), generated_bytes_max_(limits::generated_bytes_max) {
   CHECK(source.voxel_size_m > 0.0F);
 }
 
 Field::Field(Field* below)
-    : source_(below->source_), below_(below), generated_chunks_max_(limits::generated_chunks_max) {}
+    : source_(below->source_), below_(below), generated_bytes_max_(limits::generated_bytes_max) {}
 
 uint64_t Field::edited_bits(ChunkCoord chunk) const {
   const auto found = edited_.find(chunk);
@@ -94,25 +95,57 @@ uint64_t Field::edited_bits(ChunkCoord chunk) const {
   return below_ == nullptr ? own : own | below_->edited_bits(chunk);
 }
 
+size_t Field::generated_chunks() const {
+  return keeper().generated_.chunks.size() + keeper().unused_.chunks.size();
+}
+
+size_t Field::generated_bytes() const {
+  return keeper().generated_.bytes + keeper().unused_.bytes;
+}
+
+void Field::make_room(size_t bytes) {
+  if (generated_.chunks.empty() || generated_.bytes + bytes <= generated_bytes_max_ / 2) return;
+  unused_ = std::exchange(generated_, {});
+  last_.reset();
+}
+
+GeneratedChunk* Field::find_generated(ChunkCoord chunk) {
+  const auto found = generated_.chunks.find(chunk);
+  if (found != generated_.chunks.end()) return &found->second;
+  auto used = unused_.chunks.extract(chunk);
+  if (used.empty()) return nullptr;
+  const size_t bytes = used.mapped().bytes();
+  unused_.bytes -= bytes;
+  make_room(bytes);
+  generated_.bytes += bytes;
+  return &generated_.chunks.insert(std::move(used)).position->second;
+}
+
+GeneratedChunk& Field::add_generated(ChunkCoord chunk, GeneratedChunk generated) {
+  make_room(generated.bytes());
+  generated_.bytes += generated.bytes();
+  return generated_.chunks.emplace(chunk, std::move(generated)).first->second;
+}
+
+void Field::replace_generated(GeneratedChunk& old, GeneratedChunk generated) {
+  generated_.bytes = generated_.bytes - old.bytes() + generated.bytes();
+  old = std::move(generated);
+}
+
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   if (below_ != nullptr) return below_->generated_chunk(chunk);
-  const auto found = generated_.find(chunk);
-  if (found != generated_.end()) {
-    if (!found->second.exact && is_here(source_, chunk)) found->second = generate_chunk(source_, chunk);
-    return found->second;
-  }
-  if (generated_.size() >= generated_chunks_max_) forget_generated();
-  return generated_.emplace(chunk, generate_chunk(source_, chunk)).first->second;
+  GeneratedChunk* const found = find_generated(chunk);
+  if (found == nullptr) return add_generated(chunk, generate_chunk(source_, chunk));
+  if (!found->exact && is_here(source_, chunk)) replace_generated(*found, generate_chunk(source_, chunk));
+  return *found;
 }
 
-void Field::bound_generated(size_t chunks) {
-  CHECK(below_ == nullptr && chunks > 0 && chunks <= limits::generated_chunks_max);
-  generated_chunks_max_ = chunks;
-  if (generated_.size() > chunks) forget_generated();
-}
-
-void Field::forget_generated() {
-  generated_.clear();
+void Field::bound_generated(size_t bytes) {
+  CHECK(below_ == nullptr && bytes > 0 && bytes <= limits::generated_bytes_max);
+  generated_bytes_max_ = bytes;
+  if (generated_bytes() <= bytes) return;
+  generated_ = {};
+  unused_ = {};
   last_.reset();
 }
 
@@ -237,15 +270,25 @@ std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
 void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
   if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
-  if (generated_.size() >= generated_chunks_max_) forget_generated();
   if (!generated.exact) return;
-  const auto [kept, is_new] = generated_.try_emplace(chunk, std::move(generated));
-  if (!is_new && !kept->second.exact) kept->second = std::move(generated);
+  GeneratedChunk* const kept = find_generated(chunk);
+  if (kept == nullptr)
+    add_generated(chunk, std::move(generated));
+  else if (!kept->exact)
+    replace_generated(*kept, std::move(generated));
 }
 
 bool Field::has_generated(ChunkCoord chunk) const {
-  const auto found = keeper().generated_.find(chunk);
-  return found != keeper().generated_.end() && found->second.exact;
+  const Field& field = keeper();
+  for (const auto* kept : {&field.generated_.chunks, &field.unused_.chunks})
+    if (const auto found = kept->find(chunk); found != kept->end()) return found->second.exact;
+  return false;
+}
+
+bool Field::keep_generated(ChunkCoord chunk) {
+  if (below_ != nullptr) return below_->keep_generated(chunk);
+  const GeneratedChunk* const found = find_generated(chunk);
+  return found != nullptr && found->exact;
 }
 
 const Brick* MapField::find_edited(BrickCoord coord) const {

@@ -73,11 +73,15 @@ class Field {
   /// is as none, and brick() makes it anew once it can be (is_here).
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
   bool has_generated(ChunkCoord chunk) const;
-  /// Number of generated chunks kept; at generated_chunks_max() all are dropped.
-  size_t generated_chunks() const { return keeper().generated_.size(); }
-  size_t generated_chunks_max() const { return keeper().generated_chunks_max_; }
-  /// `chunks` is positive, and at most limits::generated_chunks_max, which holds at first.
-  void bound_generated(size_t chunks);
+  /// The same, and it counts as used.
+  bool keep_generated(ChunkCoord chunk);
+  /// Generated chunks that are kept, and what they take in memory. Those that were not used while half of
+  /// generated_bytes_max() was filled are dropped.
+  size_t generated_chunks() const;
+  size_t generated_bytes() const;
+  size_t generated_bytes_max() const { return keeper().generated_bytes_max_; }
+  /// `bytes` is positive, and at most limits::generated_bytes_max, which holds at first.
+  void bound_generated(size_t bytes);
   size_t edited_brick_count() const {
     return below_ == nullptr ? edited_bricks_ : below_->edited_brick_count() + edited_bricks_;
   }
@@ -99,6 +103,7 @@ class Field {
   void begin_turn();
   /// Chunks that are in, and that nobody read or wrote for at least so many turns, the longest idle first.
   std::vector<ChunkCoord> idle_chunks(uint64_t turns) const;
+  bool is_idle(ChunkCoord chunk, uint64_t turns) const;
   /// As if somebody had asked for a chunk that is in now: it is not idle.
   void keep(ChunkCoord chunk);
   /// Of a field that pages: edited chunks in memory, in any order, and their edited bricks.
@@ -134,22 +139,33 @@ class Field {
     uint64_t edited;  ///< as EditedChunk::bricks
     const GeneratedChunk* generated;
   };
+  /// Generated chunks, and what they take in memory.
+  struct GeneratedChunks {
+    std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> chunks;
+    size_t bytes = 0;
+  };
   /// The field that keeps the generated chunks.
   const Field& keeper() const { return below_ == nullptr ? *this : below_->keeper(); }
   uint64_t edited_bits(ChunkCoord chunk) const;
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
-  void forget_generated();
+  /// The chunk if it is kept; it counts as used.
+  GeneratedChunk* find_generated(ChunkCoord chunk);
+  GeneratedChunk& add_generated(ChunkCoord chunk, GeneratedChunk generated);
+  void replace_generated(GeneratedChunk& old, GeneratedChunk generated);
+  /// Drops what was not used lately, when so many more bytes do not fit beside it.
+  void make_room(size_t bytes);
   LastChunk& last_chunk(ChunkCoord chunk);
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
   void use(ChunkCoord chunk, EditedChunk& edited);
   void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
-  Field* below_ = nullptr;  ///< of a layer
-  std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> generated_;
+  Field* below_ = nullptr;     ///< of a layer
+  GeneratedChunks generated_;  ///< used since half of the room was filled last
+  GeneratedChunks unused_;     ///< before, and not since
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
   std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
-  size_t generated_chunks_max_;
+  size_t generated_bytes_max_;
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
   ReadChunk read_;                                ///< null: all chunks are in

@@ -13,6 +13,7 @@ namespace {
 void take(GeneratedChunk& chunk, const std::vector<Brick>& own,
           const std::array<size_t, chunk_brick_count>& slots) {
   chunk.storage = std::make_unique<Brick[]>(own.size());
+  chunk.stored = static_cast<uint32_t>(own.size());
   std::ranges::copy(own, chunk.storage.get());
   for (size_t i = 0; i < chunk_brick_count; ++i)
     if (chunk.bricks[i] == nullptr) chunk.bricks[i] = chunk.storage.get() + slots[i];

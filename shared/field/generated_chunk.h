@@ -15,10 +15,14 @@ inline constexpr size_t chunk_brick_count = size_t{chunk_bricks} * chunk_bricks 
 struct GeneratedChunk {
   std::array<const Brick*, chunk_brick_count> bricks;
   std::unique_ptr<Brick[]> storage;
+  uint32_t stored = 0;  ///< bricks in storage
   /// Of each brick 0, or 1 + the material that the ground stores for it; 0: its layers' (material.h).
   std::array<uint8_t, chunk_brick_count> materials{};
   /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
   bool exact = true;
+
+  /// What it takes in memory.
+  size_t bytes() const { return sizeof(GeneratedChunk) + stored * sizeof(Brick); }
 };
 
 /// `brick` is one of the shared uniform ones.

@@ -10,6 +10,7 @@
 
 #include "proto/world_codec.h"
 #include "server/app/admission.h"
+#include "server/app/limits.h"
 #include "server/app/piece_outlook.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
@@ -30,7 +31,8 @@ class PagerTest : public ::testing::Test {
     kept = std::move(*opened);
     world = kept->take_world();
     ASSERT_TRUE(kept->start(*world, {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}}));
-    auto paging = TerrainPager::open(path, world->field(), std::make_shared<ChunkFetcher>(), bricks_max);
+    auto paging = TerrainPager::open(path, world->field(), std::make_shared<ChunkFetcher>(), bricks_max,
+                                     [this] { return resident_mb * bytes_per_mb; });
     ASSERT_TRUE(paging.has_value()) << paging.error().message;
     pager = std::move(*paging);
   }
@@ -83,6 +85,7 @@ class PagerTest : public ::testing::Test {
   std::vector<Reply> refused;
   std::vector<std::vector<Command>> handed;  ///< to the simulation, by tick, as a recording has them
   std::vector<uint64_t> hashes;
+  double resident_mb = 0.0;  ///< what the process would have in RAM
 };
 
 TEST_F(PagerTest, a_session_under_a_tiny_bound_has_the_hashes_of_one_without) {
@@ -188,6 +191,35 @@ TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will
   admission.answered(std::exchange(answered, {}));
   ask({}, true);
   EXPECT_EQ(answered.size(), 1U);
+}
+
+TEST_F(PagerTest, terrain_gives_way_to_what_the_model_does_not_know_of_and_takes_its_room_back) {
+  config.memory_max_mb = limits::memory_max_min_mb;
+  const double target_mb = config.memory_max_mb * (1.0 - limits::resident_margin_share);
+  const auto ticks = [&](unsigned counts) {
+    for (unsigned tick = 0; tick < counts * limits::pager_count_ticks; ++tick) step();
+  };
+  open(0);
+  step({carve(0.0F)});
+  resident_mb = target_mb - 1.0;
+  ticks(2);
+  EXPECT_EQ(pager->memory().beyond_bytes, 0.0);
+  const uint32_t before_mb = pager->status().memory_mb;
+  resident_mb = target_mb + 10.0;
+  ticks(1);
+  EXPECT_DOUBLE_EQ(pager->memory().beyond_bytes, 10.0 * bytes_per_mb);
+  EXPECT_EQ(pager->status().memory_mb, before_mb + 10);
+  ticks(1);
+  EXPECT_DOUBLE_EQ(pager->memory().beyond_bytes, 20.0 * bytes_per_mb) << "that was not enough";
+  ticks(20);
+  EXPECT_DOUBLE_EQ(pager->memory().beyond_bytes,
+                   config.memory_max_mb * limits::beyond_share_max * bytes_per_mb)
+      << "some terrain stays";
+  resident_mb = target_mb - 32.0;
+  ticks(1);
+  EXPECT_LT(pager->memory().beyond_bytes, config.memory_max_mb * limits::beyond_share_max * bytes_per_mb);
+  ticks(40);
+  EXPECT_EQ(pager->memory().beyond_bytes, 0.0);
 }
 
 TEST(temporary_world, goes_with_its_server_and_a_left_one_with_the_next) {

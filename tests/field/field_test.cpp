@@ -120,12 +120,32 @@ TEST(field, generated_chunks_are_kept_up_to_a_bound_and_made_anew_beyond) {
   MapField field({TerrainKind::canyon, 3, 0.25F});
   const Brick generated = field.brick({2, 0, 2}), edited = random_brick(random);
   field.set_brick({1, 0, 1}, edited);
-  for (int i = 0; i < static_cast<int>(limits::generated_chunks_max) + 10; ++i) {
+  constexpr size_t bytes_max = size_t{1} << 20U;
+  field.bound_generated(bytes_max);
+  for (int i = 0; i < 5000; ++i) {
     field.brick({chunk_bricks * i, 400, 0});
-    ASSERT_LE(field.generated_chunks(), limits::generated_chunks_max);
+    ASSERT_LE(field.generated_bytes(), bytes_max);
   }
+  EXPECT_FALSE(field.has_generated({0, 0, 0}));
   EXPECT_EQ(field.brick({2, 0, 2}), generated);
   EXPECT_EQ(field.brick({1, 0, 1}), edited);
+}
+
+TEST(field, generated_chunks_that_are_used_stay_when_others_are_dropped) {
+  MapField field(flat_terrain);
+  field.bound_generated(size_t{1} << 20U);
+  EXPECT_FALSE(field.keep_generated({0, -1, 0}));
+  const Brick* const first = &field.generated_brick({0, -1, 0});
+  const size_t bytes = field.generated_bytes();
+  EXPECT_GT(bytes, sizeof(GeneratedChunk)) << "it has a surface";
+  for (int i = 1; i < 5000; ++i) {
+    field.generated_brick({chunk_bricks * i, 400, 0});
+    ASSERT_TRUE(field.keep_generated({0, -1, 0}));
+  }
+  EXPECT_EQ(&field.generated_brick({0, -1, 0}), first);
+  EXPECT_FALSE(field.has_generated({1, 100, 0}));
+  EXPECT_EQ(field.generated_chunks(), (field.generated_bytes() - bytes) / sizeof(GeneratedChunk) + 1)
+      << "chunks of air alone beside it";
 }
 
 TEST(field, sampling_a_plane_gives_its_distance_and_normal_across_brick_borders) {

@@ -115,6 +115,8 @@ TEST_F(PagingTest, chunks_that_nobody_asked_for_are_idle_the_longest_first) {
   for (int turn = 0; turn < 3; ++turn) field.begin_turn();
   field.keep(all[1]);
   const std::vector<ChunkCoord> idle = field.idle_chunks(3);
+  for (const ChunkCoord chunk : field.edited_chunks())
+    EXPECT_EQ(field.is_idle(chunk, 3), std::ranges::find(idle, chunk) != idle.end());
   ASSERT_EQ(idle.size(), all.size() - 1);
   EXPECT_EQ(idle.back(), all[0]);
   EXPECT_EQ(std::ranges::count(idle, all[1]), 0);

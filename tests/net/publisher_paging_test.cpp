@@ -14,7 +14,7 @@ class SlowSupply final : public ChunkSupply {
   size_t bricks_max() override { return bricks; }
   Tick saved_tick() override { return saved; }
   void ask(ChunkCoord chunk) override { asked.insert(chunk); }
-  std::vector<SuppliedChunk> take() override {
+  std::vector<SuppliedChunk> take(size_t) override {
     std::vector<SuppliedChunk> chunks;
     if (!answers) return chunks;
     for (const ChunkCoord chunk : std::exchange(asked, {})) {

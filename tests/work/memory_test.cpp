@@ -48,15 +48,19 @@ TEST(terrain_memory, so_many_bricks_leave_a_share_of_the_memory_free) {
 }
 
 TEST(terrain_memory, generated_chunks_keep_to_their_share) {
-  EXPECT_EQ(generated_chunks_within(1U << 20U), limits::generated_chunks_max);
-  const double bytes = static_cast<double>(generated_chunks_within(512)) * limits::generated_chunk_bytes;
-  EXPECT_LE(bytes, 512.0 * 1024.0 * 1024.0 * limits::generated_memory_share);
-  MapField field({TerrainKind::flat, 1, 0.25F});
-  field.bound_generated(4);
-  for (int x = 0; x < 100; ++x) {
-    field.generated_brick({4 * x, 0, 0});
-    ASSERT_LE(field.generated_chunks(), 4U);
-  }
+  EXPECT_EQ(generated_bytes_within(1U << 20U), limits::generated_bytes_max);
+  const double bytes = static_cast<double>(generated_bytes_within(256)) * limits::generated_heap_factor;
+  EXPECT_LE(bytes, 256.0 * 1024.0 * 1024.0 * limits::generated_memory_share);
+}
+
+TEST(terrain_memory, what_the_model_does_not_know_of_leaves_less_for_bricks) {
+  TerrainMemory memory{0, 100, 10000};
+  const double used = used_bytes(memory, 512);
+  const size_t bricks = bricks_within(512, memory);
+  memory.beyond_bytes = 50.0 * bytes_per_mb;
+  EXPECT_DOUBLE_EQ(used_bytes(memory, 512), used + memory.beyond_bytes);
+  EXPECT_NEAR(static_cast<double>(bricks - bricks_within(512, memory)),
+              memory.beyond_bytes / limits::brick_memory_bytes, 1.0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
 
 namespace scree {
@@ -89,6 +90,7 @@ int run(const ServerOptions& options) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::keep_heap_compact();
   const auto options = scree::parse_server_options(argc, argv);
   if (const int* code = std::get_if<int>(&options)) return *code;
   return scree::run(std::get<scree::ServerOptions>(options));
