@@ -1,5 +1,6 @@
 // scree-bench: lists and runs the benchmarks. A table for people, JSON for programs.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -43,16 +44,32 @@ void print_table(const Bench& bench, const BenchReport& report) {
 }
 
 int list() {
-  for (const Bench& bench : scree::all_benches())
+  for (const Bench& bench : scree::all_benches()) {
     std::printf("%-12s %s\n", bench.name.c_str(), bench.summary.c_str());
+    for (const std::string& part : bench.parts) std::printf("%-12s   --part %s\n", "", part.c_str());
+  }
   return 0;
 }
 
-int run(const std::string& name, bool quick, const std::string& json_file) {
+/// Whether the options are the bench's; says so if not.
+bool takes(const Bench& bench, const scree::BenchOptions& options) {
+  const bool any =
+      !options.part.empty() || !options.folder.empty() || options.world_mb || options.memory_max_mb;
+  if (bench.parts.empty() && any)
+    std::fprintf(stderr, "'%s' has no parts: --part, --folder, --world-mb and --memory-max are not for it\n",
+                 bench.name.c_str());
+  else if (!options.part.empty() && std::ranges::find(bench.parts, options.part) == bench.parts.end())
+    std::fprintf(stderr, "'%s' has no part '%s'; `bench list` names them\n", bench.name.c_str(),
+                 options.part.c_str());
+  else
+    return true;
+  return false;
+}
+
+int run(const std::string& name, scree::BenchOptions options, const std::string& json_file) {
   for (const Bench& bench : scree::all_benches()) {
     if (bench.name != name) continue;
-    scree::BenchOptions options;
-    options.quick = quick;
+    if (!takes(bench, options)) return 2;
     scree::ProgressBar bar(isatty(STDERR_FILENO) != 0);
     options.progress = [&](double part) { bar.show(part); };
     const BenchReport report = bench.run(options);
@@ -80,15 +97,22 @@ int main(int argc, char** argv) {
   app.add_subcommand("list", "name every benchmark");
   CLI::App* run_command = app.add_subcommand("run", "run one benchmark");
   std::string name, json_file;
-  bool quick = false;
+  scree::BenchOptions options;
   run_command->add_option("name", name, "which one")->required();
-  run_command->add_flag("--quick", quick, "fewer rounds: to see that it runs");
+  run_command->add_flag("--quick", options.quick, "fewer rounds: to see that it runs");
   run_command->add_option("--json", json_file, "write the report to this file as JSON")
       ->check(scree::check_writable, "FILE");
+  run_command->add_option("--part", options.part, "only this part of the bench (see list)");
+  run_command->add_option("--folder", options.folder,
+                          "keep worlds that take long to make here, and use those that are here");
+  run_command->add_option("--world-mb", options.world_mb, "size of the world that clients roam in, MiB")
+      ->check(CLI::Range(16U, 16384U));
+  run_command->add_option("--memory-max", options.memory_max_mb, "memory-max of its server, MiB")
+      ->check(CLI::Range(256U, 65536U));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return run_command->parsed() ? run(name, quick, json_file) : list();
+  return run_command->parsed() ? run(name, options, json_file) : list();
 }

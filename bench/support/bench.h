@@ -3,7 +3,9 @@
 // A bench measures its peer in the same run and checks the result that it timed; it never decides a test.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,12 +37,19 @@ struct BenchReport {
 struct BenchOptions {
   bool quick = false;  ///< fewer rounds, only to show that it runs
   std::function<void(double fraction)> progress = [](double) {};
+
+  // Of benches that have parts.
+  std::string part;    ///< this one alone; empty: all
+  std::string folder;  ///< where worlds that take long to make are kept for later runs; empty: nowhere
+  std::optional<uint32_t> world_mb;  ///< of a world larger than memory
+  std::optional<uint32_t> memory_max_mb;
 };
 
 struct Bench {
   std::string name;
   std::string summary;
   BenchReport (*run)(const BenchOptions&);
+  std::vector<std::string> parts = {};  ///< that BenchOptions::part may name
 };
 
 /// Every benchmark there is, in alphabetical order.

@@ -50,11 +50,11 @@ class ServerProcess {
 
   uint16_t port() const { return port_; }
   pid_t process() const { return process_; }
-  /// Most memory that lay in RAM at once, MiB; 0 when it has ended.
-  double most_resident_mib() const {
+  /// A line of what Linux says of its memory (VmHWM: most that lay in RAM at once), MiB; 0 when it has ended.
+  double memory_mib(const std::string& name) const {
     std::ifstream status("/proc/" + std::to_string(process_) + "/status");
     for (std::string line; std::getline(status, line);)
-      if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024.0;
+      if (line.starts_with(name + ":")) return std::stod(line.substr(name.size() + 1)) / 1024.0;
     return 0.0;
   }
   /// Sends the signal, once, and waits; the exit status, or -1 when the signal ended it.

@@ -66,7 +66,7 @@ BenchReport run_memory_bench(const BenchOptions& options) {
   }
   std::this_thread::sleep_for(std::chrono::duration<double>(settle_s));
   (*viewers)->stop();
-  const double most_mib = server.most_resident_mib();
+  const double most_mib = server.memory_mib("VmHWM");
   const int status = server.end(SIGTERM);
   const auto told = nlohmann::json::parse(std::ifstream(told_path), nullptr, false);
   std::error_code ignored;

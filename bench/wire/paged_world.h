@@ -7,10 +7,17 @@
 
 namespace scree {
 
-/// Makes a world of 4 GiB of edited bricks in a new file (`quick`: 64 MiB), row by row, and lets 8 viewers
-/// walk and carve in it for a minute. The server is a process of its own, the program scree-server beside
-/// this one, with 512 megabytes (quick: 256). Says so, and does nothing, when the disk or the program is not
+struct RoamPlan {
+  std::string made;    ///< the world's file, which is made unless it is there
+  std::string roamed;  ///< its copy, in which clients roam
+  uint32_t world_mb;   ///< of edited bricks
+  uint32_t memory_max_mb;
+  double seconds;
+};
+
+/// Makes a world row by row, and lets 8 viewers walk and carve in it. The server is a process of its own, the
+/// program scree-server beside this one. Says so, and does nothing, when the disk or the program is not
 /// there.
-void roam_a_paged_world(BenchReport& report, const std::string& path, bool quick);
+void roam_a_paged_world(BenchReport& report, const RoamPlan& plan);
 
 }  // namespace scree

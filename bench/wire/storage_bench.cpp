@@ -4,11 +4,12 @@
 #include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
-#include <map>
+#include <limits>
 #include <thread>
 #include <unistd.h>
 
 #include "bench/support/benches.h"
+#include "bench/support/made_world.h"
 #include "bench/support/scenes.h"
 #include "bench/wire/paged_world.h"
 #include "server/app/live_server.h"
@@ -27,6 +28,8 @@ constexpr double ratio_wanted = 1.05;
 constexpr double start_wanted_s = 2.0;
 constexpr Tick ticks_per_carve = 6;  ///< ten a second
 constexpr uint64_t world_number = 1;
+constexpr int reach_of_a_carve_voxels = 32;         ///< more than one reads, and writes
+constexpr uint32_t read_whole_carves_max = 100000;  ///< a larger world takes gigabytes of memory
 
 double cpu_s(clockid_t clock) {
   timespec now{};
@@ -157,63 +160,105 @@ void save_a_crowd(BenchReport& report, const Folder& folder) {
   report.metric("crowd_bytes_per_tick", static_cast<double>(bytes));
 }
 
-/// A file of a world with so many carves a side, 2 m apart, whose pieces are gone: carved without a
-/// simulation.
-void write_carved(const std::string& path, uint32_t carves_a_side) {
-  World fresh{WorldConfig()};
-  WorldSnapshot value = fresh.snapshot();
-  const TerrainSource& terrain = value.moment.config.terrain;
-  MapField field(terrain);
-  BlowGrid blows(terrain, carves_a_side, 2.0F, 1.25F, 1);
-  PieceTable pieces;
-  while (const auto blow = blows.next()) {
-    apply(CarveOperation{blow->shape, blow->pattern, 1, blow->random_seed, blow->impact_m, 1}, field, pieces);
-    pieces.clear();
+/// Chunks behind that z, voxels, are written and forgotten.
+void write_behind(MapField& field, MadeWorld& world, int z) {
+  for (const ChunkCoord chunk : field.edited_chunks()) {
+    if ((chunk.z + 1) * chunk_size > z) continue;
+    std::vector<BrickPatch> bricks;
+    MassUnits ground = 0;
+    for (const BrickCoord coord : field.edited_bricks(chunk)) {
+      bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+      ground += brick_mass(field.generated_brick(coord));
+    }
+    std::ranges::sort(bricks, {}, &BrickPatch::coord);
+    CHECK(world.add(chunk, std::move(bricks), ground).has_value());
+    field.forget_chunk(chunk);
   }
-  for (const ChunkCoord chunk : field.edited_chunks())
-    for (const BrickCoord coord : field.edited_bricks(chunk))
-      value.bricks.push_back({coord, field.brick(coord), field.painted(coord)});
-  std::ranges::sort(value.bricks, {}, &BrickPatch::coord);
-  auto world = World::salvage(std::move(value));
-  CHECK(world.has_value());
-  const WorldSnapshot carved = (*world)->snapshot();
-  CHECK(WorldFile::create(path, {.world = world_number, .config = carved.moment.config}, carved).has_value());
 }
 
-/// Starts a server on the file, and reads the same file with the ground measured, as it would be unless the
-/// rows said its mass.
-void start_up(BenchReport& report, const Folder& folder, uint32_t carves_a_side) {
-  const uint32_t carves = carves_a_side * carves_a_side;
-  const std::string path = folder / fmt::format("start_{}", carves), name = fmt::format("start_{}_", carves);
-  write_carved(path, carves_a_side);
-  report.metric(name + "file_mb", static_cast<double>(fs::file_size(path)) / 1e6);
+/// A file of a world with so many carves a side, 2 m apart, whose pieces are gone: carved without a
+/// simulation, and row by row.
+void write_carved(const std::string& path, uint32_t carves_a_side) {
+  const WorldConfig config;
+  auto world = MadeWorld::create(path, config);
+  CHECK(world.has_value());
+  MapField field(config.terrain);
+  BlowGrid blows(config.terrain, carves_a_side, 2.0F, 1.25F, 1);
+  PieceTable pieces;
+  for (uint32_t made = 1; const auto blow = blows.next(); ++made) {
+    apply(CarveOperation{blow->shape, blow->pattern, 1, blow->random_seed, blow->impact_m, 1}, field, pieces);
+    pieces.clear();
+    if (made % (4 * carves_a_side) == 0)
+      write_behind(field, *world,
+                   floor_to_int(blow->impact_m.z / config.terrain.voxel_size_m) - reach_of_a_carve_voxels);
+  }
+  write_behind(field, *world, std::numeric_limits<int>::max());
+  CHECK(world->finish().has_value());
+}
+
+/// Reads the file with the ground measured, as it would be unless the rows said its mass.
+void read_whole(BenchReport& report, const std::string& path, const std::string& name) {
   const auto file = WorldFile::open(path);
   CHECK(file.has_value());
   Stopwatch watch;
   const auto rows = (*file)->read();
   CHECK(rows.has_value());
-  report.metric(name + "chunks", static_cast<double>(rows->chunks.size()));
   report.metric(name + "read_s", watch.lap_ms() * 1e-3);
   CHECK(World::restore(rows->world, 1, rows->ground).has_value());
   report.metric(name + "restore_s", watch.lap_ms() * 1e-3);
   CHECK(World::restore(rows->world).has_value());
   report.metric(name + "restore_measuring_ground_s", watch.lap_ms() * 1e-3);
+}
+
+/// Starts a server on a world of so many carves.
+void start_up(BenchReport& report, const std::string& path, uint32_t carves_a_side) {
+  const uint32_t carves = carves_a_side * carves_a_side;
+  const std::string name = fmt::format("start_{}_", carves);
+  if (!fs::exists(path)) {
+    Stopwatch making;
+    write_carved(path, carves_a_side);
+    report.metric(name + "made_s", making.lap_ms() * 1e-3);
+  }
+  report.metric(name + "file_mb", static_cast<double>(fs::file_size(path)) / 1e6);
+  if (carves <= read_whole_carves_max) read_whole(report, path, name);
 
   LiveConfig config;
   config.world_path = path;
   config.net.port = 0;
   config.pacing = Pacing::by_hand;
+  Stopwatch watch;
   const double before_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
-  watch.lap_ms();
   const auto server = LiveServer::start(config);
   const double wall_s = watch.lap_ms() * 1e-3, busy_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - before_s;
   CHECK(server.has_value());
   report.metric(name + "wall_s", wall_s);
   report.metric(name + "cpu_s", busy_s);
+  CHECK((*server)->step_once());
+  const PagerStatus paging = (*server)->report().paging;
+  report.metric(name + "chunks", static_cast<double>(paging.chunks_in + paging.chunks_out));
+  report.metric(name + "chunks_in_memory", static_cast<double>(paging.chunks_in));
   if (carves == 10000)
     report.check("start_at_10000", busy_s <= start_wanted_s,
                  fmt::format("{:.2f} s of processor time, {:.2f} s of the clock; wanted at most {} s", busy_s,
                              wall_s, start_wanted_s));
+}
+
+/// The file of a world that takes long to make: in the folder where it is kept, if there is one.
+std::string kept_world(const BenchOptions& options, const Folder& folder, const std::string& name) {
+  if (options.folder.empty()) return folder / name;
+  fs::create_directories(options.folder);
+  return (fs::path(options.folder) / name).string();
+}
+
+void roam(BenchReport& report, const BenchOptions& options, const Folder& folder) {
+  const uint32_t world_mb = options.world_mb.value_or(options.quick ? 64 : 4096);
+  const uint32_t memory_max_mb = options.memory_max_mb.value_or(options.quick ? 256 : 512);
+  const std::string name = fmt::format("paged_{}_of_{}", memory_max_mb, world_mb);
+  roam_a_paged_world(report, {.made = kept_world(options, folder, name),
+                              .roamed = kept_world(options, folder, name + "_roamed"),
+                              .world_mb = world_mb,
+                              .memory_max_mb = memory_max_mb,
+                              .seconds = options.quick ? 5.0 : 60.0});
 }
 
 }  // namespace
@@ -221,16 +266,20 @@ void start_up(BenchReport& report, const Folder& folder, uint32_t carves_a_side)
 BenchReport run_storage_bench(const BenchOptions& options) {
   BenchReport report;
   const Folder folder;
+  const auto wanted = [&](const char* part) { return options.part.empty() || options.part == part; };
   constexpr std::array durabilities = {Durability::tick, Durability::second, Durability::off};
   double done = 0.0;
   for (const Durability durability : durabilities) {
-    compare_ticks(report, folder, durability, options.quick ? 120 : 1800);
-    options.progress(done += 0.25);
+    if (wanted("ticks")) compare_ticks(report, folder, durability, options.quick ? 120 : 1800);
+    options.progress(done += 0.2);
   }
-  save_a_crowd(report, folder);
+  if (wanted("crowd")) save_a_crowd(report, folder);
   for (const uint32_t carves_a_side : {4U, 32U, 100U, 316U})
-    if (!options.quick || carves_a_side <= 32) start_up(report, folder, carves_a_side);
-  roam_a_paged_world(report, folder / "paged", options.quick);
+    if (wanted("start") && (!options.quick || carves_a_side <= 32))
+      start_up(report, folder / fmt::format("start_{}", carves_a_side), carves_a_side);
+  options.progress(0.7);
+  if (options.part == "million") start_up(report, kept_world(options, folder, "million"), 1000);
+  if (wanted("roam")) roam(report, options, folder);
   options.progress(1.0);
   return report;
 }
