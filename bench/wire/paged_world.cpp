@@ -159,7 +159,7 @@ void roam(BenchReport& report, const RoamPlan& plan, const WorldConfig& config, 
 }  // namespace
 
 void roam_a_paged_world(BenchReport& report, const RoamPlan& plan) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "scree-server";
+  const fs::path program = server_program();
   if (!fs::exists(program)) {
     fmt::print(stderr, "storage: no paged world: {} is not built\n", program.string());
     return;
