@@ -1,5 +1,5 @@
-// scree-export: writes the rock of a kept world, of a ground or of a running server to files of other
-// programs.
+// scree-export: writes the rock of a kept world, of a ground, of a recording's tick or of a running server to
+// files of other programs.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +13,7 @@
 #include "ground/ground_file.h"
 #include "import/programs/program.h"
 #include "server/app/ground_giver.h"
+#include "server/replay/recorded_field.h"
 #include "server/store/stored_field.h"
 #include "shared/base/limits.h"
 #include "shared/base/option_check.h"
@@ -30,6 +31,7 @@ struct Options {
   int64_t timeout_s = 600;
   std::string out;
   std::string ground;
+  std::optional<Tick> tick;  ///< of a recording
   std::vector<float> box_m;
   std::optional<double> cell_m;
 };
@@ -40,7 +42,14 @@ struct Exported {
   ChunkBox box;
 };
 
-/// A world's terrain with its edits. Its pieces are no rock of the terrain.
+/// A recording's terrain after a tick; as of a world, its pieces are no rock of the terrain.
+Result<std::unique_ptr<Field>> field_of_recording(const Options& options) {
+  const auto giver = ground_giver(options.from, options.ground);
+  if (!giver) return tl::unexpected(giver.error());
+  return field_at(options.from, *options.tick, *giver);
+}
+
+/// A world's terrain with its edits.
 Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
   auto file = WorldFile::open(options.from);
   if (!file) return tl::unexpected(file.error());
@@ -56,6 +65,7 @@ Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
 }
 
 Result<std::unique_ptr<Field>> field_of(const Options& options) {
+  if (options.tick) return field_of_recording(options);
   if (!options.from.ends_with(".ground")) return field_of_world(options);
   auto file = GroundFile::open(options.from);
   if (!file) return tl::unexpected(file.error());
@@ -146,6 +156,7 @@ Result<void> run(const Options& options) {
     return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
   if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
   Json line{{"file", options.out}};
+  if (options.tick) line["tick"] = *options.tick;
   const auto what = options.live ? read_server(options, line) : read_file(options);
   if (!what) return tl::unexpected(what.error());
   line["chunks"] = what->box.count();
@@ -163,10 +174,14 @@ Result<void> run(const Options& options) {
 }
 
 void declare(CLI::App& app, Options& options) {
-  CLI::Option* from = app.add_option("from", options.from, "the file of a world, or a ground (.ground)");
+  CLI::Option* from = app.add_option("from", options.from,
+                                     "the file of a world, a ground (.ground), or, with --tick, a recording");
   app.get_option("--server")->excludes(from);
   app.add_option("--ground", options.ground,
                  "the ground file of the world; unless said, looked for beside it and among all grounds")
+      ->needs(from);
+  bounded(app.add_option("--tick", options.tick, "of a recording: the terrain after this tick"),
+          whole_within(0, whole_most))
       ->needs(from);
   bounded(app.add_option("--timeout", options.timeout_s, "seconds that a server's terrain may take"),
           whole_within(1, 86400))
@@ -188,8 +203,8 @@ void declare(CLI::App& app, Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Writes the rock of a kept world, of a ground or of a running server as an OpenVDB level set, as a "
-      "mesh or as an elevation model.",
+      "Writes the rock of a kept world, of a ground, of a recording's tick or of a running server as an "
+      "OpenVDB level set, as a mesh or as an elevation model.",
       "scree-export");
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;
@@ -199,8 +214,9 @@ int main(int argc, char** argv) {
   options.live = endpoint.names_server();
   const auto completed = endpoint.complete();
   if (!completed || options.live != options.from.empty()) {
-    scree::refuse(app, completed ? scree::Error{"either the file of a world or ground, or --server"}
-                                 : completed.error());
+    scree::refuse(app, completed
+                           ? scree::Error{"either the file of a world, ground or recording, or --server"}
+                           : completed.error());
     return scree::exit_usage;
   }
   const auto done = scree::run(options);

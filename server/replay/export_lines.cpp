@@ -41,25 +41,12 @@ Result<Batch> read_batch(RecordingReader& recording, Tick from, Tick to) {
   return batch;
 }
 
-class EventWriter {
- public:
-  EventWriter(LineFormat format, uint32_t tick_rate_hz, const TakeLine& take)
-      : format_(format), tick_rate_hz_(tick_rate_hz), take_(take) {
-    if (format == LineFormat::csv) take(std::string(event_csv_heads));
-  }
-  void write(const Event& event, const Durations& ms) const {
-    EventContext context{tick_rate_hz_};
-    if (const auto known = ms.find(event.tick); known != ms.end()) context.tick_ms = known->second;
-    take_(format_ == LineFormat::csv ? csv_line(event, context) : json_line(event, context));
-  }
+std::optional<float> ms_of(const Durations& ms, Tick tick) {
+  const auto known = ms.find(tick);
+  return known == ms.end() ? std::nullopt : std::optional(known->second);
+}
 
- private:
-  LineFormat format_;
-  uint32_t tick_rate_hz_;
-  const TakeLine& take_;
-};
-
-Result<void> derive_events(const std::string& path, const GroundGiver& ground, const EventWriter& writer) {
+Result<void> derive_events(const std::string& path, const GroundGiver& ground, const TakeEvent& take) {
   auto source = ReplaySource::open(path, 0, ground);
   if (!source) return tl::unexpected(source.error());
   const WorldConfig& world = (*source)->header().world;
@@ -68,7 +55,7 @@ Result<void> derive_events(const std::string& path, const GroundGiver& ground, c
     const auto delta = (*source)->next();
     if (!delta) return tl::unexpected(delta.error());
     if (*delta == nullptr) return {};
-    for (const Event& event : deriver.events_of(**delta)) writer.write(event, {});
+    for (const Event& event : deriver.events_of(**delta)) take(event, std::nullopt);
   }
 }
 
@@ -95,9 +82,8 @@ std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, cons
   const double time_s = static_cast<double>(frame.tick) / world.tick_rate_hz;
   std::string line = csv ? fmt::format("{},{:.3f}", frame.tick, time_s)
                          : fmt::format(R"({{"tick":{},"time_s":{:.3f})", frame.tick, time_s);
-  const auto took = ms.find(frame.tick);
-  if (took != ms.end())
-    line += csv ? fmt::format(",{:.3f}", took->second) : fmt::format(R"(,"ms":{:.3f})", took->second);
+  if (const auto took = ms_of(ms, frame.tick))
+    line += csv ? fmt::format(",{:.3f}", *took) : fmt::format(R"(,"ms":{:.3f})", *took);
   else if (csv)
     line += ",";
   line += csv ? fmt::format(",{}", frame.operations.size())
@@ -111,19 +97,28 @@ std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, cons
 
 }  // namespace
 
+Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const TakeEvent& take) {
+  if (!recording.events_from()) return derive_events(recording.path(), ground, take);
+  const Tick last = recording.last_tick();
+  for (Tick from = recording.first_tick(); from <= last; from += batch_ticks) {
+    const auto batch = read_batch(recording, from, std::min(last, from + batch_ticks - 1));
+    if (!batch) return tl::unexpected(batch.error());
+    for (const Event& event : batch->events) take(event, ms_of(batch->ms, event.tick));
+  }
+  return {};
+}
+
 Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
                            const TakeLine& take) {
   const auto recording = RecordingReader::open(path);
   if (!recording) return tl::unexpected(recording.error());
-  const EventWriter writer(format, (*recording)->header().world.tick_rate_hz, take);
-  if (!(*recording)->events_from()) return derive_events(path, ground, writer);
-  const Tick last = (*recording)->last_tick();
-  for (Tick from = (*recording)->first_tick(); from <= last; from += batch_ticks) {
-    const auto batch = read_batch(**recording, from, std::min(last, from + batch_ticks - 1));
-    if (!batch) return tl::unexpected(batch.error());
-    for (const Event& event : batch->events) writer.write(event, batch->ms);
-  }
-  return {};
+  const bool csv = format == LineFormat::csv;
+  if (csv) take(std::string(event_csv_heads));
+  const uint32_t tick_rate_hz = (*recording)->header().world.tick_rate_hz;
+  return each_event(**recording, ground, [&](const Event& event, std::optional<float> tick_ms) {
+    const EventContext context{tick_rate_hz, tick_ms};
+    take(csv ? csv_line(event, context) : json_line(event, context));
+  });
 }
 
 Result<void> export_ticks(RecordingReader& recording, LineFormat format, const TakeLine& take) {

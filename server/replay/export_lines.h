@@ -1,8 +1,9 @@
-// What a recording says, line by line, for other programs: its events, and its ticks' durations and ledger,
-// as CSV or JSON Lines. Nothing is simulated. One thread at a time.
+// What a recording says, one after the other, for other programs: its events, and its ticks' durations and
+// ledger, as CSV or JSON Lines. Nothing is simulated. One thread at a time.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "server/replay/replay_source.h"
@@ -15,8 +16,14 @@ enum class LineFormat : uint8_t { csv, jsonl };
 /// Takes a line without its end.
 using TakeLine = std::function<void(const std::string& line)>;
 
-/// Every event, ordered by tick: the world's with its tick's duration, where that is recorded. A recording
-/// without a log of events is played, and its world's events are derived from that (event_deriver.h).
+/// Takes an event, and its tick's duration in milliseconds, where that is recorded.
+using TakeEvent = std::function<void(const Event& event, std::optional<float> tick_ms)>;
+
+/// Every event, ordered by tick. A recording without a log of events is played, and its world's events are
+/// derived from that (event_deriver.h).
+Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const TakeEvent& take);
+
+/// A line for each of these.
 Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
                            const TakeLine& take);
 

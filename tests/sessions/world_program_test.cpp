@@ -154,6 +154,22 @@ TEST_F(WorldProgramTest, a_kept_world_is_exported_with_its_ground_and_not_withou
   EXPECT_EQ(exported("-o " + mesh + " --ground " + (folder / "ground.moved")).first, 0);
 }
 
+TEST_F(WorldProgramTest, the_terrain_of_a_tick_of_a_recording_is_exported) {
+  const auto exported = [&](const std::string& arguments) {
+    return run_program(std::string(SCREE_EXPORT_PROGRAM) + " " + recording + " " + arguments);
+  };
+  const std::string volume = folder / "hills.vdb", early = folder / "early.vdb";
+  const auto [code, said] = exported("--tick 20 -o " + volume);
+  ASSERT_EQ(code, 0) << said;
+  EXPECT_EQ(nlohmann::json::parse(said).at("tick"), 20) << said;
+  ASSERT_EQ(exported("--tick 0 -o " + early).first, 0);
+  EXPECT_NE(fs::file_size(volume), fs::file_size(early)) << "something was edited in between";
+  const auto beyond = exported("--tick 100000 -o " + early);
+  EXPECT_EQ(beyond.first, 1);
+  EXPECT_NE(beyond.second.find("there is no tick 100000"), std::string::npos) << beyond.second;
+  EXPECT_EQ(exported("-o " + early).first, 1) << "without a tick it is no world";
+}
+
 TEST_F(WorldProgramTest, wrong_usage_is_2_and_what_is_no_world_is_1) {
   EXPECT_EQ(run("").code, 2);
   EXPECT_EQ(run("mend " + world).code, 2);

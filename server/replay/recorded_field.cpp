@@ -1,0 +1,34 @@
+#include "server/replay/recorded_field.h"
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+void follow_bricks(const TickDelta& delta, Field& field) {
+  CHECK(delta.reverted.empty());
+  for (const BrickState& brick : delta.bricks) {
+    field.set_brick(brick.coord, *brick.brick);
+    field.paint_brick(brick.coord, brick.paint);
+  }
+}
+
+Result<std::shared_ptr<const TickDelta>> state_at_start(ReplaySource& source) {
+  if (source.tick() == 0) return source.same();
+  return source.next();
+}
+
+Result<std::unique_ptr<Field>> field_at(const std::string& path, Tick tick, const GroundGiver& ground) {
+  auto source = ReplaySource::open(path, 0, ground);
+  if (!source) return tl::unexpected(source.error());
+  if (tick < (*source)->first_tick() || tick > (*source)->last_tick())
+    return fail(path + ": there is no tick " + std::to_string(tick) + " in it; its ticks are " +
+                std::to_string((*source)->first_tick()) + " to " + std::to_string((*source)->last_tick()));
+  if (auto sought = (*source)->seek(tick); !sought) return tl::unexpected(sought.error());
+  const auto state = state_at_start(**source);
+  if (!state) return tl::unexpected(state.error());
+  auto field = std::make_unique<MapField>((*source)->header().world.terrain);
+  follow_bricks(**state, *field);
+  return field;
+}
+
+}  // namespace scree
