@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "client/viewer/base/files.h"
 #include "client/viewer/base/json_depth.h"
@@ -58,6 +59,21 @@ std::string camera_text(const Camera& camera) {
                 static_cast<double>(camera.eye_m.y), static_cast<double>(camera.eye_m.z), yaw,
                 static_cast<double>(glm::degrees(camera.pitch)));
   return text;
+}
+
+Result<Camera> parse_camera(const std::string& text) {
+  std::istringstream in(text);
+  std::array<float, 5> values{};
+  for (size_t i = 0; i < values.size(); ++i) {
+    char comma = ',';
+    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
+      return fail("'" + text + "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
+  }
+  if (in.peek() != std::istringstream::traits_type::eof())
+    return fail("'" + text + "' has more than x,y,z,yaw,pitch");
+  const Result<Camera> place = camera_of(values);
+  if (!place) return fail("'" + text + "': " + place.error().message);
+  return place;
 }
 
 Result<CameraPath> CameraPath::parse(const std::string& text) {

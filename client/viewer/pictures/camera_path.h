@@ -22,6 +22,8 @@ namespace scree {
 Result<Camera> camera_of(const std::array<float, 5>& values);
 /// "x,y,z,yaw,pitch" in metres and degrees, as --camera takes it.
 std::string camera_text(const Camera& camera);
+/// The other way round. The error says what is wrong with the text.
+Result<Camera> parse_camera(const std::string& text);
 
 class CameraPath {
  public:

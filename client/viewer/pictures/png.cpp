@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <png.h>
@@ -26,6 +27,12 @@ Result<void> write_png(const std::string& file, const Image& image) {
   std::filesystem::rename(partial, file, error);
   if (error) return fail("picture " + file + " cannot be written: " + error.message());
   return {};
+}
+
+Result<void> write_frame(const std::string& folder, size_t frame, const Image& image) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06zu.png", frame);
+  return write_png((std::filesystem::path(folder) / name).string(), image);
 }
 
 Result<Image> read_png(const std::string& file) {

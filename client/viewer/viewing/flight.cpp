@@ -1,23 +1,9 @@
 #include "client/viewer/viewing/flight.h"
 
-#include <cstdio>
-#include <filesystem>
-
 #include "client/viewer/pictures/png.h"
 #include "shared/base/timing.h"
 
 namespace scree {
-namespace {
-
-Result<void> write_frame(Viewing& viewing, size_t frame, double now_s) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06zu.png", frame);
-  const Result<Image> image = viewing.picture(now_s);
-  if (!image) return fail(image.error().message);
-  return write_png((std::filesystem::path(viewing.options.frames) / name).string(), *image);
-}
-
-}  // namespace
 
 bool Flight::over(const ViewerOptions& options) const {
   return static_cast<double>(frame_) > path_.duration_s() * options.frames_per_s;
@@ -40,9 +26,12 @@ Result<bool> Flight::turn(Viewing& viewing, double now_s) {
   } else if (!viewing.view->methods().loaded()) {
     return false;
   }
-  if (!options.frames.empty())
-    if (Result<void> written = write_frame(viewing, frame_, now_s); !written)
+  if (!options.frames.empty()) {
+    const Result<Image> image = viewing.picture(now_s);
+    if (!image) return fail(image.error().message);
+    if (Result<void> written = write_frame(options.frames, frame_, *image); !written)
       return fail(written.error().message);
+  }
   ++frame_;
   return true;
 }

@@ -1,16 +1,15 @@
 #include "client/viewer/viewing/options.h"
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
 
 #include "client/cache/cache_options.h"
 #include "client/cache/limits.h"
 #include "client/connection/endpoint_options.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
+#include "client/viewer/pictures/picture_size.h"
 #include "shared/base/option_check.h"
 
 namespace scree {
@@ -19,32 +18,14 @@ namespace {
 /// Over the canyon floor, looking at the cliff and the arch.
 constexpr const char* default_camera = "30,9,19,63,-7";
 
-Result<void> parse_size(const std::string& text, ViewerOptions& options) {
-  std::istringstream in(text);
-  char x = 0;
-  if (!(in >> options.width >> x >> options.height) || x != 'x' || !in.eof() || options.width < 1 ||
-      options.height < 1)
-    return fail("--size: '" + text + "' is no size; write it as 1280x720");
-  if (std::max(options.width, options.height) > limits::image_side_max)
-    return fail("--size: '" + text + "' is over " + std::to_string(limits::image_side_max) +
-                " pixels a side (limits.image_side_max)");
-  return {};
-}
-
-Result<void> parse_camera(const std::string& text, Camera& camera) {
-  std::istringstream in(text);
-  std::array<float, 5> values{};
-  for (size_t i = 0; i < values.size(); ++i) {
-    char comma = ',';
-    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
-      return fail("--camera: '" + text +
-                  "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
-  }
-  if (in.peek() != std::istringstream::traits_type::eof())
-    return fail("--camera: '" + text + "' has more than x,y,z,yaw,pitch");
-  const Result<Camera> place = camera_of(values);
-  if (!place) return fail("--camera: '" + text + "': " + place.error().message);
-  camera = *place;
+Result<void> understand_place(const std::string& size, const std::string& camera, ViewerOptions& options) {
+  const Result<PictureSize> pixels = parse_size(size);
+  if (!pixels) return fail("--size: " + pixels.error().message);
+  options.width = pixels->width;
+  options.height = pixels->height;
+  const Result<Camera> place = parse_camera(camera);
+  if (!place) return fail("--camera: " + place.error().message);
+  options.camera = *place;
   return {};
 }
 
@@ -185,8 +166,7 @@ Result<void> understand_pictures(ViewerOptions& options) {
 }
 
 Result<void> understand(const Texts& texts, ViewerOptions& options) {
-  if (Result<void> size = parse_size(texts.size, options); !size) return size;
-  if (Result<void> camera = parse_camera(texts.camera, options.camera); !camera) return camera;
+  if (Result<void> placed = understand_place(texts.size, texts.camera, options); !placed) return placed;
   options.method = method_named(texts.method);
   if (options.method == nullptr)
     return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
