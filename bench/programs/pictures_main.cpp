@@ -2,22 +2,23 @@
 // gives the same pictures, except for differences between graphics drivers.
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "bench/support/canyon_show.h"
 #include "bench/support/stage.h"
 #include "client/render/methods.h"
+#include "client/render/scene/look_at.h"
 #include "client/viewer/events/dust.h"
 #include "client/viewer/events/piece_watch.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/overlay.h"
+#include "server/store/recorder.h"
 #include "server/world/world.h"
 
 namespace scree {
@@ -27,11 +28,6 @@ constexpr float view_radius_m = 48.0F;
 constexpr int width = 560;
 constexpr int height = 315;
 const TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
-
-Camera look(glm::vec3 from_m, glm::vec3 at_m) {
-  const glm::vec3 way = glm::normalize(at_m - from_m);
-  return {from_m, std::atan2(-way.x, -way.z), std::asin(way.y)};
-}
 
 [[noreturn]] void give_up(const std::string& why) {
   std::fprintf(stderr, "scree-pictures: %s\n", why.c_str());
@@ -116,16 +112,6 @@ class Film {
   Dust dust_;
 };
 
-CarveRequest blow(const Shape& shape, glm::vec3 impact_m, uint32_t seeds, float speed_m_s) {
-  CarveRequest carve;
-  carve.shape = shape;
-  carve.seeds = seeds;
-  carve.random_seed = 4;
-  carve.impact_m = impact_m;
-  carve.blast_speed_m_s = speed_m_s;
-  return carve;
-}
-
 float ground_m(float x, float z) {
   return ground_height_m(canyon, x, z);
 }
@@ -133,7 +119,7 @@ float ground_m(float x, float z) {
 /// A blow against the cliff: the hole, the cracks about the impact, the flight, the heap, the ground.
 void draw_blast(Film& film) {
   const glm::vec3 impact_m(1.6F, 5.0F, 20.0F);
-  const Camera camera = look({11.0F, 5.6F, 25.5F}, {2.2F, 2.5F, 20.0F});
+  const Camera camera = look_at({11.0F, 5.6F, 25.5F}, {2.2F, 2.5F, 20.0F});
   film.shoot("cliff", camera);
   film.ask(blow(sphere({0.6F, 5.0F, 20.0F}, 2.4F), impact_m, 80, 2.0F));
   film.run(6);
@@ -152,7 +138,7 @@ void draw_tower(Film& film) {
   const float x = 9.0F, z = -27.0F, base_m = ground_m(x, z);
   for (const float up_m : {1.5F, 4.5F, 7.5F})
     film.ask(FillRequest{box({x, base_m + up_m, z}, {1.3F, 2.0F, 1.3F})});
-  const Camera camera = look({x + 13.0F, base_m + 5.0F, z + 11.0F}, {x, base_m + 4.2F, z});
+  const Camera camera = look_at({x + 13.0F, base_m + 5.0F, z + 11.0F}, {x, base_m + 4.2F, z});
   film.shoot("tower_before", camera);
   const glm::vec3 foot_m(x, base_m + 1.3F, z);
   film.ask(blow(sphere(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
@@ -175,12 +161,12 @@ void draw_patterns(Film& film) {
     film.ask(carve);
   }
   film.run(12);
-  film.shoot("patterns", look({x + 7.0F, up_m + 0.8F, middle_z}, {x, up_m - 0.1F, middle_z}));
+  film.shoot("patterns", look_at({x + 7.0F, up_m + 0.8F, middle_z}, {x, up_m - 0.1F, middle_z}));
 }
 
 /// The arch, cut at both feet, falls as one.
 void draw_arch(Film& film) {
-  const Camera camera = look({31.0F, 6.0F, 9.0F}, {15.0F, 3.8F, 0.0F});
+  const Camera camera = look_at({31.0F, 6.0F, 9.0F}, {15.0F, 3.8F, 0.0F});
   for (const float z : {-7.4F, 7.4F}) {
     const glm::vec3 foot_m(15.0F, 1.8F, z);
     film.ask(blow(sphere(foot_m, 2.8F), foot_m + glm::vec3(2.0F, 0.0F, 0.0F), 24, 4.0F));
@@ -204,9 +190,29 @@ void draw_methods(Film& film) {
   film.settle();
   strike({0.6F, 6.0F, 19.0F});
   film.run(30);
-  const Camera camera = look({14.0F, 7.0F, 22.0F}, {2.0F, 3.0F, 15.0F});
+  const Camera camera = look_at({14.0F, 7.0F, 22.0F}, {2.0F, 3.0F, 15.0F});
   for (const MethodEntry& entry : all_methods())
     film.shoot("method_" + std::string(entry.name), camera, entry.name);
+}
+
+/// The scene of the README's film: `scree replay render` draws it.
+void record_show(const std::string& file) {
+  WorldConfig config;
+  config.terrain = canyon;
+  World world(config);
+  auto recorder = Recorder::create(file, {"scree-pictures", config});
+  if (!recorder) give_up(recorder.error().message);
+  const std::vector<TimedBlow> show = canyon_show();
+  for (Tick tick = 1; tick <= canyon_show_ticks; ++tick) {
+    std::vector<Command> commands;
+    for (const TimedBlow& timed : show)
+      if (timed.tick == tick) commands.push_back({0, 0, timed.carve});
+    auto delta = world.step(commands);
+    for (const Reply& reply : delta->replies)
+      if (!reply.refusal.empty()) give_up(reply.refusal);
+    (*recorder)->push(std::move(delta), std::move(commands));
+  }
+  if (const Result<void> finished = (*recorder)->finish(); !finished) give_up(finished.error().message);
 }
 
 struct Scenario {
@@ -223,12 +229,17 @@ constexpr std::array scenarios{Scenario{"blast", draw_blast}, Scenario{"patterns
 
 int main(int argc, char** argv) {
   using namespace scree;
-  std::string folder = "docs/images", only;
+  std::string folder = "docs/images", only, recording;
   CLI::App app("Draws the pictures of Scree's documentation.", "scree-pictures");
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "where the PNGs go");
   app.add_option("--only", only, "one of blast, patterns, tower, arch, methods");
+  app.add_option("--record", recording, "no pictures: a recording of the README's film, to this file");
   CLI11_PARSE(app, argc, argv);
+  if (!recording.empty()) {
+    record_show(recording);
+    return 0;
+  }
   std::filesystem::create_directories(folder);
   const Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
   if (!stage) give_up(stage.error().message);

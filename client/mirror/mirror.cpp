@@ -1,10 +1,10 @@
 #include "client/mirror/mirror.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <string>
 
 #include "client/mirror/limits.h"
+#include "client/mirror/pose_between.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/overloaded.h"
@@ -378,8 +378,7 @@ Pose Mirror::pose_at(const PieceMotion& motion, double tick) const {
   if (tick <= static_cast<double>(motion.from_tick)) return motion.from;
   const auto t = static_cast<float>((tick - static_cast<double>(motion.from_tick)) /
                                     static_cast<double>(motion.to_tick - motion.from_tick));
-  return {glm::mix(motion.from.position_m, motion.to.position_m, t),
-          glm::slerp(motion.from.rotation, motion.to.rotation, t)};
+  return pose_between(motion.from, motion.to, t);
 }
 
 }  // namespace scree

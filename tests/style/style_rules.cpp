@@ -71,13 +71,14 @@ const std::vector<Layer>& layers() {
        {"client/viewer/session/", "client/viewer/pictures/", "client/viewer/sound/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
+      {"film/", {"server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
       {"bench/support/", {"server/", "client/", "import/", "export/"}},
       {"bench/peers/", {"server/", "client/"}},
       {"bench/simulation/", {"bench/support/", "bench/peers/"}},
       {"bench/drawing/", {"bench/support/", "bench/peers/"}},
       {"bench/wire/", {"bench/support/"}},
       {"bench/programs/", {"bench/support/"}},
-      {"tests/", {"bench/", "cmake/"}},
+      {"tests/", {"bench/", "film/", "cmake/"}},
   };
   return table;
 }

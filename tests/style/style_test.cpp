@@ -16,8 +16,8 @@ namespace scree::style {
 namespace {
 
 constexpr std::array source_folders = {"shared/", "proto/",  "crypto/", "transport/", "auth/",
-                                       "ground/", "import/", "export/", "server/",    "client/",
-                                       "tests/",  "bench/",  "shaders/"};
+                                       "ground/", "import/", "export/", "film/",      "server/",
+                                       "client/", "tests/",  "bench/",  "shaders/"};
 
 bool is_code(const std::string& path) {
   return path.ends_with(".h") || path.ends_with(".cpp");

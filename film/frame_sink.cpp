@@ -1,0 +1,28 @@
+#include "film/frame_sink.h"
+
+#include <filesystem>
+
+#include "film/encoded_film.h"
+#include "film/picture_folder.h"
+
+namespace scree {
+namespace {
+
+bool is_folder(const std::string& file) {
+  std::error_code unknown;
+  return file.ends_with('/') || std::filesystem::is_directory(file, unknown);
+}
+
+}  // namespace
+
+Result<void> check_film_name(const std::string& file) {
+  if (is_folder(file) || encoding_of(file) != nullptr) return {};
+  return fail("'" + file + "' is no film: it ends in .mp4, .webp or .gif, or in / for a folder of PNGs");
+}
+
+Result<std::unique_ptr<FrameSink>> open_sink(const FilmFormat& format, Stopped stopped) {
+  if (is_folder(format.file)) return open_picture_folder(format.file);
+  return open_encoded_film(format, std::move(stopped));
+}
+
+}  // namespace scree

@@ -1,0 +1,31 @@
+#include "film/picture_folder.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "client/viewer/pictures/png.h"
+
+namespace scree {
+namespace {
+
+class PictureFolder final : public FrameSink {
+ public:
+  explicit PictureFolder(std::string folder) : folder_(std::move(folder)) {}
+  Result<void> add(const Image& frame) override { return write_frame(folder_, frames_++, frame); }
+  Result<void> finish() override { return {}; }
+
+ private:
+  std::string folder_;
+  size_t frames_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSink>> open_picture_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(folder + " cannot be made: " + error.message());
+  return std::make_unique<PictureFolder>(folder);
+}
+
+}  // namespace scree

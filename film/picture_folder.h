@@ -1,0 +1,11 @@
+// A film as a folder of PNGs.
+#pragma once
+
+#include "film/frame_sink.h"
+
+namespace scree {
+
+/// Makes the folder where it is missing. Pictures of an unfinished film stay: each is whole.
+Result<std::unique_ptr<FrameSink>> open_picture_folder(const std::string& folder);
+
+}  // namespace scree

@@ -1,0 +1,56 @@
+// A recording's world at any moment, to be drawn: the terrain after the last whole tick, the pieces between
+// that tick and the next one, and the dust that pieces raised. What is shown at a moment does not depend on
+// which moments were shown before. Nothing is simulated. One thread at a time.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/mirror/mirror.h"
+#include "client/render/scene/draw_method.h"
+#include "client/render/scene/particle.h"
+#include "client/viewer/events/dust.h"
+#include "client/viewer/events/piece_watch.h"
+#include "server/replay/replay_source.h"
+
+namespace scree {
+
+class RecordedScene {
+ public:
+  /// Opens a recording, to be shown from a moment on, which lies within its ticks.
+  static Result<std::unique_ptr<RecordedScene>> open(const std::string& path, double from_tick,
+                                                     const GroundGiver& ground);
+
+  /// Goes to a moment, in ticks and parts of one: not before the last one, and not after the recording's end.
+  /// The result is what changed since the last moment, or since untouched terrain.
+  Result<MirrorChanges> go_to(double tick);
+
+  /// As of the last moment.
+  Field& field() { return field_; }
+  const ScenePieces& pieces() const { return pieces_; }
+  /// In the air; the farthest from the eye first.
+  std::vector<Particle> particles(glm::vec3 eye_m) { return dust_.at(seconds_of(moment_), eye_m); }
+
+ private:
+  RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_ptr<const TickDelta> state);
+
+  double seconds_of(double tick) const { return tick / source_->header().world.tick_rate_hz; }
+  Result<void> look_ahead();
+  void take(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes);
+  void take_pieces(MirrorChanges& changes);
+  void move_pieces(float part);
+
+  std::unique_ptr<ReplaySource> source_;
+  MapField field_;
+  std::map<PieceId, std::shared_ptr<const Volume>> volumes_;  ///< of the pieces alive
+  ScenePieces pieces_;
+  PieceWatch watch_;
+  Dust dust_;
+  MirrorChanges unseen_;                    ///< since the last moment that was asked for
+  std::shared_ptr<const TickDelta> now_;    ///< the last whole tick
+  std::shared_ptr<const TickDelta> ahead_;  ///< the tick after it, once it was read
+  double moment_ = 0.0;
+};
+
+}  // namespace scree

@@ -1,0 +1,91 @@
+// The moments of a recording: what is drawn is what was recorded, whichever moments were drawn before.
+#include "film/recorded_scene.h"
+
+#include <glm/geometric.hpp>
+
+#include "server/replay/recorded_field.h"
+#include "tests/support/recording_fixture.h"
+
+namespace scree {
+namespace {
+
+class FilmScene : public RecordingTest {
+ protected:
+  void SetUp() override {
+    RecordingTest::SetUp();
+    simulate(150);  // a carve at tick 10, and at 110
+    record();
+  }
+  std::unique_ptr<RecordedScene> scene_at(double tick) const {
+    auto scene = RecordedScene::open(path, tick, {});
+    EXPECT_TRUE(scene.has_value()) << scene.error().message;
+    return scene ? std::move(*scene) : nullptr;
+  }
+  const TickDelta& recorded(Tick tick) const { return *deltas.at(tick - 1); }
+};
+
+TEST_F(FilmScene, terrain_is_that_of_the_last_whole_tick) {
+  const auto scene = scene_at(0.0);
+  ASSERT_TRUE(scene->go_to(0.0).has_value());
+  EXPECT_EQ(scene->field().hash(), 0U);
+  for (const double tick : {9.9, 10.0, 10.9, 11.0, 80.5, 150.0}) {
+    ASSERT_TRUE(scene->go_to(tick).has_value());
+    EXPECT_EQ(scene->field().hash(), recorded(static_cast<Tick>(tick)).field_hash) << tick;
+    EXPECT_EQ(scene->pieces().size(), recorded(static_cast<Tick>(tick)).pieces.size()) << tick;
+  }
+}
+
+TEST_F(FilmScene, changes_are_all_those_since_the_last_moment) {
+  const auto scene = scene_at(5.0);
+  EXPECT_TRUE(scene->go_to(9.0)->bricks.empty());
+  const auto changes = scene->go_to(11.0);
+  ASSERT_TRUE(changes.has_value());
+  EXPECT_EQ(changes->pieces_added.size(), scene->pieces().size());
+  EXPECT_GE(changes->bricks.size(), recorded(10).bricks.size());
+  EXPECT_TRUE(scene->go_to(11.5)->bricks.empty());
+}
+
+TEST_F(FilmScene, pieces_are_between_their_places_of_two_ticks) {
+  const auto scene = scene_at(12.0);
+  ASSERT_TRUE(scene->go_to(12.25).has_value());
+  ASSERT_FALSE(scene->pieces().empty());
+  for (const PieceState& before : recorded(12).pieces) {
+    const auto after = std::ranges::find(recorded(13).pieces, before.id, &PieceState::id);
+    ASSERT_NE(after, recorded(13).pieces.end());
+    const glm::vec3 from_m = dequantise(before.pose).position_m, to_m = dequantise(after->pose).position_m;
+    const glm::vec3 at_m = scene->pieces().at(before.id).pose.position_m;
+    EXPECT_LT(glm::distance(at_m, from_m + 0.25F * (to_m - from_m)), 1e-5F);
+  }
+}
+
+TEST_F(FilmScene, a_moment_is_the_same_whichever_were_shown_before) {
+  const glm::vec3 eye_m(0.0F, 5.0F, 10.0F);
+  const auto slowly = scene_at(0.0);
+  for (double tick = 0.0; tick < 147.5; tick += 0.5) ASSERT_TRUE(slowly->go_to(tick).has_value());
+  const auto at_once = scene_at(147.5);
+  ASSERT_TRUE(slowly->go_to(147.5).has_value());
+  ASSERT_TRUE(at_once->go_to(147.5).has_value());
+  EXPECT_EQ(slowly->field().hash(), at_once->field().hash());
+  ASSERT_EQ(slowly->pieces().size(), at_once->pieces().size());
+  for (const auto& [id, piece] : slowly->pieces())
+    EXPECT_EQ(piece.pose.position_m, at_once->pieces().at(id).pose.position_m);
+  const auto a = slowly->particles(eye_m), b = at_once->particles(eye_m);
+  EXPECT_FALSE(a.empty());
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].place_m, b[i].place_m);
+}
+
+TEST_F(FilmScene, the_terrain_of_a_tick_is_a_field_of_its_own) {
+  for (const Tick tick : {1U, 10U, 111U, 150U}) {
+    const auto field = field_at(path, tick, {});
+    ASSERT_TRUE(field.has_value()) << field.error().message;
+    EXPECT_EQ((*field)->hash(), recorded(tick).field_hash);
+  }
+  EXPECT_EQ((*field_at(path, 0, {}))->hash(), 0U);
+  const auto beyond = field_at(path, 151, {});
+  ASSERT_FALSE(beyond.has_value());
+  EXPECT_NE(beyond.error().message.find("0 to 150"), std::string::npos) << beyond.error().message;
+}
+
+}  // namespace
+}  // namespace scree
