@@ -56,7 +56,8 @@ constexpr EventRow row_of(EventKind kind) {
     case EventKind::fall:
       return {kind, "fall", false, "loose terrain became a piece, or dust"};
     case EventKind::merge:
-      return {kind, "merge", false, "a burst of merges in one tick; pieces: became terrain"};
+      return {kind, "merge", false,
+              "pieces became terrain near each other within a second; place: the first one"};
     case EventKind::setting:
       return {kind, "setting", false, "a setting changed; text: its name and value"};
     case EventKind::rebuild:

@@ -22,8 +22,8 @@ std::string without_length(const std::vector<uint8_t>& message) {
   return {message.begin() + length_prefix_bytes, message.end()};
 }
 
-PieceMessage read_piece(const std::string& bytes, FieldChecker& check) {
-  ServerMessage message = check.take(decode_server(as_span(bytes)));
+PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
+  ServerMessage message = check.take(decode_server(bytes));
   if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
   check.refuse("what should be a piece is another message");
   return {};
@@ -116,6 +116,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   }
   for (const PieceMessage& piece : keyframe.pieces)
     to.add_pieces(without_length(encode(ServerMessage(piece))));
+  to.set_poses(to_string(pack_transforms(keyframe.poses)));
   write(*to.mutable_ledger(), keyframe.ledger);
   to.set_field_hash(keyframe.field_hash);
   to.set_state_hash(keyframe.state_hash);
@@ -137,7 +138,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   size_t voxels = 0;
   for (const std::string& packed : from->pieces()) {
     if (check.failed()) break;
-    keyframe.pieces.push_back(read_piece(packed, check));
+    keyframe.pieces.push_back(read_piece(as_span(packed), check));
     voxels += keyframe.pieces.back().volume.window.codes.size();
     if (voxels > limits::piece_voxels_max)
       check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
@@ -147,7 +148,19 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.field_hash = from->field_hash();
   keyframe.state_hash = from->state_hash();
   keyframe.settings = check.settings(from->settings());
+  keyframe.poses = check.take(unpack_transforms(as_span(from->poses())));
   return checked(std::move(keyframe), check);
+}
+
+std::vector<uint8_t> encode_recorded_piece(const PieceMessage& piece) {
+  const std::string bytes = without_length(encode(ServerMessage(piece)));
+  return {bytes.begin(), bytes.end()};
+}
+
+Result<PieceMessage> decode_recorded_piece(std::span<const uint8_t> bytes) {
+  FieldChecker check("piece of the recording");
+  PieceMessage piece = read_piece(bytes, check);
+  return checked(std::move(piece), check);
 }
 
 std::vector<uint8_t> encode(std::span<const RecordedCommand> commands) {

@@ -25,7 +25,8 @@ struct RecordedHeader {
   Digest ground{};        ///< of the file that the terrain's ground is from; zeros: it is generated
   uint32_t tick_rate_hz = 60;
   uint32_t merges_per_tick_max = 0;
-  SettingValues settings;  ///< to start with
+  SettingValues settings;          ///< to start with
+  uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
 };
 
 /// The same values as Ledger in server/world/tick_delta.h.
@@ -55,6 +56,7 @@ struct RecordedKeyframe {
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   SettingValues settings;
+  std::vector<PieceState> poses;  ///< of the pieces whose volumes are rows of their own; ordered by id
 };
 
 struct RecordedCommand {
@@ -68,10 +70,13 @@ std::vector<uint8_t> encode(const RecordedHeader& header);
 std::vector<uint8_t> encode(const RecordedFrame& frame);
 std::vector<uint8_t> encode(const RecordedKeyframe& keyframe);
 std::vector<uint8_t> encode(std::span<const RecordedCommand> commands);
+/// A piece's row: the pose is that of the tick in which it was written.
+std::vector<uint8_t> encode_recorded_piece(const PieceMessage& piece);
 
 Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes);
 Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes);
 Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes);
 Result<std::vector<RecordedCommand>> decode_recorded_commands(std::span<const uint8_t> bytes);
+Result<PieceMessage> decode_recorded_piece(std::span<const uint8_t> bytes);
 
 }  // namespace scree

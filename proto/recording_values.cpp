@@ -37,6 +37,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   to.set_merges_per_tick_max(from.merges_per_tick_max);
   write(*to.mutable_settings(), from.settings);
   if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
+  to.set_merge_burst_ticks(from.merge_burst_ticks);
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -53,6 +54,8 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   header.tick_rate_hz =
       check.within(from.tick_rate_hz(), limits::tick_rate_min_hz, limits::tick_rate_max_hz, "tick_rate_hz");
   header.merges_per_tick_max = from.merges_per_tick_max();
+  header.merge_burst_ticks =
+      check.within(from.merge_burst_ticks(), 0, limits::merge_burst_ticks_max, "merge_burst_ticks");
   header.settings = check.settings(from.settings());
   if (from.ground().size() == header.ground.size())
     std::ranges::copy(as_span(from.ground()), header.ground.begin());

@@ -16,6 +16,9 @@ namespace scree {
 namespace limits {
 /// Length of a program's name and version, bytes; an encoder cuts a longer one.
 inline constexpr size_t program_bytes_max = 128;
+
+/// Ticks of a burst of merges (RecordedHeader::merge_burst_ticks); more is refused.
+inline constexpr uint32_t merge_burst_ticks_max = 1000;
 }  // namespace limits
 
 std::vector<uint8_t> bytes_of(const google::protobuf::MessageLite& message);

@@ -45,10 +45,21 @@ void LiveServer::State::end(const std::string& error) {
   if (!report.error) report.error = error;
 }
 
+/// The world from which a part of a ring begins. Renewing bodies costs: best is a tick without any.
+std::shared_ptr<const WorldMoment> LiveServer::State::begin_part(const TickDelta& delta) {
+  if (!recorder->wants_part()) return nullptr;
+  if (!delta.pieces.empty() && ++part_waited < limits::part_patience_ticks) return nullptr;
+  part_waited = 0;
+  World& world = *feed->world();
+  world.renew();
+  return std::make_shared<const WorldMoment>(world.moment());
+}
+
 /// When the recording cannot be written, it ends, and the server goes on.
 void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
                                std::vector<Event> noted) {
-  recorder->push(std::move(delta), std::move(carried_out), std::move(noted));
+  auto part = begin_part(*delta);
+  recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part));
   if (record_failed) return;
   const auto error = recorder->error();
   if (!error) return;

@@ -13,6 +13,7 @@
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
 #include "server/net/net_server.h"
+#include "server/store/recording_ring.h"
 #include "server/store/world_keeper.h"
 #include "server/world/world.h"
 
@@ -27,6 +28,7 @@ struct LiveConfig {
   NetConfig net;            ///< terrain, tick rate and replay are filled in
   ReplayOptions replay;     ///< plays a recording, when its path is not empty
   std::string record_path;  ///< empty: no recording
+  RingLimit record_ring;    ///< how much of it is kept
   std::string events_path;  ///< file of the log of events (live_events.h), that is appended to; empty: none
   std::string
       world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server

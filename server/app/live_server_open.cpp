@@ -99,9 +99,9 @@ Result<void> LiveServer::State::open_recorder() {
     return fail(config.record_path +
                 ": a recording begins with all of the world's terrain, which is more than "
                 "half of the memory takes: raise memory-max, or do not record (--record)");
-  auto recording = goes_on
-                       ? Recorder::create(config.record_path, header, {world.snapshot(), world.keyframe()})
-                       : Recorder::create(config.record_path, header);
+  auto recording = goes_on ? Recorder::create(config.record_path, header,
+                                              {world.snapshot(), world.keyframe()}, config.record_ring)
+                           : Recorder::create(config.record_path, header, config.record_ring);
   if (!recording) return tl::unexpected(recording.error());
   recorder = std::move(*recording);
   report.record_path = config.record_path;

@@ -43,6 +43,7 @@ struct LiveServer::State {
   bool time_is_over() const {
     return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);
   }
+  std::shared_ptr<const WorldMoment> begin_part(const TickDelta& delta);
   void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
               std::vector<Event> noted);
   /// Notes nothing where nobody wants to know.
@@ -67,6 +68,7 @@ struct LiveServer::State {
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
+  Tick part_waited = 0;        ///< ticks since the recording wanted a part; used as record_failed is
   bool record_failed = false;  ///< used by the simulation thread only
   bool saved = false;          ///< for good; used by the owner's thread only
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "proto/messages.h"
+#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
 #include "server/world/limits.h"
@@ -168,6 +169,16 @@ void add_recordings(CLI::App& app, Raw& raw) {
   CLI::Option* record =
       app.add_option("--record", live.record_path,
                      "records the session to this new file; goes on with it where the --world does");
+  const auto take_ring = [&live](const std::string& text) {
+    const auto limit = ring_limit_of(text);
+    if (!limit) throw CLI::ValidationError("--record-ring", limit.error().message);
+    live.record_ring = *limit;
+  };
+  app.add_option_function<std::string>(
+         "--record-ring", take_ring,
+         "keeps of the recording the last minutes or bytes alone: 90s, 10m or 2h; "
+         "500M, 2G or 1T")
+      ->needs(record);
   CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
   replay->excludes(record);
   for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate"})
@@ -238,6 +249,28 @@ void take_world(Raw& raw) {
   }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
   if (Result<void> valid = validate(world); !valid) throw CLI::ValidationError(valid.error().message);
+}
+
+/// The files that it names, with what is done to them.
+void refuse_shared_files(const Raw& raw, const std::string& config_path) {
+  const LiveConfig& live = raw.options.live;
+  const AccessConfig& access = live.net.access;
+  const std::array files = {NamedFile{"--config", config_path},
+                            NamedFile{"--ground", raw.ground},
+                            NamedFile{"--replay", live.replay.path},
+                            NamedFile{"--admin-token-file", raw.token_path},
+                            NamedFile{"--tls-cert", access.tls_certificate_path},
+                            NamedFile{"--tls-key", access.tls_key_path},
+                            NamedFile{"--token-key", access.token_key_path},
+                            NamedFile{"--token-revoked", access.token_revoked_path},
+                            NamedFile{"--bans", access.bans_path, true},
+                            NamedFile{"--world", live.world_path, true},
+                            NamedFile{"--record", live.record_path, true},
+                            NamedFile{"--events", live.events_path, true},
+                            NamedFile{"--report", raw.options.report_path, true},
+                            NamedFile{"--trace", live.trace_path, true}};
+  if (Result<void> distinct = check_distinct(files); !distinct)
+    throw CLI::ValidationError(distinct.error().message);
 }
 
 /// --sessions-max is SCREE_SESSIONS_MAX.
@@ -320,6 +353,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   name_environment(app);
   try {
     app.parse(argc, argv);
+    refuse_shared_files(raw, file->count() > 0 ? file->as<std::string>() : std::string());
     take_token(raw);
     take_anonymous(raw);
     take_durability(raw);

@@ -143,6 +143,9 @@ class Bodies {
   Result<void> restore(const std::vector<std::shared_ptr<const BodyShape>>& shapes,
                        const MotionValue& motions);
 
+  /// Makes of these bodies what restore() makes of their shapes and motions: all wake, and contacts are gone.
+  void renew();
+
   /// XXH3 of the exact transforms and velocities, in order of id.
   uint64_t state_hash() const;
 

@@ -198,4 +198,14 @@ Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>
   return {};
 }
 
+void Bodies::renew() {
+  const MotionValue now = motions();
+  std::vector<std::shared_ptr<const BodyShape>> shapes;
+  for (const auto& [id, body] : state_->bodies) shapes.push_back(body.given);
+  while (size() > 0) remove(state_->bodies.begin()->first);
+  state_ = std::make_unique<State>(state_->terrain_field, state_->config);
+  const Result<void> restored = restore(shapes, now);
+  CHECK(restored.has_value());
+}
+
 }  // namespace scree

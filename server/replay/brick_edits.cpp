@@ -1,5 +1,6 @@
 #include "server/replay/brick_edits.h"
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -45,10 +46,12 @@ BricksBefore edits_within(Field& field, const VoxelBox& voxels) {
   return edits;
 }
 
-void replace_edits(Field& field, std::span<const BrickPatch> bricks, BricksBefore& before) {
+void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<const ChunkCoord> kept,
+                   BricksBefore& before) {
   PatchesByChunk wanted;
   for (const BrickPatch& patch : bricks) wanted[chunk_of(patch.coord)].push_back(&patch);
-  for (const ChunkCoord chunk : field.edited_chunks()) wanted.try_emplace(chunk);
+  for (const ChunkCoord chunk : field.edited_chunks())
+    if (!std::ranges::binary_search(kept, chunk)) wanted.try_emplace(chunk);
   for (const auto& [chunk, patches] : wanted) {
     if (field.has_edits(chunk) && !patches.empty() && field.chunk_hash(chunk) == hash_of(patches)) continue;
     for (const BrickCoord brick : field.edited_bricks(chunk))

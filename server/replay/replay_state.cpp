@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "server/world/applied_operation.h"
 #include "shared/base/check.h"
@@ -31,15 +32,20 @@ Result<void> ReplaySource::State::check_hash(uint64_t recorded) const {
                  ": the recording is damaged, or another release made it");
 }
 
-Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe, BricksBefore& before) {
+Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& before) {
+  RecordedKeyframe& keyframe = parts.keyframe;
   played.clear();
   tick = keyframe.tick;
-  pieces.clear();
+  const PieceTable known = std::exchange(pieces, {});
   poses.clear();
-  replace_edits(field, keyframe.bricks, before);
-  for (const PieceMessage& piece : keyframe.pieces) {
-    pieces[piece.id] = std::make_shared<const Volume>(piece.volume);
+  replace_edits(field, keyframe.bricks, parts.known_chunks, before);
+  for (const PieceState& piece : keyframe.poses) {
+    pieces[piece.id] = known.at(piece.id);
     poses[piece.id] = piece.pose;
+  }
+  for (PieceMessage& piece : keyframe.pieces) {
+    poses[piece.id] = piece.pose;
+    pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
   }
   ledger = from_recorded(keyframe.ledger);
   settings = keyframe.settings;
@@ -48,9 +54,14 @@ Result<void> ReplaySource::State::restore(const RecordedKeyframe& keyframe, Bric
 }
 
 Result<void> ReplaySource::State::restore_before(Tick wanted, BricksBefore& before) {
-  const auto keyframe = reader->keyframe_before(wanted);
+  const KnownParts known{[this](ChunkCoord chunk, uint64_t hash) {
+                           return field.has_edits(chunk) && field.chunk_hash(chunk) == hash;
+                         },
+                         [this](PieceId piece) { return pieces.contains(piece); }};
+  auto keyframe = reader->keyframe_before(wanted, known);
   if (!keyframe) return tl::unexpected(keyframe.error());
-  if (auto restored = restore(keyframe->value_or(RecordedKeyframe()), before); !restored) return restored;
+  KeyframeParts parts = *keyframe ? std::move(**keyframe) : KeyframeParts();
+  if (auto restored = restore(std::move(parts), before); !restored) return restored;
   if (tick < start()) return damaged("the recording has no state to start from");
   return {};
 }

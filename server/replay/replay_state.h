@@ -56,7 +56,7 @@ struct ReplaySource::State {
   std::deque<PlayedTick> played;  ///< the last ticks up to this one, that can be taken back
 
  private:
-  Result<void> restore(const RecordedKeyframe& keyframe, BricksBefore& before);
+  Result<void> restore(KeyframeParts parts, BricksBefore& before);
   Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
                                BricksBefore* before);
   Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);

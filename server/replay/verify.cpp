@@ -13,13 +13,13 @@ namespace scree {
 
 namespace {
 
-/// Where another process went on with this tick's state: compares it with the world's own, and goes on from
-/// it.
-Result<void> restart(RecordingReader& recording, std::unique_ptr<World>& world, VerifyReport& report,
+/// Where the recording goes on from a state of this tick: compares it with the world's own, and goes on from
+/// it. Whether it did.
+Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, VerifyReport& report,
                      const GroundGiver& ground) {
   const auto state = recording.state(world->tick());
   if (!state) return tl::unexpected(state.error());
-  if (!state->has_value() || !report.difference.empty()) return {};
+  if (!state->has_value() || !report.difference.empty()) return false;
   const std::vector<uint8_t> own = encode(world->snapshot());
   if (own != **state)
     report.difference = hashes_differ("the whole state", XXH3_64bits(own.data(), own.size()),
@@ -28,7 +28,11 @@ Result<void> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   if (!restored) return fail(recording.path() + ": " + restored.error().message);
   world = std::move(*restored);
   ++report.restarts;
-  return {};
+  return true;
+}
+
+EventDeriver deriver_of(const RecordingReader& recording, const World& world) {
+  return {world.config().terrain.voxel_size_m, print(world.config()), recording.header().merge_burst_ticks};
 }
 
 /// The world's events, where the recording has a log of them; not those of the machine.
@@ -52,11 +56,11 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
   Stopwatch watch;
   VerifyReport report;
   const Tick start = recording.first_tick() - 1;
-  auto world = world_at(recording, start, ground);
-  if (!world) return fail(recording.path() + ": " + world.error().message);
+  auto world = simulated_to(recording, start, ground);
+  if (!world) return tl::unexpected(world.error());
   if (auto restarted = restart(recording, *world, report, ground); !restarted)
     return tl::unexpected(restarted.error());
-  EventDeriver deriver((*world)->config().terrain.voxel_size_m, print((*world)->config()));
+  EventDeriver deriver = deriver_of(recording, **world);
   for (Tick tick = start + 1; tick <= recording.last_tick() && report.agrees(); ++tick) {
     const auto frame = recording.frame(tick);
     if (!frame) return tl::unexpected(frame.error());
@@ -71,8 +75,9 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
     report.difference = difference_of(*delta, *frame);
     if (auto compared = compare_events(recording, deriver.events_of(*delta), tick, report); !compared)
       return tl::unexpected(compared.error());
-    if (auto restarted = restart(recording, *world, report, ground); !restarted)
-      return tl::unexpected(restarted.error());
+    const auto restarted = restart(recording, *world, report, ground);
+    if (!restarted) return tl::unexpected(restarted.error());
+    if (*restarted) deriver = deriver_of(recording, **world);
     if (!report.difference.empty()) report.first_difference = tick;
     if (progress && (tick % progress_ticks == 0 || tick == recording.last_tick()))
       progress(tick, recording.last_tick());

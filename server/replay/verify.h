@@ -1,7 +1,8 @@
 // Verifies a recording: simulates again from its commands, and compares the hashes and the events of
 // every tick; events of the machine do not follow from the commands, and are not compared. Where
-// another process went on with the recording, the whole state is compared with the one that it began with,
-// and the simulation begins anew from that.
+// another process went on with the recording, or a part of it begins, the whole state is compared with the
+// one that is recorded, and the simulation begins anew from that. Ticks before the first one, of which there
+// are commands alone, are simulated and not counted.
 #pragma once
 
 #include <functional>
@@ -15,7 +16,7 @@ struct VerifyReport {
   Tick ticks = 0;             ///< ticks that were compared
   uint64_t commands = 0;      ///< commands that were simulated
   uint64_t events = 0;        ///< of the world, that were compared
-  uint64_t restarts = 0;      ///< times that another process went on, with the state that was compared, too
+  uint64_t restarts = 0;      ///< times that the simulation began anew, from a state that was compared, too
   Tick first_difference = 0;  ///< 0: every tick agrees
   std::string difference;     ///< the two hashes that differ there
   uint64_t field_hash = 0;    ///< after the last tick that was simulated

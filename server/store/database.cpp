@@ -82,6 +82,13 @@ Result<std::optional<int64_t>> Database::number(const std::string& sql) {
   return std::optional<int64_t>(sqlite3_column_int64(statement->get(), 0));
 }
 
+Result<bool> Database::has_table(const std::string& table) {
+  const auto count =
+      number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
+  if (!count) return tl::unexpected(count.error());
+  return *count == 1;
+}
+
 Result<std::string> Database::text(const std::string& sql) {
   const auto statement = prepare(sql);
   if (!statement) return tl::unexpected(statement.error());
@@ -91,13 +98,22 @@ Result<std::string> Database::text(const std::string& sql) {
 }
 
 Result<void> Database::put(const Statement& insert, uint64_t tick, std::span<const uint8_t> data) {
+  const auto key = static_cast<int64_t>(tick);
+  return put(insert, {&key, 1}, data);
+}
+
+Result<void> Database::put(const Statement& insert, std::span<const int64_t> keys,
+                           std::span<const uint8_t> data) {
   sqlite3_stmt* statement = insert.get();
-  CHECK_EQ(sqlite3_bind_parameter_count(statement), 3);
+  CHECK_EQ(static_cast<size_t>(sqlite3_bind_parameter_count(statement)), keys.size() + 2);
   CHECK(sqlite3_stmt_busy(statement) == 0);
   sqlite3_reset(statement);
-  sqlite3_bind_int64(statement, 1, static_cast<int64_t>(tick));
-  sqlite3_bind_blob64(statement, 2, data.data(), data.size(), SQLITE_STATIC);
-  sqlite3_bind_int64(statement, 3, checksum_of(data));
+  int at = 0;
+  for (const int64_t key : keys) sqlite3_bind_int64(statement, ++at, key);
+  // Without a pointer it would be null, and no blob.
+  static constexpr uint8_t nothing = 0;
+  sqlite3_bind_blob64(statement, ++at, data.empty() ? &nothing : data.data(), data.size(), SQLITE_STATIC);
+  sqlite3_bind_int64(statement, ++at, checksum_of(data));
   const int code = sqlite3_step(statement);
   sqlite3_reset(statement);
   sqlite3_clear_bindings(statement);
@@ -142,6 +158,20 @@ Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
     if (Result<void> taken = take(static_cast<uint64_t>(sqlite3_column_int64(statement, 0)), bytes, whole);
         !taken)
       return taken;
+  }
+}
+
+Result<void> Database::each_number(const std::string& select, const TakeNumbers& take) {
+  const auto prepared = prepare(select);
+  if (!prepared) return tl::unexpected(prepared.error());
+  std::vector<int64_t> columns(static_cast<size_t>(sqlite3_column_count(prepared->get())));
+  for (;;) {
+    const int code = sqlite3_step(prepared->get());
+    if (code == SQLITE_DONE) return {};
+    if (code != SQLITE_ROW) return failure("cannot be read");
+    for (size_t i = 0; i < columns.size(); ++i)
+      columns[i] = sqlite3_column_int64(prepared->get(), static_cast<int>(i));
+    if (Result<void> taken = take(columns); !taken) return taken;
   }
 }
 

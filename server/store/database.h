@@ -38,10 +38,14 @@ class Database {
   /// The first column of the first row as text; no row is an error.
   Result<std::string> text(const std::string& sql);
 
+  Result<bool> has_table(const std::string& table);
+
   Result<Statement> prepare(const std::string& sql);
   /// Runs an insert with the parameters (key, data, checksum). The key is a tick, or what the table is
   /// ordered by.
   Result<void> put(const Statement& insert, uint64_t key, std::span<const uint8_t> data);
+  /// The same with the parameters (keys …, data, checksum).
+  Result<void> put(const Statement& insert, std::span<const int64_t> keys, std::span<const uint8_t> data);
   /// Runs a statement with the parameter (key).
   Result<void> run(const Statement& statement, uint64_t key);
   /// Calls `take(key, data, whole)` for each row of a select of (key, data, checksum); `whole`: the data
@@ -50,6 +54,9 @@ class Database {
   Result<void> each(const std::string& select, const TakeRow& take);
   /// The same with the parameter (key).
   Result<void> each(const std::string& select, uint64_t key, const TakeRow& take);
+  /// Calls `take` with the columns of each row, which are whole numbers; ends at its first error.
+  using TakeNumbers = std::function<Result<void>(std::span<const int64_t> columns)>;
+  Result<void> each_number(const std::string& select, const TakeNumbers& take);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
   /// Whether the last failure was that the disk has no room.

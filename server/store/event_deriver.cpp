@@ -71,16 +71,15 @@ class Telling {
   float voxel_size_m_;
 };
 
-/// At the first merge of the tick.
-std::optional<Event> burst_of(const TickDelta& delta) {
-  Event burst{.kind = EventKind::merge, .tick = delta.tick};
-  for (const AppliedOperation& applied : delta.operations) {
-    burst.pieces += static_cast<uint32_t>(pieces_merged_by(applied.operation));
-    if (const auto* stamp = std::get_if<StampOperation>(&applied.operation); stamp && !burst.place_m)
-      burst.place_m = dequantise(stamp->pose).position_m;
-  }
-  if (burst.pieces < merge_burst_min) return std::nullopt;
-  return burst;
+/// Merges this far from a burst's first one belong to it, m: about the reach of one blow's rubble.
+constexpr float burst_reach_m = 8.0F;
+
+/// Bursts that may grow at once; above: a merge belongs to the nearest.
+constexpr size_t bursts_max = 64;
+
+float distance_squared(glm::vec3 a, glm::vec3 b) {
+  const glm::vec3 d = a - b;
+  return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
 }  // namespace
@@ -94,12 +93,39 @@ void EventDeriver::add_settings(const TickDelta& delta, std::vector<Event>& even
   settings_ = delta.settings;
 }
 
+EventDeriver::Burst& EventDeriver::burst_near(glm::vec3 place_m, Tick tick) {
+  const auto nearest = std::ranges::min_element(
+      bursts_, {}, [&](const Burst& burst) { return distance_squared(burst.place_m, place_m); });
+  const bool is_near =
+      nearest != bursts_.end() &&
+      (burst_ticks_ == 0 || distance_squared(nearest->place_m, place_m) <= burst_reach_m * burst_reach_m);
+  if (is_near || bursts_.size() >= bursts_max) return *nearest;
+  return bursts_.emplace_back(Burst{tick, place_m, 0});
+}
+
+void EventDeriver::note_merges(const TickDelta& delta) {
+  for (const AppliedOperation& applied : delta.operations)
+    if (const auto* stamp = std::get_if<StampOperation>(&applied.operation))
+      burst_near(dequantise(stamp->pose).position_m, delta.tick).pieces +=
+          static_cast<uint32_t>(pieces_merged_by(applied.operation));
+}
+
+void EventDeriver::add_bursts(Tick tick, std::vector<Event>& events) {
+  const auto is_over = [&](const Burst& burst) { return tick - burst.begun >= burst_ticks_; };
+  for (const Burst& burst : bursts_)
+    if (is_over(burst) && burst.pieces >= merge_burst_min)
+      events.push_back(
+          {.kind = EventKind::merge, .tick = tick, .place_m = burst.place_m, .pieces = burst.pieces});
+  std::erase_if(bursts_, is_over);
+}
+
 std::vector<Event> EventDeriver::events_of(const TickDelta& delta) {
   std::vector<Event> events;
   for (const AppliedOperation& applied : delta.operations)
     if (auto event = std::visit(Telling(delta, applied, voxel_size_m_), applied.operation))
       events.push_back(std::move(*event));
-  if (auto burst = burst_of(delta)) events.push_back(std::move(*burst));
+  note_merges(delta);
+  add_bursts(delta.tick, events);
   add_settings(delta, events);
   return events;
 }

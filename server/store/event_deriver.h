@@ -1,6 +1,7 @@
 // Derives the world's events from ticks. Of a simulated tick all follow, in the operations' order; a replay's
 // ticks do not say which stage applied an operation: there dents and crushes count as carves, and a large
-// carve's further cuts as breaks. One thread at a time.
+// carve's further cuts as breaks. A burst of merges is told when its time is over; those that are open when a
+// process ends, or goes on from a saved value, are nobody's. One thread at a time.
 #pragma once
 
 #include <vector>
@@ -10,23 +11,41 @@
 
 namespace scree {
 
-/// Pieces that merge in one tick and count as a burst: fewer happen all the time while rubble comes to rest.
+/// Pieces that merge near each other within merge_burst_ticks and count as a burst: fewer happen all the time
+/// while rubble comes to rest.
 inline constexpr uint32_t merge_burst_min = 4;
+
+/// Ticks from a burst's first merge to its event: 1 s at 60 Hz.
+inline constexpr Tick merge_burst_ticks = 60;
 
 class EventDeriver {
  public:
-  /// `settings`: as they stand before the next tick.
-  EventDeriver(float voxel_size_m, SettingValues settings)
-      : voxel_size_m_(voxel_size_m), settings_(std::move(settings)) {}
+  /// `settings`: as they stand before the next tick. `burst_ticks`: merge_burst_ticks, or 0, then the merges
+  /// of one tick are a burst, as recordings of earlier releases have them.
+  EventDeriver(float voxel_size_m, SettingValues settings, Tick burst_ticks = merge_burst_ticks)
+      : voxel_size_m_(voxel_size_m), settings_(std::move(settings)), burst_ticks_(burst_ticks) {}
 
   /// The next tick's.
   std::vector<Event> events_of(const TickDelta& delta);
 
  private:
+  struct Burst {
+    Tick begun = 0;
+    glm::vec3 place_m{0.0F};  ///< of its first merge
+    uint32_t pieces = 0;
+  };
+
   void add_settings(const TickDelta& delta, std::vector<Event>& events);
+  void note_merges(const TickDelta& delta);
+  /// The burst that a merge at that place is a part of: a new one where none is near.
+  Burst& burst_near(glm::vec3 place_m, Tick tick);
+  /// Bursts whose time is over, in the order in which they began.
+  void add_bursts(Tick tick, std::vector<Event>& events);
 
   float voxel_size_m_;
   SettingValues settings_;
+  Tick burst_ticks_;
+  std::vector<Burst> bursts_;  ///< that may grow, in the order in which they began
 };
 
 }  // namespace scree

@@ -41,6 +41,20 @@ Result<void> check_file(const std::string& path, const FileKind& kind) {
   return check_whole_pages(path, start);
 }
 
+bool lacks_log(const std::string& path) {
+  std::string start(sqlite_magic.size() + 4, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  constexpr char by_log = 2;  // SQLite file format, 1.3.3
+  std::error_code error;
+  return file && start[18] == by_log && start[19] == by_log && !std::filesystem::exists(path + "-wal", error);
+}
+
+std::string missing_log_hint(const std::string& path) {
+  return "; it is a file that was being written, and its log " + path +
+         "-wal is missing: copy that, too, or the file after its program has ended";
+}
+
 Result<void> check_format(Database& database, const FileKind& kind) {
   const auto id = database.number("PRAGMA application_id");
   if (!id) return tl::unexpected(id.error());

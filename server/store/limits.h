@@ -6,19 +6,19 @@
 
 namespace scree::limits {
 
-/// Ticks between two whole keyframes of a recording: 10 s at 60 Hz.
-inline constexpr uint64_t ticks_per_keyframe = 600;
+/// Ticks between two keyframes of a recording while something changes: 1 s at 60 Hz. Seeking applies at most
+/// that many frames that change something.
+inline constexpr uint64_t ticks_per_keyframe = 60;
 
-/// Ticks between two keyframes that hold what changed since the last whole one: 1 s at 60 Hz.
-/// Seeking applies at most that many frames. In a storm these keyframes are mostly the pieces alive, and take
-/// more than the frames do.
-inline constexpr uint64_t ticks_per_short_keyframe = 60;
+/// The same while nothing changes, 10 s: so many empty frames are read at most.
+inline constexpr uint64_t ticks_per_idle_keyframe = 600;
 
-/// Bricks of a short keyframe; with more it is left out, and seeking applies more frames.
-inline constexpr size_t short_keyframe_bricks_max = 16384;
+/// Ticks from the state with which a recording begins to its first tick: a day at 60 Hz. More would be
+/// simulated for ever, and is refused.
+inline constexpr uint64_t unseen_ticks_max = 5'184'000;
 
 /// Edited bricks that a recording keeps in memory for its keyframes: 170 MB, of which a server has most
-/// anyway. Above: there are no more keyframes, and seeking starts from the last one.
+/// anyway. Above: chunks that did not change for longest are read from the recording when they change again.
 inline constexpr size_t recorded_bricks_max = size_t{1} << 18;
 
 /// Seconds of frames in one transaction: a crash loses at most that much of a recording.

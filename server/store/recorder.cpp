@@ -24,6 +24,7 @@ struct Recorder::State {
     std::shared_ptr<const TickDelta> delta;
     std::vector<Command> commands;
     std::vector<Event> noted;
+    std::shared_ptr<const WorldMoment> part;
   };
 
   void run();
@@ -46,6 +47,8 @@ struct Recorder::State {
   Tick safe = 0;       ///< committed
   bool ended = false;  ///< nothing more is written
   uint64_t waits = 0;
+  bool wants_part = false;
+  bool part_waits = false;  ///< in the queue
 };
 
 void Recorder::State::note(const Result<void>& result) {
@@ -59,12 +62,14 @@ void Recorder::State::note(const Result<void>& result) {
 
 void Recorder::State::write(const std::deque<Entry>& entries) {
   for (const Entry& entry : entries) {
-    const auto added = writer->add(*entry.delta, entry.commands, entry.noted);
+    const auto added = writer->add(*entry.delta, entry.commands, entry.noted, entry.part.get());
     note(added);
     if (!added) return;
     written = entry.delta->tick;
     const std::scoped_lock lock(mutex);
     ++ticks_written;
+    if (entry.part) part_waits = false;
+    wants_part = !part_waits && writer->wants_part();
   }
 }
 
@@ -118,17 +123,18 @@ Recorder::~Recorder() {
   static_cast<void>(finish());
 }
 
-Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header) {
-  auto writer = RecordingWriter::create(path, header);
+Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
+                                                   RingLimit limit) {
+  auto writer = RecordingWriter::create(path, header, limit);
   if (!writer) return tl::unexpected(writer.error());
   return start(std::move(*writer), 0);
 }
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
-                                                   const RecordingStart& from) {
+                                                   const RecordingStart& from, RingLimit limit) {
   std::error_code ignored;
-  auto writer = std::filesystem::exists(path, ignored) ? RecordingWriter::resume(path, header, from)
-                                                       : RecordingWriter::create(path, header, from);
+  auto writer = std::filesystem::exists(path, ignored) ? RecordingWriter::resume(path, header, from, limit)
+                                                       : RecordingWriter::create(path, header, from, limit);
   if (!writer) return tl::unexpected(writer.error());
   return start(std::move(*writer), from.keyframe.tick);
 }
@@ -149,7 +155,7 @@ void Recorder::commit_up_to(Tick tick) {
 }
 
 void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
-                    std::vector<Event> noted) {
+                    std::vector<Event> noted, std::shared_ptr<const WorldMoment> part) {
   CHECK(delta != nullptr);
   {
     std::unique_lock lock(state_->mutex);
@@ -158,7 +164,11 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
     state_->changed.wait(lock, room);
     if (state_->error || state_->stopping) return;
     CHECK(state_->queue.empty() || delta->tick == state_->queue.back().delta->tick + 1);
-    state_->queue.push_back({std::move(delta), std::move(commands), std::move(noted)});
+    if (part) {
+      state_->part_waits = true;
+      state_->wants_part = false;
+    }
+    state_->queue.push_back({std::move(delta), std::move(commands), std::move(noted), std::move(part)});
     CHECK(state_->queue.size() <= limits::recorder_queue_max);
   }
   state_->changed.notify_all();
@@ -183,6 +193,11 @@ std::optional<std::string> Recorder::error() const {
 uint64_t Recorder::ticks_written() const {
   const std::scoped_lock lock(state_->mutex);
   return state_->ticks_written;
+}
+
+bool Recorder::wants_part() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->wants_part;
 }
 
 uint64_t Recorder::waits() const {

@@ -19,19 +19,23 @@ namespace scree {
 
 class Recorder {
  public:
-  static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header);
+  static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header,
+                                                  RingLimit limit = {});
   /// Begins with that world; where the file exists, goes on with it (RecordingWriter::resume).
   static Result<std::unique_ptr<Recorder>> create(const std::string& path, const RecordingHeader& header,
-                                                  const RecordingStart& start);
+                                                  const RecordingStart& start, RingLimit limit = {});
   /// Calls finish().
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Queues the next tick, without a gap from 1 or from the start on, and the commands that it carried out.
-  /// `noted`: events of the machine. From one thread only. Does nothing after an error or after finish().
+  /// `noted`: events of the machine; `part`: RecordingWriter::add(). From one thread only. Does nothing after
+  /// an error or after finish().
   void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
-            std::vector<Event> noted = {});
+            std::vector<Event> noted = {}, std::shared_ptr<const WorldMoment> part = nullptr);
+  /// RecordingWriter::wants_part() of the last tick that was written. From any thread.
+  bool wants_part() const;
 
   /// Waits until that tick, which was pushed or is the start's, is in the file, and survives the end of this
   /// process; or until the recording has ended. From any thread.

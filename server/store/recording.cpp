@@ -7,13 +7,14 @@ namespace scree {
 RecordedHeader to_recorded(const RecordingHeader& header) {
   RecordedHeader out = to_recorded(header.world);
   out.program = header.program;
+  out.merge_burst_ticks = static_cast<uint32_t>(header.merge_burst_ticks);
   return out;
 }
 
 Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   auto world = config_of(header);
   if (!world) return tl::unexpected(world.error());
-  return RecordingHeader{header.program, std::move(*world)};
+  return RecordingHeader{header.program, std::move(*world), header.merge_burst_ticks};
 }
 
 std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {

@@ -7,6 +7,7 @@
 
 #include "proto/recording_codec.h"
 #include "proto/world_value.h"
+#include "server/store/event_deriver.h"
 #include "server/work/command.h"
 #include "server/world/published_state.h"
 #include "server/world/recorded_values.h"
@@ -19,6 +20,7 @@ namespace scree {
 struct RecordingHeader {
   std::string program;  ///< name and version of the program that recorded
   WorldConfig world;
+  Tick merge_burst_ticks = scree::merge_burst_ticks;  ///< of its events: EventDeriver
 };
 
 /// A world from which a recording begins, or goes on in another process.

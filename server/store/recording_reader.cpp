@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <string_view>
 
 #include "proto/event_codec.h"
+#include "proto/world_codec.h"
 #include "server/store/database.h"
+#include "server/store/earlier_keyframes.h"
 #include "server/store/file_kind.h"
+#include "server/store/limits.h"
 #include "server/store/schema.h"
+#include "server/world/settings.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -20,7 +23,8 @@ struct RecordingReader::State {
   Result<void> read_extent_now();
   Result<void> read_later_tables();
   Result<void> read_events_extent();
-  Result<void> put_short_over(RecordedKeyframe& keyframe, Tick tick);
+  Result<std::optional<Tick>> state_up_to(Tick tick);
+  Result<std::optional<std::vector<uint8_t>>> state_of_moment(Tick tick);
   Result<std::optional<Tick>> event_tick(const std::string& select);
   template <typename T>
   Result<T> decoded(Result<T> result, Tick tick) const;
@@ -32,12 +36,15 @@ struct RecordingReader::State {
   uint64_t keyframes = 0;
   uint64_t bytes = 0;
   bool is_ended = false;
+  bool without_log = false;  ///< it was open for writing when it was left, or copied
   Statement select_frame;
-  Statement select_keyframe;
   Statement select_commands;
   Statement select_state;
+  Statement select_moment;  ///< null: a recording of an earlier release
+  std::optional<KeyframeReader> keyframe_rows;
+  std::optional<EarlierKeyframes> earlier_keyframes;
   std::optional<Tick> events_from;
-  bool has_short_keyframes = false;
+  bool has_events = false;
 };
 
 Result<void> RecordingReader::State::read_header() {
@@ -68,37 +75,52 @@ Result<void> RecordingReader::State::read_extent_now() {
   const auto first = database.number("SELECT min(tick) FROM frames");
   const auto last = database.number("SELECT max(tick) FROM frames");
   const auto count = database.number("SELECT count(*) FROM frames");
-  const auto keys = database.number("SELECT count(*) FROM keyframes");
-  for (const auto* number : {&first, &last, &count, &keys})
+  for (const auto* number : {&first, &last, &count})
+    if (!*number) return tl::unexpected(number->error());
+  const auto rows = keyframe_rows->count(), earlier = earlier_keyframes->count();
+  for (const auto* number : {&rows, &earlier})
     if (!*number) return tl::unexpected(number->error());
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
   if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
-  const auto begun =
-      database.number("SELECT count(*) FROM states WHERE tick = " + std::to_string(**first - 1));
+  const auto begun = state_up_to(static_cast<Tick>(**first - 1));
   if (!begun) return tl::unexpected(begun.error());
-  if ((*first != 1 && *begun != 1) || **last - **first != **count - 1)
+  if (*first != 1 && begun->has_value() &&
+      static_cast<Tick>(**first) - 1 - **begun > limits::unseen_ticks_max)
+    return fail(database.path() + ": damaged: its first tick is " + std::to_string(**first) +
+                ", too far from its state after tick " + std::to_string(**begun) +
+                " (limits.unseen_ticks_max)");
+  if ((*first != 1 && !begun->has_value()) || **last - **first != **count - 1)
     return fail(database.path() + ": damaged: ticks are missing (" + std::to_string(**count) + " from " +
                 std::to_string(**first) + " to " + std::to_string(**last) + ")");
   first_tick = static_cast<Tick>(**first);
   last_tick = static_cast<Tick>(**last);
-  keyframes = static_cast<uint64_t>(keys->value_or(0));
+  keyframes = *rows + *earlier;
   return {};
 }
 
 Result<void> RecordingReader::State::read_later_tables() {
-  const auto has = [this](const std::string& table) {
-    return database.number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '" + table +
-                           "'");
-  };
-  const auto events = has("events"), machine = has("machine"), short_keyframes = has("short_keyframes");
-  for (const auto* count : {&events, &machine, &short_keyframes})
-    if (!*count) return tl::unexpected(count->error());
-  has_short_keyframes = *short_keyframes == 1;
-  return *events == 1 && *machine == 1 ? read_events_extent() : Result<void>();
+  const auto events = database.has_table("events"), machine = database.has_table("machine"),
+             moments = database.has_table("state_moments");
+  for (const auto* has : {&events, &machine, &moments})
+    if (!*has) return tl::unexpected(has->error());
+  has_events = *events && *machine;
+  if (*moments) {
+    auto select = database.prepare(schema::select_from("state_moments"));
+    if (!select) return tl::unexpected(select.error());
+    select_moment = std::move(*select);
+  }
+  auto rows = KeyframeReader::open(database, print(header.world));
+  if (!rows) return tl::unexpected(rows.error());
+  keyframe_rows = std::move(*rows);
+  auto earlier = EarlierKeyframes::open(database);
+  if (!earlier) return tl::unexpected(earlier.error());
+  earlier_keyframes = std::move(*earlier);
+  return {};
 }
 
 /// Where the first row of the machine's begins. A recording that an earlier release began has it later.
 Result<void> RecordingReader::State::read_events_extent() {
+  if (!has_events) return {};
   const auto row = database.number("SELECT min(tick) FROM machine");
   if (!row) return tl::unexpected(row.error());
   if (!row->has_value()) return {};
@@ -130,6 +152,14 @@ RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::mov
 RecordingReader::~RecordingReader() = default;
 
 Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string& path) {
+  const bool without_log = lacks_log(path);
+  auto opened = open_as_it_lies(path);
+  if (!opened && without_log) return fail(opened.error().message + missing_log_hint(path));
+  if (opened) (*opened)->state_->without_log = without_log;
+  return opened;
+}
+
+Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const std::string& path) {
   if (auto looks = check_file(path, schema::recording); !looks) return tl::unexpected(looks.error());
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
@@ -138,19 +168,17 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string
     return tl::unexpected(format.error());
   if (auto whole = check_pages(state->database); !whole) return tl::unexpected(whole.error());
   if (auto header = state->read_header(); !header) return tl::unexpected(header.error());
+  if (auto tables = state->read_later_tables(); !tables) return tl::unexpected(tables.error());
   if (auto extent = state->read_extent(); !extent) return tl::unexpected(extent.error());
-  if (auto events = state->read_later_tables(); !events) return tl::unexpected(events.error());
+  if (auto events = state->read_events_extent(); !events) return tl::unexpected(events.error());
   const auto take = [&](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = state->database.prepare(sql);
     if (!prepared) return tl::unexpected(prepared.error());
     statement = std::move(*prepared);
     return {};
   };
-  const std::string latest =
-      "SELECT data, checksum FROM keyframes WHERE tick <= ?1 ORDER BY tick DESC LIMIT 1";
   if (auto ok = take(state->select_frame, schema::select_from("frames")); !ok)
     return tl::unexpected(ok.error());
-  if (auto ok = take(state->select_keyframe, latest); !ok) return tl::unexpected(ok.error());
   if (auto ok = take(state->select_commands, schema::select_from("commands")); !ok)
     return tl::unexpected(ok.error());
   if (auto ok = take(state->select_state, schema::select_from("states")); !ok)
@@ -183,31 +211,61 @@ uint64_t RecordingReader::keyframes() const {
 bool RecordingReader::is_ended() const {
   return state_->is_ended;
 }
+bool RecordingReader::may_lack_ticks() const {
+  return state_->without_log && !state_->is_ended;
+}
 uint64_t RecordingReader::bytes() const {
   return state_->bytes;
 }
 
+/// The moment with the terrain of its tick's keyframe.
+Result<std::optional<std::vector<uint8_t>>> RecordingReader::State::state_of_moment(Tick tick) {
+  using Bytes = std::optional<std::vector<uint8_t>>;
+  const auto row = database.get(select_moment, tick);
+  if (!row || !row->has_value()) return row;
+  auto value = decoded(decode_world(**row), tick);
+  if (!value) return tl::unexpected(value.error());
+  const auto at = keyframe_rows->tick_before(tick);
+  if (!at) return tl::unexpected(at.error());
+  if (*at != tick)
+    return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has no terrain");
+  const KnownParts no_pieces{.has_piece = [](PieceId) { return true; }};
+  auto parts = keyframe_rows->read(tick, no_pieces);
+  if (!parts) return tl::unexpected(parts.error());
+  value->bricks = std::move(parts->keyframe.bricks);
+  return Bytes(encode(*value));
+}
+
 Result<std::optional<std::vector<uint8_t>>> RecordingReader::state(Tick tick) {
-  return state_->database.get(state_->select_state, tick);
+  auto whole = state_->database.get(state_->select_state, tick);
+  if (!whole || whole->has_value() || !state_->select_moment) return whole;
+  return state_->state_of_moment(tick);
+}
+
+Result<std::optional<Tick>> RecordingReader::State::state_up_to(Tick tick) {
+  std::optional<Tick> latest;
+  for (const char* table : {"states", "state_moments"}) {
+    if (table == std::string_view("state_moments") && !select_moment) break;
+    const auto row = database.number("SELECT max(tick) FROM " + std::string(table) +
+                                     " WHERE tick >= 0 AND tick <= " + std::to_string(tick));
+    if (!row) return tl::unexpected(row.error());
+    if (row->has_value()) latest = std::max(latest.value_or(0), static_cast<Tick>(**row));
+  }
+  return latest;
 }
 
 Result<Tick> RecordingReader::state_before(Tick tick) {
-  const auto latest =
-      state_->database.number("SELECT max(tick) FROM states WHERE tick <= " + std::to_string(tick));
+  const auto latest = state_->state_up_to(tick);
   if (!latest) return tl::unexpected(latest.error());
-  return static_cast<Tick>(latest->value_or(0));
+  return latest->value_or(0);
 }
 
 Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
-  Tick latest = 0;
-  for (const char* table : {"keyframes", "short_keyframes"}) {
-    if (table == std::string_view("short_keyframes") && !state_->has_short_keyframes) break;
-    const auto row = state_->database.number("SELECT max(tick) FROM " + std::string(table) +
-                                             " WHERE tick <= " + std::to_string(tick));
-    if (!row) return tl::unexpected(row.error());
-    latest = std::max(latest, static_cast<Tick>(row->value_or(0)));
-  }
-  return latest;
+  const auto rows = state_->keyframe_rows->tick_before(tick);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto earlier = state_->earlier_keyframes->tick_before(tick);
+  if (!earlier) return tl::unexpected(earlier.error());
+  return std::max(rows->value_or(0), earlier->value_or(0));
 }
 
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
@@ -223,7 +281,7 @@ Result<RecordedFrame> RecordingReader::frame(Tick tick) {
 }
 
 Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
-  CHECK(tick >= state_->first_tick && tick <= state_->last_tick);
+  CHECK(tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_commands, tick);
   if (!bytes) return tl::unexpected(bytes.error());
   if (!bytes->has_value()) return std::vector<Command>();
@@ -293,50 +351,29 @@ Result<std::optional<Tick>> RecordingReader::previous_event(Tick tick) {
                             " AND tick >= " + std::to_string(state_->first_tick));
 }
 
-Result<std::optional<RecordedKeyframe>> RecordingReader::whole_keyframe_before(Tick tick) {
-  CHECK(tick <= state_->last_tick);
-  const auto bytes = state_->database.get(state_->select_keyframe, tick);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (!bytes->has_value()) return std::optional<RecordedKeyframe>();
-  auto keyframe = state_->decoded(decode_recorded_keyframe(**bytes), tick);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  if (keyframe->tick > tick) return fail(path() + ": damaged: a keyframe of a later tick than it says");
-  return std::optional(std::move(*keyframe));
-}
-
-/// Where there is a later short keyframe up to that tick: it has everything but the bricks that did not
-/// change.
-Result<void> RecordingReader::State::put_short_over(RecordedKeyframe& keyframe, Tick tick) {
-  if (!has_short_keyframes) return {};
-  const auto latest = database.number("SELECT max(tick) FROM short_keyframes WHERE tick > " +
-                                      std::to_string(keyframe.tick) + " AND tick <= " + std::to_string(tick));
-  if (!latest) return tl::unexpected(latest.error());
-  if (!latest->has_value()) return {};
-  auto select = database.prepare(schema::select_from("short_keyframes"));
-  if (!select) return tl::unexpected(select.error());
-  const auto bytes_read = database.get(*select, static_cast<uint64_t>(**latest));
-  if (!bytes_read) return tl::unexpected(bytes_read.error());
-  auto later = decoded(decode_recorded_keyframe(**bytes_read), tick);
-  if (!later) return tl::unexpected(later.error());
-  if (later->tick > tick) return fail(database.path() + ": damaged: a keyframe of a later tick than it says");
-  std::vector<BrickPatch> bricks;
-  bricks.reserve(keyframe.bricks.size() + later->bricks.size());
-  // Of a brick that both have, the first is taken: the later one.
-  std::ranges::set_union(later->bricks, keyframe.bricks, std::back_inserter(bricks), {}, &BrickPatch::coord,
-                         &BrickPatch::coord);
-  later->bricks = std::move(bricks);
-  keyframe = std::move(*later);
-  return {};
-}
-
 Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {
-  auto whole = whole_keyframe_before(tick);
-  if (!whole) return whole;
-  RecordedKeyframe keyframe = whole->value_or(RecordedKeyframe());
-  const Tick before = keyframe.tick;
-  if (auto put = state_->put_short_over(keyframe, tick); !put) return tl::unexpected(put.error());
-  if (!whole->has_value() && keyframe.tick == before) return whole;
-  return std::optional(std::move(keyframe));
+  auto parts = keyframe_before(tick, KnownParts());
+  if (!parts) return tl::unexpected(parts.error());
+  if (!parts->has_value()) return std::optional<RecordedKeyframe>();
+  return std::optional(std::move((*parts)->keyframe));
+}
+
+Result<std::optional<KeyframeParts>> RecordingReader::keyframe_before(Tick tick, const KnownParts& known) {
+  CHECK(tick <= state_->last_tick);
+  const auto at = state_->keyframe_rows->tick_before(tick);
+  if (!at) return tl::unexpected(at.error());
+  const auto earlier = state_->earlier_keyframes->tick_before(tick);
+  if (!earlier) return tl::unexpected(earlier.error());
+  if (!*at && !*earlier) return std::optional<KeyframeParts>();
+  if (*at >= *earlier) {
+    auto parts = state_->keyframe_rows->read(**at, known);
+    if (!parts) return tl::unexpected(parts.error());
+    return std::optional(std::move(*parts));
+  }
+  auto whole = state_->earlier_keyframes->read_before(tick);
+  if (!whole) return tl::unexpected(whole.error());
+  if (!whole->has_value()) return std::optional<KeyframeParts>();  // somebody changes the file
+  return std::optional(KeyframeParts{std::move(**whole), {}});
 }
 
 }  // namespace scree

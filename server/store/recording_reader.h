@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/event.h"
+#include "server/store/keyframe_reader.h"
 #include "server/store/recording.h"
 #include "shared/base/result.h"
 
@@ -22,14 +23,18 @@ class RecordingReader {
   const std::string& path() const;
   const RecordingHeader& header() const;
   /// As of open(), while somebody still writes: the recording holds the ticks first_tick() … last_tick()
-  /// without a gap, at least one. Where the first is not 1, state() has the world before it.
+  /// without a gap, at least one. Where the first is not 1, there is a state() before it, from which it is
+  /// simulated: by commands alone up to the first tick.
   Tick first_tick() const;
   Tick last_tick() const;
-  uint64_t keyframes() const;  ///< whole ones
+  uint64_t keyframes() const;  ///< from which a replay can begin without the ones before
   uint64_t bytes() const;      ///< of the file, and of the log beside it, if there is one
   /// Whether who recorded came to an end: else the recording is being written, or was cut short, by a crash
   /// perhaps; it is whole up to last_tick() all the same.
   bool is_ended() const;
+  /// It has not ended, and there was no log beside it: if it was copied while it was written, what came last
+  /// is missing.
+  bool may_lack_ticks() const;
 
   /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
   /// it; most ticks have none.
@@ -39,7 +44,7 @@ class RecordingReader {
   Result<Tick> state_before(Tick tick);
   /// `tick` within first_tick() … last_tick().
   Result<RecordedFrame> frame(Tick tick);
-  /// The commands of a tick within first_tick() … last_tick(); most ticks have none.
+  /// The commands of a tick up to last_tick(), after the state before first_tick(); most ticks have none.
   Result<std::vector<Command>> commands(Tick tick);
   /// The first tick that the log of events covers; nothing when the recording has none, as those of earlier
   /// releases.
@@ -55,12 +60,14 @@ class RecordingReader {
   /// The latest keyframe up to `tick`, which is at most last_tick(); nothing when there is none: then play
   /// from tick 1.
   Result<std::optional<RecordedKeyframe>> keyframe_before(Tick tick);
+  /// The same without what is known.
+  Result<std::optional<KeyframeParts>> keyframe_before(Tick tick, const KnownParts& known);
   /// Its tick; 0 when there is none.
   Result<Tick> keyframe_tick_before(Tick tick);
 
  private:
   struct State;
-  Result<std::optional<RecordedKeyframe>> whole_keyframe_before(Tick tick);
+  static Result<std::unique_ptr<RecordingReader>> open_as_it_lies(const std::string& path);
   explicit RecordingReader(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

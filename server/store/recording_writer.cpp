@@ -1,13 +1,14 @@
 #include "server/store/recording_writer.h"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "proto/event_codec.h"
 #include "proto/world_codec.h"
 #include "server/store/database.h"
 #include "server/store/event_deriver.h"
+#include "server/store/keyframe_writer.h"
 #include "server/store/limits.h"
 #include "server/store/recording_reader.h"
 #include "server/store/schema.h"
@@ -27,30 +28,40 @@ constexpr double us_per_ms = 1000.0;
 }  // namespace
 
 struct RecordingWriter::State {
-  explicit State(Database d) : database(std::move(d)) {}
+  State(Database d, RecordingHeader h, RingLimit limit)
+      : database(std::move(d)),
+        header(std::move(h)),
+        ring(limit, header.world.tick_rate_hz),
+        rings(limit.is_on()) {}
   Result<void> begin();
-  Result<void> found(const RecordingHeader& header);
+  Result<void> found();
   Result<void> prepare();
   Result<void> put_start(const RecordingStart& start);
-  Result<void> put_keyframe(const TickDelta& delta);
-  Result<void> put_short_keyframe();
+  Result<void> put_commands(Tick tick, std::span<const Command> commands);
+  Result<void> put_part(const WorldMoment& moment);
   Result<void> put_events(const TickDelta& delta, std::span<const Event> noted);
   Result<void> put_machine();
-  void forget_terrain();
+  Result<void> drop_parts();
+  Result<void> count_bytes();
+  void begin_events(const SettingValues& settings) {
+    deriver.emplace(header.world.terrain.voxel_size_m, settings, header.merge_burst_ticks);
+  }
 
   Database database;
+  const RecordingHeader header;
   Statement insert_frame;
-  Statement put_keyframe_row;
   Statement insert_commands;
   Statement insert_events;
   Statement put_machine_row;
-  Statement put_short_keyframe_row;
-  std::set<BrickCoord> changed;  ///< since the last keyframe
+  Statement put_moment;
+  std::optional<KeyframeWriter> keyframes;
   std::optional<EventDeriver> deriver;
-  RecordedMachine machine;         ///< since its last row
-  bool logs = false;               ///< it has a row of the machine's from this process
-  PublishedState published;        ///< after the last tick that was added
-  bool terrain_forgotten = false;  ///< there are no more keyframes: seeking starts from an earlier one
+  RecordedMachine machine;   ///< since its last row
+  bool logs = false;         ///< it has a row of the machine's from this process
+  PublishedState published;  ///< after the last tick that was added
+  RecordingRing ring;
+  const bool rings;    ///< there is a limit
+  uint64_t bytes = 0;  ///< of the file's pages that are in use, at the last commit; of a ring alone
   bool in_transaction = false;
   ThreadCheck storage_thread;
 };
@@ -63,7 +74,7 @@ Result<void> RecordingWriter::State::begin() {
 }
 
 /// The tables and the header of a new file.
-Result<void> RecordingWriter::State::found(const RecordingHeader& header) {
+Result<void> RecordingWriter::State::found() {
   if (auto done = database.execute("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;"); !done)
     return done;
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
@@ -86,29 +97,14 @@ Result<void> RecordingWriter::State::prepare() {
     return {};
   };
   if (auto done = take(insert_frame, schema::insert_into("frames")); !done) return done;
-  if (auto done = take(put_keyframe_row, schema::put_into("keyframes")); !done) return done;
   if (auto done = take(insert_commands, schema::insert_into("commands")); !done) return done;
   if (auto done = take(insert_events, schema::insert_into("events")); !done) return done;
   if (auto done = take(put_machine_row, schema::put_into("machine")); !done) return done;
-  return take(put_short_keyframe_row, schema::put_into("short_keyframes"));
-}
-
-Result<void> RecordingWriter::State::put_keyframe(const TickDelta& delta) {
-  const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(delta));
-  // A keyframe too large for a row is left out: seeking starts from an earlier one.
-  if (keyframe.size() > limits::row_bytes_max) return {};
-  CHECK_DEBUG(decode_recorded_keyframe(keyframe).has_value());
-  changed.clear();
-  return database.put(put_keyframe_row, delta.tick, keyframe);
-}
-
-/// Where nothing has changed, the last keyframe does.
-Result<void> RecordingWriter::State::put_short_keyframe() {
-  if (changed.size() > limits::short_keyframe_bricks_max) return {};
-  if (changed.empty() && published.pieces().empty()) return {};
-  const std::vector<uint8_t> keyframe = encode(to_recorded_keyframe(published.as_delta(changed)));
-  if (keyframe.size() > limits::row_bytes_max) return {};
-  return database.put(put_short_keyframe_row, published.tick(), keyframe);
+  if (auto done = take(put_moment, schema::put_into("state_moments")); !done) return done;
+  auto writer = KeyframeWriter::create(database, print(header.world));
+  if (!writer) return tl::unexpected(writer.error());
+  keyframes = std::move(*writer);
+  return {};
 }
 
 /// A row of the machine's is not written at each tick: it would be most of a quiet recording.
@@ -132,28 +128,65 @@ Result<void> RecordingWriter::State::put_machine() {
   return database.put(put_machine_row, row.tick, encode(row));
 }
 
-/// When it is more than a recording may keep in memory; from then on always.
-void RecordingWriter::State::forget_terrain() {
-  if (published.bricks_in() > limits::recorded_bricks_max) terrain_forgotten = true;
-  if (!terrain_forgotten) return;
-  const std::vector<ChunkCoord> in(published.chunks_in().begin(), published.chunks_in().end());
-  for (const ChunkCoord chunk : in) published.page_out(chunk);
+Result<void> RecordingWriter::State::put_commands(Tick tick, std::span<const Command> commands) {
+  if (commands.empty()) return {};
+  return database.put(insert_commands, tick, encode(to_recorded(commands)));
 }
 
-/// The state, and the keyframe from which a replay begins there.
-Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
-  const std::vector<uint8_t> value = encode(start.value);
+/// The state's keyframe with the world's value, from which the simulation goes on. Events begin anew there,
+/// so that who verifies from there has the same.
+Result<void> RecordingWriter::State::put_part(const WorldMoment& moment) {
+  CHECK_EQ(moment.tick, published.tick());
+  const std::vector<uint8_t> value = encode(WorldSnapshot{moment, {}});
   if (value.size() > limits::row_bytes_max)
-    return fail(database.path() + ": the world takes " + std::to_string(value.size()) +
+    return fail(database.path() + ": the world's pieces take " + std::to_string(value.size()) +
                 " bytes, too many for one row of a recording (limits.row_bytes_max)");
+  if (auto put = keyframes->put(published); !put) return put;
+  if (auto put = database.put(put_moment, moment.tick, value); !put) return put;
+  begin_events(published.settings());
+  ring.begin({moment.tick, moment.next_piece}, bytes);
+  return {};
+}
+
+Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
   if (auto begun = begin(); !begun) return begun;
-  auto insert = database.prepare(schema::put_into("states"));
-  if (!insert) return tl::unexpected(insert.error());
-  if (auto put = database.put(*insert, start.keyframe.tick, value); !put) return put;
-  published = {};
-  published.apply(start.keyframe);
-  deriver.emplace(start.value.moment.config.terrain.voxel_size_m, start.keyframe.settings);
-  return put_keyframe(start.keyframe);
+  keyframes->begin(start.keyframe, published);
+  return put_part(start.value.moment);
+}
+
+Result<void> RecordingWriter::State::count_bytes() {
+  uint64_t pages = 0, unused = 0, page_bytes = 0;
+  const std::pair<uint64_t*, const char*> counts[] = {
+      {&pages, "PRAGMA page_count"}, {&unused, "PRAGMA freelist_count"}, {&page_bytes, "PRAGMA page_size"}};
+  for (const auto& [count, sql] : counts) {
+    const auto number = database.number(sql);
+    if (!number) return tl::unexpected(number.error());
+    *count = static_cast<uint64_t>(number->value_or(0));
+  }
+  bytes = (pages - std::min(pages, unused)) * page_bytes;
+  return {};
+}
+
+/// Those that the limit has no room for. Their pages are used again.
+Result<void> RecordingWriter::State::drop_parts() {
+  if (auto counted = count_bytes(); !counted) return counted;
+  const RecordingRing::Part* first = ring.first_to_stay(published.tick(), bytes);
+  if (first == nullptr) return {};
+  const RecordingRing::Part part = *first;
+  const std::string tick = std::to_string(part.tick);
+  std::string sql;
+  for (const char* table : {"frames", "commands", "events", "machine"})
+    sql += std::string("DELETE FROM ") + table + " WHERE tick <= " + tick + ";";
+  for (const char* table : {"states", "state_moments", "keyframes"})
+    sql += std::string("DELETE FROM ") + table + " WHERE tick < " + tick + ";";
+  const auto has_short = database.has_table("short_keyframes");
+  if (!has_short) return tl::unexpected(has_short.error());
+  if (*has_short) sql += "DELETE FROM short_keyframes WHERE tick < " + tick;
+  if (auto dropped = database.execute(sql); !dropped) return dropped;
+  if (auto dropped = keyframes->drop_before(part.tick, part.next_piece); !dropped) return dropped;
+  if (auto counted = count_bytes(); !counted) return counted;
+  ring.drop_before(part.tick, bytes);
+  return {};
 }
 
 namespace {
@@ -177,8 +210,9 @@ Result<std::optional<uint64_t>> hash_after(RecordingReader& recorded, Tick tick)
   return std::optional((*keyframe)->state_hash);
 }
 
-/// Whether the recording is of this world, and reaches to the tick.
-Result<void> may_resume(const std::string& path, const RecordingHeader& header, const TickDelta& start) {
+/// The header of the recording, if it is of this world and reaches to the tick.
+Result<RecordingHeader> may_resume(const std::string& path, const RecordingHeader& header,
+                                   const TickDelta& start) {
   const Tick tick = start.tick;
   const auto recorded = RecordingReader::open(path);
   if (!recorded) return tl::unexpected(recorded.error());
@@ -193,7 +227,7 @@ Result<void> may_resume(const std::string& path, const RecordingHeader& header, 
   // Before its first tick a world is what its configuration says.
   const bool same = *hash ? **hash == start.state_hash : tick == 0;
   if (!same) return another;
-  return {};
+  return (*recorded)->header();
 }
 
 }  // namespace
@@ -205,71 +239,98 @@ RecordingWriter::~RecordingWriter() {
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::string& path,
-                                                                 const RecordingHeader& header) {
+                                                                 const RecordingHeader& header,
+                                                                 RingLimit limit) {
   auto database = Database::create(path);
   if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database));
-  if (auto done = state->found(header); !done) return tl::unexpected(done.error());
-  state->deriver.emplace(header.world.terrain.voxel_size_m, print(header.world));
+  auto state = std::make_unique<State>(std::move(*database), header, limit);
+  if (auto done = state->found(); !done) return tl::unexpected(done.error());
   if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
+  state->begin_events(print(header.world));
+  state->ring.begin({0, 0}, 0);
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::string& path,
                                                                  const RecordingHeader& header,
-                                                                 const RecordingStart& start) {
-  auto writer = create(path, header);
+                                                                 const RecordingStart& start,
+                                                                 RingLimit limit) {
+  auto writer = create(path, header, limit);
   if (!writer) return writer;
+  (*writer)->state_->ring.drop_before(start.keyframe.tick, 0);
   if (auto put = (*writer)->state_->put_start(start); !put) return tl::unexpected(put.error());
   return writer;
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::string& path,
                                                                  const RecordingHeader& header,
-                                                                 const RecordingStart& start) {
+                                                                 const RecordingStart& start,
+                                                                 RingLimit limit) {
   const Tick tick = start.keyframe.tick;
-  if (auto fits = may_resume(path, header, start.keyframe); !fits) return tl::unexpected(fits.error());
+  const auto recorded = may_resume(path, header, start.keyframe);
+  if (!recorded) return tl::unexpected(recorded.error());
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database));
+  auto state = std::make_unique<State>(std::move(*database), *recorded, limit);
   if (auto made = state->database.execute(schema::create_later_tables()); !made)
     return tl::unexpected(made.error());
   if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
   if (auto begun = state->begin(); !begun) return tl::unexpected(begun.error());
-  for (const char* table :
-       {"frames", "keyframes", "commands", "states", "events", "machine", "short_keyframes"})
-    if (auto done = state->database.execute(std::string("DELETE FROM ") + table + " WHERE tick > " +
-                                            std::to_string(tick));
-        !done)
-      return tl::unexpected(done.error());
+  const auto has_short = state->database.has_table("short_keyframes");
+  if (!has_short) return tl::unexpected(has_short.error());
+  std::vector<std::string> tables = {"frames",  "keyframes",       "commands",       "events",
+                                     "machine", "keyframe_states", "keyframe_chunks"};
+  if (*has_short) tables.emplace_back("short_keyframes");
+  std::string sql;
+  for (const std::string& table : tables)
+    sql += "DELETE FROM " + table + " WHERE tick > " + std::to_string(tick) + ";";
+  for (const char* table : {"states", "state_moments"})
+    sql += std::string("DELETE FROM ") + table + " WHERE tick >= " + std::to_string(tick) + ";";
+  if (auto done = state->database.execute(sql); !done) return tl::unexpected(done.error());
+  if (auto taken = state->keyframes->take_up(); !taken) return tl::unexpected(taken.error());
+  state->ring.begin({0, 0}, 0);  // all that was there before
+  if (auto counted = state->count_bytes(); !counted) return tl::unexpected(counted.error());
   if (auto put = state->put_start(start); !put) return tl::unexpected(put.error());
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
 
+Result<void> RecordingWriter::add_unseen(Tick tick, std::span<const Command> commands) {
+  if (auto begun = state_->begin(); !begun) return begun;
+  return state_->put_commands(tick, commands);
+}
+
+Result<void> RecordingWriter::begin_at(const TickDelta& keyframe) {
+  State& state = *state_;
+  if (auto begun = state.begin(); !begun) return begun;
+  state.keyframes->begin(keyframe, state.published);
+  state.begin_events(keyframe.settings);
+  return state.keyframes->put(state.published);
+}
+
 Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands,
-                                  std::span<const Event> noted) {
+                                  std::span<const Event> noted, const WorldMoment* part) {
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
   if (auto begun = state.begin(); !begun) return begun;
-  if (!commands.empty()) {
-    const std::vector<uint8_t> recorded = encode(to_recorded(commands));
-    if (auto put = state.database.put(state.insert_commands, delta.tick, recorded); !put) return put;
-  }
+  if (auto put = state.put_commands(delta.tick, commands); !put) return put;
   // After its commands: by the frames a recording says how far it goes, also after an error.
   const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
   CHECK_DEBUG(decode_recorded_frame(frame).has_value());
   if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
   if (auto put = state.put_events(delta, noted); !put) return put;
-  state.published.apply(delta);
-  state.forget_terrain();
-  if (state.terrain_forgotten) return {};
-  for (const BrickState& brick : delta.bricks) state.changed.insert(brick.coord);
-  if (delta.tick % limits::ticks_per_keyframe == 0) return state.put_keyframe(state.published.as_delta());
-  return delta.tick % limits::ticks_per_short_keyframe == 0 ? state.put_short_keyframe() : Result<void>();
+  if (auto applied = state.keyframes->apply(delta, state.published); !applied) return applied;
+  if (part != nullptr) return state.put_part(*part);
+  return state.keyframes->is_due(state.published) ? state.keyframes->put(state.published) : Result<void>();
+}
+
+bool RecordingWriter::wants_part() const {
+  return state_->rings && state_->ring.wants_part(state_->published.tick(), state_->bytes);
 }
 
 Result<void> RecordingWriter::commit() {
   if (!state_->in_transaction) return {};
+  if (state_->rings)
+    if (auto dropped = state_->drop_parts(); !dropped) return dropped;
   state_->in_transaction = false;
   return state_->database.execute("COMMIT");
 }

@@ -7,6 +7,7 @@
 
 #include "proto/event.h"
 #include "server/store/recording.h"
+#include "server/store/recording_ring.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -14,24 +15,34 @@ namespace scree {
 class RecordingWriter {
  public:
   static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
-                                                         const RecordingHeader& header);
+                                                         const RecordingHeader& header, RingLimit limit = {});
   /// Begins with a world of some tick instead of an untouched one.
   static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
                                                          const RecordingHeader& header,
-                                                         const RecordingStart& start);
+                                                         const RecordingStart& start, RingLimit limit = {});
   /// Goes on with a recording of the same world where that stood at `start`: ticks after it, which the world
   /// has lost, are dropped. Refuses another world's, and one that ends before `start`. Nothing that was
   /// recorded changes before the first commit.
   static Result<std::unique_ptr<RecordingWriter>> resume(const std::string& path,
                                                          const RecordingHeader& header,
-                                                         const RecordingStart& start);
+                                                         const RecordingStart& start, RingLimit limit = {});
   /// Commits, and ignores errors.
   ~RecordingWriter();
 
+  /// Of a recording that has no tick yet, but a start: the commands of the next tick, which is recorded by
+  /// them alone. After the last such tick begin_at() takes the state.
+  Result<void> add_unseen(Tick tick, std::span<const Command> commands);
+  /// `keyframe`: World::keyframe(); the next tick follows it.
+  Result<void> begin_at(const TickDelta& keyframe);
+
   /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. Its
-  /// events are derived; `noted`: those of the machine. The caller stops adding after an error.
+  /// events are derived; `noted`: those of the machine. `state`: the world after the tick, where the next one
+  /// begins as from a restored value (World::renew): a part begins there, and parts that the limit has no
+  /// room for are dropped. The caller stops adding after an error.
   Result<void> add(const TickDelta& delta, std::span<const Command> commands,
-                   std::span<const Event> noted = {});
+                   std::span<const Event> noted = {}, const WorldMoment* state = nullptr);
+  /// Whether a part should begin soon, so that the limit can be kept.
+  bool wants_part() const;
   /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();
   /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder. The last

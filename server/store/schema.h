@@ -25,17 +25,35 @@ inline std::string create_table(const std::string& table) {
 
 /// What recordings of earlier releases have not.
 inline std::string create_later_tables() {
-  return create_table("events") + create_table("machine") + create_table("short_keyframes");
+  std::string sql;
+  for (const char* table : {"events", "machine", "keyframe_states", "keyframe_pieces", "state_moments"})
+    sql += create_table(table);
+  return sql +
+         "CREATE TABLE IF NOT EXISTS keyframe_chunks (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL,"
+         " chunk INTEGER NOT NULL, hash INTEGER NOT NULL, data BLOB NOT NULL, checksum INTEGER NOT NULL);"
+         "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
 }
 
-/// frames: one row for every tick, without a gap. commands: one row for each tick with commands. keyframes:
-/// what is published of the state after the tick. states: the world's whole value after the tick, from which
-/// the simulation of the next one began: at the start of a recording, and where another process went on with
-/// it. header: one row, tick 0. checksum: XXH3 of the data.
+/// frames: one row for every tick, without a gap. commands: one row for each tick with commands, also of
+/// ticks before the first frame, back to the state from which these are simulated. header: one row, tick 0.
+/// checksum: XXH3 of the data.
+///
+/// A keyframe, from which seeking starts, is what changed since the one before it. keyframe_states: all but
+/// terrain and pieces' volumes. keyframe_chunks: a chunk's edited bricks (as wire.Frame.patches), of the
+/// keyframe in which it differed from its row before; chunk: chunk_key(); hash: Σ of its bricks' hashes. The
+/// terrain is, of each chunk, the latest row up to the keyframe. keyframe_pieces: the volume of a piece, by
+/// its id, written once.
+///
+/// state_moments: the world's value after the tick, without its terrain, which is the keyframe's of that
+/// tick: the simulation of the next tick began from it, at the start of a recording, where another process
+/// went on with it, and where a part may begin when those before are dropped.
+///
 /// events: one row for each tick in which something happened that follows from the simulation; machine: one
 /// row a second or so, of the ticks since the last: how long they took, and what else happened to the server.
-/// short_keyframes: as keyframes, but of the bricks those that changed since the last keyframe, or since the
-/// untouched terrain where there is none. Recordings of earlier releases have none of these three.
+///
+/// Recordings of earlier releases may have none of the tables from keyframe_states on. They have instead:
+/// keyframes, whole ones; short_keyframes, of whose bricks those that changed since the last whole one, or
+/// since the untouched terrain where there is none; states, as state_moments, with the terrain.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(recording_format) + ";";
@@ -50,6 +68,12 @@ inline std::string insert_into(const std::string& table) {
 /// Where the row may be there already: a world may be started twice at one tick.
 inline std::string put_into(const std::string& table) {
   return "REPLACE INTO " + table + " (tick, data, checksum) VALUES (?1, ?2, ?3)";
+}
+inline std::string insert_chunk() {
+  return "INSERT INTO keyframe_chunks (tick, chunk, hash, data, checksum) VALUES (?1, ?2, ?3, ?4, ?5)";
+}
+inline std::string select_chunk() {
+  return "SELECT data, checksum FROM keyframe_chunks WHERE id = ?1";
 }
 inline std::string select_from(const std::string& table) {
   return "SELECT data, checksum FROM " + table + " WHERE tick = ?1";

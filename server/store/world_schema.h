@@ -53,5 +53,13 @@ inline uint64_t chunk_key(ChunkCoord chunk) {
   const auto part = [](int32_t c) { return static_cast<uint64_t>(static_cast<int64_t>(c) + half) & mask; };
   return (part(chunk.x) << 42U) | (part(chunk.y) << 21U) | part(chunk.z);
 }
+inline ChunkCoord chunk_of_key(uint64_t key) {
+  constexpr int64_t half = 1 << 20;
+  constexpr uint64_t mask = (uint64_t{1} << 21U) - 1;
+  const auto part = [&](unsigned shift) {
+    return static_cast<int32_t>(static_cast<int64_t>((key >> shift) & mask) - half);
+  };
+  return {part(42), part(21), part(0)};
+}
 
 }  // namespace scree::world_schema

@@ -80,6 +80,7 @@ class PublishedState {
   const Ledger& ledger() const { return ledger_; }
   const SettingValues& settings() const { return settings_; }
   uint64_t field_hash() const { return field_hash_; }
+  uint64_t state_hash() const { return state_hash_; }
   uint64_t pieces_made() const { return pieces_made_; }
   uint64_t pieces_merged() const { return pieces_merged_; }
 

@@ -75,6 +75,9 @@ class World {
   WorldMoment moment() const;
   /// The whole state.
   WorldSnapshot snapshot();
+  /// Makes of this world what restore() makes of its snapshot, in place and without reading its terrain: so a
+  /// recording may begin here. Bodies wake, and searches for islands begin again.
+  void renew();
   /// One delta that takes an empty PublishedState to this world: every edited brick, every piece and every
   /// setting, without operations. Of chunks that are out, what is known of them.
   TickDelta keyframe();

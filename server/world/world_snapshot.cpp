@@ -1,4 +1,4 @@
-// World::moment(), snapshot() and restore().
+// World::moment(), snapshot(), restore() and renew().
 #include "server/world/world_snapshot.h"
 
 #include <algorithm>
@@ -296,6 +296,14 @@ WorldMoment World::moment() const {
   m.buried = {s.buried.begin(), s.buried.end()};
   m.sunk = {s.sunk.begin(), s.sunk.end()};
   return m;
+}
+
+void World::renew() {
+  State& s = *state_;
+  s.bodies.renew();
+  s.rest.restore(s.rest.value());
+  s.islands.restore(s.islands.value());
+  s.check();
 }
 
 WorldSnapshot World::snapshot() {

@@ -54,6 +54,27 @@ TEST(ServerOptions, flags_are_taken) {
   EXPECT_FALSE(live.world.methods.dents);
 }
 
+TEST(ServerOptions, a_ring_is_a_recordings_and_has_a_unit) {
+  const auto parsed = parse({"--record", "a.scree", "--record-ring", "10m"});
+  ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));
+  EXPECT_EQ(std::get<ServerOptions>(parsed).live.record_ring.seconds, 600.0);
+  EXPECT_EQ(exit_code({"--record-ring", "10m"}), 2);
+  EXPECT_EQ(exit_code({"--record", "a.scree", "--record-ring", "10"}), 2);
+}
+
+TEST(ServerOptions, one_file_for_two_purposes_is_refused_before_it_is_made) {
+  TestFolder folder;
+  const std::string file = folder / "x", link = folder / "link", there = folder / "there";
+  EXPECT_EQ(exit_code({"--world", file.c_str(), "--events", file.c_str()}), 2);
+  EXPECT_EQ(exit_code({"--record", file.c_str(), "--world", (folder / "./x").c_str()}), 2);
+  EXPECT_EQ(exit_code({"--report", file.c_str(), "--trace", file.c_str()}), 2);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  std::ofstream(there) << "x";
+  std::filesystem::create_symlink(there, link);
+  EXPECT_EQ(exit_code({"--events", link.c_str(), "--report", there.c_str()}), 2);
+  EXPECT_EQ(exit_code({"--events", "/dev/null", "--report", "/dev/null"}), -1) << "takes anything";
+}
+
 TEST(ServerOptions, help_is_no_mistake_and_a_mistake_is_code_2) {
   EXPECT_EQ(exit_code({"--help"}), 0);
   EXPECT_EQ(exit_code({"--no-such-option"}), 2);

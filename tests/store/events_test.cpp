@@ -72,13 +72,49 @@ TEST_F(EventsTest, a_recording_has_every_carve_and_fill_with_tick_place_and_size
   EXPECT_LT(events[0].volume_m3, 4.2F) << "more than the sphere";
   EXPECT_EQ(events[1].kind, EventKind::fill);
   EXPECT_EQ(events[1].place_m, glm::vec3(-8.0F, 1.0F, 0.0F));
-  const auto merges = std::ranges::count(events, EventKind::merge, &Event::kind);
-  const auto bursts = std::ranges::count_if(deltas, [](const auto& delta) {
-    size_t merged = 0;
-    for (const AppliedOperation& applied : delta->operations) merged += pieces_merged_by(applied.operation);
-    return merged >= merge_burst_min;
-  });
-  EXPECT_EQ(merges, bursts);
+}
+
+/// A tick in which so many pieces merge at that place.
+TickDelta merging(Tick tick, uint32_t pieces, float x_m) {
+  TickDelta delta;
+  delta.tick = tick;
+  StampOperation stamp;
+  stamp.pose = quantise({.position_m = {x_m, 0.0F, 0.0F}});
+  stamp.others.resize(pieces - 1);
+  delta.operations.push_back({stamp, {}, {}, {}});
+  return delta;
+}
+
+TEST(EventDeriver, merges_near_each_other_within_a_second_are_one_event) {
+  EventDeriver deriver(0.25F, {});
+  std::vector<Event> events;
+  for (Tick tick = 1; tick <= 200; ++tick) {
+    TickDelta delta;
+    delta.tick = tick;
+    if (tick <= 40) delta = merging(tick, 2, 5.0F);   // a burst
+    if (tick == 20) delta = merging(tick, 9, 50.0F);  // another one, elsewhere
+    if (tick == 100) delta = merging(tick, 3, 5.0F);  // too few
+    for (const Event& event : deriver.events_of(delta)) events.push_back(event);
+  }
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, EventKind::merge);
+  EXPECT_EQ(events[0].tick, 1 + merge_burst_ticks);
+  EXPECT_EQ(events[0].pieces, 78U);
+  EXPECT_EQ(events[0].place_m, glm::vec3(5.0F, 0.0F, 0.0F));
+  EXPECT_EQ(events[1].tick, 20 + merge_burst_ticks);
+  EXPECT_EQ(events[1].pieces, 9U);
+}
+
+TEST(EventDeriver, in_recordings_of_earlier_releases_a_burst_is_a_ticks) {
+  EventDeriver deriver(0.25F, {}, 0);
+  EXPECT_TRUE(deriver.events_of(merging(1, 3, 5.0F)).empty());
+  TickDelta both = merging(2, 3, 5.0F);
+  both.operations.push_back(merging(2, 2, 50.0F).operations[0]);
+  const std::vector<Event> events = deriver.events_of(both);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(
+      events[0],
+      (Event{.kind = EventKind::merge, .tick = 2, .place_m = glm::vec3(5.0F, 0.0F, 0.0F), .pieces = 5}));
 }
 
 TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) {

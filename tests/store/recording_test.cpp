@@ -78,38 +78,20 @@ TEST_F(RecordingTest, seek_by_keyframe_gives_the_state_and_goes_on) {
   }
 }
 
-TEST_F(RecordingTest, a_keyframe_is_near_every_tick_and_has_the_whole_state) {
-  simulate(limits::ticks_per_keyframe + 100);
-  record();
-  const auto reader = RecordingReader::open(path);
-  ASSERT_TRUE(reader.has_value());
-  PublishedState published;
-  for (const auto& delta : deltas) {
-    published.apply(*delta);
-    const Tick tick = delta->tick;
-    if (tick < 60 || tick % 7 != 0) continue;  // before the first carve there is nothing to keep
-    const auto near = (*reader)->keyframe_tick_before(tick);
-    ASSERT_TRUE(near.has_value());
-    EXPECT_LT(tick - *near, limits::ticks_per_short_keyframe) << tick;
-    if (tick != *near) continue;
-    const auto keyframe = (*reader)->keyframe_before(tick);
-    ASSERT_TRUE(keyframe.has_value() && keyframe->has_value());
-    EXPECT_EQ(encode(**keyframe), encode(to_recorded_keyframe(published.as_delta()))) << tick;
-  }
-}
-
-TEST_F(RecordingTest, a_recording_without_short_keyframes_seeks_by_the_others) {
-  simulate(limits::ticks_per_keyframe + 100);
-  record();
-  {
-    auto database = Database::open(path);
-    ASSERT_TRUE(database.has_value() && database->execute("DROP TABLE short_keyframes").has_value());
-  }
-  const auto source = ReplaySource::open(path, limits::ticks_per_keyframe + 70);
-  ASSERT_TRUE(source.has_value()) << source.error().message;
-  const auto jumped = (*source)->jump(limits::ticks_per_keyframe - 70);
-  ASSERT_TRUE(jumped.has_value()) << jumped.error().message;
-  EXPECT_EQ((*jumped)->field_hash, deltas[limits::ticks_per_keyframe - 71]->field_hash);
+TEST_F(RecordingTest, a_copy_without_its_log_says_what_is_missing) {
+  simulate(20);
+  auto writer = RecordingWriter::create(path, {"test", small_world()});
+  ASSERT_TRUE(writer.has_value());
+  for (size_t i = 0; i < 20; ++i) ASSERT_TRUE((*writer)->add(*deltas[i], commands_by_tick[i]).has_value());
+  ASSERT_TRUE((*writer)->commit().has_value());
+  const std::string copy = (folder / "copy.scree").string();
+  fs::copy_file(path, copy);
+  const auto reader = RecordingReader::open(copy);
+  ASSERT_FALSE(reader.has_value());
+  EXPECT_NE(reader.error().message.find(copy + "-wal is missing"), std::string::npos)
+      << reader.error().message;
+  fs::copy_file(path + "-wal", copy + "-wal", fs::copy_options::overwrite_existing);
+  EXPECT_TRUE(RecordingReader::open(copy).has_value());
 }
 
 TEST_F(RecordingTest, what_is_being_written_reads_as_it_stands_and_says_that_it_has_not_ended) {

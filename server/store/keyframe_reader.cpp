@@ -1,0 +1,140 @@
+#include "server/store/keyframe_reader.h"
+
+#include <algorithm>
+
+#include "proto/limits.h"
+#include "proto/operation_codec.h"
+#include "server/store/schema.h"
+#include "server/store/world_schema.h"
+
+namespace scree {
+
+tl::unexpected<Error> KeyframeReader::damaged(const std::string& what, Tick tick) const {
+  return fail(database_->path() + ": damaged: the keyframe of tick " + std::to_string(tick) + ": " + what);
+}
+
+Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues header) {
+  KeyframeReader reader(database);
+  reader.header_ = std::move(header);
+  for (const char* table : {"keyframe_states", "keyframe_chunks", "keyframe_pieces"}) {
+    const auto has = database.has_table(table);
+    if (!has) return tl::unexpected(has.error());
+    if (!*has) return reader;
+  }
+  reader.exists_ = true;
+  const std::pair<Statement*, std::string> statements[] = {
+      {&reader.select_chunk_, schema::select_chunk()},
+      {&reader.select_piece_, schema::select_from("keyframe_pieces")},
+      {&reader.select_state_, schema::select_from("keyframe_states")}};
+  for (const auto& [statement, sql] : statements) {
+    auto prepared = database.prepare(sql);
+    if (!prepared) return tl::unexpected(prepared.error());
+    *statement = std::move(*prepared);
+  }
+  return reader;
+}
+
+Result<uint64_t> KeyframeReader::count() {
+  if (!exists_) return uint64_t{0};
+  const auto count = database_->number("SELECT count(*) FROM keyframe_states");
+  if (!count) return tl::unexpected(count.error());
+  return static_cast<uint64_t>(count->value_or(0));
+}
+
+Result<std::optional<Tick>> KeyframeReader::tick_before(Tick tick) {
+  if (!exists_) return std::optional<Tick>();
+  const auto latest =
+      database_->number("SELECT max(tick) FROM keyframe_states WHERE tick <= " + std::to_string(tick));
+  if (!latest) return tl::unexpected(latest.error());
+  return latest->has_value() ? std::optional(static_cast<Tick>(**latest)) : std::nullopt;
+}
+
+/// Rows come in the order of their ids, and of a chunk in that of their ticks.
+Result<void> KeyframeReader::index() {
+  const auto take = [this](std::span<const int64_t> row) -> Result<void> {
+    chunks_[static_cast<uint64_t>(row[1])].push_back(
+        {static_cast<Tick>(row[2]), row[0], static_cast<uint64_t>(row[3])});
+    indexed_ = std::max(indexed_, row[0]);
+    return {};
+  };
+  const auto latest = database_->number("SELECT max(id) FROM keyframe_chunks");
+  if (!latest) return tl::unexpected(latest.error());
+  if (latest->value_or(0) <= indexed_) return {};
+  // Without the blobs: from the index alone, unless few rows are new.
+  const std::string since = indexed_ == 0 ? "" : " NOT INDEXED WHERE id > " + std::to_string(indexed_);
+  if (auto read = database_->each_number("SELECT id, chunk, tick, hash FROM keyframe_chunks" + since, take);
+      !read)
+    return read;
+  for (auto& [key, rows] : chunks_)
+    std::ranges::sort(rows, {}, [](const Row& row) { return std::pair(row.tick, row.id); });
+  return {};
+}
+
+Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known) {
+  if (auto indexed = index(); !indexed) return indexed;
+  for (const auto& [key, rows] : chunks_) {
+    const auto after = std::ranges::upper_bound(rows, tick, {}, &Row::tick);
+    if (after == rows.begin()) continue;
+    const Row& row = *std::prev(after);
+    const ChunkCoord chunk = world_schema::chunk_of_key(key);
+    if (known.has_chunk(chunk, row.hash)) {
+      parts.known_chunks.push_back(chunk);
+      continue;
+    }
+    const auto data = database_->get(select_chunk_, static_cast<uint64_t>(row.id));
+    if (!data) return tl::unexpected(data.error());
+    if (!data->has_value()) return damaged("a chunk's row was dropped", tick);
+    const auto bricks = decode_bricks(**data);
+    if (!bricks) return damaged(bricks.error().message, tick);
+    for (const BrickPatch& patch : *bricks)
+      if (chunk_of(patch.coord) != chunk) return damaged("a brick is in another chunk's row", tick);
+    parts.keyframe.bricks.insert(parts.keyframe.bricks.end(), bricks->begin(), bricks->end());
+  }
+  std::ranges::sort(parts.keyframe.bricks, {}, &BrickPatch::coord);
+  std::ranges::sort(parts.known_chunks);
+  return {};
+}
+
+Result<void> KeyframeReader::read_pieces(KeyframeParts& parts, const KnownParts& known) {
+  std::vector<PieceState> of_known;
+  size_t voxels = 0;
+  for (const PieceState& state : parts.keyframe.poses) {
+    if (known.has_piece(state.id)) {
+      of_known.push_back(state);
+      continue;
+    }
+    const auto data = database_->get(select_piece_, state.id);
+    if (!data) return tl::unexpected(data.error());
+    if (!data->has_value())
+      return damaged("piece " + std::to_string(state.id) + " is missing", parts.keyframe.tick);
+    auto piece = decode_recorded_piece(**data);
+    if (!piece) return damaged(piece.error().message, parts.keyframe.tick);
+    if (piece->id != state.id) return damaged("a piece is in another one's row", parts.keyframe.tick);
+    piece->pose = state.pose;
+    voxels += piece->volume.window.codes.size();
+    if (voxels > limits::piece_voxels_max)
+      return damaged("pieces of more than " + std::to_string(limits::piece_voxels_max) +
+                         " voxels (limits.piece_voxels_max)",
+                     parts.keyframe.tick);
+    parts.keyframe.pieces.push_back(std::move(*piece));
+  }
+  parts.keyframe.poses = std::move(of_known);
+  return {};
+}
+
+Result<KeyframeParts> KeyframeReader::read(Tick tick, const KnownParts& known) {
+  const auto data = database_->get(select_state_, tick);
+  if (!data) return tl::unexpected(data.error());
+  if (!data->has_value()) return damaged("it is not there", tick);
+  auto keyframe = decode_recorded_keyframe(**data);
+  if (!keyframe) return damaged(keyframe.error().message, tick);
+  if (keyframe->tick != tick || !keyframe->bricks.empty() || !keyframe->pieces.empty())
+    return damaged("it is another one's", tick);
+  if (keyframe->settings.empty()) keyframe->settings = header_;
+  KeyframeParts parts{std::move(*keyframe), {}};
+  if (auto read = read_chunks(parts, tick, known); !read) return tl::unexpected(read.error());
+  if (auto read = read_pieces(parts, known); !read) return tl::unexpected(read.error());
+  return parts;
+}
+
+}  // namespace scree

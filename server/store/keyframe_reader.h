@@ -1,0 +1,63 @@
+// Reads the keyframes that KeyframeWriter wrote. Every byte is checked. Owned by a RecordingReader; one
+// thread at a time.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "proto/recording_codec.h"
+#include "server/store/database.h"
+#include "shared/field/coord.h"
+
+namespace scree {
+
+/// What somebody has already and need not be read.
+struct KnownParts {
+  std::function<bool(ChunkCoord chunk, uint64_t hash)> has_chunk = [](ChunkCoord, uint64_t) { return false; };
+  std::function<bool(PieceId piece)> has_piece = [](PieceId) { return false; };
+};
+
+/// A keyframe without what is known: the bricks of the other chunks, and the other pieces. `poses` are those
+/// of the pieces that are known.
+struct KeyframeParts {
+  RecordedKeyframe keyframe;
+  std::vector<ChunkCoord> known_chunks;  ///< ordered
+};
+
+class KeyframeReader {
+ public:
+  /// `header`: how the settings stood at the recording's start. `database` must outlive it. A recording of an
+  /// earlier release has no such keyframes.
+  static Result<KeyframeReader> open(Database& database, SettingValues header);
+
+  /// The tick of the latest keyframe up to that one; nothing when there is none.
+  Result<std::optional<Tick>> tick_before(Tick tick);
+  /// That of a tick that has one.
+  Result<KeyframeParts> read(Tick tick, const KnownParts& known);
+  Result<uint64_t> count();
+
+ private:
+  struct Row {
+    Tick tick = 0;
+    int64_t id = 0;
+    uint64_t hash = 0;
+  };
+
+  explicit KeyframeReader(Database& database) : database_(&database) {}
+  /// Takes up rows that came since the last call.
+  Result<void> index();
+  Result<void> read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known);
+  Result<void> read_pieces(KeyframeParts& parts, const KnownParts& known);
+  tl::unexpected<Error> damaged(const std::string& what, Tick tick) const;
+
+  Database* database_;
+  bool exists_ = false;
+  SettingValues header_;
+  Statement select_chunk_, select_piece_, select_state_;
+  std::unordered_map<uint64_t, std::vector<Row>> chunks_;  ///< by chunk_key(); each in order
+  int64_t indexed_ = 0;                                    ///< the last row that is in `chunks_`
+};
+
+}  // namespace scree

@@ -1,0 +1,77 @@
+#include "server/store/recording_ring.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace scree {
+
+namespace {
+
+/// Parts of a ring.
+constexpr double ring_parts = 8.0;
+
+struct Unit {
+  char letter;
+  double seconds;
+  uint64_t bytes;
+};
+constexpr std::array units = {Unit{'s', 1.0, 0},
+                              Unit{'m', 60.0, 0},
+                              Unit{'h', 3600.0, 0},
+                              Unit{'M', 0.0, 1'000'000},
+                              Unit{'G', 0.0, 1'000'000'000},
+                              Unit{'T', 0.0, 1'000'000'000'000}};
+
+}  // namespace
+
+Result<RingLimit> ring_limit_of(const std::string& text) {
+  const auto refused = [&] {
+    return fail("'" + text +
+                "' is no length of a ring: 10s to 10000000s (s, m or h), or 10M to 100T (M, G or T bytes)");
+  };
+  if (text.size() < 2) return refused();
+  uint32_t number = 0;
+  const char* const end = text.data() + text.size() - 1;
+  const auto [read, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || read != end) return refused();
+  for (const Unit& unit : units) {
+    if (unit.letter != text.back()) continue;
+    const RingLimit limit{number * unit.seconds, number * unit.bytes};
+    const bool is_time = unit.bytes == 0;
+    if (is_time && (limit.seconds < limits::ring_seconds_min || limit.seconds > limits::ring_seconds_max))
+      return refused();
+    if (!is_time && (limit.bytes < limits::ring_bytes_min || limit.bytes > limits::ring_bytes_max))
+      return refused();
+    return limit;
+  }
+  return refused();
+}
+
+void RecordingRing::begin(const Part& part, uint64_t bytes) {
+  parts_.push_back(part);
+  bytes_before_ = bytes;
+}
+
+bool RecordingRing::wants_part(Tick tick, uint64_t bytes) const {
+  if (parts_.empty()) return false;
+  if (limit_.seconds > 0.0) return seconds_since(parts_.back().tick, tick) >= limit_.seconds / ring_parts;
+  const auto part_bytes = static_cast<uint64_t>(static_cast<double>(limit_.bytes) / ring_parts);
+  return limit_.bytes > 0 && bytes >= bytes_before_ + part_bytes;
+}
+
+const RecordingRing::Part* RecordingRing::first_to_stay(Tick tick, uint64_t bytes) const {
+  if (parts_.size() < 2) return nullptr;
+  if (limit_.bytes > 0) return bytes > limit_.bytes ? &parts_[1] : nullptr;
+  const Part* first = nullptr;
+  for (size_t i = 1; limit_.seconds > 0.0 && i < parts_.size(); ++i)
+    if (seconds_since(parts_[i].tick, tick) >= limit_.seconds) first = &parts_[i];
+  return first;
+}
+
+void RecordingRing::drop_before(Tick tick, uint64_t bytes) {
+  while (!parts_.empty() && parts_.front().tick < tick) parts_.pop_front();
+  bytes_before_ = std::min(bytes_before_, bytes);
+}
+
+}  // namespace scree

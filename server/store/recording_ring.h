@@ -1,0 +1,63 @@
+// How much of a recording is kept: of a ring the last minutes, or bytes. It consists of parts that begin with
+// a world's value, and the oldest are dropped whole, so that what remains plays and verifies. One thread at a
+// time.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "shared/base/ids.h"
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// At most one of them; neither: all is kept.
+struct RingLimit {
+  double seconds = 0.0;
+  uint64_t bytes = 0;
+
+  bool is_on() const { return seconds > 0.0 || bytes > 0; }
+  bool operator==(const RingLimit&) const = default;
+};
+
+namespace limits {
+/// Of a ring; less would begin parts all the time. More seconds, or bytes, are refused as mistaken.
+inline constexpr double ring_seconds_min = 10.0, ring_seconds_max = 1.0e7;
+inline constexpr uint64_t ring_bytes_min = 10'000'000, ring_bytes_max = 100'000'000'000'000;
+}  // namespace limits
+
+/// "90s", "10m" or "2h"; "500M", "2G" or "1T" (of 10^6, 10^9 and 10^12 bytes).
+Result<RingLimit> ring_limit_of(const std::string& text);
+
+class RecordingRing {
+ public:
+  /// From the tick of a world's value on.
+  struct Part {
+    Tick tick = 0;
+    PieceId next_piece = 0;  ///< to be made, at that tick
+  };
+
+  RecordingRing(RingLimit limit, uint32_t tick_rate_hz) : limit_(limit), tick_rate_hz_(tick_rate_hz) {}
+
+  /// `bytes`: that the recording takes now.
+  void begin(const Part& part, uint64_t bytes);
+  /// The parts of a ring are an eighth of it: so much more than the limit may be there.
+  bool wants_part(Tick tick, uint64_t bytes) const;
+  /// The first part that stays, when those before it are to be dropped.
+  const Part* first_to_stay(Tick tick, uint64_t bytes) const;
+  /// Those before the first one that stays are gone.
+  void drop_before(Tick tick, uint64_t bytes);
+
+ private:
+  double seconds_since(Tick tick, Tick now) const {
+    return static_cast<double>(now - tick) / static_cast<double>(tick_rate_hz_);
+  }
+
+  RingLimit limit_;
+  uint32_t tick_rate_hz_;
+  std::deque<Part> parts_;
+  uint64_t bytes_before_ = 0;  ///< at the beginning of the last part
+};
+
+}  // namespace scree

@@ -1,0 +1,95 @@
+// Keyframes of recordings: near every tick, small, and those of earlier releases.
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+#include "server/replay/replay_source.h"
+#include "server/store/limits.h"
+#include "server/store/schema.h"
+#include "tests/support/recording_fixture.h"
+
+namespace scree {
+namespace {
+
+TEST_F(RecordingTest, a_keyframe_is_near_every_tick_and_has_the_whole_state) {
+  simulate(700);
+  record();
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value());
+  PublishedState published;
+  for (const auto& delta : deltas) {
+    published.apply(*delta);
+    const Tick tick = delta->tick;
+    if (tick < 60 || tick % 3 != 0) continue;  // before the first carve there is nothing to keep
+    const auto near = (*reader)->keyframe_tick_before(tick);
+    ASSERT_TRUE(near.has_value());
+    EXPECT_LT(tick - *near,
+              delta->pieces.empty() ? limits::ticks_per_idle_keyframe : limits::ticks_per_keyframe)
+        << tick;
+    if (tick != *near) continue;
+    const auto keyframe = (*reader)->keyframe_before(tick);
+    ASSERT_TRUE(keyframe.has_value() && keyframe->has_value());
+    EXPECT_EQ(encode(**keyframe), encode(to_recorded_keyframe(published.as_delta()))) << tick;
+  }
+}
+
+TEST_F(RecordingTest, keyframes_of_an_earlier_release_are_seeked_by) {
+  simulate(400);
+  record();
+  std::map<Tick, std::vector<uint8_t>> whole, later;  // at 120; at 180 and 240 what changed since
+  PublishedState published;
+  std::set<BrickCoord> changed;
+  for (const auto& delta : deltas) {
+    published.apply(*delta);
+    for (const BrickState& brick : delta->bricks) changed.insert(brick.coord);
+    if (delta->tick == 120) {
+      whole[120] = encode(to_recorded_keyframe(published.as_delta()));
+      changed.clear();
+    }
+    if (delta->tick == 180 || delta->tick == 240)
+      later[delta->tick] = encode(to_recorded_keyframe(published.as_delta(changed)));
+  }
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database.has_value());
+    ASSERT_TRUE(
+        database
+            ->execute("DROP TABLE keyframe_states; DROP TABLE keyframe_chunks; DROP TABLE keyframe_pieces;"
+                      "DROP TABLE state_moments;" +
+                      schema::create_table("short_keyframes"))
+            .has_value());
+  }
+  for (const auto& [tick, row] : whole) put_recorded("keyframes", tick, row);
+  for (const auto& [tick, row] : later) put_recorded("short_keyframes", tick, row);
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  for (const auto& [tick, near] : {std::pair(119, 0), {121, 120}, {200, 180}, {400, 240}})
+    EXPECT_EQ((*reader)->keyframe_tick_before(static_cast<Tick>(tick)).value_or(1), static_cast<Tick>(near));
+  const auto source = ReplaySource::open(path, 399);
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  for (const Tick to : {Tick{60}, Tick{185}, Tick{130}, Tick{300}, Tick{119}}) {
+    const auto jumped = (*source)->jump(to);
+    ASSERT_TRUE(jumped.has_value()) << jumped.error().message;
+    EXPECT_EQ((*jumped)->field_hash, deltas[to - 1]->field_hash) << to;
+  }
+}
+
+TEST_F(RecordingTest, keyframes_hold_each_volume_once_and_of_the_terrain_what_changed) {
+  simulate(400);
+  record();
+  auto database = Database::open(path);
+  ASSERT_TRUE(database.has_value());
+  std::set<PieceId> seen;
+  for (const auto& delta : deltas)
+    if (delta->tick % limits::ticks_per_keyframe == 0)
+      for (const PieceState& piece : delta->pieces) seen.insert(piece.id);
+  EXPECT_EQ(database->number("SELECT count(*) FROM keyframe_pieces").value().value_or(0),
+            static_cast<int64_t>(seen.size()));
+  const auto twice = database->number(
+      "SELECT count(*) FROM keyframe_chunks AS a JOIN keyframe_chunks AS b USING (chunk, hash) WHERE a.id < "
+      "b.id");
+  EXPECT_EQ(twice.value().value_or(1), 0) << "a chunk that did not change was written again";
+}
+
+}  // namespace
+}  // namespace scree
