@@ -1,4 +1,6 @@
-// scree-replay: describes a recording, verifies it by simulating it again, and exports what it says.
+// scree-replay: describes a recording, verifies it by simulating it again, exports what it says, compares it
+// with another one, and cuts a shorter one out of it. Exit status: 0 success; 1 failure, or a difference; 2
+// wrong usage; of diff, as diff(1): 0 the same, 1 different, 2 trouble.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
@@ -11,6 +13,8 @@
 
 #include "server/app/ground_giver.h"
 #include "server/replay/export_lines.h"
+#include "server/replay/recording_cut.h"
+#include "server/replay/recording_diff.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
@@ -32,6 +36,9 @@ struct Options {
   bool csv = false;
   std::string events_path;
   std::string ticks_path;
+  std::string other;  ///< recording to compare with
+  std::string to_path;
+  std::string first, last;  ///< ticks or times
 };
 
 std::string hex(uint64_t hash) {
@@ -134,6 +141,11 @@ int info(const Options& options) {
                {"field_hash", hex(sums->last.field_hash)},
                {"state_hash", hex(sums->last.state_hash)},
                {"bytes", (*recording)->bytes()}});
+  if ((*recording)->may_lack_ticks())
+    json["log_missing"] =
+        options.path +
+        "-wal is not beside it: if it was copied while it was being written, its last ticks are "
+        "missing";
   print(json, options.json);
   return 0;
 }
@@ -201,6 +213,60 @@ int export_lines(const Options& options) {
   return written ? 0 : complain(written.error());
 }
 
+int diff_files(const Options& options) {
+  constexpr int trouble = 2;
+  const auto ground = ground_giver(options.path, options.ground);
+  const auto other_ground = ground_giver(options.other, options.ground);
+  for (const auto* given : {&ground, &other_ground})
+    if (!*given) return static_cast<void>(complain(given->error())), trouble;
+  ProgressBar bar(isatty(STDERR_FILENO) != 0);
+  const auto found = diff({options.path, *ground}, {options.other, *other_ground}, [&](Tick done, Tick all) {
+    bar.show(static_cast<double>(done) / static_cast<double>(all));
+  });
+  bar.end();
+  if (!found) return static_cast<void>(complain(found.error())), trouble;
+  Json json{{"file", options.path},
+            {"other", options.other},
+            {"same", found->same()},
+            {"first_tick", found->first},
+            {"last_tick", found->last}};
+  if (!found->same()) json["first_difference"] = found->tick;
+  for (const StageDifference& stage : found->stages) json[std::string(name_of(stage.stage))] = stage.text;
+  print(json, options.json);
+  return found->same() ? 0 : differs_or_failed;
+}
+
+int cut_file(const Options& options) {
+  const auto recording = RecordingReader::open(options.path);
+  if (!recording) return complain(recording.error());
+  const auto ground = ground_giver(options.path, options.ground);
+  if (!ground) return complain(ground.error());
+  const uint32_t rate_hz = (*recording)->header().world.tick_rate_hz;
+  Tick first = (*recording)->first_tick(), last = (*recording)->last_tick();
+  if (!options.first.empty()) {
+    const auto tick = tick_of(options.first, rate_hz);
+    if (!tick) return complain({tick.error().message + " (--from)"});
+    if (*tick != 0) first = *tick;
+  }
+  if (!options.last.empty()) {
+    const auto tick = tick_of(options.last, rate_hz);
+    if (!tick) return complain({tick.error().message + " (--to)"});
+    last = *tick;
+  }
+  ProgressBar bar(isatty(STDERR_FILENO) != 0);
+  const auto report =
+      cut(**recording, options.to_path, first, last, *ground, [&](double part) { bar.show(part); });
+  bar.end();
+  if (!report) return complain(report.error());
+  print(Json{{"file", options.to_path},
+             {"first_tick", report->first},
+             {"ticks", report->last - report->first + 1},
+             {"state_of_tick", report->state},
+             {"bytes", report->bytes}},
+        options.json);
+  return 0;
+}
+
 CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what) {
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("FILE", options.path, "a recording")->required();
@@ -219,7 +285,16 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   CLI::App* verify_command =
       add_command(app, options, "verify",
                   "simulates it again from the commands, and compares every tick's hash and events");
-  for (CLI::App* command : {info_command, verify_command})
+  CLI::App* diff_command = add_command(
+      app, options, "diff",
+      "the first tick in which two recordings differ, in which stage and where; exit status 0: none");
+  diff_command->add_option("OTHER", options.other, "another recording")->required();
+  CLI::App* cut_command =
+      add_command(app, options, "cut", "makes a shorter recording, which plays and verifies by itself");
+  cut_command->add_option("OUT", options.to_path, "the new file")->required();
+  cut_command->add_option("--from", options.first, "its first tick, or a time: 90s, 1.5m, 1:30");
+  cut_command->add_option("--to", options.last, "its last tick, or a time");
+  for (CLI::App* command : {info_command, verify_command, diff_command, cut_command})
     command->add_flag("--json", options.json, "prints JSON");
   CLI::App* events =
       add_command(app, options, "events", "prints what happened, an event a line (JSON Lines)");
@@ -230,9 +305,12 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   exported->add_option("--ticks", options.ticks_path,
                        "file of every tick's duration and ledger; -: the standard output");
   exported->require_option(1, 0);
-  for (CLI::App* command : {verify_command, events, exported}) add_ground(command, options);
+  for (CLI::App* command : {verify_command, events, exported, diff_command, cut_command})
+    add_ground(command, options);
   return {{info_command, info},
           {verify_command, verify_file},
+          {diff_command, diff_files},
+          {cut_command, cut_file},
           {events,
            [](const Options& o) {
              Options to_screen = o;

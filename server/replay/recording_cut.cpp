@@ -1,0 +1,243 @@
+#include "server/replay/recording_cut.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "proto/world_codec.h"
+#include "server/replay/recorded_world.h"
+#include "server/replay/verify.h"
+#include "server/store/limits.h"
+#include "server/store/recording_writer.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ticks between two states that are remembered on the way to the first tick: taking one costs time.
+constexpr Tick ticks_per_state = 600;
+
+/// Ticks for which events of the machine, and durations, are read at once.
+constexpr Tick machine_batch_ticks = 600;
+
+/// Whether going on from the world's value is going on with the world: there are no bodies, and nothing
+/// waits.
+bool is_quiet(const TickDelta& delta, const WorldMoment& moment) {
+  return delta.pieces.empty() && moment.islands.empty() && moment.cuts.empty() && moment.cut.empty() &&
+         moment.strained.empty() && moment.requests.parties.empty();
+}
+
+/// What is recorded of the machine, as it comes with each tick.
+class MachineRows {
+ public:
+  explicit MachineRows(RecordingReader& recording) : recording_(recording) {}
+
+  /// The tick's events; its duration goes into `times`. To be asked for tick after tick.
+  Result<std::vector<Event>> at(Tick tick, StageTimes& times) {
+    if (!recording_.events_from()) return std::vector<Event>();
+    if (tick > read_to_) {
+      read_to_ = tick + machine_batch_ticks - 1;
+      auto rows = recording_.machine(tick, read_to_);
+      if (!rows) return tl::unexpected(rows.error());
+      rows_ = std::move(*rows);
+    }
+    times = {};
+    std::vector<Event> events;
+    for (const RecordedMachine& row : rows_) {
+      if (row.tick < tick) continue;
+      const Tick ago = row.tick - tick;
+      if (ago < row.tick_us.size()) {
+        constexpr double ms_per_us = 1e-3;
+        times.ms.front() = row.tick_us[row.tick_us.size() - 1 - static_cast<size_t>(ago)] * ms_per_us;
+        times.acted.set(0);
+      }
+      for (const Event& event : row.events)
+        if (event.tick == tick) events.push_back(event);
+    }
+    return events;
+  }
+
+ private:
+  RecordingReader& recording_;
+  std::vector<RecordedMachine> rows_;
+  Tick read_to_ = 0;
+};
+
+class Cutting {
+ public:
+  Cutting(RecordingReader& recording, const GroundGiver& ground, Tick first, Tick last,
+          std::function<void(double)> progress)
+      : recording_(recording), ground_(ground), first_(first), last_(last), progress_(std::move(progress)) {}
+
+  Tick state() const { return state_; }
+
+  /// `may_begin_quiet`: from a state that the recording has not.
+  Result<void> write(const std::string& path, bool may_begin_quiet) {
+    const auto from = recording_.state_before(first_ - 1);
+    if (!from) return tl::unexpected(from.error());
+    std::optional<WorldSnapshot> quiet;
+    const auto look = [&](World& world, const TickDelta& delta) {
+      const bool due = !quiet || delta.tick >= quiet->moment.tick + ticks_per_state;
+      if (may_begin_quiet && due && delta.pieces.empty() && is_quiet(delta, world.moment()))
+        quiet = world.snapshot();
+    };
+    auto world = simulated_to(recording_, first_ - 1, ground_, show(0.0, 0.4), look);
+    if (!world) return tl::unexpected(world.error());
+    state_ = quiet ? quiet->moment.tick : *from;
+    auto writer = begin(path, quiet);
+    if (!writer) return tl::unexpected(writer.error());
+    for (Tick tick = state_ + 1; tick < first_; ++tick) {
+      const auto commands = recording_.commands(tick);
+      if (!commands) return tl::unexpected(commands.error());
+      if (auto added = (*writer)->add_unseen(tick, *commands); !added) return added;
+    }
+    if (first_ > 1)
+      if (auto begun = (*writer)->begin_at((*world)->keyframe()); !begun) return begun;
+    if (auto written = write_ticks(**writer, *world); !written) return written;
+    return (*writer)->finish();
+  }
+
+  Result<void> verify_written(const std::string& path) const {
+    const auto written = RecordingReader::open(path);
+    if (!written) return tl::unexpected(written.error());
+    const auto report = verify(**written, show(0.7, 1.0), ground_);
+    if (!report) return tl::unexpected(report.error());
+    if (!report->agrees())
+      return fail(path + " differs at tick " + std::to_string(report->first_difference) + ": " +
+                  report->difference);
+    return {};
+  }
+
+ private:
+  /// Progress of a step that takes a part of the whole.
+  std::function<void(Tick, Tick)> show(double from, double to) const {
+    return [this, from, to](Tick done, Tick all) {
+      if (progress_) progress_(from + (to - from) * static_cast<double>(done) / static_cast<double>(all));
+    };
+  }
+
+  /// A recording that begins with the state, or with the untouched world.
+  Result<std::unique_ptr<RecordingWriter>> begin(const std::string& path,
+                                                 const std::optional<WorldSnapshot>& quiet) {
+    const RecordingHeader header{recording_.header().program, recording_.header().world};
+    if (first_ == 1) return RecordingWriter::create(path, header);
+    Result<std::unique_ptr<World>> world =
+        quiet ? restored_from(encode(*quiet), state_, ground_) : world_at(recording_, state_, ground_);
+    if (!world) return tl::unexpected(world.error());
+    return RecordingWriter::create(path, header, {(*world)->snapshot(), (*world)->keyframe()});
+  }
+
+  /// As they were recorded: the simulation goes on from the states that they went on from.
+  Result<void> write_ticks(RecordingWriter& writer, std::unique_ptr<World>& world) {
+    MachineRows machine(recording_);
+    const auto shown = show(0.4, 0.7);
+    for (Tick tick = first_; tick <= last_; ++tick) {
+      const auto frame = recording_.frame(tick);
+      if (!frame) return tl::unexpected(frame.error());
+      const auto commands = recording_.commands(tick);
+      if (!commands) return tl::unexpected(commands.error());
+      TickDelta delta = *world->step(*commands);
+      if (const std::string differs = difference_of(delta, *frame); !differs.empty())
+        return fail(recording_.path() + ": at tick " + std::to_string(tick) + ", " + differs);
+      const auto noted = machine.at(tick, delta.times);
+      if (!noted) return tl::unexpected(noted.error());
+      const auto state = recording_.state(tick);
+      if (!state) return tl::unexpected(state.error());
+      std::optional<WorldMoment> part;
+      if (state->has_value()) {
+        auto restored = restored_from(**state, tick, ground_);
+        if (!restored) return tl::unexpected(restored.error());
+        world = std::move(*restored);
+        part = world->moment();
+      }
+      if (auto added = writer.add(delta, *commands, *noted, part ? &*part : nullptr); !added) return added;
+      if (tick % limits::ticks_per_keyframe == 0 || tick == last_)
+        if (auto committed = writer.commit(); !committed) return committed;
+      if (tick % progress_ticks == 0) shown(tick - first_, last_ - first_ + 1);
+    }
+    return {};
+  }
+
+  RecordingReader& recording_;
+  const GroundGiver& ground_;
+  const Tick first_, last_;
+  const std::function<void(double)> progress_;
+  Tick state_ = 0;
+};
+
+void remove_recording(const std::string& path) {
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path + end, ignored);
+}
+
+}  // namespace
+
+Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick first, Tick last,
+                      const GroundGiver& ground, const std::function<void(double)>& progress) {
+  if (first < recording.first_tick() || last > recording.last_tick() || first > last)
+    return fail(recording.path() + " has the ticks " + std::to_string(recording.first_tick()) + " to " +
+                std::to_string(recording.last_tick()) + ", not " + std::to_string(first) + " to " +
+                std::to_string(last) + " (--from, --to)");
+  std::error_code error;
+  if (fs::exists(to, error)) return fail(to + " exists already: choose another name, or move it away");
+  const std::string unfinished = to + ".unfinished";
+  remove_recording(unfinished);
+  Cutting cutting(recording, ground, first, last, progress);
+  auto done = cutting.write(unfinished, true);
+  if (done) {
+    done = cutting.verify_written(unfinished);
+    if (!done && cutting.state() != recording.state_before(first - 1).value_or(0)) {
+      remove_recording(unfinished);
+      done = cutting.write(unfinished, false);
+      if (done) done = cutting.verify_written(unfinished);
+    }
+  }
+  if (done && fs::exists(to, error))
+    done = fail(to + " exists already: choose another name, or move it away");
+  if (done) {
+    fs::rename(unfinished, to, error);
+    if (error) done = fail(to + " cannot be written: " + error.message());
+  }
+  if (!done) {
+    remove_recording(unfinished);
+    return tl::unexpected(done.error());
+  }
+  return CutReport{first, last, cutting.state(), fs::file_size(to, error)};
+}
+
+Result<Tick> tick_of(const std::string& text, uint32_t tick_rate_hz) {
+  const auto refused = fail("'" + text + "' is neither a tick, as 5400, nor a time, as 90s, 1.5m or 1:30");
+  if (text.empty() || text.find_first_not_of("0123456789.:smh") != std::string::npos) return refused;
+  if (text.find_first_not_of("0123456789") == std::string::npos) {
+    if (text.size() > 18) return refused;
+    return static_cast<Tick>(std::strtoull(text.c_str(), nullptr, 10));
+  }
+  double seconds = 0.0, unit_s = 1.0;
+  std::string rest = text;
+  const std::string_view letters = "smh";
+  if (const auto unit = letters.find(rest.back()); unit != std::string_view::npos) {
+    unit_s = std::pow(60.0, static_cast<double>(unit));
+    rest.pop_back();
+  } else if (rest.find(':') == std::string::npos) {
+    return refused;  // a time without its unit
+  }
+  if (rest.empty()) return refused;
+  for (size_t parts = 1; !rest.empty(); ++parts) {
+    const size_t end = std::min(rest.find(':'), rest.size());
+    const std::string number = rest.substr(0, end);
+    if (parts > 3 || number.empty() || number.find_first_not_of("0123456789.") != std::string::npos ||
+        number.find('.') != number.rfind('.') || number == ".")
+      return refused;
+    seconds = seconds * 60.0 + std::strtod(number.c_str(), nullptr);
+    rest = end == rest.size() ? std::string() : rest.substr(end + 1);
+    if (end != text.size() && rest.empty() && text.back() == ':') return refused;
+  }
+  const double tick = std::round(seconds * unit_s * tick_rate_hz);
+  if (!(tick >= 0.0 && tick < 1e15)) return refused;
+  return static_cast<Tick>(tick);
+}
+
+}  // namespace scree

@@ -1,0 +1,31 @@
+// Cuts a shorter recording out of one, which plays and verifies by itself. What happened is simulated again
+// and compared with what was recorded, then the new file is verified.
+//
+// Bullet cannot be taken up in the middle of a movement (proto/world_value.h). So the new recording begins
+// with the latest state before its first tick from which the simulation gives the recorded hashes: that of a
+// tick without pieces, or one that the recording has; the commands from there on are kept without their
+// ticks.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "server/store/recording_reader.h"
+
+namespace scree {
+
+struct CutReport {
+  Tick first = 0, last = 0;  ///< the ticks of the new recording
+  Tick state = 0;            ///< the tick of the state with which it begins
+  uint64_t bytes = 0;
+};
+
+/// Writes the ticks first … last, which the recording has, to a new file, which appears under its name when
+/// it is whole. Refuses to overwrite. Calls `progress` with the part that is done.
+Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick first, Tick last,
+                      const GroundGiver& ground, const std::function<void(double)>& progress = {});
+
+/// A tick of a recording, as people say it: "5400", or a time since tick 0: "90s", "1.5m" or "1:30".
+Result<Tick> tick_of(const std::string& text, uint32_t tick_rate_hz);
+
+}  // namespace scree

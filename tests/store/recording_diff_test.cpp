@@ -1,0 +1,182 @@
+// Two recordings that differ in one command, one voxel or one body: the first tick, the stage and the place.
+#include "server/replay/recording_diff.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+
+#include "tests/support/holds.h"
+#include "tests/support/recording_fixture.h"
+
+namespace scree {
+namespace {
+
+class RecordingDiffTest : public RecordingTest {
+ protected:
+  using Change = std::function<void(Tick tick, World& world, std::vector<Command>& commands)>;
+  using Tamper = std::function<void(TickDelta& delta)>;
+
+  /// A recorded session; returns its file.
+  std::string session(const std::string& name, Tick ticks, const Change& change = {},
+                      const Tamper& tamper = {}) {
+    deltas.clear();
+    commands_by_tick.clear();
+    World world(small_world());
+    for (Tick tick = 1; tick <= ticks; ++tick) {
+      std::vector<Command> commands;
+      if (tick == 10) commands = {carve_at(0.0F, 1)};
+      if (change) change(tick, world, commands);
+      TickDelta delta = *world.step(commands);
+      if (tamper) tamper(delta);
+      deltas.push_back(std::make_shared<const TickDelta>(std::move(delta)));
+      commands_by_tick.push_back(std::move(commands));
+    }
+    path = (folder / name).string();
+    record();
+    return path;
+  }
+  static RecordingDiff compared(const std::string& a, const std::string& b) {
+    const auto found = diff({a, {}}, {b, {}});
+    EXPECT_TRUE(found.has_value()) << found.error().message;
+    return found ? *found : RecordingDiff{};
+  }
+  static std::string text_of(const RecordingDiff& diff, DiffStage stage) {
+    for (const StageDifference& difference : diff.stages)
+      if (difference.stage == stage) return difference.text;
+    return "no difference";
+  }
+};
+
+TEST_F(RecordingDiffTest, a_session_simulated_twice_is_the_same) {
+  const RecordingDiff found = compared(session("a", 70), session("b", 70));
+  EXPECT_TRUE(found.same());
+  EXPECT_EQ(found.tick, 0U);
+  EXPECT_EQ(found.last, 70U);
+}
+
+TEST_F(RecordingDiffTest, a_changed_command_is_named_and_what_it_did_to_the_field) {
+  const std::string a = session("a", 40);
+  const std::string b = session("b", 40, [](Tick tick, World&, std::vector<Command>& commands) {
+    if (tick == 10) std::get<CarveRequest>(commands[0].body).shape.radius_m = 1.25F;
+  });
+  const RecordingDiff found = compared(a, b);
+  EXPECT_EQ(found.tick, 10U);
+  const std::string commands = text_of(found, DiffStage::commands);
+  EXPECT_TRUE(
+      holds(commands, "session 1, request 1: carve a sphere at (0.000, 0.000, 0.000) m, radius 1.000 m"))
+      << commands;
+  EXPECT_TRUE(holds(commands, "radius 1.250 m")) << commands;
+  const std::string field = text_of(found, DiffStage::field);
+  EXPECT_TRUE(holds(field, "chunk ") && holds(field, "brick ") && holds(field, ") m")) << field;
+  EXPECT_TRUE(holds(text_of(found, DiffStage::ledger), "terrain ")) << text_of(found, DiffStage::ledger);
+}
+
+TEST_F(RecordingDiffTest, a_flipped_voxel_is_named_with_its_brick_and_its_place) {
+  constexpr BrickCoord brick{-10, -1, 3};
+  const std::string a = session("a", 130);
+  const auto flip = [&](Tick tick, World& world, std::vector<Command>&) {
+    if (tick != 71) return;
+    Brick bytes = world.field().brick(brick);
+    Code& code = bytes.codes[static_cast<size_t>(Brick::index(1, 2, 3))];
+    code = static_cast<Code>(-code);
+    world.field().set_brick(brick, bytes);
+  };
+  const auto publish = [&](TickDelta& delta) {
+    if (delta.tick != 71) return;
+    World world(small_world());
+    Brick bytes = world.field().brick(brick);
+    Code& code = bytes.codes[static_cast<size_t>(Brick::index(1, 2, 3))];
+    code = static_cast<Code>(-code);
+    delta.bricks.push_back(
+        {brick, std::make_shared<const Brick>(bytes), brick_hash(brick, bytes, std::nullopt), std::nullopt});
+    std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  };
+  const RecordingDiff found = compared(a, session("b", 130, flip, publish));
+  EXPECT_EQ(found.tick, 71U);
+  const std::string field = text_of(found, DiffStage::field);
+  EXPECT_TRUE(holds(field, "chunk -3 -1 0, brick -10 -1 3")) << field;
+  EXPECT_EQ(text_of(found, DiffStage::commands), "no difference");
+}
+
+TEST_F(RecordingDiffTest, a_voxel_of_a_brick_that_both_edited_is_named_with_both_codes) {
+  constexpr BrickCoord brick{0, -1, 0};  // within the carve
+  const std::string a = session("a", 130);
+  std::optional<Brick> flipped;
+  const auto flip = [&](Tick tick, World& world, std::vector<Command>&) {
+    if (tick != 71) return;
+    flipped = world.field().brick(brick);
+    flipped->codes[77] = static_cast<Code>(flipped->codes[77] == 5 ? 6 : 5);
+    world.field().set_brick(brick, *flipped);
+  };
+  const auto publish = [&](TickDelta& delta) {
+    if (delta.tick != 71) return;
+    std::erase_if(delta.bricks, [&](const BrickState& state) { return state.coord == brick; });
+    delta.bricks.push_back({brick, std::make_shared<const Brick>(*flipped),
+                            brick_hash(brick, *flipped, std::nullopt), std::nullopt});
+    std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  };
+  const RecordingDiff found = compared(a, session("b", 130, flip, publish));
+  EXPECT_EQ(found.tick, 71U);
+  const std::string field = text_of(found, DiffStage::field);
+  EXPECT_TRUE(holds(field, "brick 0 -1 0: voxel 1 -7 5 at (")) << field;
+  EXPECT_TRUE(holds(field, "in the other 5")) << field;
+}
+
+TEST_F(RecordingDiffTest, a_moved_body_is_named_with_both_places) {
+  const std::string a = session("a", 30);
+  PieceId moved = 0;
+  const std::string b = session("b", 30, {}, [&](TickDelta& delta) {
+    if (delta.tick != 20) return;
+    ASSERT_FALSE(delta.pieces.empty());
+    moved = delta.pieces[1].id;
+    Pose pose = dequantise(delta.pieces[1].pose);
+    pose.position_m.y += 0.5F;
+    delta.pieces[1].pose = quantise(pose);
+    delta.state_hash ^= 1U;
+  });
+  const RecordingDiff found = compared(a, b);
+  EXPECT_EQ(found.tick, 20U);
+  ASSERT_EQ(found.stages.size(), 1U);
+  EXPECT_EQ(found.stages[0].stage, DiffStage::bodies);
+  EXPECT_TRUE(holds(found.stages[0].text, "piece " + std::to_string(moved) + " is at ("))
+      << found.stages[0].text;
+}
+
+TEST_F(RecordingDiffTest, a_movement_below_what_poses_say_is_followed_to_where_it_shows) {
+  const std::string a = session("a", 30);
+  const std::string b = session("b", 30, {}, [](TickDelta& delta) {
+    if (delta.tick >= 20) delta.state_hash ^= 1U;
+    if (delta.tick < 23 || delta.pieces.empty()) return;
+    Pose pose = dequantise(delta.pieces[0].pose);
+    pose.position_m.x += 0.25F;
+    delta.pieces[0].pose = quantise(pose);
+  });
+  const RecordingDiff found = compared(a, b);
+  EXPECT_EQ(found.tick, 20U);
+  const std::string bodies = text_of(found, DiffStage::bodies);
+  EXPECT_TRUE(holds(bodies, "seen first at tick 23: piece ")) << bodies;
+}
+
+TEST_F(RecordingDiffTest, a_setting_that_changes_in_one_is_named) {
+  const std::string a = session("a", 15);
+  const std::string b = session("b", 15, [](Tick tick, World&, std::vector<Command>& commands) {
+    if (tick == 12) commands = {{1, 1, SettingsRequest{{{"impacts", "false"}}}}};
+  });
+  const RecordingDiff found = compared(a, b);
+  EXPECT_EQ(found.tick, 12U);
+  EXPECT_EQ(text_of(found, DiffStage::settings), "impacts=true, in the other false");
+}
+
+TEST_F(RecordingDiffTest, one_that_ends_earlier_differs_where_it_ends) {
+  const RecordingDiff found = compared(session("a", 20), session("b", 15));
+  EXPECT_EQ(found.tick, 16U);
+  ASSERT_EQ(found.stages.size(), 1U);
+  EXPECT_EQ(found.stages[0].stage, DiffStage::extent);
+}
+
+TEST_F(RecordingDiffTest, what_is_no_recording_is_an_error) {
+  const std::string a = session("a", 3);
+  EXPECT_FALSE(diff({a, {}}, {(folder / "none").string(), {}}).has_value());
+}
+
+}  // namespace
+}  // namespace scree
