@@ -100,6 +100,9 @@ int main(int argc, char** argv) {
   scree::BenchOptions options;
   run_command->add_option("name", name, "which one")->required();
   run_command->add_flag("--quick", options.quick, "fewer rounds: to see that it runs");
+  scree::bounded(
+      run_command->add_option("--minutes", options.minutes, "length of the session, where a bench has one"),
+      {0.0, 600.0});
   run_command->add_option("--json", json_file, "write the report to this file as JSON")
       ->check(scree::check_writable, "FILE");
   run_command->add_option("--part", options.part, "only this part of the bench (see list)");

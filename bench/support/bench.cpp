@@ -42,6 +42,11 @@ const std::vector<Bench>& all_benches() {
        run_raymarch_bench},
       {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",
        run_recombine_bench},
+      {"replay",
+       "recording: ticks with and without, bytes, keyframes of a large world; seeking and verifying a "
+       "session of "
+       "--minutes",
+       run_replay_bench},
       {"seams", "50 carves of a ball merged back in place: what is left of the surface", run_seams_bench},
       {"storage",
        "a kept world: ticks with saving and without, bytes of a carve, a start after so many carves",

@@ -35,7 +35,8 @@ struct BenchReport {
 };
 
 struct BenchOptions {
-  bool quick = false;  ///< fewer rounds, only to show that it runs
+  bool quick = false;    ///< fewer rounds, only to show that it runs
+  double minutes = 0.0;  ///< of the session, for benches that have one; 0: as many as fit into some minutes
   std::function<void(double fraction)> progress = [](double) {};
 
   // Of benches that have parts.

@@ -1,13 +1,12 @@
 // What a server's process takes in memory while terrain is edited all over the world.
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
-#include <unistd.h>
 
 #include "bench/support/benches.h"
+#include "bench/support/scratch.h"
 #include "bench/support/server_process.h"
 #include "bench/wire/askers.h"
 #include "server/world/world_config.h"
@@ -16,8 +15,6 @@
 namespace scree {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr uint32_t memory_max_mb = 512;
 constexpr float half_width_m = 2000.0F;
@@ -32,9 +29,8 @@ constexpr double settle_s = 10.0;
 BenchReport run_memory_bench(const BenchOptions& options) {
   BenchReport report;
   const size_t edits = options.quick ? 300 : 5000;
-  const fs::path folder = fs::temp_directory_path() / ("scree_memory_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+  const ScratchFolder folder("memory");
+  ::setenv("XDG_CACHE_HOME", (folder / "").c_str(), 1);
   const std::string told_path = folder / "report.json";
   ServerProcess server(server_program().c_str(),
                        {"--memory-max", std::to_string(memory_max_mb), "--report", told_path});
@@ -69,8 +65,6 @@ BenchReport run_memory_bench(const BenchOptions& options) {
   const double most_mib = server.memory_mib("VmHWM");
   const int status = server.end(SIGTERM);
   const auto told = nlohmann::json::parse(std::ifstream(told_path), nullptr, false);
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
   report.check("server_ends", status == 0 && told.is_object(), fmt::format("with {}", status));
   if (!told.is_object()) return report;
 

@@ -1,16 +1,15 @@
 // What keeping a world costs: ticks with and without saving, bytes, a save with 1,000 pieces alive, and how
 // long a start takes after so many carves.
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <thread>
-#include <unistd.h>
 
 #include "bench/support/benches.h"
 #include "bench/support/made_world.h"
 #include "bench/support/scenes.h"
+#include "bench/support/scratch.h"
 #include "bench/wire/paged_world.h"
 #include "server/app/live_server.h"
 #include "server/app/saved_world.h"
@@ -30,30 +29,6 @@ constexpr Tick ticks_per_carve = 6;  ///< ten a second
 constexpr uint64_t world_number = 1;
 constexpr int reach_of_a_carve_voxels = 32;         ///< more than one reads, and writes
 constexpr uint32_t read_whole_carves_max = 100000;  ///< a larger world takes gigabytes of memory
-
-double cpu_s(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-/// Files of this bench; gone when it is.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("scree_storage_" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 /// A world that is saved, or not, and what its ticks took of the simulation's thread.
 struct Run {
@@ -91,7 +66,7 @@ Run saved_run(const std::string& path, Durability durability) {
 }
 
 /// The same storm in two worlds, in turns and in real time: one is saved. Who comes first changes each tick.
-void compare_ticks(BenchReport& report, const Folder& folder, Durability durability, Tick ticks) {
+void compare_ticks(BenchReport& report, const ScratchFolder& folder, Durability durability, Tick ticks) {
   const std::string name(row_of(durability).name), path = folder / name;
   Run plain = unsaved_run(), saved = saved_run(path, durability);
   ScatteredBlows blows(WorldConfig().terrain, 12.0F, 1.5F, 24, 5);
@@ -127,7 +102,7 @@ void compare_ticks(BenchReport& report, const Folder& folder, Durability durabil
 }
 
 /// Every tick writes how each body moves: what that takes with 1,000 of them.
-void save_a_crowd(BenchReport& report, const Folder& folder) {
+void save_a_crowd(BenchReport& report, const ScratchFolder& folder) {
   WorldConfig config;
   config.methods.recombine = Recombination::off;
   World world(config);
@@ -244,13 +219,13 @@ void start_up(BenchReport& report, const std::string& path, uint32_t carves_a_si
 }
 
 /// The file of a world that takes long to make: in the folder where it is kept, if there is one.
-std::string kept_world(const BenchOptions& options, const Folder& folder, const std::string& name) {
+std::string kept_world(const BenchOptions& options, const ScratchFolder& folder, const std::string& name) {
   if (options.folder.empty()) return folder / name;
   fs::create_directories(options.folder);
   return (fs::path(options.folder) / name).string();
 }
 
-void roam(BenchReport& report, const BenchOptions& options, const Folder& folder) {
+void roam(BenchReport& report, const BenchOptions& options, const ScratchFolder& folder) {
   const uint32_t world_mb = options.world_mb.value_or(options.quick ? 64 : 4096);
   const uint32_t memory_max_mb = options.memory_max_mb.value_or(options.quick ? 256 : 512);
   const std::string name = fmt::format("paged_{}_of_{}", memory_max_mb, world_mb);
@@ -265,7 +240,7 @@ void roam(BenchReport& report, const BenchOptions& options, const Folder& folder
 
 BenchReport run_storage_bench(const BenchOptions& options) {
   BenchReport report;
-  const Folder folder;
+  const ScratchFolder folder("storage");
   const auto wanted = [&](const char* part) { return options.part.empty() || options.part == part; };
   constexpr std::array durabilities = {Durability::tick, Durability::second, Durability::off};
   double done = 0.0;

@@ -24,6 +24,9 @@ inline constexpr size_t recorded_bricks_max = size_t{1} << 18;
 /// Seconds of frames in one transaction: a crash loses at most that much of a recording.
 inline constexpr double seconds_per_commit = 0.5;
 
+/// Ticks that wake the storage thread before its next commit: more than come in seconds_per_commit at 60 Hz.
+inline constexpr size_t recorder_wake_ticks = 60;
+
 /// Ticks that wait for the storage thread; above: the simulation waits for it, and the wait is counted.
 inline constexpr size_t recorder_queue_max = 600;
 

@@ -31,6 +31,8 @@ struct Recorder::State {
   void write(const std::deque<Entry>& entries);
   void commit();
   void note(const Result<void>& result);
+  /// Else they wait for the next commit: waking the thread at every tick would hold ticks up.
+  bool is_due() const { return queue.size() >= limits::recorder_wake_ticks; }
 
   std::unique_ptr<RecordingWriter> writer;  ///< used by the storage thread only
   Tick written = 0;                         ///< used by the storage thread only, once that runs
@@ -94,7 +96,7 @@ void Recorder::State::run() {
     {
       std::unique_lock lock(mutex);
       changed.wait_until(lock, committed + period,
-                         [&] { return stopping || !queue.empty() || (wanted > safe && !error); });
+                         [&] { return stopping || is_due() || (wanted > safe && !error); });
       entries.swap(queue);
       last = stopping;
       failed = error.has_value();
@@ -170,6 +172,7 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
     }
     state_->queue.push_back({std::move(delta), std::move(commands), std::move(noted), std::move(part)});
     CHECK(state_->queue.size() <= limits::recorder_queue_max);
+    if (!state_->is_due()) return;
   }
   state_->changed.notify_all();
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "client/mirror/mirror.h"
+#include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "shared/base/limits.h"
 #include "tests/support/flat_terrain.h"
@@ -285,6 +286,33 @@ TEST_F(LiveServerTest, a_kept_world_that_is_recorded_may_stop_before_its_next_ti
   auto reader = RecordingReader::open(config.record_path);
   ASSERT_TRUE(reader.has_value()) << reader.error().message;
   EXPECT_EQ((*reader)->last_tick(), 4U);
+}
+
+TEST_F(LiveServerTest, a_recording_that_is_a_ring_drops_what_is_older_and_verifies) {
+  config.record_path = (folder / "session.scree").string();
+  config.record_ring = {.seconds = 2.0};
+  start();
+  {
+    Follower follower(server->port(), {0.0F, 2.0F, 0.0F}, 50.0F);
+    for (uint32_t i = 0; i < 400; ++i) {  // pieces fall while parts begin
+      if (i % 40 == 0) {
+        ASSERT_TRUE(follower.socket().send(carve_at(static_cast<float>(i / 20), 0.0F, i + 1)));
+      }
+      step({&follower});
+      if (HasFatalFailure()) return;
+    }
+  }
+  // The recorder lags by limits::recorder_queue_max ticks at most.
+  for (int i = 0; i < 1200; ++i) ASSERT_TRUE(server->step_once());
+  ASSERT_TRUE(server->stop().has_value());
+  auto reader = RecordingReader::open(config.record_path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_EQ((*reader)->last_tick(), 1600U);
+  EXPECT_GT((*reader)->first_tick(), 1U);
+  EXPECT_LE((*reader)->first_tick(), 1480U);
+  const auto report = verify(**reader);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->first_difference << ": " << report->difference;
 }
 
 TEST_F(LiveServerTest, real_time_ends_after_its_ticks_and_reports) {

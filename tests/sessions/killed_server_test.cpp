@@ -1,10 +1,11 @@
 // Real server processes that are killed at any moment: what they told as saved is there, and the recording
-// goes on.
+// goes on, or plays as far as it goes.
 #include <cstdlib>
 #include <gtest/gtest.h>
 
 #include "bench/support/server_process.h"
 #include "client/bot/bot.h"
+#include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/world_file.h"
 #include "server/world/world.h"
@@ -88,6 +89,47 @@ TEST(killed_server, nothing_told_as_saved_is_missing_and_the_recording_verifies_
   EXPECT_EQ(report->restarts, static_cast<uint64_t>(kills));
   std::string why;
   EXPECT_EQ(tick_of(world, why), (*reader)->last_tick()) << why;
+}
+
+TEST(killed_server, a_recording_plays_and_verifies_to_its_last_whole_tick) {
+  TestFolder folder;
+  const int kills = kills_wanted();
+  Random random(20261123);
+  int whole = 0;
+  for (int kill = 0; kill < kills; ++kill) {
+    SCOPED_TRACE(kill);
+    const std::string recording = folder / ("session" + std::to_string(kill));
+    ServerProcess server(SCREE_SERVER_PROGRAM, {"--terrain", "flat", "--record", recording});
+    ASSERT_NE(server.port(), 0);
+    BotConfig config;
+    config.port = server.port();
+    config.carves = 100000;
+    config.random_seed = static_cast<uint64_t>(kill) + 1;
+    config.rate_hz = 20.0;
+    config.reconnects_max = 0;
+    Bot bot(config);
+    ASSERT_TRUE(bot.join());
+    const auto until = std::chrono::steady_clock::now() +
+                       std::chrono::milliseconds(500 + static_cast<int>(random.unit() * 1500.0F));
+    while (std::chrono::steady_clock::now() < until && bot.step(std::chrono::milliseconds(5))) continue;
+    server.end(SIGKILL);
+    const auto reader = RecordingReader::open(recording);
+    if (!reader) {
+      EXPECT_NE(reader.error().message.find("holds no tick"), std::string::npos) << reader.error().message;
+      continue;  // it was killed before the first half second was written
+    }
+    ++whole;
+    EXPECT_FALSE((*reader)->is_ended());
+    const auto report = verify(**reader);
+    ASSERT_TRUE(report.has_value()) << report.error().message;
+    EXPECT_TRUE(report->agrees()) << report->first_difference << ": " << report->difference;
+    auto source = ReplaySource::open(recording);
+    ASSERT_TRUE(source.has_value()) << source.error().message;
+    const auto last = (*source)->jump((*source)->last_tick());
+    ASSERT_TRUE(last.has_value()) << last.error().message;
+    EXPECT_EQ((*last)->field_hash, report->field_hash);
+  }
+  EXPECT_GT(2 * whole, kills) << "most live for longer than a commit takes";
 }
 
 }  // namespace
