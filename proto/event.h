@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/cursor.h"
 #include "shared/base/ids.h"
 #include "shared/base/kind_table.h"
 
@@ -86,11 +87,12 @@ struct Event {
 };
 
 /// What a recording holds of the machine at one of its ticks: the durations of the ticks since the last such
-/// row, this one's last, and the events in them.
+/// row, this one's last, and the events and the persons' cursors in them.
 struct RecordedMachine {
   Tick tick = 0;
   std::vector<uint32_t> tick_us;
   std::vector<Event> events;
+  std::vector<CursorSample> cursors{};  ///< ascending; the first has all persons
 };
 
 }  // namespace scree

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <recording.pb.h>
 
+#include "proto/cursor_samples.h"
 #include "proto/recording_values.h"
+#include "shared/base/check.h"
 #include "shared/base/text.h"
 
 namespace scree {
@@ -71,6 +73,8 @@ std::vector<uint8_t> encode(const RecordedMachine& machine) {
   for (const uint32_t us : machine.tick_us) to.add_tick_us(us);
   write(*to.mutable_events(), machine.events, machine.tick);
   to.set_tick(machine.tick);
+  CHECK(machine.tick_us.size() <= machine.tick);
+  to.set_cursors(to_string(pack(machine.cursors, machine.tick + 1 - machine.tick_us.size())));
   return bytes_of(to);
 }
 
@@ -86,6 +90,9 @@ Result<RecordedMachine> decode_recorded_machine(std::span<const uint8_t> bytes) 
                  std::to_string(machine.tick) + " (limits.ticks_per_row_max)");
   machine.tick_us.assign(from->tick_us().begin(), from->tick_us().end());
   machine.events = read(from->events(), machine.tick, true, check);
+  if (!check.failed())
+    machine.cursors =
+        unpack_cursors(from->cursors(), machine.tick + 1 - machine.tick_us.size(), machine.tick, check);
   return checked(std::move(machine), check);
 }
 

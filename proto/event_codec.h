@@ -21,6 +21,10 @@ inline constexpr size_t event_text_bytes_max = 256;
 
 /// Ticks of one row of durations: a second at the highest tick rate.
 inline constexpr size_t ticks_per_row_max = 1000;
+
+/// Entries of persons' cursors in one row: 64 persons who all move, ten times a second, take a sixth. Above:
+/// a writer leaves the row's later ones out, a reader refuses the row.
+inline constexpr size_t cursors_per_row_max = 4096;
 }  // namespace limits
 
 /// The world events of one tick.

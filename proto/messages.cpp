@@ -84,7 +84,9 @@ size_t memory_bytes(const ServerMessage& message) {
                      },
                      [](const CursorsMessage& m) { return bytes_of(m.cursors); },
                      [](const PersonsMessage& m) { return bytes_of(m.persons); },
-                     [](const PlaybackMessage&) { return size_t{0}; },
+                     [](const PlaybackMessage& m) { return m.refusal.size(); },
+                     [](const MarksMessage& m) { return bytes_of(m.marks); },
+                     [](const RecordedCursorsMessage& m) { return bytes_of(m.cursors); },
                      [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
                      [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
                      [](const PhysicsMessage& m) {

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "proto/cursor.h"
+#include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/talk.h"
@@ -113,12 +115,6 @@ struct AdminMessage {
   uint32_t request = 0;
   std::string token;  ///< equal to the server's, or empty where the session's role is admin
   AdminAct act;
-};
-
-/// A person's eye and aim, shown to others.
-struct CursorMessage {
-  glm::vec3 eye_m{0.0F};
-  glm::vec3 aim_m{0.0F};
 };
 
 /// Switches PhysicsMessages on or off.
@@ -320,20 +316,6 @@ struct StatusMessage {
   PagingStatus paging;
 };
 
-struct PlayerCursor {
-  uint64_t session = 0;
-  std::string name;
-  glm::vec3 eye_m{0.0F};
-  glm::vec3 aim_m{0.0F};
-
-  bool operator==(const PlayerCursor&) const = default;
-};
-
-/// The cursors of all other persons within interest.
-struct CursorsMessage {
-  std::vector<PlayerCursor> cursors;
-};
-
 /// A rigid body without its pose.
 struct WatchedBody {
   PieceId id = 0;
@@ -386,10 +368,10 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage =
-    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
-                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
-                 KeptMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage>;
+using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
+                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
+                                   GroundMessage, AdminListMessage, KeptMessage, TileMessage, PersonsMessage,
+                                   SaidMessage, PlaybackMessage, MarksMessage, RecordedCursorsMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

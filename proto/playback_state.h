@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "shared/base/ids.h"
 #include "shared/base/kind_table.h"
@@ -72,6 +73,9 @@ struct PlaybackMessage {
   float speed = 1.0F;  ///< never 0
   bool playing = true;
   uint64_t heeded = 0;  ///< wishes carried out since the start, their moves done
+  bool grows = false;   ///< the recording is being written: its end moves on
+  /// Why the receiver may not control it; empty: it may.
+  std::string refusal{};
 
   bool operator==(const PlaybackMessage&) const = default;
 };

@@ -8,6 +8,7 @@
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/operation_codec.h"
+#include "proto/playback_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/transforms.h"
 #include "proto/watch_codec.h"
@@ -134,28 +135,14 @@ struct Writing {
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PersonsMessage& from) const { write(*to.mutable_persons(), from); }
   void operator()(const SaidMessage& from) const { write(*to.mutable_said(), from); }
-  void operator()(const PlaybackMessage& from) const {
-    wire::Playback& playback = *to.mutable_playback();
-    playback.set_moment(from.moment);
-    playback.set_first(from.first);
-    playback.set_last(from.last);
-    playback.set_speed(from.speed);
-    playback.set_playing(from.playing);
-    playback.set_heeded(from.heeded);
+  void operator()(const PlaybackMessage& from) const { write(*to.mutable_playback(), from); }
+  void operator()(const MarksMessage& from) const { write(*to.mutable_marks(), from); }
+  void operator()(const RecordedCursorsMessage& from) const {
+    write(*to.mutable_recorded_cursors(), CursorsMessage{from.cursors});
   }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
   void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
 };
-
-PlaybackMessage read(const wire::Playback& from, FieldChecker& check) {
-  PlaybackMessage playback{from.moment(),  from.first(),
-                           from.last(),    check.finite(from.speed(), "speed of a replay"),
-                           from.playing(), from.heeded()};
-  if (playback.speed == 0.0F) check.refuse("the speed of a replay is 0");
-  if (playback.first > playback.moment || playback.moment > playback.last)
-    check.refuse("a replay stands outside its recording");
-  return playback;
-}
 
 ChunkCoord one_chunk(const std::string& packed, FieldChecker& check) {
   const std::vector<ChunkCoord> coords = check.chunks(packed, 1, "chunk");
@@ -337,6 +324,10 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.said(), check));
     case wire::ServerMessage::kPlayback:
       return checked(read(from.playback(), check));
+    case wire::ServerMessage::kMarks:
+      return checked(read(from.marks(), check));
+    case wire::ServerMessage::kRecordedCursors:
+      return checked(RecordedCursorsMessage{read(from.recorded_cursors(), check).cursors});
     case wire::ServerMessage::kPhysics:
       return checked(read(from.physics(), check));
     case wire::ServerMessage::kStatus:

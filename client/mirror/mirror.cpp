@@ -79,6 +79,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const PersonsMessage&) -> Done { return {}; },
           [](const SaidMessage&) -> Done { return {}; },
           [](const PlaybackMessage&) -> Done { return {}; },
+          [](const MarksMessage&) -> Done { return {}; },
+          [](const RecordedCursorsMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.
           [](const GroundMessage&) -> Done { return {}; },

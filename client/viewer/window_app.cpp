@@ -98,8 +98,17 @@ void WindowApp::say(const std::string& text, double now_s) {
 void WindowApp::move(const AppInput& input, double now_s) {
   ViewerSession& session = viewing_.session;
   if (session.mirror() == nullptr) feet_.stop();
+  if (input.fly.move != glm::vec3(0.0F)) eye_.end();
+  if (eye_.follows()) return eye_.step(viewing_.camera, session.figures(now_s), now_s);
   if (!feet_.walks()) return fly(viewing_.camera, input.fly, input.elapsed_s);
   feet_.step(viewing_.camera, input.fly, input.elapsed_s, Scene{session.field(), session.pieces(now_s)});
+}
+
+void WindowApp::look_through_next(double now_s) {
+  const Figures& figures = viewing_.session.figures(now_s);
+  eye_.next(figures);
+  feet_.stop();
+  if (figures.all().empty()) say("there is nobody here through whose eye to look", now_s);
 }
 
 /// Flips what the action shows or hides.
@@ -158,6 +167,8 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     change(tool_, action);
     change(hand_, action);
     act_on_view(action);
+    viewing_.session.timeline().act(action);
+    if (action == Action::next_eye) look_through_next(now_s);
     if (action == Action::walk && viewing_.session.mirror() != nullptr) feet_.change(viewing_.camera);
     if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
     if (action == Action::next_method)
@@ -179,6 +190,7 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
     lines.push_back(
         std::string(shown->name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
         " m far, as far as its cells reach: the world goes on; the panel has more cells, and larger");
+  if (eye_.follows()) lines.push_back(eye_.description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
   if (!window_.holds_mouse())
     lines.emplace_back("click into the picture to take the mouse: then it looks, and a click strikes");
@@ -190,7 +202,7 @@ LineList WindowApp::lines(double now_s) {
   const glm::vec3 direction = viewing_.camera.forward();
   if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
     lines.shape(shape_of(tool_, *hit_m, direction), preview_colour(tool_));
-  viewing_.session.figures(now_s).add_to(lines, viewing_.camera.eye_m);
+  viewing_.session.figures(now_s).add_to(lines, viewing_.camera.eye_m, eye_.person());
   viewing_.add_overlay(lines, overlay_, now_s);
   return lines;
 }
@@ -206,14 +218,15 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
     hud_.names(viewing_.session.figures(now_s),
-               camera.projection(aspect, viewing_.view_radius_m()) * camera.view());
+               camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye_.person());
     hud_.figures(facts, choice_.figures);
     hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
                      choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
                           {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
-    hud_.help(choice_.help, window_.has_gamepad());
+    hud_.help(choice_.help, window_.has_gamepad(), viewing_.session.is_replay());
+    hud_.timeline(viewing_.session.timeline(), now_s);
     if (facts.lost) hud_.banner(facts.connection);
   }
   if (!hidden_ || window_.asks_to_end()) hud_.messages(facts, messages(now_s));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "client/viewer/pictures/path_recorder.h"
+#include "client/viewer/session/followed_eye.h"
 #include "client/viewer/session/on_foot.h"
 #include "client/viewer/viewing/auto_quality.h"
 #include "client/viewer/viewing/settings.h"
@@ -25,6 +26,8 @@ class WindowApp {
   Settings settings() const;
   /// Rather than walks.
   bool flies() const { return !feet_.walks(); }
+  /// Through whose eye the person looks.
+  const FollowedEye& eye() const { return eye_; }
   /// Where the panels stood in the last frame.
   const PanelRectangles& panels() const { return hud_.panels().rectangles(); }
 
@@ -34,6 +37,7 @@ class WindowApp {
   void move(const AppInput& input, double now_s);
   Result<void> act(const AppInput& input, double now_s);
   Result<void> choose(const MethodEntry& method);
+  void look_through_next(double now_s);
   void act_on_view(Action action);
   Result<void> act_on_files(Action action, double now_s);
   void record_path(double now_s);
@@ -56,6 +60,7 @@ class WindowApp {
   OverlayChoice overlay_;
   Tool tool_;
   OnFoot feet_;
+  FollowedEye eye_;
   GridShape grid_;
   bool particles_;
   bool predict_;

@@ -59,7 +59,10 @@ std::shared_ptr<const WorldMoment> LiveServer::State::begin_part(const TickDelta
 void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
                                std::vector<Event> noted) {
   auto part = begin_part(*delta);
-  recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part));
+  std::optional<std::vector<PlayerCursor>> cursors;
+  if (delta->tick % ticks_per_watch == 0) cursors = net->cursors();
+  recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part),
+                 std::move(cursors));
   if (record_failed) return;
   const auto error = recorder->error();
   if (!error) return;

@@ -33,6 +33,7 @@ Result<void> LiveServer::State::open() {
   if (config.world.ground != given && given != Digest{})
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
+  config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));

@@ -9,6 +9,7 @@
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
 #include "server/doors/descriptors.h"
+#include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
@@ -270,17 +271,12 @@ void NetHost::refuse_request(ClientSession& session, uint32_t request, const Ref
 
 /// A wrong token ends the connection, so that each connection has one attempt.
 tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
-  const bool nobody_can = config_.admin_token.empty() && !access_->takes_tokens();
   const bool is_control = std::holds_alternative<ControlReplay>(message.act);
-  const bool is_free = is_control && nobody_can && entrance_.door().is_free(session.address());
-  if (auto admin = may(session, Role::admin); !admin && !is_free) {
+  if (auto admin = may_administer(session, is_control); !admin) {
+    const bool nobody_can = admin.error().reason == Refusal::no_admin_token;
     if (nobody_can || message.token.empty() || config_.admin_token.empty()) {
       ++counts_.requests;
-      refuse_request(session, message.request,
-                     nobody_can ? Refused{Refusal::no_admin_token,
-                                          "this server was started without an admin token: nobody may "
-                                          "administer it (--admin-token-file, --token-key)"}
-                                : admin.error());
+      refuse_request(session, message.request, admin.error());
       return {};
     }
     if (auto right = check_admin_token(session, message.token); !right) return right;
@@ -367,6 +363,15 @@ void NetHost::update_stats() {
   const std::scoped_lock lock(stats_mutex_);
   stats_ = counts_;
   eyes_m_ = publisher_.eyes_m();
+  if (config_.takes_cursors && publisher_.state().tick() % ticks_per_watch == 0)
+    cursors_ = publisher_.cursors();
+}
+
+std::vector<PlayerCursor> NetHost::cursors() const {
+  std::vector<PlayerCursor> cursors;
+  const std::scoped_lock lock(stats_mutex_);
+  for (const auto& [session, cursor] : cursors_) cursors.push_back(cursor);
+  return cursors;
 }
 
 std::vector<glm::vec3> NetHost::eyes_m() const {

@@ -59,6 +59,7 @@ class NetHost final : public SessionHost, public EntranceHost {
   NetStats stats() const;
   LatencyCounts latency() const;
   std::vector<glm::vec3> eyes_m() const;
+  std::vector<PlayerCursor> cursors() const;
   bool is_watched() const { return watched_; }
 
  private:
@@ -117,6 +118,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void end_lapsed_grants();
   uint64_t join_party(const ClientSession& session, const Grant& grant, uint64_t before);
   tl::expected<void, Refused> may(const ClientSession& session, Role needed) const;
+  /// Without an admin's token beside the request.
+  tl::expected<void, Refused> may_administer(const ClientSession& session, bool is_control);
   void ask(ClientSession& session, const Command& command);
   void administer_sessions(ClientSession& session, const AdminMessage& message);
   std::vector<SessionRow> session_rows() const;
@@ -169,9 +172,10 @@ class NetHost final : public SessionHost, public EntranceHost {
   ThreadCheck network_thread_;
   NetStats counts_;
   mutable std::mutex stats_mutex_;
-  NetStats stats_;                 ///< guarded by stats_mutex_
-  LatencyCounts latency_;          ///< guarded by stats_mutex_
-  std::vector<glm::vec3> eyes_m_;  ///< guarded by stats_mutex_
+  NetStats stats_;                            ///< guarded by stats_mutex_
+  LatencyCounts latency_;                     ///< guarded by stats_mutex_
+  std::vector<glm::vec3> eyes_m_;             ///< guarded by stats_mutex_
+  std::map<uint64_t, PlayerCursor> cursors_;  ///< guarded by stats_mutex_
 };
 
 }  // namespace scree

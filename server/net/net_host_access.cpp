@@ -124,6 +124,18 @@ tl::expected<void, Refused> NetHost::may(const ClientSession& session, Role need
                                    " (ask for a token, --token)");
 }
 
+/// Where nobody could be an administrator, a replay is this machine's own programs' to control.
+tl::expected<void, Refused> NetHost::may_administer(const ClientSession& session, bool is_control) {
+  const auto admin = may(session, Role::admin);
+  const bool nobody_can = config_.admin_token.empty() && !access_->takes_tokens();
+  if (admin || !nobody_can) return admin;
+  if (is_control && entrance_.door().is_free(session.address())) return {};
+  const std::string what =
+      is_control ? "it is controlled from its own machine alone" : "nobody may administer it";
+  return refuse(Refusal::no_admin_token, "this server was started without an admin token: " + what +
+                                             " (--admin-token-file, --token-key)");
+}
+
 /// Requests beyond the session's role never reach the world.
 void NetHost::ask(ClientSession& session, const Command& command) {
   const auto may_ask = may(session, role_for(command.body));

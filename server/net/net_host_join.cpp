@@ -45,6 +45,9 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : steady_now_s();
   if (before) entry.requests = before->requests;
+  if (config_.control)
+    if (const auto control = may_administer(session, true); !control)
+      publisher_.set_control_refusal(session.id(), control.error().message);
   if (hello.meets) talk_.join(session.id(), entry.name, grant->role);
   note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
   ++counts_.sessions_joined;

@@ -105,6 +105,10 @@ std::vector<glm::vec3> NetServer::eyes_m() const {
   return impl_->host.eyes_m();
 }
 
+std::vector<PlayerCursor> NetServer::cursors() const {
+  return impl_->host.cursors();
+}
+
 bool NetServer::is_watched() const {
   return impl_->host.is_watched();
 }

@@ -49,6 +49,7 @@ struct NetConfig {
   std::function<void(Event)> noted;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplay&)> control;
+  bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
@@ -99,6 +100,8 @@ class NetServer {
   LatencyCounts latency() const;
   /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;
+  /// Persons' cursors as of the last tick that was sent, by session. From any thread.
+  std::vector<PlayerCursor> cursors() const;
   /// Whether any client asked for PhysicsMessages. From any thread.
   bool is_watched() const;
 

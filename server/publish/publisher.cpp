@@ -213,7 +213,7 @@ void Publisher::serve(Client& client, const TickChanges& changes, const Backlog&
   client.is_slow = backlog.is_slow();
   const bool with_poses = reads_along && has_poses(tick);
   if (!send_frame(client, changes, {with_poses, patches_for(backlog)}, part)) return;
-  if (changes.delta.playback) send_playback(client, *changes.delta.playback, tick, part);
+  if (changes.delta.playback) send_replay(client, changes.delta, reads_along, part);
   // Pieces first: by a slow link, chunks take all the room there is, and what merges unknown pieces comes as
   // bricks.
   if (with_poses) stream_pieces(client, part);
@@ -246,17 +246,6 @@ bool Publisher::send_frame(Client& client, const TickChanges& changes, FrameScop
   part.stats.transform_bytes += frame.transform_bytes;
   send(client, frame.bytes, part);
   return true;
-}
-
-/// The moment's own pace is no news.
-void Publisher::send_playback(Client& client, const PlaybackMessage& now, Tick tick, Part& part) {
-  if (client.playback && !status_due(client, tick)) {
-    PlaybackMessage known = *client.playback;
-    known.moment = now.moment;
-    if (known == now) return;
-  }
-  client.playback = now;
-  send(client, share(now), part);
 }
 
 void Publisher::send_cursors(Client& client, Part& part) {

@@ -117,6 +117,9 @@ class Publisher {
   void set_saving(Saving saving) { saving_ = std::move(saving); }
   /// Sets the eye and aim of the session's person, for other clients.
   void set_cursor(PlayerCursor cursor);
+  const std::map<uint64_t, PlayerCursor>& cursors() const { return cursors_; }
+  /// Why the client may not control a replay, for PlaybackMessage; empty: it may.
+  void set_control_refusal(uint64_t session, const std::string& refusal);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void watch(uint64_t session, bool physics);
   bool is_watched() const { return watchers_ > 0; }
@@ -157,8 +160,11 @@ class Publisher {
     ChunkOffer offer{};
     bool watches = false;
     int64_t physics_credit_bytes = 0;
-    std::optional<PlaybackMessage> playback{};  ///< as the client knows it
-    std::vector<PlayerCursor> cursors{};        ///< as the client knows them
+    std::string control_refusal{};              ///< why it may not control a replay; empty: it may
+    std::optional<PlaybackMessage> playback{};  ///< as the client knows it, as the next two
+    std::shared_ptr<const MarksMessage> marks{};
+    std::shared_ptr<const RecordedCursorsMessage> recorded_cursors{};
+    std::vector<PlayerCursor> cursors{};  ///< as the client knows them
 
     /// Whether a slow one still has room in this tick; others have budgets.
     bool takes_more() const { return !is_slow || room_bytes > 0; }
@@ -191,6 +197,7 @@ class Publisher {
   SharedBytes next_part(Client& client, ChunkCoord coord, const PublishedChunk& chunk);
   void send_kept(Client& client, const KeptMessage& kept, Part& part);
   void stream_pieces(Client& client, Part& part);
+  void send_replay(Client& client, const TickDelta& delta, bool reads_along, Part& part);
   void send_playback(Client& client, const PlaybackMessage& now, Tick tick, Part& part);
   void send_cursors(Client& client, Part& part);
   void send_physics(Client& client, const PhysicsMessage& physics, Part& part);

@@ -15,7 +15,11 @@ constexpr double ms_per_s = 1000.0;
 }  // namespace
 
 ReplayPlayer::ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOptions& options)
-    : source_(std::move(source)), options_(options), from_(source_->tick()), speed_(options.speed) {
+    : source_(std::move(source)),
+      options_(options),
+      from_(source_->tick()),
+      speed_(options.speed),
+      grows_(!source_->is_ended()) {
   CHECK(speed_ != 0.0F && options_.ticks_per_transform > 0);
 }
 
@@ -28,7 +32,7 @@ Result<void> ReplayPlayer::take(const ControlReplay& wish) {
 }
 
 PlaybackMessage ReplayPlayer::state() const {
-  return {source_->tick(), source_->first_tick(), source_->last_tick(), speed_, playing_, heeded_};
+  return {source_->tick(), source_->first_tick(), source_->last_tick(), speed_, playing_, heeded_, grows_};
 }
 
 Tick ReplayPlayer::within(double tick) const {
@@ -92,13 +96,38 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::move() {
     heeded_ += std::exchange(moves_waiting_, 0);
     return source_->jump(*std::exchange(target_, std::nullopt));
   }
-  if (target_ || !playing_) return source_->same();
+  if (target_ || !playing_ || at_border()) return source_->same();
   credit_ += std::abs(static_cast<double>(speed_));
   const bool back = speed_ < 0.0F;
   if (credit_ < 1.0 || (back && !may_jump())) return source_->same();
   const Tick count = take_due();
   return back ? source_->jump(within(static_cast<double>(source_->tick()) - static_cast<double>(count)))
               : source_->next(count);
+}
+
+Result<void> ReplayPlayer::look() {
+  if (source_->is_ended()) {
+    grows_ = false;
+    return {};
+  }
+  const Tick before = source_->last_tick();
+  if (auto looked = source_->look_again(); !looked) return looked;
+  quiet_looks_ = source_->last_tick() > before ? 0 : std::min(quiet_looks_ + 1, limits::quiet_looks_max);
+  grows_ = !source_->is_ended() && quiet_looks_ < limits::quiet_looks_max;
+  return {};
+}
+
+Result<void> ReplayPlayer::add_company(TickDelta& delta) {
+  auto marks = source_->marks();
+  if (!marks) return tl::unexpected(marks.error());
+  delta.marks = std::move(*marks);
+  if (number_ % options_.ticks_per_transform != 0) return {};
+  auto cursors = source_->cursors();
+  if (!cursors) return tl::unexpected(cursors.error());
+  if (cursors_ == nullptr || cursors_->cursors != *cursors)
+    cursors_ = std::make_shared<RecordedCursorsMessage>(RecordedCursorsMessage{std::move(*cursors)});
+  delta.cursors = cursors_;
+  return {};
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
@@ -111,7 +140,9 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
     for (const ControlReplay& wish : wishes)
       if (auto heeded = heed(wish); !heeded) return tl::unexpected(heeded.error());
   }
-  if (begun_ && playing_ && !target_ && at_border()) {
+  if (begun_ && number_ % std::max(header().world.tick_rate_hz / 2, 1U) == 0)
+    if (auto looked = look(); !looked) return tl::unexpected(looked.error());
+  if (begun_ && playing_ && !target_ && at_border() && !waits_for_more()) {
     const bool at_end = speed_ > 0.0F;
     if (at_end && options_.at_end == AtEnd::end) return nullptr;
     if (at_end && options_.at_end == AtEnd::loop)
@@ -127,6 +158,7 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
   begun_ = true;
   delta->tick = number_;
   delta->playback = state();
+  if (auto added = add_company(*delta); !added) return tl::unexpected(added.error());
   return delta;
 }
 

@@ -14,6 +14,10 @@
 namespace scree {
 
 namespace limits {
+/// Looks at a recording that is being written, two a second, as often as its writer commits. After so many
+/// that found nothing new it counts as cut short.
+inline constexpr uint32_t quiet_looks_max = 10;
+
 /// Wishes that wait for the next tick; above: refused.
 inline constexpr size_t replay_wishes_max = 256;
 }  // namespace limits
@@ -44,12 +48,18 @@ class ReplayPlayer {
 
  private:
   Result<void> heed(const ControlReplay& wish);
+  /// Twice a second: whether the recording has grown.
+  Result<void> look();
+  /// What goes with the moment: events, and who was there.
+  Result<void> add_company(TickDelta& delta);
   Result<Tick> target_of(const ControlReplay& wish);
   Tick within(double tick) const;
   Result<std::shared_ptr<const TickDelta>> move();
   /// The whole ticks of the credit.
   Tick take_due();
   bool at_border() const;
+  /// At the end of a recording that is being written: more will come.
+  bool waits_for_more() const { return grows_ && speed_ > 0.0F; }
   bool may_jump() const { return (number_ + 1) % options_.ticks_per_transform == 0; }
 
   std::unique_ptr<ReplaySource> source_;
@@ -61,8 +71,11 @@ class ReplayPlayer {
   std::optional<Tick> target_;  ///< of a jump that waits
   double credit_ = 0.0;         ///< ticks of the recording that are due
   Tick number_ = 0;             ///< of the last tick that was given out
-  uint64_t heeded_ = 0;         ///< wishes, their moves done
-  uint64_t moves_waiting_ = 0;  ///< wishes whose jump waits
+  bool grows_;                  ///< the recording is being written
+  uint32_t quiet_looks_ = 0;
+  std::shared_ptr<const RecordedCursorsMessage> cursors_;  ///< as given out last
+  uint64_t heeded_ = 0;                                    ///< wishes, their moves done
+  uint64_t moves_waiting_ = 0;                             ///< wishes whose jump waits
   std::mutex mutex_;
   std::vector<ControlReplay> wishes_;  ///< guarded by mutex_
 };

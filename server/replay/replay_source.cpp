@@ -69,6 +69,19 @@ Tick ReplaySource::last_tick() const {
 bool ReplaySource::is_ended() const {
   return state_->reader->is_ended();
 }
+Result<void> ReplaySource::look_again() {
+  return state_->reader->look_again();
+}
+
+Result<std::vector<PlayerCursor>> ReplaySource::cursors() {
+  return state_->cursors.at(*state_->reader, state_->tick);
+}
+
+Result<std::shared_ptr<const MarksMessage>> ReplaySource::marks() {
+  if (!state_->reader->events_from()) return nullptr;
+  if (auto read = state_->marks.read_on(*state_->reader); !read) return tl::unexpected(read.error());
+  return state_->marks.message();
+}
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::next() {
   return next(1);

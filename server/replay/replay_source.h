@@ -25,6 +25,8 @@ class ReplaySource {
   Tick first_tick() const;  ///< the state before the recording's first tick
   Tick last_tick() const;
   bool is_ended() const;  ///< RecordingReader::is_ended()
+  /// RecordingReader::look_again(): the last tick of a recording that is being written may move on.
+  Result<void> look_again();
 
   /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
   /// recorded, is an error that names the tick.
@@ -39,6 +41,11 @@ class ReplaySource {
   Result<std::shared_ptr<const TickDelta>> jump(Tick to);
   /// A tick in which nothing changes.
   std::shared_ptr<const TickDelta> same() const;
+  /// The cursors of those who were there at this moment.
+  Result<std::vector<PlayerCursor>> cursors();
+  /// The recording's events, as far as they are read: some more with each call. The same value until it
+  /// changes; null where there is no log of events.
+  Result<std::shared_ptr<const MarksMessage>> marks();
   /// The nearest tick with an event after that one, or before it; nothing when there is none. Recordings
   /// without a log of events are looked through for ticks with operations that begin something.
   Result<std::optional<Tick>> next_event(Tick after);

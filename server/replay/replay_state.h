@@ -9,6 +9,8 @@
 #include <string>
 
 #include "server/replay/brick_edits.h"
+#include "server/replay/event_marks.h"
+#include "server/replay/recorded_cursors.h"
 #include "server/replay/replay_source.h"
 #include "shared/operation/operation.h"
 
@@ -54,6 +56,8 @@ struct ReplaySource::State {
   bool keyframe_due = false;      ///< next() returns the whole state
   float work_us = 0.0F;           ///< of the last tick's operations, by the model
   std::deque<PlayedTick> played;  ///< the last ticks up to this one, that can be taken back
+  RecordedCursors cursors;
+  EventMarks marks;
 
  private:
   Result<void> restore(KeyframeParts parts, BricksBefore& before);

@@ -189,6 +189,10 @@ bool Database::is_full() const {
   return sqlite3_errcode(database_.get()) == SQLITE_FULL;
 }
 
+bool Database::is_busy() const {
+  return sqlite3_errcode(database_.get()) == SQLITE_BUSY;
+}
+
 Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& select, uint64_t tick) {
   sqlite3_stmt* statement = select.get();
   CHECK_EQ(sqlite3_bind_parameter_count(statement), 1);

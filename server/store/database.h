@@ -61,6 +61,8 @@ class Database {
   Result<void> copy_to(const std::string& path);
   /// Whether the last failure was that the disk has no room.
   bool is_full() const;
+  /// Whether the last call failed because another program has the file open.
+  bool is_busy() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its
   /// checksum is an error. Nothing when there is no row.
   Result<std::optional<std::vector<uint8_t>>> get(const Statement& select, uint64_t tick);

@@ -25,6 +25,7 @@ struct Recorder::State {
     std::vector<Command> commands;
     std::vector<Event> noted;
     std::shared_ptr<const WorldMoment> part;
+    std::optional<std::vector<PlayerCursor>> cursors;
   };
 
   void run();
@@ -64,7 +65,8 @@ void Recorder::State::note(const Result<void>& result) {
 
 void Recorder::State::write(const std::deque<Entry>& entries) {
   for (const Entry& entry : entries) {
-    const auto added = writer->add(*entry.delta, entry.commands, entry.noted, entry.part.get());
+    const auto added =
+        writer->add(*entry.delta, entry.commands, entry.noted, entry.part.get(), entry.cursors);
     note(added);
     if (!added) return;
     written = entry.delta->tick;
@@ -157,7 +159,8 @@ void Recorder::commit_up_to(Tick tick) {
 }
 
 void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
-                    std::vector<Event> noted, std::shared_ptr<const WorldMoment> part) {
+                    std::vector<Event> noted, std::shared_ptr<const WorldMoment> part,
+                    std::optional<std::vector<PlayerCursor>> cursors) {
   CHECK(delta != nullptr);
   {
     std::unique_lock lock(state_->mutex);
@@ -170,7 +173,8 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
       state_->part_waits = true;
       state_->wants_part = false;
     }
-    state_->queue.push_back({std::move(delta), std::move(commands), std::move(noted), std::move(part)});
+    state_->queue.push_back(
+        {std::move(delta), std::move(commands), std::move(noted), std::move(part), std::move(cursors)});
     CHECK(state_->queue.size() <= limits::recorder_queue_max);
     if (!state_->is_due()) return;
   }

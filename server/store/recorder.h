@@ -30,10 +30,11 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   /// Queues the next tick, without a gap from 1 or from the start on, and the commands that it carried out.
-  /// `noted`: events of the machine; `part`: RecordingWriter::add(). From one thread only. Does nothing after
-  /// an error or after finish().
+  /// `noted`: events of the machine; `part`: RecordingWriter::add(); `cursors`: all persons, where it is time
+  /// to sample them. From one thread only. Does nothing after an error or after finish().
   void push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
-            std::vector<Event> noted = {}, std::shared_ptr<const WorldMoment> part = nullptr);
+            std::vector<Event> noted = {}, std::shared_ptr<const WorldMoment> part = nullptr,
+            std::optional<std::vector<PlayerCursor>> cursors = std::nullopt);
   /// RecordingWriter::wants_part() of the last tick that was written. From any thread.
   bool wants_part() const;
 

@@ -25,6 +25,7 @@ struct RecordingReader::State {
   Result<void> read_events_extent();
   Result<std::optional<Tick>> state_up_to(Tick tick);
   Result<std::optional<std::vector<uint8_t>>> state_of_moment(Tick tick);
+  Result<void> read_end();
   Result<std::optional<Tick>> event_tick(const std::string& select);
   template <typename T>
   Result<T> decoded(Result<T> result, Tick tick) const;
@@ -45,6 +46,7 @@ struct RecordingReader::State {
   std::optional<EarlierKeyframes> earlier_keyframes;
   std::optional<Tick> events_from;
   bool has_events = false;
+  bool has_end = false;  ///< a table that says whether it is ended
 };
 
 Result<void> RecordingReader::State::read_header() {
@@ -100,10 +102,11 @@ Result<void> RecordingReader::State::read_extent_now() {
 
 Result<void> RecordingReader::State::read_later_tables() {
   const auto events = database.has_table("events"), machine = database.has_table("machine"),
-             moments = database.has_table("state_moments");
-  for (const auto* has : {&events, &machine, &moments})
+             moments = database.has_table("state_moments"), ended = database.has_table("ended");
+  for (const auto* has : {&events, &machine, &moments, &ended})
     if (!*has) return tl::unexpected(has->error());
   has_events = *events && *machine;
+  has_end = *ended;
   if (*moments) {
     auto select = database.prepare(schema::select_from("state_moments"));
     if (!select) return tl::unexpected(select.error());
@@ -115,6 +118,18 @@ Result<void> RecordingReader::State::read_later_tables() {
   auto earlier = EarlierKeyframes::open(database);
   if (!earlier) return tl::unexpected(earlier.error());
   earlier_keyframes = std::move(*earlier);
+  return {};
+}
+
+/// Who recorded says so, unless that was an earlier release: then the log beside the file was merged.
+Result<void> RecordingReader::State::read_end() {
+  const auto journal = database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
+  if (!journal) return tl::unexpected(journal.error());
+  is_ended = *journal != "wal";
+  if (is_ended || !has_end) return {};
+  const auto row = database.number("SELECT count(*) FROM ended");
+  if (!row) return tl::unexpected(row.error());
+  is_ended = *row != 0;
   return {};
 }
 
@@ -171,25 +186,17 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   if (auto tables = state->read_later_tables(); !tables) return tl::unexpected(tables.error());
   if (auto extent = state->read_extent(); !extent) return tl::unexpected(extent.error());
   if (auto events = state->read_events_extent(); !events) return tl::unexpected(events.error());
-  const auto take = [&](Statement& statement, const std::string& sql) -> Result<void> {
-    auto prepared = state->database.prepare(sql);
+  for (const auto& [statement, table] :
+       {std::pair(&state->select_frame, "frames"), std::pair(&state->select_commands, "commands"),
+        std::pair(&state->select_state, "states")}) {
+    auto prepared = state->database.prepare(schema::select_from(table));
     if (!prepared) return tl::unexpected(prepared.error());
-    statement = std::move(*prepared);
-    return {};
-  };
-  if (auto ok = take(state->select_frame, schema::select_from("frames")); !ok)
-    return tl::unexpected(ok.error());
-  if (auto ok = take(state->select_commands, schema::select_from("commands")); !ok)
-    return tl::unexpected(ok.error());
-  if (auto ok = take(state->select_state, schema::select_from("states")); !ok)
-    return tl::unexpected(ok.error());
+    *statement = std::move(*prepared);
+  }
   std::error_code ignored;
   state->bytes = std::filesystem::file_size(path, ignored);
   if (const auto log = std::filesystem::file_size(path + "-wal", ignored); !ignored) state->bytes += log;
-  const auto journal =
-      state->database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
-  if (!journal) return tl::unexpected(journal.error());
-  state->is_ended = *journal != "wal";
+  if (auto end = state->read_end(); !end) return tl::unexpected(end.error());
   return std::unique_ptr<RecordingReader>(new RecordingReader(std::move(state)));
 }
 
@@ -214,6 +221,19 @@ bool RecordingReader::is_ended() const {
 bool RecordingReader::may_lack_ticks() const {
   return state_->without_log && !state_->is_ended;
 }
+Result<void> RecordingReader::look_again() {
+  State& state = *state_;
+  if (state.is_ended) return {};
+  if (auto end = state.read_end(); !end) return end;
+  const auto last = state.database.number("SELECT max(tick) FROM frames");
+  if (!last) return tl::unexpected(last.error());
+  if (last->value_or(0) < static_cast<int64_t>(state.last_tick))
+    return fail(path() + ": its ticks after " + std::to_string(last->value_or(0)) +
+                " are gone, because its world was rolled back: open it again");
+  state.last_tick = static_cast<Tick>(**last);
+  return state.events_from ? Result<void>() : state.read_events_extent();
+}
+
 uint64_t RecordingReader::bytes() const {
   return state_->bytes;
 }

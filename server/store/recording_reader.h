@@ -22,9 +22,9 @@ class RecordingReader {
 
   const std::string& path() const;
   const RecordingHeader& header() const;
-  /// As of open(), while somebody still writes: the recording holds the ticks first_tick() … last_tick()
-  /// without a gap, at least one. Where the first is not 1, there is a state() before it, from which it is
-  /// simulated: by commands alone up to the first tick.
+  /// As of open(), or of look_again(), while somebody still writes: the recording holds the ticks
+  /// first_tick() … last_tick() without a gap, at least one. Where the first is not 1, there is a state()
+  /// before it, from which it is simulated: by commands alone up to the first tick.
   Tick first_tick() const;
   Tick last_tick() const;
   uint64_t keyframes() const;  ///< from which a replay can begin without the ones before
@@ -35,6 +35,9 @@ class RecordingReader {
   /// It has not ended, and there was no log beside it: if it was copied while it was written, what came last
   /// is missing.
   bool may_lack_ticks() const;
+  /// Looks again how far a recording goes that is being written. Refuses one whose last ticks were taken
+  /// back, with their world.
+  Result<void> look_again();
 
   /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
   /// it; most ticks have none.

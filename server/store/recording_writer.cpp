@@ -6,6 +6,7 @@
 
 #include "proto/event_codec.h"
 #include "proto/world_codec.h"
+#include "server/store/cursor_track.h"
 #include "server/store/database.h"
 #include "server/store/event_deriver.h"
 #include "server/store/keyframe_writer.h"
@@ -20,8 +21,10 @@ namespace scree {
 
 namespace {
 
-/// Ticks of one row of durations: a second of them at 60 Hz.
-constexpr size_t ticks_per_machine_row = 60;
+/// Ticks of one row of durations: a second of them at 60 Hz. Each begins with a tick in which cursors are
+/// sampled.
+constexpr Tick ticks_per_machine_row = 60;
+static_assert(ticks_per_machine_row % ticks_per_watch == 0);
 static_assert(ticks_per_machine_row <= limits::ticks_per_row_max);
 constexpr double us_per_ms = 1000.0;
 
@@ -40,6 +43,8 @@ struct RecordingWriter::State {
   Result<void> put_commands(Tick tick, std::span<const Command> commands);
   Result<void> put_part(const WorldMoment& moment);
   Result<void> put_events(const TickDelta& delta, std::span<const Event> noted);
+  void add_cursors(Tick tick);
+  Result<void> put_end();
   Result<void> put_machine();
   Result<void> drop_parts();
   Result<void> count_bytes();
@@ -56,12 +61,15 @@ struct RecordingWriter::State {
   Statement put_moment;
   std::optional<KeyframeWriter> keyframes;
   std::optional<EventDeriver> deriver;
-  RecordedMachine machine;   ///< since its last row
-  bool logs = false;         ///< it has a row of the machine's from this process
-  PublishedState published;  ///< after the last tick that was added
+  RecordedMachine machine;  ///< since its last row
+  CursorTrack cursors;      ///< in that row
+  std::vector<PlayerCursor> last_cursors;
+  size_t cursor_entries = 0;  ///< likewise
+  bool logs = false;          ///< it has a row of the machine from this process
+  PublishedState published;   ///< after the last tick that was added
   RecordingRing ring;
   const bool rings;    ///< there is a limit
-  uint64_t bytes = 0;  ///< of the file's pages that are in use, at the last commit; of a ring alone
+  uint64_t bytes = 0;  ///< of the pages of the file that are in use, at the last commit; of a ring alone
   bool in_transaction = false;
   ThreadCheck storage_thread;
 };
@@ -117,14 +125,24 @@ Result<void> RecordingWriter::State::put_events(const TickDelta& delta, std::spa
   for (const Event& event : noted)
     if (machine.events.size() < limits::events_per_row_max) machine.events.push_back(event);
   // The first one says at once where the log of events begins.
-  const bool due = !logs || machine.tick_us.size() >= ticks_per_machine_row;
+  const bool due = !logs || (delta.tick + 1) % ticks_per_machine_row == 0;
   logs = true;
   return due ? put_machine() : Result<void>();
+}
+
+/// Each row stands for itself, so that any moment has its cursors without the rows before.
+void RecordingWriter::State::add_cursors(Tick tick) {
+  auto sample = cursors.changes(tick, last_cursors);
+  if (!sample) return;
+  cursor_entries += sample->moved.size() + sample->gone.size();
+  if (cursor_entries <= limits::cursors_per_row_max) machine.cursors.push_back(std::move(*sample));
 }
 
 Result<void> RecordingWriter::State::put_machine() {
   if (machine.tick_us.empty()) return {};
   const RecordedMachine row = std::exchange(machine, {});
+  cursors.forget();
+  cursor_entries = 0;
   return database.put(put_machine_row, row.tick, encode(row));
 }
 
@@ -281,7 +299,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   std::vector<std::string> tables = {"frames",  "keyframes",       "commands",       "events",
                                      "machine", "keyframe_states", "keyframe_chunks"};
   if (*has_short) tables.emplace_back("short_keyframes");
-  std::string sql;
+  std::string sql = "DELETE FROM ended;";
   for (const std::string& table : tables)
     sql += "DELETE FROM " + table + " WHERE tick > " + std::to_string(tick) + ";";
   for (const char* table : {"states", "state_moments"})
@@ -308,7 +326,8 @@ Result<void> RecordingWriter::begin_at(const TickDelta& keyframe) {
 }
 
 Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands,
-                                  std::span<const Event> noted, const WorldMoment* part) {
+                                  std::span<const Event> noted, const WorldMoment* part,
+                                  const std::optional<std::vector<PlayerCursor>>& cursors) {
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
   if (auto begun = state.begin(); !begun) return begun;
@@ -317,6 +336,8 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
   CHECK_DEBUG(decode_recorded_frame(frame).has_value());
   if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
+  if (cursors) state.last_cursors = *cursors;
+  if (cursors || state.machine.tick_us.empty()) state.add_cursors(delta.tick);
   if (auto put = state.put_events(delta, noted); !put) return put;
   if (auto applied = state.keyframes->apply(delta, state.published); !applied) return applied;
   if (part != nullptr) return state.put_part(*part);
@@ -335,14 +356,21 @@ Result<void> RecordingWriter::commit() {
   return state_->database.execute("COMMIT");
 }
 
+Result<void> RecordingWriter::State::put_end() {
+  auto put_row = database.prepare(schema::put_into("ended"));
+  if (!put_row) return tl::unexpected(put_row.error());
+  const std::array<uint8_t, 1> nothing_more{};
+  return database.put(*put_row, published.tick(), nothing_more);
+}
+
 Result<void> RecordingWriter::finish() {
-  if (!state_->machine.tick_us.empty()) {
-    if (auto begun = state_->begin(); !begun) return begun;
-    if (auto put = state_->put_machine(); !put) return put;
-  }
+  if (auto begun = state_->begin(); !begun) return begun;
+  if (auto put = state_->put_machine(); !put) return put;
+  if (auto put = state_->put_end(); !put) return put;
   if (auto committed = commit(); !committed) return committed;
   CHECK(!state_->in_transaction);
-  return state_->database.execute("PRAGMA journal_mode = DELETE");
+  auto merged = state_->database.execute("PRAGMA journal_mode = DELETE");
+  return merged || !state_->database.is_busy() ? merged : Result<void>();
 }
 
 }  // namespace scree

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "proto/event.h"
 #include "server/store/recording.h"
@@ -38,15 +41,17 @@ class RecordingWriter {
   /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. Its
   /// events are derived; `noted`: those of the machine. `state`: the world after the tick, where the next one
   /// begins as from a restored value (World::renew): a part begins there, and parts that the limit has no
-  /// room for are dropped. The caller stops adding after an error.
+  /// room for are dropped. `cursors`: all persons, where it is time to sample them. The caller stops adding
+  /// after an error.
   Result<void> add(const TickDelta& delta, std::span<const Command> commands,
-                   std::span<const Event> noted = {}, const WorldMoment* state = nullptr);
+                   std::span<const Event> noted = {}, const WorldMoment* state = nullptr,
+                   const std::optional<std::vector<PlayerCursor>>& cursors = std::nullopt);
   /// Whether a part should begin soon, so that the limit can be kept.
   bool wants_part() const;
   /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();
-  /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder. The last
-  /// call.
+  /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder, unless
+  /// another program reads it: then that one does so when it closes the file. The last call.
   Result<void> finish();
 
  private:

@@ -26,7 +26,8 @@ inline std::string create_table(const std::string& table) {
 /// What recordings of earlier releases have not.
 inline std::string create_later_tables() {
   std::string sql;
-  for (const char* table : {"events", "machine", "keyframe_states", "keyframe_pieces", "state_moments"})
+  for (const char* table :
+       {"events", "machine", "keyframe_states", "keyframe_pieces", "state_moments", "ended"})
     sql += create_table(table);
   return sql +
          "CREATE TABLE IF NOT EXISTS keyframe_chunks (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL,"
@@ -50,6 +51,7 @@ inline std::string create_later_tables() {
 ///
 /// events: one row for each tick in which something happened that follows from the simulation; machine: one
 /// row a second or so, of the ticks since the last: how long they took, and what else happened to the server.
+/// ended: one row, of the last tick, when who recorded came to an end.
 ///
 /// Recordings of earlier releases may have none of the tables from keyframe_states on. They have instead:
 /// keyframes, whole ones; short_keyframes, of whose bricks those that changed since the last whole one, or

@@ -73,8 +73,10 @@ struct TickDelta {
   std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
-  std::optional<ServiceLimits> service;     ///< those of them that are the network's; never in a recording
-  std::optional<PlaybackMessage> playback;  ///< where a replay stands; of a replay alone
+  std::optional<ServiceLimits> service;       ///< those of them that are the network's; never in a recording
+  std::optional<PlaybackMessage> playback;    ///< where a replay stands; of a replay alone, as the next two
+  std::shared_ptr<const MarksMessage> marks;  ///< the recording's events; null: none are known
+  std::shared_ptr<const RecordedCursorsMessage> cursors;  ///< of who was there; null: as in the tick before
   Ledger ledger;
   StageTimes times;
   TickWork work;

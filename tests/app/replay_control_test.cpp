@@ -3,12 +3,15 @@
 #include <chrono>
 #include <gtest/gtest.h>
 #include <memory>
+#include <thread>
 
 #include "client/admin/admin.h"
 #include "client/mirror/mirror.h"
 #include "server/app/live_server.h"
+#include "server/replay/recorded_cursors.h"
 #include "shared/base/random.h"
 #include "tests/support/holds.h"
+#include "tests/support/patience.h"
 #include "tests/support/raw_client.h"
 #include "tests/support/recording_fixture.h"
 
@@ -32,6 +35,7 @@ class ReplayViewer {
     if (!message) return false;
     if (const auto* playback = std::get_if<PlaybackMessage>(&*message)) playbacks.push_back(*playback);
     if (const auto* reply = std::get_if<ReplyMessage>(&*message)) replies.push_back(*reply);
+    if (const auto* told = std::get_if<CursorsMessage>(&*message)) cursors = told->cursors;
     const auto applied = mirror->apply(*message);
     EXPECT_TRUE(applied.has_value()) << applied.error().message;
     return applied.has_value();
@@ -40,7 +44,10 @@ class ReplayViewer {
     EXPECT_TRUE(socket_.send(AdminMessage{1, token, wish}));
   }
 
+  void look_from(glm::vec3 eye_m) { EXPECT_TRUE(socket_.send(CursorMessage{eye_m, {}})); }
+
   std::optional<Mirror> mirror;
+  std::vector<PlayerCursor> cursors;
   std::vector<PlaybackMessage> playbacks;
   std::vector<ReplyMessage> replies;
 
@@ -194,12 +201,18 @@ TEST_F(ReplayControlTest, a_live_server_has_nothing_to_control) {
 TEST_F(ReplayControlTest, a_live_server_logs_its_events_and_records_them) {
   config.record_path = path;
   config.events_path = (folder / "events.jsonl").string();
+  config.net.heartbeat_s = 0.0;
   auto started = LiveServer::start(config);
   ASSERT_TRUE(started.has_value()) << started.error().message;
   server = std::move(*started);
   {
-    ReplayViewer viewer(server->port());
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(server->step_once());
+    ReplayViewer viewer(server->port()), other(server->port());
+    viewer.look_from({1.0F, 2.0F, 3.0F});
+    while (other.cursors.empty()) {
+      ASSERT_TRUE(server->step_once());
+      ASSERT_TRUE(other.follow_to(server->last_delta()->tick));
+    }
+    for (int i = 0; i < 12; ++i) ASSERT_TRUE(server->step_once());
   }
   ASSERT_TRUE(server->stop().has_value());
   EXPECT_GE(server->report().events.written, 1U);
@@ -208,12 +221,46 @@ TEST_F(ReplayControlTest, a_live_server_logs_its_events_and_records_them) {
   EXPECT_TRUE(holds({bytes.data(), bytes.size()}, R"({"event":"join","tick":)")) << bytes.data();
   const auto reader = RecordingReader::open(path);
   ASSERT_TRUE(reader.has_value());
-  const auto rows = (*reader)->machine(1, 5);
+  const auto rows = (*reader)->machine(1, (*reader)->last_tick());
   ASSERT_TRUE(rows.has_value());
   size_t joins = 0;
   for (const RecordedMachine& row : *rows)
     joins += std::ranges::count(row.events, EventKind::join, &Event::kind);
-  EXPECT_EQ(joins, 1U);
+  EXPECT_EQ(joins, 2U);
+  RecordedCursors recorded;
+  const auto there = recorded.at(**reader, (*reader)->last_tick());
+  ASSERT_TRUE(there.has_value()) << there.error().message;
+  ASSERT_EQ(there->size(), 1U) << "who says nothing of an eye has none";
+  EXPECT_EQ(there->front().eye_m, glm::vec3(1.0F, 2.0F, 3.0F));
+}
+
+TEST_F(ReplayControlTest, a_live_server_is_looked_back_at_while_it_goes_on) {
+  config.record_path = path;
+  auto started = LiveServer::start(config);
+  ASSERT_TRUE(started.has_value()) << started.error().message;
+  const std::unique_ptr<LiveServer> live = std::move(*started);
+  LiveConfig replaying;
+  replaying.pacing = Pacing::by_hand;
+  replaying.replay.path = path;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  const auto live_step = [&] {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    ASSERT_TRUE(live->step_once());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  // The recording has ticks as soon as it is committed the first time.
+  while (!(started = LiveServer::start(replaying))) live_step();
+  server = std::move(*started);
+  step();
+  const Tick begun = playback().last;
+  EXPECT_TRUE(playback().grows);
+  while (playback().last < begun + 30) {
+    live_step();
+    step();
+  }
+  ASSERT_TRUE(live->stop().has_value()) << "although somebody reads its recording";
+  while (playback().grows) step();
+  EXPECT_EQ(playback().last, live->last_delta()->tick);
 }
 
 }  // namespace

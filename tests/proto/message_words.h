@@ -185,7 +185,22 @@ inline Lines describe(const SaidMessage& m) {
 }
 inline Lines describe(const PlaybackMessage& m) {
   return {fmt::format("playback: moment {} of {} to {}, speed {}, playing: {}, {} heeded", m.moment, m.first,
-                      m.last, m.speed, m.playing, m.heeded)};
+                      m.last, m.speed, m.playing, m.heeded),
+          fmt::format("grows: {}, refusal '{}'", m.grows, m.refusal)};
+}
+inline Lines describe(const MarksMessage& m) {
+  Lines lines{fmt::format("marks: after tick {}, {} ticks a column, from column {}, read to tick {}", m.first,
+                          m.ticks_per_column, m.from, m.read_to)};
+  for (const Mark& mark : m.marks)
+    lines.push_back(fmt::format("mark: {} {} in column {}", mark.count, name_of(mark.kind), mark.column));
+  return lines;
+}
+inline Lines describe(const RecordedCursorsMessage& m) {
+  Lines lines{"recorded cursors"};
+  for (const PlayerCursor& cursor : m.cursors)
+    lines.push_back(fmt::format("cursor: session {}, name '{}', eye {}, aim {}", cursor.session, cursor.name,
+                                words(cursor.eye_m), words(cursor.aim_m)));
+  return lines;
 }
 inline Lines describe(const GoodbyeMessage&) {
   return {"goodbye"};

@@ -50,6 +50,8 @@ class TrustingClient {
   std::vector<GroundMessage> grounds;
   std::vector<TileMessage> tiles;
   std::vector<PlaybackMessage> playbacks;
+  MarksMessage marks;
+  RecordedCursorsMessage recorded_cursors;
   TrustingClient* before = nullptr;  ///< has the chunks that this one offered
   size_t kept = 0;
 
@@ -149,6 +151,8 @@ class TrustingClient {
   void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
   void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
   void apply(const PlaybackMessage& message) { playbacks.push_back(message); }
+  void apply(const MarksMessage& message) { take_news(marks, message); }
+  void apply(const RecordedCursorsMessage& message) { recorded_cursors = message; }
   void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }

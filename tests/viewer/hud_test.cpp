@@ -51,10 +51,10 @@ TEST(Layout, panels_stay_apart_whatever_they_want) {
 TEST(Layout, what_has_room_gets_what_it_wants) {
   PanelSizes wanted;
   wanted.fill({300.0F, 200.0F});
-  const PanelRectangles placed = lay_out({1000.0F, 1000.0F}, wanted);
+  const PanelRectangles placed = lay_out({1000.0F, 1200.0F}, wanted);
   for (const Rectangle& one : placed) EXPECT_EQ(one.size, glm::vec2(300.0F, 200.0F));
   wanted[static_cast<size_t>(PanelPlace::upper_left)].y = 2000.0F;
-  const PanelRectangles crowded = lay_out({1000.0F, 1000.0F}, wanted);
+  const PanelRectangles crowded = lay_out({1000.0F, 1200.0F}, wanted);
   EXPECT_EQ(crowded[static_cast<size_t>(PanelPlace::lower_left)].size.y, 200.0F)
       << "a small one does not shrink for a large one";
 }
@@ -94,6 +94,20 @@ HudFacts crowded_facts() {
   return facts;
 }
 
+/// Of a replay that somebody else controls, with events of all kinds.
+Timeline crowded_timeline() {
+  Timeline timeline;
+  timeline.begin(60.0);
+  PlaybackMessage playback{100000, 0, 2160000, -16.0F, true, 0, true};
+  playback.refusal = "that takes the role admin: this session is a viewer (ask for a token, --token)";
+  timeline.take(playback, 0.0);
+  MarksMessage marks{0, 4096, 0, 2160000};
+  for (const EventKind kind : all_kinds<EventKind>)
+    for (uint32_t column = 0; column < 500; column += 7) marks.marks.push_back({kind, column, 1 + column});
+  timeline.take(marks);
+  return timeline;
+}
+
 /// The panels of a HUD with everything shown, after some frames.
 class WholeHud {
  public:
@@ -109,8 +123,9 @@ class WholeHud {
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
     hud_.lower_right(facts, all ? &persons : nullptr, all);
     hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
-    hud_.help(all ? Telling::all : Telling::basics, all);
+    hud_.help(all ? Telling::all : Telling::basics, all, all);
     if (all) hud_.banner("the server is gone - trying again");
+    if (all) hud_.timeline(timeline_, 10.0);
     hud_.messages(facts, {"click into the picture to take the mouse: then it looks, and a click strikes"});
     screen_.end();
   }
@@ -119,6 +134,7 @@ class WholeHud {
  private:
   HudScreen screen_;
   Hud hud_;
+  Timeline timeline_ = crowded_timeline();
   Tool tool_;
   OverlayChoice overlay_;
   GridShape grid_;
@@ -162,13 +178,13 @@ TEST(Hud, a_panel_that_went_leaves_no_room_behind) {
 
 TEST(Controls, the_basics_are_few_and_buttons_are_told_to_those_who_have_them) {
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
-  const std::string basics = describe_controls(Telling::basics, false);
-  const std::string all = describe_controls(Telling::all, true);
+  const std::string basics = describe_controls(Telling::basics, false, false);
+  const std::string all = describe_controls(Telling::all, true, false);
   EXPECT_LE(lines(basics), 11);
   EXPECT_GT(lines(all), lines(basics));
   EXPECT_EQ(basics.find("pad "), std::string::npos);
   EXPECT_NE(all.find("pad RB"), std::string::npos);
-  EXPECT_EQ(describe_controls(Telling::nothing, true), "");
+  EXPECT_EQ(describe_controls(Telling::nothing, true, true), "");
   EXPECT_EQ(after(after(after(Telling::basics))), Telling::basics);
 }
 

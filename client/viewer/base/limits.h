@@ -92,6 +92,12 @@ inline constexpr size_t sound_file_bytes_max = size_t{128} << 20;
 /// Frames of sound made for the file at once: five seconds. A longer pause of the program is shortened.
 inline constexpr size_t sound_step_frames_max = 220500;
 
+/// Wishes for a replay that wait to be sent. Above: more are dropped.
+inline constexpr size_t replay_wishes_waiting_max = 16;
+
+/// Seconds after which a move of a replay counts as done, whatever the server says: longer than a jump takes.
+inline constexpr double replay_move_s = 2.0;
+
 /// Seconds between two updates of the HUD's costly counts.
 inline constexpr double count_interval_s = 0.5;
 

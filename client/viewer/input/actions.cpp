@@ -33,6 +33,20 @@ constexpr std::array table{
     Binding{Action::faster_mouse, GLFW_KEY_APOSTROPHE, unbound, "'", "", "faster mouse"},
     Binding{Action::smaller_text, GLFW_KEY_PAGE_DOWN, unbound, "Page Down", "", "smaller text"},
     Binding{Action::larger_text, GLFW_KEY_PAGE_UP, unbound, "Page Up", "", "larger text"},
+    Binding{Action::next_eye, GLFW_KEY_N, unbound, "N", "",
+            "look through the next person's eye, or your own"},
+    Binding{Action::replay_play, GLFW_KEY_J, unbound, "J", "", "replay: play, or hold", true},
+    Binding{Action::replay_turn, GLFW_KEY_Y, unbound, "Y", "", "replay: play backwards, or forwards", true},
+    Binding{Action::replay_slower, GLFW_KEY_DOWN, unbound, "Down", "", "replay: slower", true},
+    Binding{Action::replay_faster, GLFW_KEY_UP, unbound, "Up", "", "replay: faster", true},
+    Binding{Action::replay_second_back, GLFW_KEY_LEFT, unbound, "Left", "", "replay: a second back", true},
+    Binding{Action::replay_second_on, GLFW_KEY_RIGHT, unbound, "Right", "", "replay: a second on", true},
+    Binding{Action::replay_tick_back, GLFW_KEY_7, unbound, "7", "", "replay: a tick back", true},
+    Binding{Action::replay_tick_on, GLFW_KEY_8, unbound, "8", "", "replay: a tick on", true},
+    Binding{Action::replay_previous_event, GLFW_KEY_9, unbound, "9", "", "replay: to the event before", true},
+    Binding{Action::replay_next_event, GLFW_KEY_0, unbound, "0", "", "replay: to the next event", true},
+    Binding{Action::replay_start, GLFW_KEY_HOME, unbound, "Home", "", "replay: to its start", true},
+    Binding{Action::replay_end, GLFW_KEY_END, unbound, "End", "", "replay: to its end", true},
     Binding{Action::picture, GLFW_KEY_F12, unbound, "F12", "", "take a picture (a PNG in this folder)"},
     Binding{Action::copy_place, GLFW_KEY_V, unbound, "V", "", "copy the camera's place as --camera"},
     Binding{Action::record_path, GLFW_KEY_K, unbound, "K", "", "record a camera path for --path, or end it"},
@@ -68,6 +82,19 @@ constexpr std::array<Motion, 4> motions{{
 /// What a newcomer needs; the help says where the rest is.
 constexpr std::array basics{Action::next_use, Action::walk,       Action::talk, Action::panel,
                             Action::help,     Action::free_mouse, Action::end};
+constexpr std::array replay_basics{Action::next_eye,
+                                   Action::replay_play,
+                                   Action::replay_second_back,
+                                   Action::replay_second_on,
+                                   Action::replay_next_event,
+                                   Action::panel,
+                                   Action::help,
+                                   Action::free_mouse,
+                                   Action::end};
+
+bool contains(std::span<const Action> actions, Action action) {
+  return std::ranges::find(actions, action) != actions.end();
+}
 
 constexpr size_t column = 12, gamepad_column = 20;
 
@@ -77,7 +104,7 @@ std::span<const Binding> bindings() {
   return table;
 }
 
-std::string describe_controls(Telling telling, bool gamepad) {
+std::string describe_controls(Telling telling, bool gamepad, bool replay) {
   std::string text;
   if (telling == Telling::nothing) return text;
   const auto add = [&](std::string_view key, std::string_view button, std::string_view does) {
@@ -87,8 +114,9 @@ std::string describe_controls(Telling telling, bool gamepad) {
     text.append(does).append("\n");
   };
   for (const Motion& motion : motions) add(motion.by_hand, motion.by_gamepad, motion.does);
+  const std::span<const Action> first = replay ? std::span<const Action>(replay_basics) : basics;
   for (const Binding& binding : table)
-    if (telling == Telling::all || std::ranges::find(basics, binding.action) != basics.end())
+    if (telling == Telling::all ? replay || !binding.of_replay : contains(first, binding.action))
       add(binding.key_name, binding.button_name, binding.does);
   return text;
 }

@@ -32,6 +32,19 @@ enum class Action : uint8_t {
   faster_mouse,
   smaller_text,
   larger_text,
+  next_eye,
+  replay_play,
+  replay_turn,
+  replay_slower,
+  replay_faster,
+  replay_second_back,
+  replay_second_on,
+  replay_tick_back,
+  replay_tick_on,
+  replay_previous_event,
+  replay_next_event,
+  replay_start,
+  replay_end,
   picture,
   copy_place,
   record_path,
@@ -57,6 +70,7 @@ struct Binding {
   std::string_view key_name;
   std::string_view button_name;
   std::string_view does;
+  bool of_replay = false;  ///< it does something in replays alone
 };
 
 /// How much of the controls is told; a key goes through them, round.
@@ -84,7 +98,8 @@ constexpr Telling after(Telling telling) {
   return static_cast<Telling>((static_cast<size_t>(telling) + 1) % kind_count<Telling>);
 }
 
-/// A description of the controls by keys and mouse, and by gamepad if wanted, one line each.
-std::string describe_controls(Telling telling, bool gamepad);
+/// A description of the controls by keys and mouse, by gamepad if wanted, and of a replay's if wanted, one
+/// line each.
+std::string describe_controls(Telling telling, bool gamepad, bool replay);
 
 }  // namespace scree

@@ -92,11 +92,11 @@ void Figures::step(const std::vector<PlayerCursor>& cursors, double now_s) {
   figures_ = std::move(next);
 }
 
-void Figures::add_to(LineList& lines, glm::vec3 eye_m) const {
+void Figures::add_to(LineList& lines, glm::vec3 eye_m, std::optional<uint64_t> looked_through) const {
   for (const auto& [session, figure] : figures_) {
     const LineColour colour = colour_of_person(session);
     lines.cross(figure.aim_m, cross_m, colour);
-    if (glm::distance(figure.eye_m, eye_m) < 2.0F * Walker::radius_m) continue;
+    if (session == looked_through || glm::distance(figure.eye_m, eye_m) < 2.0F * Walker::radius_m) continue;
     add_body(lines, figure.eye_m, colour);
     const glm::vec3 way_m = figure.aim_m - figure.eye_m;
     const float far_m = glm::length(way_m);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "client/render/scene/line_list.h"
@@ -22,8 +23,9 @@ class Figures {
   };
   /// By session.
   const std::map<uint64_t, Figure>& all() const { return figures_; }
-  /// Adds them as bodies, and a cross where each aims; not one that the eye is in.
-  void add_to(LineList& lines, glm::vec3 eye_m) const;
+  /// Adds them as bodies, and a cross where each aims; not the body of one that the eye is in, or through
+  /// whose eye one looks.
+  void add_to(LineList& lines, glm::vec3 eye_m, std::optional<uint64_t> looked_through = {}) const;
 
  private:
   std::map<uint64_t, Figure> figures_;

@@ -56,6 +56,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   if (predictions_) predictions_->settle(now_s, step.changes);
   if (connection_) report(now_s, eye_m);
   if (connection_) report_cursor(now_s, camera);
+  if (connection_) control_replay(now_s);
   if (connection_) rejoin_.tend(now_s, *mirror_, *connection_);
   return step;
 }
@@ -104,6 +105,7 @@ void ViewerSession::finish_connecting(double now_s, SessionStep& step) {
   playback_.start(welcome);
   pieces_.clear();
   conversation_.begin();
+  timeline_.begin(tick_rate_hz_);
   trouble_.clear();
   acknowledged_ = 0;
   reported_cursor_ = {};
@@ -118,7 +120,9 @@ void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
   if (connection_) rejoin_.keep(*mirror_);
   connection_.reset();
   cursors_.clear();
+  recorded_cursors_.clear();
   conversation_.begin();
+  timeline_.begin(tick_rate_hz_);
   physics_.reset();
   trouble_ = end.message;
   gave_up_ = !may_come_again(end.refusal);
@@ -169,10 +173,16 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
                         [&](const KeptMessage&) { last_chunk_s_ = now_s; },
                         [&](const ReplyMessage& reply) {
                           if (reply.refusal.empty()) return;
+                          timeline_.refused();
                           notice_ = reply.refusal;
                           notice_until_s_ = now_s + notice_s;
                         },
                         [&](const CursorsMessage& cursors) { cursors_ = cursors.cursors; },
+                        [&](const RecordedCursorsMessage& cursors) { take(cursors); },
+                        [&](const PlaybackMessage& playback) {
+                          step.jumped = timeline_.take(playback, now_s) || step.jumped;
+                        },
+                        [&](const MarksMessage& marks) { timeline_.take(marks); },
                         [&](const PersonsMessage& persons) { conversation_.take(persons); },
                         [&](const SaidMessage& said) { conversation_.take(said, now_s); },
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
@@ -188,6 +198,20 @@ void ViewerSession::apply(const ServerMessage& message, double now_s, SessionSte
   rejoin_.after(message, *mirror_, *connection_);
   saw_pieces_ = saw_pieces_ || !changes->pieces_added.empty();
   append(step.changes, *changes);
+}
+
+void ViewerSession::take(const RecordedCursorsMessage& recorded) {
+  recorded_cursors_ = recorded.cursors;
+  for (PlayerCursor& cursor : recorded_cursors_) {
+    cursor.name = called(cursor.session, cursor.name);
+    cursor.session = recorded_person(cursor.session);
+  }
+}
+
+/// Wishes of a replay are acts of administrators: a token came with the hello.
+void ViewerSession::control_replay(double now_s) {
+  while (const std::optional<ControlReplay> wish = timeline_.take_due(now_s))
+    connection_->send(AdminMessage{++requests_, "", *wish});
 }
 
 void ViewerSession::report(double now_s, glm::vec3 eye_m) {
@@ -233,7 +257,9 @@ const ScenePieces& ViewerSession::pieces(double now_s) {
 }
 
 const Figures& ViewerSession::figures(double now_s) {
-  figures_.step(cursors_, now_s);
+  std::vector<PlayerCursor> all = cursors_;
+  all.insert(all.end(), recorded_cursors_.begin(), recorded_cursors_.end());
+  figures_.step(all, now_s);
   return figures_;
 }
 

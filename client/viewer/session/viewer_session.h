@@ -22,13 +22,20 @@
 #include "client/viewer/session/figures.h"
 #include "client/viewer/session/pace.h"
 #include "client/viewer/session/playback.h"
+#include "client/viewer/session/timeline.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 
+/// The number by which a person in a recording is told from those who look at it.
+constexpr uint64_t recorded_person(uint64_t session) {
+  return session | (1ULL << 63U);
+}
+
 struct SessionStep {
   bool new_mirror = false;   ///< the mirror is another one; nothing of the last one's holds
   bool other_world = false;  ///< and it is not of the world that was shown before
+  bool jumped = false;       ///< a replay is at another moment: what changed did not happen
   MirrorChanges changes;
 };
 
@@ -68,7 +75,8 @@ class ViewerSession {
   /// The way of the last request that was answered, by stages; none before the first.
   const std::optional<RequestLatency>& latency() const { return latency_; }
 
-  /// The other persons within interest, as of this moment.
+  /// The other persons within interest, as of this moment, and those who were there in a recording, whose
+  /// numbers are recorded_person() of the recorded session.
   const Figures& figures(double now_s);
   /// Who is in the world, and what they said.
   const Conversation& conversation() const { return conversation_; }
@@ -88,8 +96,9 @@ class ViewerSession {
   /// Of the world's time; and its rate.
   const Pace& pace() const { return pace_; }
   double tick_rate_hz() const { return tick_rate_hz_; }
-  /// Whether the server plays a recording.
+  /// Whether the server plays a recording; and where it stands, known from its first word of that on.
   bool is_replay() const { return connection_ && connection_->welcome().replay; }
+  Timeline& timeline() { return timeline_; }
   /// Memory of received messages that wait, bytes.
   size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
 
@@ -108,6 +117,8 @@ class ViewerSession {
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);
+  void control_replay(double now_s);
+  void take(const RecordedCursorsMessage& recorded);
   void lose(double now_s, const ConnectionEnd& end);
 
   ServerEndpoint server_;
@@ -136,6 +147,8 @@ class ViewerSession {
   double next_cursor_s_ = 0.0;
   CursorMessage reported_cursor_;
   std::vector<PlayerCursor> cursors_;
+  std::vector<PlayerCursor> recorded_cursors_;  ///< by numbers of recorded_person()
+  Timeline timeline_;
   Figures figures_;
   Conversation conversation_;
   bool watch_ = false;

@@ -60,8 +60,8 @@ Result<void> Viewing::step(double now_s) {
     const TraceSpan span(trace.get(), "viewer", "messages");
     return session.step(now_s, camera);
   }();
-  if (step.new_mirror) {
-    stand_on_ground();
+  if (step.new_mirror) stand_on_ground();
+  if (step.new_mirror || step.jumped) {
     watch_.begin();
     dust_.clear();
   }

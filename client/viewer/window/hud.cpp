@@ -59,20 +59,21 @@ void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines)
   panels_.end();
 }
 
-void Hud::help(Telling telling, bool gamepad) {
+void Hud::help(Telling telling, bool gamepad, bool replay) {
   if (telling == Telling::nothing) return;
   panels_.begin(PanelPlace::lower_left);
-  ImGui::TextUnformatted(describe_controls(telling, gamepad).c_str());
+  ImGui::TextUnformatted(describe_controls(telling, gamepad, replay).c_str());
   panels_.end();
 }
 
-void Hud::names(const Figures& figures, const glm::mat4& view_projection) {
+void Hud::names(const Figures& figures, const glm::mat4& view_projection,
+                std::optional<uint64_t> looked_through) {
   constexpr float over_eye_m = 0.32F;
   const glm::vec2 size = screen_size();
   for (const auto& [session, figure] : figures.all()) {
     const glm::vec4 place =
         view_projection * glm::vec4(figure.eye_m + glm::vec3(0.0F, over_eye_m, 0.0F), 1.0F);
-    if (place.w <= 0.0F) continue;
+    if (place.w <= 0.0F || session == looked_through) continue;
     const std::string name = called(session, figure.name);
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
     const ImVec2 at((place.x / place.w * 0.5F + 0.5F) * size.x - 0.5F * text.x,

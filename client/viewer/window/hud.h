@@ -2,6 +2,7 @@
 // say and how; hud_panels.h says where. Within a frame of a HudScreen.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,14 +43,18 @@ class Hud {
   void lower_right(const HudFacts& facts, const PersonsMessage* persons, bool graphs);
   /// The chosen method; null if none was chosen. Sliders and boxes change the values.
   const MethodEntry* panel(const MethodEntry& chosen, const PanelValues& values);
-  void help(Telling telling, bool gamepad);
+  void help(Telling telling, bool gamepad, bool replay);
   /// Above everything: what must not be overlooked.
   void banner(const std::string& text);
   /// Below everything: a method that is being made ready, and what there is to say now, a line each. Nothing
   /// when there is nothing.
   void messages(const HudFacts& facts, const std::vector<std::string>& lines);
-  /// The persons' names, over their figures in the picture.
-  void names(const Figures& figures, const glm::mat4& view_projection);
+  /// Of a replay, below everything else: its events, where it stands, and by what to move it. Nothing before
+  /// it is known.
+  void timeline(Timeline& timeline, double now_s);
+  /// The persons' names, over their figures in the picture, but for one through whose eye one looks.
+  void names(const Figures& figures, const glm::mat4& view_projection,
+             std::optional<uint64_t> looked_through = {});
   void crosshair();
 
   const HudPanels& panels() const { return panels_; }

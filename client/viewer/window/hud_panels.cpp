@@ -8,8 +8,8 @@
 namespace scree {
 namespace {
 
-constexpr std::array<const char*, panel_places> names{"top",        "bottom",      "upper left",
-                                                      "lower left", "upper right", "lower right"};
+constexpr std::array<const char*, panel_places> names{
+    "top", "bottom", "upper left", "lower left", "upper right", "lower right", "timeline"};
 
 }  // namespace
 

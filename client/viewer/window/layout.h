@@ -9,11 +9,11 @@
 
 namespace scree {
 
-/// A place for one panel. The strips stand in the middle, above and below; the others in two columns between
-/// them.
-enum class PanelPlace : uint8_t { top, bottom, upper_left, lower_left, upper_right, lower_right };
+/// A place for one panel. The strips stand in the middle, above and below, the timeline lowest; the others in
+/// two columns between them.
+enum class PanelPlace : uint8_t { top, bottom, upper_left, lower_left, upper_right, lower_right, timeline };
 
-inline constexpr size_t panel_places = 6;
+inline constexpr size_t panel_places = 7;
 
 constexpr size_t index_of(PanelPlace place) {
   return static_cast<size_t>(place);
