@@ -193,14 +193,17 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
   if (eye_.follows()) lines.push_back(eye_.description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
   if (!window_.holds_mouse())
-    lines.emplace_back("click into the picture to take the mouse: then it looks, and a click strikes");
+    lines.emplace_back(viewing_.session.is_replay()
+                           ? "click into the picture to take the mouse: then it looks; Tab frees it"
+                           : "click into the picture to take the mouse: then it looks, and a click strikes");
   return lines;
 }
 
 LineList WindowApp::lines(double now_s) {
   LineList lines;
   const glm::vec3 direction = viewing_.camera.forward();
-  if (const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction))
+  const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction);
+  if (hit_m && !viewing_.session.is_replay())
     lines.shape(shape_of(tool_, *hit_m, direction), preview_colour(tool_));
   viewing_.session.figures(now_s).add_to(lines, viewing_.camera.eye_m, eye_.person());
   viewing_.add_overlay(lines, overlay_, now_s);
@@ -225,7 +228,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
                           {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
-    hud_.help(choice_.help, window_.has_gamepad(), viewing_.session.is_replay());
+    hud_.help(choice_.help, window_.has_gamepad(),
+              viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
     hud_.timeline(viewing_.session.timeline(), now_s);
     if (facts.lost) hud_.banner(facts.connection);
   }

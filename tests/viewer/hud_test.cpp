@@ -123,7 +123,7 @@ class WholeHud {
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
     hud_.lower_right(facts, all ? &persons : nullptr, all);
     hud_.panel(*method_named("grid"), {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
-    hud_.help(all ? Telling::all : Telling::basics, all, all);
+    hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
     if (all) hud_.banner("the server is gone - trying again");
     if (all) hud_.timeline(timeline_, 10.0);
     hud_.messages(facts, {"click into the picture to take the mouse: then it looks, and a click strikes"});
@@ -178,13 +178,19 @@ TEST(Hud, a_panel_that_went_leaves_no_room_behind) {
 
 TEST(Controls, the_basics_are_few_and_buttons_are_told_to_those_who_have_them) {
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
-  const std::string basics = describe_controls(Telling::basics, false, false);
-  const std::string all = describe_controls(Telling::all, true, false);
+  const std::string basics = describe_controls(Telling::basics, false, ControlsOf::live);
+  const std::string all = describe_controls(Telling::all, true, ControlsOf::both);
   EXPECT_LE(lines(basics), 11);
   EXPECT_GT(lines(all), lines(basics));
   EXPECT_EQ(basics.find("pad "), std::string::npos);
+  const auto tells = [](ControlsOf of, const char* what) {
+    return describe_controls(Telling::all, false, of).find(what) != std::string::npos;
+  };
+  EXPECT_TRUE(tells(ControlsOf::live, "strike") && !tells(ControlsOf::live, "replay"));
+  EXPECT_TRUE(!tells(ControlsOf::replay, "strike") && tells(ControlsOf::replay, "replay"));
+  EXPECT_LE(lines(describe_controls(Telling::basics, false, ControlsOf::replay)), 14);
   EXPECT_NE(all.find("pad RB"), std::string::npos);
-  EXPECT_EQ(describe_controls(Telling::nothing, true, true), "");
+  EXPECT_EQ(describe_controls(Telling::nothing, true, ControlsOf::both), "");
   EXPECT_EQ(after(after(after(Telling::basics))), Telling::basics);
 }
 

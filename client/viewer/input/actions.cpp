@@ -70,13 +70,14 @@ struct Motion {
   std::string_view by_hand;
   std::string_view by_gamepad;
   std::string_view does;
+  bool changes = false;  ///< the world, which a replay does not let
 };
 
 constexpr std::array<Motion, 4> motions{{
     {"W A S D", "pad left stick", "move (Shift or left trigger: faster)"},
     {"Space C", "pad stick presses", "up, down; on foot, Space jumps"},
     {"mouse", "pad right stick", "look"},
-    {"left click", "pad right trigger", "strike; the wheel sets the size"},
+    {"left click", "pad right trigger", "strike; the wheel sets the size", true},
 }};
 
 /// What a newcomer needs; the help says where the rest is.
@@ -86,6 +87,7 @@ constexpr std::array replay_basics{Action::next_eye,
                                    Action::replay_play,
                                    Action::replay_second_back,
                                    Action::replay_second_on,
+                                   Action::replay_previous_event,
                                    Action::replay_next_event,
                                    Action::panel,
                                    Action::help,
@@ -104,7 +106,7 @@ std::span<const Binding> bindings() {
   return table;
 }
 
-std::string describe_controls(Telling telling, bool gamepad, bool replay) {
+std::string describe_controls(Telling telling, bool gamepad, ControlsOf of) {
   std::string text;
   if (telling == Telling::nothing) return text;
   const auto add = [&](std::string_view key, std::string_view button, std::string_view does) {
@@ -113,10 +115,13 @@ std::string describe_controls(Telling telling, bool gamepad, bool replay) {
     if (gamepad) text.append(button).append(gamepad_column - button.size(), ' ');
     text.append(does).append("\n");
   };
-  for (const Motion& motion : motions) add(motion.by_hand, motion.by_gamepad, motion.does);
-  const std::span<const Action> first = replay ? std::span<const Action>(replay_basics) : basics;
+  for (const Motion& motion : motions)
+    if (of != ControlsOf::replay || !motion.changes) add(motion.by_hand, motion.by_gamepad, motion.does);
+  const std::span<const Action> first =
+      of == ControlsOf::replay ? std::span<const Action>(replay_basics) : basics;
   for (const Binding& binding : table)
-    if (telling == Telling::all ? replay || !binding.of_replay : contains(first, binding.action))
+    if (telling == Telling::all ? of != ControlsOf::live || !binding.of_replay
+                                : contains(first, binding.action))
       add(binding.key_name, binding.button_name, binding.does);
   return text;
 }

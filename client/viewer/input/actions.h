@@ -98,8 +98,10 @@ constexpr Telling after(Telling telling) {
   return static_cast<Telling>((static_cast<size_t>(telling) + 1) % kind_count<Telling>);
 }
 
-/// A description of the controls by keys and mouse, by gamepad if wanted, and of a replay's if wanted, one
-/// line each.
-std::string describe_controls(Telling telling, bool gamepad, bool replay);
+/// Whose controls are told: a live world has no timeline, and a replay is not changed.
+enum class ControlsOf : uint8_t { live, replay, both };
+
+/// A description of the controls by keys and mouse, and by gamepad if wanted, one line each.
+std::string describe_controls(Telling telling, bool gamepad, ControlsOf of);
 
 }  // namespace scree

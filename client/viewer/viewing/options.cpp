@@ -138,7 +138,7 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->check(check_writable, "FILE");
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
       ->envname("SCREE_GL_DEBUG");
-  app.footer("Keys, mouse and gamepad:\n" + describe_controls(Telling::all, true, true));
+  app.footer("Keys, mouse and gamepad:\n" + describe_controls(Telling::all, true, ControlsOf::both));
 }
 
 Result<void> understand_grid(const std::string& spacing, GridShape& grid) {

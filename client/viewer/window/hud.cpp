@@ -59,10 +59,10 @@ void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines)
   panels_.end();
 }
 
-void Hud::help(Telling telling, bool gamepad, bool replay) {
+void Hud::help(Telling telling, bool gamepad, ControlsOf of) {
   if (telling == Telling::nothing) return;
   panels_.begin(PanelPlace::lower_left);
-  ImGui::TextUnformatted(describe_controls(telling, gamepad, replay).c_str());
+  ImGui::TextUnformatted(describe_controls(telling, gamepad, of).c_str());
   panels_.end();
 }
 

@@ -43,7 +43,7 @@ class Hud {
   void lower_right(const HudFacts& facts, const PersonsMessage* persons, bool graphs);
   /// The chosen method; null if none was chosen. Sliders and boxes change the values.
   const MethodEntry* panel(const MethodEntry& chosen, const PanelValues& values);
-  void help(Telling telling, bool gamepad, bool replay);
+  void help(Telling telling, bool gamepad, ControlsOf of);
   /// Above everything: what must not be overlooked.
   void banner(const std::string& text);
   /// Below everything: a method that is being made ready, and what there is to say now, a line each. Nothing

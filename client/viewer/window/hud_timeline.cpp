@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <imgui/imgui.h>
 
 #include "client/viewer/window/hud.h"
@@ -173,9 +174,11 @@ void show_buttons(Timeline& timeline) {
   button(playback.playing ? "hold" : "play", Action::replay_play, "J");
   button(playback.speed > 0.0F ? "backwards" : "forwards ", Action::replay_turn, "Y");
   button("-", Action::replay_slower, "slower (Down)");
-  ImGui::Text("%5.4gx", static_cast<double>(playback.speed));
-  ImGui::SameLine();
   button("+", Action::replay_faster, "faster (Up)");
+  std::array<char, 16> speed{};
+  std::snprintf(speed.data(), speed.size(), "%gx", static_cast<double>(playback.speed));
+  ImGui::Text("%-6s", speed.data());
+  ImGui::SameLine();
   button("< event", Action::replay_previous_event, "the event before (9)");
   button("event >", Action::replay_next_event, "the next event (0)");
   ImGui::EndDisabled();
