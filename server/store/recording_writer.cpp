@@ -1,6 +1,7 @@
 #include "server/store/recording_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
