@@ -18,7 +18,8 @@ const ImU32 ground_colour = IM_COL32(10, 12, 16, 200);
 const ImU32 played_colour = IM_COL32(255, 255, 255, 26);
 const ImU32 unread_colour = IM_COL32(255, 255, 255, 14);
 const ImU32 hand_colour = IM_COL32(255, 255, 255, 240);
-const ImU32 grows_colour = IM_COL32(235, 60, 50, 255);
+const ImU32 grows_colour = IM_COL32(255, 105, 95, 255);
+const ImVec4 refusal_colour(1.0F, 0.75F, 0.4F, 1.0F);
 
 ImVec4 colour_of(EventKind kind) {
   switch (kind) {
@@ -145,8 +146,12 @@ std::string moment_text(const Timeline& timeline, double tick) {
          time_text(static_cast<double>(timeline.playback().last), timeline.tick_rate_hz());
 }
 
+/// Above the bar, so that it hides neither that nor what stands under it.
 void tell_what_is_near(const Bar& bar, const Timeline& timeline) {
   const float x = ImGui::GetIO().MousePos.x;
+  const float middle = std::clamp(x, bar.at.x, bar.at.x + bar.size.x);
+  ImGui::SetNextWindowPos(ImVec2(middle, bar.at.y - ImGui::GetStyle().WindowPadding.y), ImGuiCond_Always,
+                          ImVec2((middle - bar.at.x) / bar.size.x, 1.0F));
   const double tick = bar.tick_at(x);
   const std::string near = events_near(bar, timeline.marks(), x);
   ImGui::SetTooltip("%s, tick %.0f%s%s", time_text(tick, timeline.tick_rate_hz()).c_str(), tick,
@@ -177,7 +182,7 @@ void show_buttons(Timeline& timeline) {
   button("+", Action::replay_faster, "faster (Up)");
   std::array<char, 16> speed{};
   std::snprintf(speed.data(), speed.size(), "%gx", static_cast<double>(playback.speed));
-  ImGui::Text("%-6s", speed.data());
+  ImGui::Text("%-5s", speed.data());
   ImGui::SameLine();
   button("< event", Action::replay_previous_event, "the event before (9)");
   button("event >", Action::replay_next_event, "the next event (0)");
@@ -194,23 +199,33 @@ class Rest {
     ImGui::TextColored(colour, "%s", text.c_str());
     ImGui::SameLine();
   }
-  /// A square of the kind's colour, and its name.
-  void kind(EventKind kind) {
-    const std::string name(name_of(kind));
-    const float side = 0.7F * ImGui::GetFontSize();
-    if (!has_room(side + 4.0F + ImGui::CalcTextSize(name.c_str()).x)) return;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float top = at.y + 0.5F * (ImGui::GetFontSize() - side);
-    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, top), ImVec2(at.x + side, top + side),
-                                              ImGui::ColorConvertFloat4ToU32(colour_of(kind)));
-    ImGui::Dummy(ImVec2(side, ImGui::GetFontSize()));
-    ImGui::SameLine(0.0F, 4.0F);
-    ImGui::TextUnformatted(name.c_str());
-    ImGui::SameLine();
+  /// Squares of the kinds' colours, and their names: all, or none.
+  void legend(const std::vector<EventKind>& kinds) {
+    float width = 0.0F;
+    for (const EventKind kind : kinds) width += width_of(kind);
+    if (!has_room(width)) return;
+    for (const EventKind kind : kinds) add(kind);
   }
 
  private:
+  static constexpr float gap = 4.0F;  ///< pixels, between a square and its name
+
   bool has_room(float width) const { return ImGui::GetCursorScreenPos().x + width <= right_; }
+  static float side() { return 0.7F * ImGui::GetFontSize(); }
+  static float width_of(EventKind kind) {
+    return side() + gap + ImGui::CalcTextSize(std::string(name_of(kind)).c_str()).x +
+           ImGui::GetStyle().ItemSpacing.x;
+  }
+  static void add(EventKind kind) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 0.5F * (ImGui::GetFontSize() - side());
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, top), ImVec2(at.x + side(), top + side()),
+                                              ImGui::ColorConvertFloat4ToU32(colour_of(kind)));
+    ImGui::Dummy(ImVec2(side(), ImGui::GetFontSize()));
+    ImGui::SameLine(0.0F, gap);
+    ImGui::TextUnformatted(std::string(name_of(kind)).c_str());
+    ImGui::SameLine();
+  }
 
   float right_;
 };
@@ -221,7 +236,7 @@ void show_rest(const Timeline& timeline, double moment, float right) {
   rest.text(moment_text(timeline, moment), plain);
   if (timeline.playback().grows) rest.text("being recorded", ImGui::ColorConvertU32ToFloat4(grows_colour));
   rest.text("tick " + std::to_string(std::llround(moment)), ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  for (const EventKind kind : Rows(timeline.marks()).kinds) rest.kind(kind);
+  rest.legend(Rows(timeline.marks()).kinds);
   ImGui::NewLine();
 }
 
@@ -238,7 +253,7 @@ void Hud::timeline(Timeline& timeline, double now_s) {
   show_rest(timeline, timeline.moment(now_s), right);
   if (!timeline.may_control()) {
     ImGui::PushTextWrapPos(width + ImGui::GetStyle().WindowPadding.x);
-    ImGui::TextDisabled("%s", timeline.playback().refusal.c_str());
+    ImGui::TextColored(refusal_colour, "you may look on: %s", timeline.playback().refusal.c_str());
     ImGui::PopTextWrapPos();
   }
   panels_.end();
