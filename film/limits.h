@@ -22,7 +22,7 @@ inline constexpr double film_speed_max = 60.0;
 inline constexpr double film_frame_s_max = 600.0;
 
 /// Milliseconds between two looks whether the work on a frame, or the encoder, is ready.
-inline constexpr int film_pause_ms = 1;
+inline constexpr int film_pause_ms = 2;
 inline constexpr int encoder_pause_ms = 20;
 
 /// Seconds for which the encoder may finish its file after the last frame. Above: it is ended, with an error.

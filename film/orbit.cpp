@@ -49,18 +49,26 @@ bool is_in_sight(Field& field, glm::vec3 eye_m, glm::vec3 place_m, float radius_
          !trace(field, eye_m / voxel_m, glm::normalize(place_m - eye_m), way_m / voxel_m).has_value();
 }
 
-/// The first of so many directions in a row of which most are open; and how many are.
+/// So many directions in a row of which most are open, and how many are; where there are several such arcs,
+/// the one in their middle: it is the farthest from rock.
 struct Arc {
   size_t first = 0;
   size_t open = 0;
 };
 
 Arc most_open(const std::array<bool, directions>& open, size_t length) {
-  Arc best;
+  std::array<size_t, directions> counts{};
+  for (size_t first = 0; first < directions; ++first)
+    for (size_t i = 0; i < length; ++i) counts[first] += open[(first + i) % directions] ? 1 : 0;
+  const size_t most = *std::ranges::max_element(counts);
+  Arc best{0, most};
+  size_t longest = 0;
   for (size_t first = 0; first < directions; ++first) {
-    Arc arc{first, 0};
-    for (size_t i = 0; i < length; ++i) arc.open += open[(first + i) % directions] ? 1 : 0;
-    if (arc.open > best.open) best = arc;
+    size_t run = 0;
+    while (run < directions && counts[(first + run) % directions] == most) ++run;
+    if (run <= longest) continue;
+    longest = run;
+    best.first = (first + run / 2) % directions;
   }
   return best;
 }

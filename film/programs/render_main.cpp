@@ -41,8 +41,9 @@ int run(int argc, char** argv) {
     std::printf("%s\n", line_of(options, *film).c_str());
     return 0;
   }
-  const std::string why =
-      signals.asked() ? "stopped; no half film stays, but pictures that are whole" : film.error().message;
+  const std::string why = signals.asked()
+                              ? "stopped: the film is not whole; of its files only whole PNGs stay"
+                              : film.error().message;
   std::fprintf(stderr, "scree-render: %s\n", why.c_str());
   return failed;
 }
