@@ -158,11 +158,9 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));
-  if (auto format = check_format(state->database, world_schema::world); !format)
-    return tl::unexpected(format.error());
-  if (auto done = state->database.execute("PRAGMA cache_size = -" + std::to_string(limits::page_cache_kib));
-      !done)
-    return tl::unexpected(done.error());
+  auto usable = check_format(state->database, world_schema::world);
+  if (usable) usable = state->database.execute(world_schema::bound_page_cache());
+  if (!usable) return tl::unexpected(usable.error());
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
 }
 
@@ -320,8 +318,7 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
 /// Without SQLite's log a reader would keep the first save out.
 Result<void> WorldFile::hold_moment() {
   const auto mode = state_->database.text("PRAGMA journal_mode");
-  if (!mode) return tl::unexpected(mode.error());
-  return *mode == "wal" ? state_->database.execute("BEGIN") : Result<void>();
+  return mode && *mode == "wal" ? state_->database.execute("BEGIN") : Result<void>();
 }
 
 Result<WorldRows> WorldFile::read_moment() {

@@ -6,6 +6,7 @@
 
 #include "proto/world_codec.h"
 #include "server/store/file_kind.h"
+#include "server/store/limits.h"
 #include "shared/field/coord.h"
 
 namespace scree::world_schema {
@@ -25,6 +26,10 @@ inline std::string create_tables() {
     sql += std::string("CREATE TABLE ") + table +
            " (key INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
   return sql;
+}
+
+inline std::string bound_page_cache() {
+  return "PRAGMA cache_size = -" + std::to_string(limits::page_cache_kib);
 }
 
 inline std::string put_into(const std::string& table) {

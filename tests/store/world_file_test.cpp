@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "server/store/chunk_fetcher.h"
 #include "server/store/world_keeper.h"
 #include "server/store/world_lock.h"
 #include "server/world/world.h"
@@ -234,6 +235,24 @@ TEST_F(WorldFileTest, a_backup_is_whole_while_the_world_is_saved) {
   const auto reader = WorldFile::open(path);
   ASSERT_TRUE(reader.has_value() && (*reader)->copy_to(copy).has_value());
   EXPECT_EQ(refusal_of(copy), "");
+}
+
+TEST_F(WorldFileTest, chunks_that_were_read_are_taken_a_few_at_a_time) {
+  make();
+  ChunkFetcher fetcher;
+  ASSERT_TRUE(fetcher.start(path).has_value());
+  const std::vector<ChunkCoord> chunks = world->field().edited_chunks();
+  ASSERT_GE(chunks.size(), 3U);
+  for (size_t i = 0; i < 3; ++i) fetcher.ask(chunks[i]);
+  while (fetcher.chunks_read() < 3) std::this_thread::yield();
+  std::vector<SuppliedChunk> came;
+  while (came.size() < 3) {
+    std::vector<SuppliedChunk> some = fetcher.take(2);
+    ASSERT_LE(some.size(), 2U);
+    for (SuppliedChunk& one : some) came.push_back(std::move(one));
+  }
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(came[i].chunk, chunks[i]);
+  EXPECT_TRUE(fetcher.take(2).empty());
 }
 
 }  // namespace
