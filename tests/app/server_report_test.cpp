@@ -41,6 +41,8 @@ TEST(ServerReport, stages_that_seldom_act_are_judged_by_the_ticks_in_which_they_
   EXPECT_NEAR(stages.at("carve").at("median").get<double>(), 3.0, 0.1);
   EXPECT_EQ(stages.at("support").at("count"), 3);
   EXPECT_EQ(stages.at("tick").at("count"), 3);
+  for (const char* around : {"whole_tick", "whole_tick_cpu", "terrain_in", "keep"})
+    EXPECT_TRUE(stages.contains(around)) << around;
   for (const TickStageRow& row : tick_stages) EXPECT_TRUE(stages.contains(row.name)) << row.name;
 }
 

@@ -12,6 +12,7 @@
 #include "server/app/admission.h"
 #include "server/app/limits.h"
 #include "server/app/piece_outlook.h"
+#include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
 #include "server/store/database.h"
@@ -220,6 +221,26 @@ TEST_F(PagerTest, terrain_gives_way_to_what_the_model_does_not_know_of_and_takes
   EXPECT_LT(pager->memory().beyond_bytes, config.memory_max_mb * limits::beyond_share_max * bytes_per_mb);
   ticks(40);
   EXPECT_EQ(pager->memory().beyond_bytes, 0.0);
+}
+
+TEST(resident_memory, is_what_the_system_says_and_holes_are_given_back) {
+  ResidentMemory seen;
+  EXPECT_GT(seen.bytes(), 1e6);
+  seen.bound(0.0);
+  constexpr size_t size = 256, count = 400000;  // smaller than what malloc gives back by itself
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (size_t i = 0; i < count; ++i) {
+    blocks.push_back(std::make_unique<char[]>(size));
+    blocks.back()[0] = 1;
+  }
+  const double full = resident_bytes();
+  const auto last = std::move(blocks.back());  // keeps the end of the heap
+  blocks.clear();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (seen.bytes() > full - 0.5 * size * count) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    std::this_thread::yield();
+  }
 }
 
 TEST(temporary_world, goes_with_its_server_and_a_left_one_with_the_next) {

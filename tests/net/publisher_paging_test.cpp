@@ -2,6 +2,7 @@
 // been out.
 #include <gtest/gtest.h>
 
+#include "shared/base/random.h"
 #include "tests/support/publisher_fixture.h"
 
 namespace scree {
@@ -105,6 +106,37 @@ TEST_F(PublisherPagingTest, a_joiner_gets_chunks_when_they_are_read_and_operatio
   play({source.carve({2.0F, -1.0F, 0.0F}, 1.5F, 2)});
   for (int i = 0; i < 10; ++i) play();
   expect_whole_field_equal(session);
+}
+
+TEST(EncodeCache, forgets_chunks_at_the_next_tick_when_they_are_too_many_bytes) {
+  EncodeCache cache;
+  Random random(3);
+  std::vector<PublishedChunk> chunks(300);
+  size_t bytes = 0;
+  const auto encoded = [&](int i) { return cache.chunk({i, 0, 0}, chunks[static_cast<size_t>(i)]); };
+  for (int i = 0; i < 300; ++i) {
+    PublishedChunk& chunk = chunks[static_cast<size_t>(i)];
+    chunk.version = 1;
+    for (int index = 0; index < static_cast<int>(chunk_brick_count); ++index) {
+      Brick brick;
+      for (Code& code : brick.codes) code = static_cast<Code>(random.next() % 255 - 127);
+      const BrickCoord coord = brick_in_chunk({i, 0, 0}, index);
+      chunk.bricks[coord] = {coord, std::make_shared<const Brick>(brick), brick_hash(coord, brick, {}), {}};
+      chunk.hash += chunk.bricks[coord].hash;
+      chunk.edited |= uint64_t{1} << index;
+    }
+    bytes += encoded(i)->size();
+    if (i == 99) {
+      cache.start_tick();
+      EXPECT_EQ(cache.chunk({0, 0, 0}, chunks[0]), encoded(0)) << "there is room for them";
+    }
+  }
+  ASSERT_GT(bytes, limits::encoded_chunk_bytes_max);
+  const SharedBytes first = encoded(0);
+  EXPECT_EQ(encoded(0), first);
+  cache.start_tick();
+  EXPECT_NE(encoded(0), first);
+  EXPECT_EQ(*encoded(0), *first);
 }
 
 }  // namespace
