@@ -121,7 +121,7 @@ void draw_blast(Film& film) {
   const glm::vec3 impact_m(1.6F, 5.0F, 20.0F);
   const Camera camera = look_at({11.0F, 5.6F, 25.5F}, {2.2F, 2.5F, 20.0F});
   film.shoot("cliff", camera);
-  film.ask(blow(sphere({0.6F, 5.0F, 20.0F}, 2.4F), impact_m, 80, 2.0F));
+  film.ask(blow(crater({0.6F, 5.0F, 20.0F}, 2.4F), impact_m, 80, 2.0F));
   film.run(6);
   film.shoot("fracture", camera);
   film.run(60);
@@ -141,7 +141,7 @@ void draw_tower(Film& film) {
   const Camera camera = look_at({x + 13.0F, base_m + 5.0F, z + 11.0F}, {x, base_m + 4.2F, z});
   film.shoot("tower_before", camera);
   const glm::vec3 foot_m(x, base_m + 1.3F, z);
-  film.ask(blow(sphere(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
+  film.ask(blow(crater(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
   film.run(120);
   film.shoot("tower_during", camera);
   film.settle();
@@ -169,7 +169,7 @@ void draw_arch(Film& film) {
   const Camera camera = look_at({31.0F, 6.0F, 9.0F}, {15.0F, 3.8F, 0.0F});
   for (const float z : {-7.4F, 7.4F}) {
     const glm::vec3 foot_m(15.0F, 1.8F, z);
-    film.ask(blow(sphere(foot_m, 2.8F), foot_m + glm::vec3(2.0F, 0.0F, 0.0F), 24, 4.0F));
+    film.ask(blow(crater(foot_m, 2.8F), foot_m + glm::vec3(2.0F, 0.0F, 0.0F), 24, 4.0F));
   }
   film.run(30);
   film.shoot("island", camera);
@@ -182,7 +182,7 @@ void draw_arch(Film& film) {
 /// One carved scene, some of it in flight, by every method.
 void draw_methods(Film& film) {
   const auto strike = [&](glm::vec3 at_m) {
-    film.ask(blow(sphere(at_m, 2.2F), at_m + glm::vec3(1.5F, 0.5F, 0.0F), 40, 5.0F));
+    film.ask(blow(crater(at_m, 2.2F), at_m + glm::vec3(1.5F, 0.5F, 0.0F), 40, 5.0F));
   };
   strike({0.6F, 5.0F, 14.0F});
   strike({0.4F, 8.5F, 17.0F});

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <functional>
 
 #include "bench/peers/stock_fracture.h"
 #include "bench/support/benches.h"
@@ -35,28 +36,44 @@ double stock_median_ms(const WorldConfig& config, int rounds) {
   return quantile(times_ms, 0.5);
 }
 
-}  // namespace
-
-BenchReport run_carve_bench(const BenchOptions& options) {
-  const int carves = options.quick ? 10 : 100;
-  WorldConfig config;
-  World world(config);
-  ScatteredBlows blows(config.terrain, 50.0F, 2.0F, 64, 11);
-  std::vector<StageTimes> carving, others;
+struct Carved {
+  std::vector<StageTimes> carving;
+  std::vector<StageTimes> others;
   std::vector<double> own_ms;
   size_t pieces = 0;
+};
+
+/// Blows at the same places, by that shape.
+Carved carve_all(const WorldConfig& config, ShapeKind shape, int carves,
+                 const std::function<void(int)>& done) {
+  World world(config);
+  ScatteredBlows blows(config.terrain, 50.0F, 2.0F, 64, 11);
+  Carved carved;
   for (int i = 0; i < carves; ++i) {
-    const CarveRequest blow = blows.next();
+    CarveRequest blow = blows.next();
+    blow.shape.kind = shape;
     // As a server does ahead of its ticks, around clients' eyes (server/app/terrain_ahead.h).
     gather(world.field(), band_box(in_voxels(blow.shape, config.terrain.voxel_size_m)).grown(chunk_size));
     const Command command{0, static_cast<uint32_t>(i), blow};
     const auto delta = world.step({&command, 1});
-    carving.push_back(delta->times);
-    own_ms.push_back(delta->times[TickStage::carve] + delta->times[TickStage::spawn]);
-    pieces += delta->spawned.size();
-    for (int tick = 1; tick < ticks_between_carves; ++tick) others.push_back(world.step({})->times);
-    options.progress(static_cast<double>(i + 1) / carves);
+    carved.carving.push_back(delta->times);
+    carved.own_ms.push_back(delta->times[TickStage::carve] + delta->times[TickStage::spawn]);
+    carved.pieces += delta->spawned.size();
+    for (int tick = 1; tick < ticks_between_carves; ++tick) carved.others.push_back(world.step({})->times);
+    done(i + 1);
   }
+  return carved;
+}
+
+}  // namespace
+
+BenchReport run_carve_bench(const BenchOptions& options) {
+  const int carves = options.quick ? 10 : 100;
+  const WorldConfig config;
+  const auto progress = [&](int done) { options.progress(static_cast<double>(done) / (2 * carves)); };
+  const auto [carving, others, own_ms, pieces] = carve_all(config, ShapeKind::sphere, carves, progress);
+  const Carved craters =
+      carve_all(config, ShapeKind::crater, carves, [&](int done) { progress(carves + done); });
   BenchReport report;
   report.metric("carves", carves);
   report.metric("pieces_per_carve", static_cast<double>(pieces) / carves);
@@ -74,6 +91,12 @@ BenchReport run_carve_bench(const BenchOptions& options) {
   report.check("times_faster", stock_ms >= 40.0 * own_ms_median,
                fmt::format("{:.2f} ms against {:.1f}: {:.0f} times, wanted 40", own_ms_median, stock_ms,
                            stock_ms / own_ms_median));
+  const double crater_ms = quantile(craters.own_ms, 0.5);
+  report.metric("crater_own_work_median_ms", crater_ms);
+  report.metric("crater_pieces_per_carve", static_cast<double>(craters.pieces) / carves);
+  report.check("crater_times_faster", stock_ms >= 40.0 * crater_ms,
+               fmt::format("{:.2f} ms against {:.1f} for a smooth ball: {:.0f} times, wanted 40", crater_ms,
+                           stock_ms, stock_ms / crater_ms));
   // Cells under two voxels, near the impact, join a neighbour.
   report.check(
       "pieces", pieces * 100 >= static_cast<size_t>(carves) * 64 * 98,

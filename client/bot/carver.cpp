@@ -56,8 +56,8 @@ CarveMessage Carver::next(Field& field, uint32_t request) {
   const Hit hit = look(field);
   CarveMessage carve;
   carve.request = request;
-  carve.shape =
-      sphere(hit.point_m + hit.direction * (config_.radius_m * carve_depth_in_radii), config_.radius_m);
+  carve.shape = {config_.shape, hit.point_m + hit.direction * (config_.radius_m * carve_depth_in_radii),
+                 glm::vec3(0.0F), config_.radius_m};
   const SeedPattern in_turn = request % 2 == 0 ? SeedPattern::uniform : SeedPattern::radial;
   carve.pattern = config_.pattern.value_or(in_turn);
   carve.seeds = config_.seeds;

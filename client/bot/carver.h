@@ -12,9 +12,16 @@
 
 namespace scree {
 
+/// Shapes that a place and a radius make.
+constexpr bool is_centred(ShapeKind kind) {
+  return is_known(kind) && !traits_of(kind).has_b;
+}
+inline constexpr auto bot_shapes = kinds_that<ShapeKind, is_centred>;
+
 struct CarverConfig {
-  glm::vec3 centre_m{0.0F};  ///< y is found from the ground
-  float area_m = 20.0F;      ///< half a side of the square around the centre
+  glm::vec3 centre_m{0.0F};             ///< y is found from the ground
+  float area_m = 20.0F;                 ///< half a side of the square around the centre
+  ShapeKind shape = ShapeKind::crater;  ///< one of bot_shapes
   float radius_m = 2.0F;
   uint32_t seeds = 64;
   /// Nothing: radial and uniform in turn. A pattern that needs points gets those of a wall's stones, every

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shared/base/check.h"
+#include "shared/field/crater.h"
 
 namespace scree {
 
@@ -25,6 +26,7 @@ void write_codes(Window& out, Distance&& distance_at) {
 }  // namespace
 
 Window codes_of(const Shape& shape_voxels, const VoxelBox& box) {
+  if (shape_voxels.kind == ShapeKind::crater) return crater_codes(shape_voxels, box);
   Window out(box);
   const glm::vec3 centre = shape_voxels.a;
   const float radius = shape_voxels.radius_m;

@@ -29,6 +29,7 @@ Bounds bounds_of(const Shape& shape) {
     case ShapeKind::capsule:
       return {glm::min(shape.a, shape.b) - radius, glm::max(shape.a, shape.b) + radius};
     case ShapeKind::sphere:
+    case ShapeKind::crater:
       return {shape.a - radius, shape.a + radius};
   }
   CHECK(is_known(shape.kind));
@@ -69,6 +70,7 @@ float distance(const Shape& shape, glm::vec3 p) {
     case ShapeKind::capsule:
       return capsule_distance(shape, p);
     case ShapeKind::sphere:
+    case ShapeKind::crater:
       return sphere_distance(shape, p);
   }
   CHECK(is_known(shape.kind));
@@ -96,6 +98,7 @@ float reach_of(const Shape& shape) {
     case ShapeKind::capsule:
       return longest(glm::abs(shape.b - shape.a)) * 0.5F + shape.radius_m;
     case ShapeKind::sphere:
+    case ShapeKind::crater:
       return shape.radius_m;
   }
   CHECK(is_known(shape.kind));
@@ -114,6 +117,7 @@ Result<void> validate(const Shape& shape) {
       break;
     case ShapeKind::sphere:
     case ShapeKind::capsule:
+    case ShapeKind::crater:
       if (shape.radius_m == 0.0F) return fail("the radius is zero");
       break;
   }

@@ -10,7 +10,7 @@
 
 namespace scree {
 
-enum class ShapeKind : uint8_t { sphere = 0, box = 1, capsule = 2 };
+enum class ShapeKind : uint8_t { sphere = 0, box = 1, capsule = 2, crater = 3 };
 
 struct ShapeRow {
   std::string_view name;
@@ -25,12 +25,14 @@ constexpr ShapeRow row_of(ShapeKind kind) {
       return {.name = "box", .has_b = true};
     case ShapeKind::capsule:
       return {.name = "capsule", .has_b = true};
+    case ShapeKind::crater:
+      return {.name = "crater", .has_b = false};
   }
   return {};
 }
 
 /// In metres. sphere: centre a, radius. box: centre a, half extents b, corners rounded by radius (≥ 0).
-/// capsule: from a to b, radius.
+/// capsule: from a to b, radius. crater: rough rock within the ball of centre a and this radius (crater.h).
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   glm::vec3 a{0.0F};
@@ -49,11 +51,15 @@ inline Shape box(glm::vec3 centre_m, glm::vec3 half_extents_m) {
 inline Shape capsule(glm::vec3 from_m, glm::vec3 to_m, float radius_m) {
   return {ShapeKind::capsule, from_m, to_m, radius_m};
 }
+inline Shape crater(glm::vec3 centre_m, float radius_m) {
+  return {ShapeKind::crater, centre_m, glm::vec3(0.0F), radius_m};
+}
 
 /// The shape with every length divided by the voxel size.
 Shape in_voxels(const Shape& shape, float voxel_size_m);
 
-/// Signed distance from p to the shape's surface, negative inside; exact, in the shape's own unit.
+/// Signed distance from p to the shape's surface, negative inside; exact, in the shape's own unit. Of a
+/// crater that to its ball, in which it lies: where its wall is depends on the grid (codes_of).
 float distance(const Shape& shape, glm::vec3 p);
 
 /// The voxels within the shape (in voxels) or less than the narrow band away from it.

@@ -81,7 +81,9 @@ std::vector<std::pair<std::string, Shape>> shapes_around(glm::vec3 c) {
   return {{"sphere", sphere(c, 6.3F)},
           {"box", box(c, {6.5F, 4.25F, 5.1F})},
           {"rounded_box", rounded},
-          {"capsule", capsule(c - glm::vec3(5.0F, 2.0F, 1.0F), c + glm::vec3(4.0F, 3.0F, 2.5F), 3.3F)}};
+          {"capsule", capsule(c - glm::vec3(5.0F, 2.0F, 1.0F), c + glm::vec3(4.0F, 3.0F, 2.5F), 3.3F)},
+          {"crater", crater(c + glm::vec3(0.3F, -0.2F, 0.1F), 10.0F)},
+          {"large_crater", crater(c - glm::vec3(0.3F, 9.2F, 7.1F), 27.0F)}};
 }
 
 void print_generate() {

@@ -41,8 +41,8 @@ Command carve(const Shape& shape, uint32_t seeds, glm::vec3 impact_m, float blas
   return {1, 2, request};
 }
 
-/// A block that falls from a height, blows on the ground and again on what they left, a tower that loses its
-/// foot, and a table whose leg gets thin.
+/// A block that falls from a height, blows on the ground and again on what they left, a crater, a tower that
+/// loses its foot, and a table whose leg gets thin.
 std::map<Tick, std::vector<Command>> script() {
   const glm::vec3 up(0.0F, 1.0F, 0.0F), half(0.6F);
   const glm::vec3 block = ground(0.0F) + 16.0F * up, tower = ground(10.0F), blow = ground(-8.0F);
@@ -55,6 +55,7 @@ std::map<Tick, std::vector<Command>> script() {
       {2, {carve(box(block, 2.0F * half), 1, block, 0.0F)}},
       {3, {carve(sphere(blow - 0.5F * up, 1.25F), 16, blow, 6.0F)}},
       {4, {carve(box(table + glm::vec3(1.2F, 7.0F, 0.0F), {1.6F, 0.3F, 1.2F}), 1, table, 0.0F)}},
+      {12, {carve(crater(ground(-14.0F) - 0.5F * up, 1.75F), 20, ground(-14.0F), 6.0F)}},
       {20, {carve(box(tower + 1.0F * up, {1.2F, 0.4F, 1.2F}), 3, tower, 2.0F)}},
       {100, {carve(sphere(blow - 0.8F * up, 1.0F), 8, blow, 4.0F)}},
   };

@@ -45,6 +45,24 @@ TEST(operation, a_carve_takes_out_exactly_what_its_pieces_weigh) {
     }
 }
 
+TEST(operation, a_crater_takes_out_exactly_what_its_pieces_weigh) {
+  for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
+    for (const float radius_m : {0.5F, 1.3F, 2.5F}) {
+      MapField field({TerrainKind::canyon, 2, voxel_m});
+      PieceTable pieces;
+      CarveOperation op = ball(30, SeedPattern::radial);
+      op.shape = crater({0.3F, ground_height_m(field.source(), 0.3F, 0.1F) - 0.3F, 0.1F}, radius_m);
+      op.cutter = cutter;
+      ASSERT_TRUE(validate(op, pieces, voxel_m).has_value());
+      const VoxelBox box = band_box(in_voxels(op.shape, voxel_m));
+      const MassUnits before = mass_in(field, box);
+      const Applied applied = apply(op, field, pieces);
+      EXPECT_LT(applied.terrain_gain, 0);
+      EXPECT_EQ(mass_in(field, box) - before, applied.terrain_gain);
+      EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
+    }
+}
+
 TEST(operation, every_cutter_and_pattern_conserves_mass) {
   for (const Cutter cutter : {Cutter::field, Cutter::slice, Cutter::conform})
     for (const SeedPattern pattern : all_kinds<SeedPattern>) {

@@ -110,13 +110,13 @@ class Agreement : public OffscreenTest {
  protected:
   Agreement() : OffscreenTest("raymarch", {TerrainKind::canyon, 1, voxel_m}, 32.0F) {}
 
-  /// A cave into the cliff that two blows made, a notch beside it, and pits in the ground.
+  /// A cave into the cliff that two blows made, a notch beside it, and pits in the ground: craters, too.
   void SetUp() override {
     OffscreenTest::SetUp();
     for (const glm::vec3 at_m : {glm::vec3(0.5F, 6.0F, 4.0F), {-0.8F, 6.3F, 4.3F}, {1.0F, 4.8F, 6.0F}})
       carve(at_m);
     for (const glm::vec2 at : {glm::vec2(9.0F, 4.0F), {11.0F, 7.0F}, {6.5F, 8.0F}})
-      carve({at.x, ground_height_m(field_.source(), at.x, at.y), at.y});
+      carve({at.x, ground_height_m(field_.source(), at.x, at.y), at.y}, ShapeKind::crater);
     pieces_.clear();
   }
   std::vector<float> look(const View& view) {

@@ -66,10 +66,11 @@ class OffscreenTest : public testing::Test {
     return image ? *image : Image{};
   }
 
-  /// Carves a ball; its pieces hang above the place of the cut.
-  void carve(glm::vec3 at_m) {
+  /// Carves a ball, or a crater; its pieces hang above the place of the cut.
+  void carve(glm::vec3 at_m, ShapeKind kind = ShapeKind::sphere) {
     PieceTable table;
-    const CarveOperation carve{sphere(at_m, 1.5F), SeedPattern::uniform, 12, 5, at_m, next_piece_};
+    const Shape shape{kind, at_m, glm::vec3(0.0F), 1.5F};
+    const CarveOperation carve{shape, SeedPattern::uniform, 12, 5, at_m, next_piece_};
     const Applied applied = apply(Operation(carve), field_, table);
     MirrorChanges changes;
     changes.bricks = applied.changed;

@@ -188,6 +188,8 @@ TEST(Tool, actions_stay_within_the_ranges) {
   change(tool, Action::next_tool);
   EXPECT_EQ(tool.kind, ToolKind::tunnel);
   change(tool, Action::next_tool);
+  EXPECT_EQ(tool.kind, ToolKind::crater);
+  change(tool, Action::next_tool);
   EXPECT_EQ(tool.kind, ToolKind::sphere);
 }
 

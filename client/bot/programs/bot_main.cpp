@@ -27,6 +27,7 @@ std::vector<std::string> names_of() {
 
 struct Options {
   scree::BotConfig bot;
+  std::string shape{scree::name_of(scree::CarverConfig{}.shape)};
   std::string pattern = "radial";
   std::vector<float> centre_m = {0.0F, 0.0F};
   std::string paint;
@@ -71,6 +72,13 @@ void add_carving(CLI::App& app, Options& options) {
                  scree::whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->envname("SCREE_SEEDS")
       ->capture_default_str();
+  std::vector<std::string> shapes;
+  for (const scree::ShapeKind kind : scree::bot_shapes) shapes.emplace_back(scree::name_of(kind));
+  app.add_option("--shape", options.shape,
+                 "of a carve: sphere, or crater, whose wall in the same ball is rough rock")
+      ->envname("SCREE_SHAPE")
+      ->check(CLI::IsMember(shapes))
+      ->capture_default_str();
   std::vector<std::string> patterns = names_of<scree::SeedPattern>();
   patterns.emplace_back(both_patterns);
   app.add_option(
@@ -114,6 +122,7 @@ void add_ending(CLI::App& app, Options& options) {
 /// Derives the rest of the configuration from the parsed options.
 void complete(Options& options) {
   scree::CarverConfig& carver = options.bot.carver;
+  carver.shape = *scree::kind_named<scree::ShapeKind>(options.shape);       // one of bot_shapes
   carver.pattern = scree::kind_named<scree::SeedPattern>(options.pattern);  // none: both
   options.bot.paint = scree::kind_named<scree::Material>(options.paint);
   carver.centre_m = {options.centre_m[0], 0.0F, options.centre_m[1]};

@@ -60,6 +60,7 @@ void LineList::shape(const Shape& shape, LineColour colour) {
   };
   switch (shape.kind) {
     case ShapeKind::sphere:
+    case ShapeKind::crater:
       return ball(shape.a);
     case ShapeKind::box:
       return box(shape.a - shape.b, shape.a + shape.b, colour);

@@ -12,6 +12,7 @@ constexpr std::array table{
     Binding{Action::sphere, GLFW_KEY_1, unbound, "1", "", "tool: sphere"},
     Binding{Action::box, GLFW_KEY_2, unbound, "2", "", "tool: box"},
     Binding{Action::tunnel, GLFW_KEY_3, unbound, "3", "", "tool: tunnel"},
+    Binding{Action::crater, GLFW_KEY_4, unbound, "4", "", "tool: crater, a ball of rough rock"},
     Binding{Action::next_tool, unbound, GLFW_GAMEPAD_BUTTON_A, "", "pad A", "next tool"},
     Binding{Action::next_use, GLFW_KEY_F, GLFW_GAMEPAD_BUTTON_B, "F", "pad B",
             "carve, fill or paint with it"},

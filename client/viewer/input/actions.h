@@ -15,6 +15,7 @@ enum class Action : uint8_t {
   sphere,
   box,
   tunnel,
+  crater,
   next_tool,
   next_use,
   next_material,

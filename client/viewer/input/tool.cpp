@@ -38,6 +38,8 @@ Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
       return sphere(centre_m, tool.radius_m);
     case ToolKind::box:
       return box(centre_m, glm::vec3(tool.radius_m));
+    case ToolKind::crater:
+      return crater(centre_m, tool.radius_m);
     case ToolKind::tunnel:
       // Half the longest extent, the rounded ends included, must not be over the server's limit.
       const float length_m =
@@ -92,6 +94,9 @@ void change(Tool& tool, Action action) {
       break;
     case Action::tunnel:
       tool.kind = ToolKind::tunnel;
+      break;
+    case Action::crater:
+      tool.kind = ToolKind::crater;
       break;
     case Action::next_tool:
       tool.kind = next(all_kinds<ToolKind>, tool.kind);

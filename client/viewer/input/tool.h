@@ -12,7 +12,8 @@
 
 namespace scree {
 
-enum class ToolKind : uint8_t { sphere = 0, box = 1, tunnel = 2 };
+/// A crater has a broken wall (shared/field/crater.h), the others are smooth.
+enum class ToolKind : uint8_t { sphere = 0, box = 1, tunnel = 2, crater = 3 };
 
 /// What a click does with the tool's shape.
 enum class ToolUse : uint8_t { carve = 0, fill = 1, paint = 2 };
@@ -50,12 +51,14 @@ constexpr ToolRow row_of(ToolKind kind) {
       return {.name = "box", .spheres = 8.0F / 4.19F};
     case ToolKind::tunnel:
       return {.name = "tunnel", .spheres = 1.0F + 0.75F * (tunnel_length_in_radii - 2.0F)};
+    case ToolKind::crater:
+      return {.name = "crater", .spheres = 0.65F};
   }
   return {};
 }
 
 struct Tool {
-  ToolKind kind = ToolKind::sphere;
+  ToolKind kind = ToolKind::crater;
   ToolUse use = ToolUse::carve;
   Material material = Material::rock;  ///< to paint with
   float radius_m = 2.0F;               ///< of a box: half its side; a tunnel is six times as long
