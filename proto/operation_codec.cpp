@@ -1,5 +1,6 @@
 #include "proto/operation_codec.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -25,8 +26,18 @@ static_assert(kinds <= kind_mask + 1);
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
-/// In place of the method: a stamp of several pieces by the method `stamp`.
-constexpr uint64_t method_group = kind_count<StampMethod>;
+/// What stands in the method's place: how pieces merge, and whether several do at once.
+struct WireMethod {
+  StampMethod method;
+  bool together;
+
+  bool operator==(const WireMethod&) const = default;
+};
+constexpr std::array wire_methods = {
+    WireMethod{StampMethod::stamp, false},  WireMethod{StampMethod::slices, false},
+    WireMethod{StampMethod::sphere, false}, WireMethod{StampMethod::stamp, true},
+    WireMethod{StampMethod::facets, false}, WireMethod{StampMethod::facets, true}};
+static_assert(wire_methods.size() == kind_count<StampMethod> + kinds_that<StampMethod, lays>.size());
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
 
@@ -84,8 +95,9 @@ struct Writing {
     writer.u32(stamp.pose.rotation);
     const uint64_t shift = fold_sign(stamp.shift);
     CHECK(shift >> shift_bits == 0);
-    const uint64_t method = stamp.others.empty() ? static_cast<uint8_t>(stamp.method) : method_group;
-    writer.varint((method << shift_bits) | shift);
+    // The number after the last, which nobody reads, where there is no such method.
+    const auto method = std::ranges::find(wire_methods, WireMethod{stamp.method, !stamp.others.empty()});
+    writer.varint((static_cast<uint64_t>(method - wire_methods.begin()) << shift_bits) | shift);
     if (stamp.others.empty()) return;
     CHECK(stamp.others.size() < limits::stamp_group_max);
     writer.varint(stamp.others.size());
@@ -159,15 +171,14 @@ void read(ByteReader& reader, PieceId id, StampOperation& stamp) {
   };
   stamp.pose = read_pose();
   const uint64_t method_and_shift =
-      reader.varint("method and shift of a stamp", ((method_group + 1) << shift_bits) - 1);
-  const uint64_t method = method_and_shift >> shift_bits;
+      reader.varint("method and shift of a stamp", (wire_methods.size() << shift_bits) - 1);
+  // A varint over its bound is refused; whatever it gives then has a method.
+  const WireMethod& method = wire_methods.at((method_and_shift >> shift_bits) % wire_methods.size());
   stamp.shift = static_cast<int32_t>(unfold_sign(method_and_shift & ((1U << shift_bits) - 1)));
   if (stamp.shift < -stamp_shift_max)
     reader.refuse("shift of a stamp is beyond ±" + std::to_string(stamp_shift_max));
-  if (method != method_group) {
-    stamp.method = static_cast<StampMethod>(method);
-    return;
-  }
+  stamp.method = method.method;
+  if (!method.together) return;
   const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
   if (others == 0) reader.refuse("a stamp together with none");
   for (uint64_t i = 0; i < others && !reader.failed(); ++i) {

@@ -167,7 +167,7 @@ void merge_heap(bool grouped, Field& field, PieceTable pieces, MethodFigures& fi
     for (const StampedPiece& one : group) mass += made.at(one.piece)->mass;
     const Window exact = exact_union(field, made, group);
     watch.lap_ms();
-    const PreparedStamp prepared = prepare_group(field, pieces, group, mass);
+    const PreparedStamp prepared = prepare_group(field, pieces, group, StampMethod::stamp, mass);
     plan_us += 1000.0 * watch.lap_ms();
     const Applied applied = apply(prepared.operation, field, pieces, &prepared);
     apply_us += 1000.0 * watch.lap_ms();

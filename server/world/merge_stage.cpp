@@ -26,6 +26,8 @@ StampMethod method_of(Recombination recombination) {
       return StampMethod::slices;
     case Recombination::sphere:
       return StampMethod::sphere;
+    case Recombination::facets:
+      return StampMethod::facets;
     case Recombination::stamp:
     case Recombination::off:
       break;
@@ -137,8 +139,10 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   for (const StampedPiece& one : group) mass += state.pieces.at(one.piece)->mass;
   const MassUnits budget = stamp_budget(mass, state.ledger.dust);
   const StampedPiece& first = group.front();
-  const PreparedStamp prepared = group.size() > 1 ? prepare_group(state.field, state.pieces, group, budget)
-                                                  : prepare_one(state, first, mass, budget);
+  const StampMethod method = method_of(state.config.methods.recombine);
+  const PreparedStamp prepared = group.size() > 1
+                                     ? prepare_group(state.field, state.pieces, group, method, budget)
+                                     : prepare_one(state, first, mass, budget);
   if (prepared.gain > mass + state.ledger.dust) {
     CHECK(group.size() > 1);
     for (const StampedPiece& one : group) merge_group(state, {one}, delta);
@@ -161,8 +165,7 @@ void merge_pieces(World::State& state, const std::vector<PieceId>& ids, TickDelt
   std::vector<StampedPiece> places;
   for (const PieceId id : with_enclosed(state, ids))
     places.push_back({id, quantise(state.bodies.state(id).pose)});
-  const bool grouping =
-      state.config.methods.group_merges && method_of(state.config.methods.recombine) == StampMethod::stamp;
+  const bool grouping = state.config.methods.group_merges && lays(method_of(state.config.methods.recombine));
   if (!grouping) {
     for (const StampedPiece& one : places) merge_group(state, {one}, delta);
     return;

@@ -13,7 +13,7 @@ namespace scree {
 
 /// How pieces at rest become terrain again: by a method of shared/recombine/stamp_method.h; `off`: they stay
 /// bodies.
-enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3 };
+enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3, facets = 4 };
 
 struct RecombinationRow {
   std::string_view name;
@@ -29,6 +29,8 @@ constexpr RecombinationRow row_of(Recombination recombination) {
       return {.name = "sphere"};
     case Recombination::off:
       return {.name = "off"};
+    case Recombination::facets:
+      return {.name = "facets"};
   }
   return {};
 }
@@ -37,12 +39,12 @@ struct Methods {
   TerrainColliderKind collider = TerrainColliderKind::field;  ///< how bodies find the terrain
   bool impacts = true;                                        ///< hard contacts break pieces again
   bool dents = true;                                          ///< hard contacts dent soft ground
-  bool islands = true;                             ///< terrain that is cut off from the ground falls
-  bool support = false;                            ///< terrain that is too heavy for its neck breaks off
-  Recombination recombine = Recombination::stamp;  ///< how pieces at rest become terrain again
-  bool group_merges = false;                       ///< pieces that rest together become terrain in one pass
-  Cutter cutter = Cutter::field;                   ///< how breaking terrain is cut into pieces
-  Simplifier simplifier = Simplifier::hull;        ///< which points of a piece collide
+  bool islands = true;                              ///< terrain that is cut off from the ground falls
+  bool support = false;                             ///< terrain that is too heavy for its neck breaks off
+  Recombination recombine = Recombination::facets;  ///< how pieces at rest become terrain again
+  bool group_merges = false;                        ///< pieces that rest together become terrain in one pass
+  Cutter cutter = Cutter::field;                    ///< how breaking terrain is cut into pieces
+  Simplifier simplifier = Simplifier::hull;         ///< which points of a piece collide
 
   bool operator==(const Methods&) const = default;
 };

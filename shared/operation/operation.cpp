@@ -109,7 +109,7 @@ using Volumes = std::vector<std::shared_ptr<const Volume>>;
 Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, MassUnits& gain) {
   const float dx = field.source().voxel_size_m;
   const Volume& volume = *volumes.front();
-  const bool whole = op.method != StampMethod::stamp;
+  const bool whole = !lays(op.method);
   const Window laid = whole ? Window() : lay_all(op, volumes, dx);
   Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : merge_box(laid));
   const MassUnits before = mass_of(window);
@@ -118,7 +118,7 @@ Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, M
   } else {
     MassUnits mass = 0;
     for (const auto& one : volumes) mass += one->mass;
-    stamp_laid(window, laid, mass, op.shift);
+    stamp_laid(op.method, window, laid, mass, op.shift);
   }
   gain = mass_of(window) - before;
   return window;
@@ -239,7 +239,8 @@ Result<void> validate_authored(const CarveOperation& op) {
 }
 
 Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) {
-  if (op.method != StampMethod::stamp) return fail("only the method stamp merges several pieces at once");
+  if (!lays(op.method))
+    return fail("the method " + std::string(name_of(op.method)) + " merges one piece at a time");
   std::vector<StampedPiece> group{{op.piece, op.pose}};
   for (const StampedPiece& other : op.others) {
     if (Result<void> valid = known(other.piece, pieces); !valid) return valid;

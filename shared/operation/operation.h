@@ -53,7 +53,7 @@ struct StampedPiece {
 
 /// A piece becomes terrain at this pose; and others with it, in one pass over all of them: united first, then
 /// the gaps closed, the mass met as a whole and the surroundings redistanced (paper, section 4.3: "groups of
-/// objects"). Others by the method `stamp` alone, at most limits::stamp_group_max pieces in all.
+/// objects"). Others only by a method that lays, at most limits::stamp_group_max pieces in all.
 struct StampOperation {
   static constexpr std::string_view plural = "stamps";
   PieceId piece = 0;

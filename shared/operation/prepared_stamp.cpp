@@ -8,20 +8,22 @@ namespace scree {
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
                float voxel_size_m) {
   CHECK_EQ(volumes.size(), op.others.size() + 1);
-  std::vector<Window> laid{lay(*volumes.front(), op.pose, voxel_size_m)};
+  std::vector<Window> laid{lay(op.method, *volumes.front(), op.pose, voxel_size_m)};
   for (size_t i = 0; i < op.others.size(); ++i)
-    laid.push_back(lay(*volumes[i + 1], op.others[i].pose, voxel_size_m));
+    laid.push_back(lay(op.method, *volumes[i + 1], op.others[i].pose, voxel_size_m));
   return together(std::move(laid));
 }
 
 PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
-                            MassUnits budget) {
+                            StampMethod method, MassUnits budget) {
+  CHECK(lays(method));
   CHECK(can_merge_together(group, pieces) || group.size() == 1);
   PreparedStamp prepared;
   prepared.field_hash = field.hash();
   StampOperation& op = prepared.operation;
   op.piece = group.front().piece;
   op.pose = group.front().pose;
+  op.method = method;
   op.others.assign(group.begin() + 1, group.end());
   MassUnits mass = 0;
   for (const StampedPiece& one : group) {
@@ -30,7 +32,7 @@ PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<co
   }
   const Window laid = lay_all(op, prepared.volumes, field.source().voxel_size_m);
   prepared.after = gather(field, merge_box(laid));
-  const StampPlan plan = plan_laid(prepared.after, laid, mass, budget);
+  const StampPlan plan = plan_laid(method, prepared.after, laid, mass, budget);
   op.shift = plan.shift;
   prepared.gain = plan.gain;
   return prepared;
@@ -39,7 +41,7 @@ PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<co
 PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
                             StampMethod method, MassUnits budget) {
   const StampedPiece alone[] = {{piece, pose}};
-  if (method == StampMethod::stamp) return prepare_group(field, pieces, alone, budget);
+  if (lays(method)) return prepare_group(field, pieces, alone, method, budget);
   const float dx = field.source().voxel_size_m;
   PreparedStamp prepared;
   prepared.operation.piece = piece;

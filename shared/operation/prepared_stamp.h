@@ -25,9 +25,9 @@ struct PreparedStamp {
 PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
                             StampMethod method, MassUnits budget);
 
-/// Plans the merge of several pieces in one pass by the method `stamp`; they can_merge_together().
+/// Plans the merge of several pieces in one pass by a method that lays; they can_merge_together().
 PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
-                            MassUnits budget);
+                            StampMethod method, MassUnits budget);
 
 /// All of the operation's pieces on the terrain's grid, in one window; `volumes` has the operation's order.
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,

@@ -27,6 +27,7 @@ float stamp_price_us(StampMethod method) {
     case StampMethod::sphere:
       return limits::sphere_cost_us;
     case StampMethod::stamp:
+    case StampMethod::facets:
       break;
   }
   return limits::stamp_cost_us;

@@ -23,6 +23,9 @@ static_assert(curvature_max * roundness_half <= INT16_MAX);
 /// Half a voxel over the second half of the shifts: 11/16 code each.
 constexpr int uniform_sixteenths = 11;
 
+/// Half a voxel over all shifts, where edges are kept.
+constexpr int keeping_sixteenths = 5;
+
 /// A voxel farther than this from the piece's surface has no part in its edges or clefts.
 constexpr int near_surface = 64;
 
@@ -215,8 +218,9 @@ MassUnits settling_gain(const Window& window) {
          inner_sum(inner.size(), window.codes.data(), inner.data());
 }
 
-MergePatch::MergePatch(const Window& terrain, const Window& piece)
+MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
     : box_(terrain.box),
+      edges_(edges),
       step_x_(static_cast<ptrdiff_t>(box_.size().y) * box_.size().z),
       step_y_(box_.size().z),
       all_(terrain.codes.size()),
@@ -260,9 +264,10 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece)
 MassUnits MergePatch::shape(int roundness) {
   const int size = roundness < 0 ? -roundness : roundness;
   CHECK(size <= stamp_roundness_max + 1);
-  const int curved = std::min(size, roundness_half);
+  const int curved = edges_ == Edges::round ? std::min(size, roundness_half) : 0;
   const Amounts by{static_cast<int16_t>(curved),
-                   static_cast<int16_t>((size - curved) * uniform_sixteenths / 16)};
+                   static_cast<int16_t>(edges_ == Edges::round ? (size - curved) * uniform_sixteenths / 16
+                                                               : size * keeping_sixteenths / 16)};
   if (roundness >= 0)
     grow(all_, by, united_, piece_, concave_, shaped_);
   else

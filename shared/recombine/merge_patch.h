@@ -10,6 +10,10 @@
 
 namespace scree {
 
+/// What gives way first where the mass differs. round: edges and clefts, then the whole surface. keep: the
+/// whole surface alone, so that faces stay flat and edges sharp.
+enum class Edges { round, keep };
+
 class MergePatch {
  public:
   /// Voxels by which the terrain's window is larger than the posed piece's, on every side.
@@ -17,13 +21,13 @@ class MergePatch {
 
   /// Unites the two and closes the gaps between them. `terrain` has the piece's box grown by the margin, and
   /// must outlive the patch; `piece` has at least one layer around the voxels that may become rock.
-  MergePatch(const Window& terrain, const Window& piece);
-  MergePatch(Window&& terrain, const Window& piece) = delete;
+  MergePatch(const Window& terrain, const Window& piece, Edges edges);
+  MergePatch(Window&& terrain, const Window& piece, Edges edges) = delete;
   MergePatch(const MergePatch&) = delete;
   MergePatch& operator=(const MergePatch&) = delete;
 
-  /// Rounds edges (roundness < 0) or fills clefts, and moves the surface (stamp_roundness_max). Returns the
-  /// change of the terrain's mass once redistanced.
+  /// Rounds edges (roundness < 0) or fills clefts, and moves the surface (stamp_roundness_max); or moves it
+  /// alone, by up to half a voxel. Returns the change of the terrain's mass once redistanced.
   MassUnits shape(int roundness);
 
   /// Mass of half a code on every voxel of the surface near the piece, before any shape().
@@ -47,6 +51,7 @@ class MergePatch {
   int move_ramp_ends(int units);
 
   VoxelBox box_;
+  Edges edges_;
   ptrdiff_t step_x_;
   ptrdiff_t step_y_;
   size_t all_;

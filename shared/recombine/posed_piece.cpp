@@ -151,39 +151,136 @@ inline float code_in(uint32_t word) {
   return static_cast<float>(static_cast<int32_t>(word << (24U - 8U * Byte)) >> 24U);
 }
 
+/// Where a voxel lies in the volume: the cell, as the place of its lowest voxel among the cells' words, and
+/// how far along each of its sides.
+struct CellPlace {
+  int index;
+  int outside;  ///< all ones where there is no such cell, else 0
+  float x, y, z;
+};
+
+inline CellPlace place_of(size_t i, size_t count, const float* __restrict offsets, const Cells& cells,
+                          glm::vec3 plane, glm::vec3 centre) {
+  const float x = plane.x + offsets[i] + centre.x + offsets[i + 3 * count];
+  const float y = plane.y + offsets[i + count] + centre.y + offsets[i + 4 * count];
+  const float z = plane.z + offsets[i + 2 * count] + centre.z + offsets[i + 5 * count];
+  const int cell_x = cell_of(x), cell_y = cell_of(y), cell_z = cell_of(z);
+  const int at_x = cell_x - cells.lo_x, at_y = cell_y - cells.lo_y, at_z = cell_z - cells.lo_z;
+  // All six comparisons at once, by their signs.
+  const int outside =
+      (at_x | at_y | at_z | (cells.last_x - at_x) | (cells.last_y - at_y) | (cells.last_z - at_z)) >> 31;
+  return {(at_x * cells.step_x + at_y * cells.step_y + at_z) & ~outside, outside,
+          x - static_cast<float>(cell_x), y - static_cast<float>(cell_y), z - static_cast<float>(cell_z)};
+}
+
+inline float between(const CellPlace& at, uint32_t near, uint32_t far) {
+  const float z00 = code_in<0>(near) + (code_in<1>(near) - code_in<0>(near)) * at.z;
+  const float z01 = code_in<2>(near) + (code_in<3>(near) - code_in<2>(near)) * at.z;
+  const float z10 = code_in<0>(far) + (code_in<1>(far) - code_in<0>(far)) * at.z;
+  const float z11 = code_in<2>(far) + (code_in<3>(far) - code_in<2>(far)) * at.z;
+  const float low = z00 + (z01 - z00) * at.y, high = z10 + (z11 - z10) * at.y;
+  return low + (high - low) * at.x;
+}
+
+inline int nearest_code(float code, int outside) {
+  const int nearest = static_cast<int>(code + (code < 0.0F ? -0.5F : 0.5F));
+  return (nearest & ~outside) | (code_air & outside);
+}
+
 /// The nearest codes of a plane's voxels, trilinearly; air outside the cells. No branch, so that it runs in
 /// vectors.
 SCREE_VECTOR_CLONES
 void sample_plane(size_t count, const float* __restrict offsets, const Cells& cells, glm::vec3 plane,
                   glm::vec3 centre, int* __restrict out) {
-  const float plane_x = plane.x, plane_y = plane.y, plane_z = plane.z;
-  const float centre_x = centre.x, centre_y = centre.y, centre_z = centre.z;
-  const int lo_x = cells.lo_x, lo_y = cells.lo_y, lo_z = cells.lo_z;
-  const int last_x = cells.last_x, last_y = cells.last_y, last_z = cells.last_z;
-  const int step_x = cells.step_x, step_y = cells.step_y;
   const uint32_t* __restrict words = cells.words.data();
   for (size_t i = 0; i < count; ++i) {
-    const float x = plane_x + offsets[i] + centre_x + offsets[i + 3 * count];
-    const float y = plane_y + offsets[i + count] + centre_y + offsets[i + 4 * count];
-    const float z = plane_z + offsets[i + 2 * count] + centre_z + offsets[i + 5 * count];
-    const int cell_x = cell_of(x), cell_y = cell_of(y), cell_z = cell_of(z);
-    const float part_x = x - static_cast<float>(cell_x), part_y = y - static_cast<float>(cell_y),
-                part_z = z - static_cast<float>(cell_z);
-    const int at_x = cell_x - lo_x, at_y = cell_y - lo_y, at_z = cell_z - lo_z;
-    // All six comparisons at once, by their signs.
-    const int outside =
-        (at_x | at_y | at_z | (last_x - at_x) | (last_y - at_y) | (last_z - at_z)) >> 31;  // all ones or 0
-    const int index = (at_x * step_x + at_y * step_y + at_z) & ~outside;
-    CHECK_DEBUG(index >= 0 && static_cast<size_t>(index + step_x) < cells.words.size());
-    const uint32_t near = words[index], far = words[index + step_x];
-    const float z00 = code_in<0>(near) + (code_in<1>(near) - code_in<0>(near)) * part_z;
-    const float z01 = code_in<2>(near) + (code_in<3>(near) - code_in<2>(near)) * part_z;
-    const float z10 = code_in<0>(far) + (code_in<1>(far) - code_in<0>(far)) * part_z;
-    const float z11 = code_in<2>(far) + (code_in<3>(far) - code_in<2>(far)) * part_z;
-    const float low = z00 + (z01 - z00) * part_y, high = z10 + (z11 - z10) * part_y;
-    const float code = low + (high - low) * part_x;
-    const int nearest = static_cast<int>(code + (code < 0.0F ? -0.5F : 0.5F));
-    out[i] = (nearest & ~outside) | (code_air & outside);
+    const CellPlace at = place_of(i, count, offsets, cells, plane, centre);
+    CHECK_DEBUG(at.index >= 0 && static_cast<size_t>(at.index + cells.step_x) < cells.words.size());
+    out[i] = nearest_code(between(at, words[at.index], words[at.index + cells.step_x]), at.outside);
+  }
+}
+
+/// The codes' slopes along one axis, from the side on which they bend less: near the edge of a face that is
+/// the face's own.
+SCREE_VECTOR_CLONES
+void find_slopes(ptrdiff_t count, ptrdiff_t step, const Code* __restrict c, int8_t* __restrict out) {
+  constexpr int16_t steepest = 64;  // a code of a distance changes by 43 at most
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int16_t own = c[i];
+    const auto below = static_cast<int16_t>(own - c[i - step]);
+    const auto above = static_cast<int16_t>(c[i + step] - own);
+    const auto bend_below = static_cast<int16_t>(below - c[i - step] + c[i - 2 * step]);
+    const auto bend_above = static_cast<int16_t>(c[i + 2 * step] - c[i + step] - above);
+    const auto low = static_cast<int16_t>(bend_below < 0 ? -bend_below : bend_below);
+    const auto high = static_cast<int16_t>(bend_above < 0 ? -bend_above : bend_above);
+    const int16_t slope = low <= high ? below : above;
+    out[i] = static_cast<int8_t>(std::clamp<int16_t>(slope, -steepest, steepest));
+  }
+}
+
+/// Each voxel's plane in one word: its slopes along x, y and z, x lowest, and its code.
+SCREE_VECTOR_CLONES
+void pack_planes(size_t count, const int8_t* __restrict x, const int8_t* __restrict y,
+                 const int8_t* __restrict z, const Code* __restrict c, uint32_t* __restrict words) {
+  for (size_t i = 0; i < count; ++i)
+    words[i] = static_cast<uint32_t>(static_cast<uint8_t>(x[i])) |
+               static_cast<uint32_t>(static_cast<uint8_t>(y[i])) << 8U |
+               static_cast<uint32_t>(static_cast<uint8_t>(z[i])) << 16U |
+               static_cast<uint32_t>(static_cast<uint8_t>(c[i])) << 24U;
+}
+
+/// Layers of air around a volume whose planes are looked for: slopes reach two voxels.
+constexpr int plane_margin = 2;
+
+/// In the window's order; those of the two outermost layers are level.
+std::vector<uint32_t> planes_of(const Window& window) {
+  const size_t all = window.codes.size();
+  const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
+  const ptrdiff_t first = 2 * step_x, count = static_cast<ptrdiff_t>(all) - 2 * first;
+  std::vector<int8_t> slopes(3 * all);
+  const auto along = [&](size_t axis) { return slopes.data() + axis * all; };
+  find_slopes(count, step_x, window.codes.data() + first, along(0) + first);
+  find_slopes(count, step_y, window.codes.data() + first, along(1) + first);
+  find_slopes(count, 1, window.codes.data() + first, along(2) + first);
+  std::vector<uint32_t> words(all + static_cast<size_t>(step_x) + 1);
+  pack_planes(all, along(0), along(1), along(2), window.codes.data(), words.data());
+  return words;
+}
+
+inline float on_plane(uint32_t word, float x, float y, float z) {
+  return code_in<3>(word) + (code_in<0>(word) * x + code_in<1>(word) * y + code_in<2>(word) * z);
+}
+
+/// Like sample_plane(), by the planes at the corners of each cell (Reading::planes).
+SCREE_VECTOR_CLONES
+void sample_by_planes(size_t count, const float* __restrict offsets, const Cells& cells,
+                      const uint32_t* __restrict planes, glm::vec3 plane, glm::vec3 centre,
+                      int* __restrict out) {
+  const uint32_t* __restrict words = cells.words.data();
+  const int step_x = cells.step_x, step_y = cells.step_y;
+  for (size_t i = 0; i < count; ++i) {
+    const CellPlace at = place_of(i, count, offsets, cells, plane, centre);
+    const float smooth = between(at, words[at.index], words[at.index + step_x]);
+    const float back_x = at.x - 1.0F, back_y = at.y - 1.0F, back_z = at.z - 1.0F;
+    const uint32_t p000 = planes[at.index], p001 = planes[at.index + 1];
+    const uint32_t p010 = planes[at.index + step_y], p011 = planes[at.index + step_y + 1];
+    const uint32_t p100 = planes[at.index + step_x], p101 = planes[at.index + step_x + 1];
+    const uint32_t p110 = planes[at.index + step_x + step_y], p111 = planes[at.index + step_x + step_y + 1];
+    const float a = on_plane(p000, at.x, at.y, at.z), b = on_plane(p001, at.x, at.y, back_z);
+    const float c = on_plane(p010, at.x, back_y, at.z), d = on_plane(p011, at.x, back_y, back_z);
+    const float e = on_plane(p100, back_x, at.y, at.z), f = on_plane(p101, back_x, at.y, back_z);
+    const float g = on_plane(p110, back_x, back_y, at.z), h = on_plane(p111, back_x, back_y, back_z);
+    const float most =
+        std::max(std::max(std::max(a, b), std::max(c, d)), std::max(std::max(e, f), std::max(g, h)));
+    const float least =
+        std::min(std::min(std::min(a, b), std::min(c, d)), std::min(std::min(e, f), std::min(g, h)));
+    const float sharp = smooth + std::min(0.0F, most - smooth) + std::max(0.0F, least - smooth);
+    // Rock stays within the bounds of the voxels near it (posed_bounds).
+    const float nearest = std::min(
+        std::min(std::min(code_in<3>(p000), code_in<3>(p001)), std::min(code_in<3>(p010), code_in<3>(p011))),
+        std::min(std::min(code_in<3>(p100), code_in<3>(p101)), std::min(code_in<3>(p110), code_in<3>(p111))));
+    const float code = nearest > static_cast<float>(near_code_max) ? smooth : sharp;
+    out[i] = nearest_code(std::max(-127.0F, std::min(127.0F, code)), at.outside);
   }
 }
 
@@ -227,17 +324,29 @@ VoxelBox posed_bounds(const Volume& volume, const QuantisedPose& pose, float vox
   return box;
 }
 
-Window posed_codes(const Volume& volume, const QuantisedPose& pose, float voxel_size_m, const VoxelBox& box) {
+Window posed_codes(const Volume& volume, const QuantisedPose& pose, float voxel_size_m, const VoxelBox& box,
+                   Reading reading) {
   Window out(box);
   if (box.empty()) return out;
+  const bool by_planes = reading == Reading::planes;
+  Window padded;
+  if (by_planes) {
+    padded = Window(volume.window.box.grown(plane_margin));
+    put(volume.window, padded);
+  }
+  const Cells cells(by_planes ? padded : volume.window);
+  const std::vector<uint32_t> planes = by_planes ? planes_of(padded) : std::vector<uint32_t>();
   const PosedAxes axes(volume, pose, voxel_size_m);
-  const Cells cells(volume.window);
   const PlaneOffsets offsets(axes, box);
   std::vector<int> codes(offsets.count);
   Code* to = out.codes.data();
   for (int x = box.lo.x; x < box.hi.x; ++x, to += offsets.count) {
     const glm::vec3 plane = axes.to_local[0] * (static_cast<float>(x) - axes.world_centre.x);
-    sample_plane(offsets.count, offsets.numbers.data(), cells, plane, axes.local_centre, codes.data());
+    if (by_planes)
+      sample_by_planes(offsets.count, offsets.numbers.data(), cells, planes.data(), plane, axes.local_centre,
+                       codes.data());
+    else
+      sample_plane(offsets.count, offsets.numbers.data(), cells, plane, axes.local_centre, codes.data());
     for (size_t i = 0; i < offsets.count; ++i) to[i] = static_cast<Code>(codes[i]);
   }
   return out;

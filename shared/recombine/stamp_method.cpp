@@ -14,7 +14,8 @@ void stamp(StampMethod method, Window& window, const Volume& volume, const Quant
            float voxel_size_m, int shift) {
   switch (method) {
     case StampMethod::stamp:
-      return stamp(window, volume, pose, voxel_size_m, shift);
+    case StampMethod::facets:
+      return stamp(window, volume, pose, voxel_size_m, shift, method);
     case StampMethod::slices:
       return stamp_slices(window, volume, pose, voxel_size_m, shift);
     case StampMethod::sphere:
@@ -30,9 +31,10 @@ StampPlan plan_stamp(StampMethod method, const Window& window, const Volume& vol
     case StampMethod::sphere:
       return plan_sphere(window, volume, pose, voxel_size_m, budget);
     case StampMethod::stamp:
+    case StampMethod::facets:
       break;
   }
-  return plan_stamp(window, volume, pose, voxel_size_m, budget);
+  return plan_stamp(window, volume, pose, voxel_size_m, budget, method);
 }
 
 }  // namespace scree

@@ -39,7 +39,7 @@ FrameMessage frame_of(const Operation& operation, Tick tick) {
 }
 
 TEST(HostileMirror, a_stamp_of_a_window_beyond_all_bounds_is_an_error) {
-  for (const StampMethod method : {StampMethod::stamp, StampMethod::slices, StampMethod::sphere})
+  for (const StampMethod method : all_kinds<StampMethod>)
     for (const Code code : {code_air, code_solid}) {
       Mirror mirror(flat_welcome());
       Volume volume = block(limits::window_side_max, code);
@@ -159,10 +159,11 @@ class Hostility {
   }
   Operation operation(PieceId piece, PieceId next) {
     const auto seeds = chance(4) ? limits::seeds_max : 1 + random_.below(40);
-    const auto cutter = static_cast<Cutter>(random_.below(3));
+    const auto cutter = static_cast<Cutter>(random_.below(kind_count<StampMethod>));
     switch (random_.below(6)) {
       case 0:
-        return StampOperation{piece, pose(), around(8191), static_cast<StampMethod>(random_.below(3))};
+        return StampOperation{piece, pose(), around(8191),
+                              static_cast<StampMethod>(random_.below(kind_count<StampMethod>))};
       case 1: {
         StampOperation together{
             piece, {around(3000), around(3000), around(3000), random_.next()}, around(8191)};
@@ -219,7 +220,7 @@ class Hostility {
   }
   Shape shape() {
     const glm::vec3 at = place(chance(6) ? 5000.0F : 20.0F);
-    switch (random_.below(3)) {
+    switch (random_.below(kind_count<StampMethod>)) {
       case 0:
         return box(at, glm::abs(place(1.5F)));
       case 1:

@@ -363,6 +363,7 @@ int main() {
   scree::print_stamp(scree::StampMethod::stamp, "stamp");
   scree::print_stamp(scree::StampMethod::slices, "slices");
   scree::print_stamp(scree::StampMethod::sphere, "sphere");
+  scree::print_stamp(scree::StampMethod::facets, "facets");
   scree::print_seed_patterns();
   scree::print_shatter(scree::Cutter::field, "shatter");
   scree::print_shatter(scree::Cutter::slice, "shatter_slice");

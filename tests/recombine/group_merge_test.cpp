@@ -35,7 +35,7 @@ StampOperation operation_of(const std::vector<StampedPiece>& group) {
   return {group.front().piece, group.front().pose, 0, StampMethod::stamp, {group.begin() + 1, group.end()}};
 }
 
-TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_changes_no_more_than_it_reads) {
+void merge_in_groups(StampMethod method) {
   for (const size_t together : {size_t{2}, size_t{5}, limits::stamp_group_max}) {
     Heap with, without;
     MassUnits all = 0, gained = 0;
@@ -43,7 +43,7 @@ TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_change
       const std::vector<StampedPiece> group = with.group(first, together);
       MassUnits mass = 0;
       for (const StampedPiece& one : group) mass += with.pieces.at(one.piece)->mass;
-      const PreparedStamp prepared = prepare_group(with.field, with.pieces, group, mass);
+      const PreparedStamp prepared = prepare_group(with.field, with.pieces, group, method, mass);
       ASSERT_TRUE(validate(prepared.operation, with.pieces, voxel_m).has_value());
       const VoxelBox reads = read_box(prepared.operation, with.pieces, voxel_m);
       const Applied a = apply(prepared.operation, with.field, with.pieces, &prepared);
@@ -62,6 +62,13 @@ TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_change
     EXPECT_LE(std::abs(gained - all) * 100, all);
     EXPECT_TRUE(with.pieces.empty());
     EXPECT_TRUE(without.pieces.empty());
+  }
+}
+
+TEST(group_merge, a_group_gains_what_was_planned_whoever_works_it_out_and_changes_no_more_than_it_reads) {
+  for (const StampMethod method : kinds_that<StampMethod, lays>) {
+    SCOPED_TRACE(name_of(method));
+    merge_in_groups(method);
   }
 }
 
@@ -110,7 +117,7 @@ TEST(group_merge, groups_that_may_not_merge_together_are_refused_by_name) {
   refused(operation_of(heap.group(0, limits::stamp_group_max + 1)), "limits.stamp_group_max");
   StampOperation op = fine;
   op.method = StampMethod::slices;
-  refused(op, "only the method stamp");
+  refused(op, "one piece at a time");
   op = fine;
   op.others[1].piece = op.piece;
   refused(op, "stamped twice");

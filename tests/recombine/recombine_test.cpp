@@ -38,6 +38,10 @@ int64_t merges_by(StampMethod method, const TickDelta& delta) {
   return count;
 }
 
+StampMethod method_named(Recombination recombination) {
+  return *kind_named<StampMethod>(name_of(recombination));
+}
+
 class RecombineMethods : public ::testing::TestWithParam<Recombination> {};
 
 TEST_P(RecombineMethods, all_pieces_become_terrain_and_no_mass_is_made_or_lost) {
@@ -50,7 +54,7 @@ TEST_P(RecombineMethods, all_pieces_become_terrain_and_no_mass_is_made_or_lost) 
     delta = world.step({});
     ASSERT_EQ(delta->ledger.error(), 0);
     ASSERT_GE(delta->ledger.dust, 0) << "mass was lent before there was any";
-    merged += merges_by(static_cast<StampMethod>(GetParam()), *delta);
+    merged += merges_by(method_named(GetParam()), *delta);
   }
   EXPECT_TRUE(delta->pieces.empty());
   EXPECT_GE(merged, 24);
@@ -78,12 +82,12 @@ TEST_P(RecombineMethods, a_client_that_applies_the_same_operations_ends_with_the
 }
 
 std::string name_of_method(const ::testing::TestParamInfo<Recombination>& info) {
-  return std::vector<std::string>{"stamp", "slices", "sphere"}.at(static_cast<size_t>(info.param));
+  return std::string(name_of(info.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(recombine, RecombineMethods,
-                         ::testing::Values(Recombination::stamp, Recombination::slices,
-                                           Recombination::sphere),
+                         ::testing::Values(Recombination::stamp, Recombination::slices, Recombination::sphere,
+                                           Recombination::facets),
                          name_of_method);
 
 TEST(recombine, off_leaves_pieces_at_rest_as_bodies_until_it_is_switched_on) {

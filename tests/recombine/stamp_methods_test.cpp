@@ -185,7 +185,9 @@ TEST(stamp_methods, shifts_out_of_range_and_unknown_methods_are_refused) {
     for (const int shift : {-stamp_shift_max - 1, stamp_shift_max + 1})
       EXPECT_FALSE(validate(Operation(StampOperation{1, {}, shift, method}), pieces, voxel_m).has_value());
   }
-  EXPECT_FALSE(validate(Operation(StampOperation{1, {}, 0, static_cast<StampMethod>(3)}), pieces, voxel_m));
+  EXPECT_FALSE(
+      validate(Operation(StampOperation{1, {}, 0, static_cast<StampMethod>(kind_count<StampMethod>)}), pieces,
+               voxel_m));
 }
 
 }  // namespace

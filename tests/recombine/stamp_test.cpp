@@ -31,28 +31,38 @@ struct Rubble {
   }
 };
 
-TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
+constexpr auto laying = kinds_that<StampMethod, lays>;
+
+void gain_to_a_thousandth(StampMethod method) {
   for (const MassUnits dust : {0, 160}) {
     Rubble rubble;
     for (const auto& [id, pose] : rubble.places) {
       const std::shared_ptr<const Volume> volume = rubble.pieces.at(id);
       const MassUnits mass = volume->mass + dust;
       const Window window = gather(rubble.field, stamp_box(*volume, pose, voxel_m));
-      const StampPlan plan = plan_stamp(window, *volume, pose, voxel_m, mass);
-      const Applied applied = apply(StampOperation{id, pose, plan.shift}, rubble.field, rubble.pieces);
+      const StampPlan plan = plan_stamp(window, *volume, pose, voxel_m, mass, method);
+      const Applied applied =
+          apply(StampOperation{id, pose, plan.shift, method}, rubble.field, rubble.pieces);
       EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
       EXPECT_LE(std::abs(applied.terrain_gain - mass) * 1000, mass) << "piece " << id;
     }
   }
 }
 
+TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
+  for (const StampMethod method : laying) {
+    SCOPED_TRACE(name_of(method));
+    gain_to_a_thousandth(method);
+  }
+}
+
 TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(*rubble.pieces.at(id), pose, voxel_m);
+    const Window laid = lay(StampMethod::stamp, *rubble.pieces.at(id), pose, voxel_m);
     const Window terrain = gather(rubble.field, merge_box(laid));
     for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
-      MergePatch patch(terrain, laid);
+      MergePatch patch(terrain, laid, units % 2 == 0 ? Edges::round : Edges::keep);
       const MassUnits shaped = patch.shape(20);
       const std::vector<Code> before = patch.codes();
       const MassUnits placed = patch.place(units);
@@ -69,12 +79,12 @@ TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side
 TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(*rubble.pieces.at(id), pose, voxel_m);
+    const Window laid = lay(StampMethod::stamp, *rubble.pieces.at(id), pose, voxel_m);
     const VoxelBox reach = merge_box(laid);
     EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, voxel_m)), reach);
     const Window terrain = gather(rubble.field, reach);
     Window after = terrain;
-    MergePatch patch(terrain, laid);
+    MergePatch patch(terrain, laid, Edges::round);
     patch.shape(stamp_roundness_max);
     patch.place(3000);
     after.codes = patch.codes();
@@ -90,7 +100,7 @@ TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
 }
 
 TEST(stamp, what_was_prepared_changes_nothing_but_the_time_it_takes) {
-  for (const StampMethod method : {StampMethod::stamp, StampMethod::slices, StampMethod::sphere}) {
+  for (const StampMethod method : all_kinds<StampMethod>) {
     Rubble with, without;
     for (const auto& [id, pose] : with.places) {
       const MassUnits mass = with.pieces.at(id)->mass;
@@ -126,12 +136,13 @@ TEST(stamp, what_was_prepared_for_another_field_or_operation_is_not_taken) {
 }
 
 TEST(stamp, every_shift_there_is_can_be_applied) {
-  for (const int shift : {-stamp_shift_max, -stamp_shift_max / 2, -1, 0, 1, 127, 128, stamp_shift_max}) {
-    Rubble rubble;
-    const auto& [id, pose] = rubble.places.front();
-    const Applied applied = apply(StampOperation{id, pose, shift}, rubble.field, rubble.pieces);
-    EXPECT_GT(applied.terrain_gain, 0) << "shift " << shift;
-  }
+  for (const StampMethod method : laying)
+    for (const int shift : {-stamp_shift_max, -stamp_shift_max / 2, -1, 0, 1, 127, 128, stamp_shift_max}) {
+      Rubble rubble;
+      const auto& [id, pose] = rubble.places.front();
+      const Applied applied = apply(StampOperation{id, pose, shift, method}, rubble.field, rubble.pieces);
+      EXPECT_GT(applied.terrain_gain, 0) << name_of(method) << ", shift " << shift;
+    }
 }
 
 }  // namespace
