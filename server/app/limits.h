@@ -75,8 +75,4 @@ inline constexpr int admitted_margin_voxels = 16;
 /// Voxels of an edit's box for which anything is read; a larger one is beyond the simulation's own limits.
 inline constexpr size_t admitted_voxels_max = size_t{1} << 24;
 
-/// Ticks that a part of a recording that is a ring waits for one without pieces; then their bodies are
-/// renewed.
-inline constexpr uint64_t part_patience_ticks = 300;
-
 }  // namespace scree::limits

@@ -47,9 +47,8 @@ void LiveServer::State::end(const std::string& error) {
 
 /// The world from which a part of a ring begins. Renewing bodies costs: best is a tick without any.
 std::shared_ptr<const WorldMoment> LiveServer::State::begin_part(const TickDelta& delta) {
-  if (!recorder->wants_part()) return nullptr;
-  if (!delta.pieces.empty() && ++part_waited < limits::part_patience_ticks) return nullptr;
-  part_waited = 0;
+  const PartWish wish = recorder->wants_part();
+  if (wish == PartWish::none || (wish == PartWish::soon && !delta.pieces.empty())) return nullptr;
   World& world = *feed->world();
   world.renew();
   return std::make_shared<const WorldMoment>(world.moment());

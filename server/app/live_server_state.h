@@ -68,7 +68,6 @@ struct LiveServer::State {
   std::thread thread;
   Clock::time_point started = Clock::now();
   Clock::duration period{};
-  Tick part_waited = 0;        ///< ticks since the recording wanted a part; used as record_failed is
   bool record_failed = false;  ///< used by the simulation thread only
   bool saved = false;          ///< for good; used by the owner's thread only
 

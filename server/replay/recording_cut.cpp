@@ -126,7 +126,7 @@ class Cutting {
     if (first_ == 1) return RecordingWriter::create(path, header);
     Result<std::unique_ptr<World>> world =
         quiet ? restored_from(encode(*quiet), state_, ground_) : world_at(recording_, state_, ground_);
-    if (!world) return tl::unexpected(world.error());
+    if (!world) return fail(recording_.path() + ": " + world.error().message);
     return RecordingWriter::create(path, header, {(*world)->snapshot(), (*world)->keyframe()});
   }
 
@@ -149,7 +149,7 @@ class Cutting {
       std::optional<WorldMoment> part;
       if (state->has_value()) {
         auto restored = restored_from(**state, tick, ground_);
-        if (!restored) return tl::unexpected(restored.error());
+        if (!restored) return fail(recording_.path() + ": " + restored.error().message);
         world = std::move(*restored);
         part = world->moment();
       }

@@ -50,7 +50,7 @@ struct Recorder::State {
   Tick safe = 0;       ///< committed
   bool ended = false;  ///< nothing more is written
   uint64_t waits = 0;
-  bool wants_part = false;
+  PartWish wants_part = PartWish::none;
   bool part_waits = false;  ///< in the queue
 };
 
@@ -73,7 +73,7 @@ void Recorder::State::write(const std::deque<Entry>& entries) {
     const std::scoped_lock lock(mutex);
     ++ticks_written;
     if (entry.part) part_waits = false;
-    wants_part = !part_waits && writer->wants_part();
+    wants_part = part_waits ? PartWish::none : writer->wants_part();
   }
 }
 
@@ -171,7 +171,7 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
     CHECK(state_->queue.empty() || delta->tick == state_->queue.back().delta->tick + 1);
     if (part) {
       state_->part_waits = true;
-      state_->wants_part = false;
+      state_->wants_part = PartWish::none;
     }
     state_->queue.push_back(
         {std::move(delta), std::move(commands), std::move(noted), std::move(part), std::move(cursors)});
@@ -202,7 +202,7 @@ uint64_t Recorder::ticks_written() const {
   return state_->ticks_written;
 }
 
-bool Recorder::wants_part() const {
+PartWish Recorder::wants_part() const {
   const std::scoped_lock lock(state_->mutex);
   return state_->wants_part;
 }

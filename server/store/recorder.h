@@ -36,7 +36,7 @@ class Recorder {
             std::vector<Event> noted = {}, std::shared_ptr<const WorldMoment> part = nullptr,
             std::optional<std::vector<PlayerCursor>> cursors = std::nullopt);
   /// RecordingWriter::wants_part() of the last tick that was written. From any thread.
-  bool wants_part() const;
+  PartWish wants_part() const;
 
   /// Waits until that tick, which was pushed or is the start's, is in the file, and survives the end of this
   /// process; or until the recording has ended. From any thread.

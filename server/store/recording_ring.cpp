@@ -8,9 +8,6 @@ namespace scree {
 
 namespace {
 
-/// Parts of a ring.
-constexpr double ring_parts = 8.0;
-
 struct Unit {
   char letter;
   double seconds;
@@ -53,11 +50,13 @@ void RecordingRing::begin(const Part& part, uint64_t bytes) {
   bytes_before_ = bytes;
 }
 
-bool RecordingRing::wants_part(Tick tick, uint64_t bytes) const {
-  if (parts_.empty()) return false;
-  if (limit_.seconds > 0.0) return seconds_since(parts_.back().tick, tick) >= limit_.seconds / ring_parts;
-  const auto part_bytes = static_cast<uint64_t>(static_cast<double>(limit_.bytes) / ring_parts);
-  return limit_.bytes > 0 && bytes >= bytes_before_ + part_bytes;
+PartWish RecordingRing::wish(Tick tick, uint64_t bytes) const {
+  if (parts_.empty() || !limit_.is_on()) return PartWish::none;
+  const double parts = limit_.seconds > 0.0 ? seconds_since(parts_.back().tick, tick) / limit_.part_seconds()
+                                            : static_cast<double>(bytes - std::min(bytes, bytes_before_)) /
+                                                  static_cast<double>(limit_.part_bytes());
+  if (parts < 1.0) return PartWish::none;
+  return parts < 2.0 ? PartWish::soon : PartWish::now;
 }
 
 const RecordingRing::Part* RecordingRing::first_to_stay(Tick tick, uint64_t bytes) const {

@@ -18,8 +18,14 @@ struct RingLimit {
   uint64_t bytes = 0;
 
   bool is_on() const { return seconds > 0.0 || bytes > 0; }
+  double part_seconds() const { return seconds / 8.0; }
+  uint64_t part_bytes() const { return bytes / 8; }
   bool operator==(const RingLimit&) const = default;
 };
+
+/// Whether a part should begin: soon, in a tick in which that costs little, or now, since the last one is
+/// twice as long as parts should be.
+enum class PartWish : uint8_t { none, soon, now };
 
 namespace limits {
 /// Of a ring; less would begin parts all the time. More seconds, or bytes, are refused as mistaken.
@@ -42,8 +48,7 @@ class RecordingRing {
 
   /// `bytes`: that the recording takes now.
   void begin(const Part& part, uint64_t bytes);
-  /// The parts of a ring are an eighth of it: so much more than the limit may be there.
-  bool wants_part(Tick tick, uint64_t bytes) const;
+  PartWish wish(Tick tick, uint64_t bytes) const;
   /// The first part that stays, when those before it are to be dropped.
   const Part* first_to_stay(Tick tick, uint64_t bytes) const;
   /// Those before the first one that stays are gone.

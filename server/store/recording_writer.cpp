@@ -345,8 +345,8 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
   return state.keyframes->is_due(state.published) ? state.keyframes->put(state.published) : Result<void>();
 }
 
-bool RecordingWriter::wants_part() const {
-  return state_->rings && state_->ring.wants_part(state_->published.tick(), state_->bytes);
+PartWish RecordingWriter::wants_part() const {
+  return state_->ring.wish(state_->published.tick(), state_->bytes);
 }
 
 Result<void> RecordingWriter::commit() {

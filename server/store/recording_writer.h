@@ -46,8 +46,8 @@ class RecordingWriter {
   Result<void> add(const TickDelta& delta, std::span<const Command> commands,
                    std::span<const Event> noted = {}, const WorldMoment* state = nullptr,
                    const std::optional<std::vector<PlayerCursor>>& cursors = std::nullopt);
-  /// Whether a part should begin soon, so that the limit can be kept.
-  bool wants_part() const;
+  /// Whether a part should begin, so that the limit can be kept.
+  PartWish wants_part() const;
   /// Ends the transaction: everything added so far is in the file.
   Result<void> commit();
   /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder, unless

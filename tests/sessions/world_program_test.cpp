@@ -21,7 +21,7 @@ constexpr const char* ground_hash = "02ef571e351c683da0bc4abe8a96636cc0744de9e0d
 class WorldProgramTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* name : {"hills.ground", "hills.world", "hills.scree"})
+    for (const char* name : {"hills.ground", "hills.world", "hills.scree", "hills_cut.scree"})
       fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_1" / name, folder / name);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
@@ -51,6 +51,23 @@ class WorldProgramTest : public ::testing::Test {
   TestFolder folder;
   std::string world = folder / "hills.world", recording = folder / "hills.scree";
 };
+
+TEST_F(WorldProgramTest, recordings_of_this_version_play_verify_and_compare) {
+  const std::string cut = folder / "hills_cut.scree", program = SCREE_REPLAY_PROGRAM;
+  const auto [code, said] = run_program(program + " verify " + cut);
+  EXPECT_EQ(code, 0) << said;
+  auto source = ReplaySource::open(cut, 100, ground_giver(cut, WorldConfig()));
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  EXPECT_EQ((*source)->first_tick(), 60U);
+  const auto jumped = (*source)->jump(61);
+  EXPECT_TRUE(jumped.has_value()) << jumped.error().message;
+  const auto [differs, text] = run_program(program + " diff " + recording + " " + cut);
+  EXPECT_EQ(differs, 1) << text;
+  EXPECT_NE(text.find("has the ticks 1 to 119, the other 61 to 119"), std::string::npos) << text;
+  EXPECT_EQ(run_program(program + " diff " + cut + " " + cut).first, 0);
+  EXPECT_EQ(run_program(program + " diff " + cut + " " + world).first, 2) << "no recording";
+  EXPECT_EQ(run_program(program + " cut " + recording + " " + cut).first, 1) << "it exists";
+}
 
 TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
   expect_whole(world);
