@@ -141,7 +141,7 @@ void draw_tower(Film& film) {
   const Camera camera = look_at({x + 13.0F, base_m + 5.0F, z + 11.0F}, {x, base_m + 4.2F, z});
   film.shoot("tower_before", camera);
   const glm::vec3 foot_m(x, base_m + 1.3F, z);
-  film.ask(blow(crater(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
+  film.ask(blow(sphere(foot_m, 2.1F), foot_m + glm::vec3(1.0F, 0.0F, 1.0F), 30, 6.0F));
   film.run(120);
   film.shoot("tower_during", camera);
   film.settle();

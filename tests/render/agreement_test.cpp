@@ -184,7 +184,7 @@ class AgreementOverRubble : public Agreement {
       const float up_m = 0.2F + 0.8F * random.unit();
       const glm::quat turn(either_way(), either_way(), either_way(), either_way());
       const Pose pose{{x, ground_height_m(field_.source(), x, z) + up_m, z}, glm::normalize(turn)};
-      apply(StampOperation{id, quantise(pose), 0}, field_, table);
+      apply(StampOperation{id, quantise(pose), 0, StampMethod::facets}, field_, table);
     }
     pieces_.clear();
   }
