@@ -54,7 +54,7 @@ class FilmOptionParser {
   Result<void> understand_camera();
 
   FilmOptions options_;
-  std::string from_, to_, camera_, path_, orbit_;
+  std::string from_, to_, camera_, path_, eye_, orbit_;
   std::string size_ = "1280x720";
   std::string method_{all_methods().front().name};
   std::string quality_{name_of(Quality::high)};
@@ -101,6 +101,8 @@ void FilmOptionParser::declare_camera(CLI::App& app) {
                    "from one place: x,y,z,yaw,pitch in metres and degrees, as the viewer's")
       ->check(understood_by(parse_camera), "PLACE");
   places->add_option("--path", path_, "FILE with key frames of the camera, as the viewer's (K records one)");
+  places->add_option("--eye", eye_,
+                     "by the eye of a person who was there: the name, or the number of who has none");
   places
       ->add_option(
           "--orbit", orbit_,
@@ -136,6 +138,7 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
 Result<void> FilmOptionParser::understand_camera() {
   options_.order.camera = if_given<WhichEvent>(orbit_, parse_event).value_or(WhichEvent());
   if (const auto camera = if_given<Camera>(camera_, parse_camera)) options_.order.camera = *camera;
+  if (!eye_.empty()) options_.order.camera = PersonsEye{eye_};
   if (path_.empty()) return {};
   auto path = CameraPath::read(path_);
   if (!path) return tl::unexpected(path.error());

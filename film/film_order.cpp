@@ -125,11 +125,21 @@ Result<FilmSpan> span_of(const FilmOrder& order, const std::optional<Event>& eve
   return span;
 }
 
+Result<Shot> eye_shot(const PersonsEye& eye, const FilmOrder& order, const FilmSpan& span,
+                      RecordingReader& recording) {
+  std::vector<double> ticks;
+  for (size_t frame = 0; frame < span.frames; ++frame) ticks.push_back(span.tick(frame));
+  auto shot = EyeShot::of(eye.person, recording, ticks, order.frames_per_s);
+  if (!shot) return tl::unexpected(shot.error());
+  return std::move(*shot);
+}
+
 Result<Shot> shot_of(const FilmOrder& order, const std::optional<Event>& event, const FilmSpan& span,
-                     const std::string& recording, const GroundGiver& ground) {
+                     RecordingReader& recording, const GroundGiver& ground) {
   if (const auto* camera = std::get_if<Camera>(&order.camera)) return *camera;
   if (const auto* path = std::get_if<CameraPath>(&order.camera)) return *path;
-  const auto field = field_at(recording, static_cast<Tick>(span.from_tick), ground);
+  if (const auto* eye = std::get_if<PersonsEye>(&order.camera)) return eye_shot(*eye, order, span, recording);
+  const auto field = field_at(recording.path(), static_cast<Tick>(span.from_tick), ground);
   if (!field) return tl::unexpected(field.error());
   return Orbit::around(*event, **field, static_cast<double>(span.frames) / order.frames_per_s);
 }
@@ -166,7 +176,7 @@ Result<FilmPlan> plan_film(const FilmOrder& order, const std::string& path, cons
   const auto span = span_of(order, plan.event, **recording);
   if (!span) return tl::unexpected(span.error());
   plan.span = *span;
-  auto shot = shot_of(order, plan.event, plan.span, path, ground);
+  auto shot = shot_of(order, plan.event, plan.span, **recording, ground);
   if (!shot) return tl::unexpected(shot.error());
   plan.shot = std::move(*shot);
   return plan;

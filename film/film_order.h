@@ -27,13 +27,18 @@ Result<TickOrTime> parse_tick_or_time(const std::string& text);
 using WhichEvent = std::variant<std::monostate, size_t, EventKind>;
 Result<WhichEvent> parse_event(const std::string& text);
 
+/// By whose eye: the name of a person who was there (EyeShot::of).
+struct PersonsEye {
+  std::string person;
+};
+
 struct FilmOrder {
   std::optional<TickOrTime> from{};
   std::optional<TickOrTime> to{};
   double frames_per_s = 30.0;
   double speed = 1.0;  ///< seconds of the recording in one of the film
   /// From where; WhichEvent: an orbit round it.
-  std::variant<WhichEvent, Camera, CameraPath> camera{};
+  std::variant<WhichEvent, Camera, CameraPath, PersonsEye> camera{};
 };
 
 /// The ticks of a film's frames.

@@ -17,6 +17,15 @@ inline constexpr double film_fps_max = 240.0;
 inline constexpr double film_speed_min = 0.0005;
 inline constexpr double film_speed_max = 60.0;
 
+/// Names of persons that a message lists.
+inline constexpr size_t persons_named_max = 20;
+
+/// Distance between a person's eye and what is aimed at, metres. Below: it tells no direction.
+inline constexpr float aim_min_m = 0.1F;
+
+/// Up or down, radians: short of straight, where there is no side. Above: this.
+inline constexpr float eye_pitch_max = 1.55F;
+
 /// Seconds for which a frame waits for its terrain; a frame takes some seconds where a processor draws, and
 /// the first one generates all that is in view. Above: the film ends with an error.
 inline constexpr double film_frame_s_max = 600.0;

@@ -1,15 +1,17 @@
-// Where a film is seen from: a fixed place, a path of key frames, or round an event.
+// Where a film is seen from: a fixed place, a path of key frames, round an event, or by the eye of
+// somebody who was there.
 #pragma once
 
 #include <variant>
 
 #include "client/viewer/pictures/camera_path.h"
+#include "film/eye_shot.h"
 #include "film/orbit.h"
 #include "shared/base/overloaded.h"
 
 namespace scree {
 
-using Shot = std::variant<Camera, CameraPath, Orbit>;
+using Shot = std::variant<Camera, CameraPath, Orbit, EyeShot>;
 
 /// `time_s`: from the film's start.
 inline Camera camera_at(const Shot& shot, double time_s) {

@@ -50,6 +50,41 @@ TEST_F(FilmOrders, an_event_is_a_number_or_a_kind) {
   EXPECT_NE(refused({.camera = WhichEvent(EventKind::rebuild)}).find("no rebuild"), std::string::npos);
 }
 
+TEST_F(FilmOrders, an_eye_sees_what_its_person_saw) {
+  std::filesystem::remove(path);
+  auto recorder = Recorder::create(path, {"test", small_world()});
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  for (size_t i = 0; i < deltas.size(); ++i) {
+    const Tick tick = deltas[i]->tick;
+    const float x_m = 0.125F * static_cast<float>(tick);
+    std::optional<std::vector<PlayerCursor>> cursors;
+    if (tick % 6 == 0 && tick >= 60)
+      cursors = {{3, "Ann", {x_m, 2.0F, 0.0F}, {x_m, 2.0F, -8.0F}},
+                 {4, "Bo", {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, 0.0F}}};
+    (*recorder)->push(deltas[i], commands_by_tick[i], {}, nullptr, cursors);
+  }
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  const FilmPlan planned = plan({.from = TickOrTime{40.0, false},
+                                 .to = TickOrTime{150.0, false},
+                                 .frames_per_s = 60.0,
+                                 .speed = 0.5,
+                                 .camera = PersonsEye{"Ann"}});
+  ASSERT_EQ(planned.span.frames, 220U);
+  for (const size_t frame : {60U, 61U, 62U, 131U, 200U}) {
+    const Camera camera = camera_at(planned.shot, static_cast<double>(frame) / 60.0);
+    EXPECT_NEAR(camera.eye_m.x, 0.125 * planned.span.tick(frame), 0.02) << frame;
+    EXPECT_EQ(camera.yaw, 0.0F);
+    EXPECT_EQ(camera.pitch, 0.0F);
+  }
+  const Camera waiting = camera_at(planned.shot, 0.0);
+  EXPECT_NEAR(waiting.eye_m.x, 0.125F * 60.0F, 0.02F) << "before she came, where she will come";
+  const FilmOrder bo{.from = TickOrTime{100.0, false}, .camera = PersonsEye{"Bo"}};
+  EXPECT_GT(camera_at(plan(bo).shot, 0.0).forward().y, -1.0F) << "straight down has no side";
+  const std::string reason = refused({.camera = PersonsEye{"Cy"}});
+  EXPECT_NE(reason.find("'Cy'"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("Ann, Bo"), std::string::npos) << reason;
+}
+
 TEST_F(FilmOrders, without_a_word_the_largest_event_is_shown_from_around_it) {
   const FilmPlan planned = plan({});
   ASSERT_TRUE(planned.event.has_value());

@@ -21,7 +21,8 @@ class GrowingRecordingTest : public RecordingTest {
   void write_to(Tick tick) {
     for (; written < tick; ++written)
       ASSERT_TRUE(
-          writer->add(*deltas[written], commands_by_tick[written], {}, cursors_at(written + 1)).has_value());
+          writer->add(*deltas[written], commands_by_tick[written], {}, nullptr, cursors_at(written + 1))
+              .has_value());
     ASSERT_TRUE(writer->commit().has_value());
   }
   /// Ann walks along x, ten times a second; Bo stands, and is gone after tick 100.

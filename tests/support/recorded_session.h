@@ -35,7 +35,7 @@ inline void record_session(const std::string& path, Tick ticks) {
     std::optional<std::vector<PlayerCursor>> cursors;
     if (tick % ticks_per_watch == 0) cursors = {{3, "Ann", {x_m, 1.7F, 0.0F}, {x_m, 0.0F, -4.0F}}};
     auto delta = world.step(commands);
-    (*recorder)->push(std::move(delta), std::move(commands), std::move(noted), std::move(cursors));
+    (*recorder)->push(std::move(delta), std::move(commands), std::move(noted), nullptr, std::move(cursors));
   }
   const auto finished = (*recorder)->finish();
   ASSERT_TRUE(finished.has_value()) << finished.error().message;
