@@ -47,6 +47,9 @@ class Stand {
   void settle(int ticks_max) {
     for (int tick = 0; tick < ticks_max && (tick < 120 || alive_ > 0); ++tick) step({});
   }
+  void generate(const VoxelBox& box) {
+    for_each_chunk(box, [&](ChunkCoord chunk) { world_.field().generated_brick(brick_in_chunk(chunk, 0)); });
+  }
   void begin() { costs_.clear(); }
   void step(const std::vector<Command>& commands) {
     const auto delta = world_.step(commands);
@@ -125,13 +128,17 @@ std::vector<Cost> large_carve(Cutter cutter) {
   return stand.costs();
 }
 
-/// The largest carves into few pieces, each where nobody was before.
+/// The largest carves into few pieces, each where nobody was before. Their ground is generated first, which a
+/// server's threads do (server/app/terrain_ahead.h).
 std::vector<Cost> large_pieces(int carves) {
   Stand stand({});
   const TerrainSource terrain = stand.world().config().terrain;
   for (int i = 0; i < carves; ++i) {
     const float x_m = -900.0F + 90.0F * static_cast<float>(i % 20), z_m = 100.0F * static_cast<float>(i / 20);
-    stand.step({{0, 0, blow_at(terrain, x_m, z_m, limits::edit_reach_max_m, 8, static_cast<uint32_t>(i))}});
+    const CarveRequest blow =
+        blow_at(terrain, x_m, z_m, limits::edit_reach_max_m, 8, static_cast<uint32_t>(i));
+    stand.generate(band_box(in_voxels(blow.shape, terrain.voxel_size_m)).grown(16));
+    stand.step({{0, 0, blow}});
     for (int tick = 0; tick < 30; ++tick) stand.step({});
   }
   stand.settle(3600);
