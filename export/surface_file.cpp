@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "export/whole_file.h"
+#include "ground/whole_file.h"
 #include "shared/base/check.h"
 
 namespace scree {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <span>
+#include <unistd.h>
 #include <utility>
 
 #include "film/encoder_process.h"
@@ -147,7 +148,7 @@ Result<std::unique_ptr<FrameSink>> open_encoded_film(const FilmFormat& format, S
   if (encoding->even && (format.width % 2 != 0 || format.height % 2 != 0))
     return fail(fmt::format("the sides of a film in {} are even: {}x{} is none", encoding->ending,
                             format.width, format.height));
-  std::string partial = format.file + ".partial";
+  std::string partial = format.file + "." + std::to_string(::getpid()) + ".partial";
   auto encoder = EncoderProcess::start(command_of(*encoding, format, partial));
   if (!encoder) return tl::unexpected(encoder.error());
   return std::make_unique<EncodedFilm>(format.file, std::move(partial), std::move(*encoder),

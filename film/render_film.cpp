@@ -1,6 +1,9 @@
 #include "film/render_film.h"
 
+#include <array>
+
 #include "film/recorded_scene.h"
+#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "shared/base/timing.h"
 
@@ -28,6 +31,10 @@ Result<void> render_frames(const FilmPlan& plan, const FilmOptions& options, Rec
 Result<RenderedFilm> render_film(const FilmOptions& options, const Stopped& stopped,
                                  const std::function<void(double)>& progress) {
   Stopwatch watch;
+  const std::array files{NamedFile{"the recording", options.recording, false, true},
+                         NamedFile{"--ground", options.ground},
+                         NamedFile{"--out", options.format.file, true}};
+  if (auto distinct = check_distinct(files); !distinct) return tl::unexpected(distinct.error());
   const auto ground = ground_giver(options.recording, options.ground);
   if (!ground) return tl::unexpected(ground.error());
   auto plan = plan_film(options.order, options.recording, *ground);

@@ -5,7 +5,7 @@
 #include <gdal_priv.h>
 #include <memory>
 
-#include "export/whole_file.h"
+#include "ground/whole_file.h"
 #include "import/gdal/gdal_library.h"
 
 namespace scree {

@@ -1,5 +1,6 @@
 // scree-export: writes the rock of a kept world, of a ground, of a recording's tick or of a running server to
 // files of other programs.
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "export/vdb/vdb_export.h"
 #include "ground/ground_file.h"
 #include "import/programs/program.h"
+#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/recorded_field.h"
 #include "server/store/stored_field.h"
@@ -154,6 +156,9 @@ Result<void> run(const Options& options) {
   const Write write = writer_of(options.out);
   if (write == nullptr)
     return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
+  const std::array files{NamedFile{"what is exported", options.from, false, true},
+                         NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
+  if (auto distinct = check_distinct(files); !distinct) return distinct;
   if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
   Json line{{"file", options.out}};
   if (options.tick) line["tick"] = *options.tick;

@@ -8,7 +8,7 @@
 #include <streambuf>
 #include <string>
 
-#include "export/whole_file.h"
+#include "ground/whole_file.h"
 #include "import/vdb/vdb_names.h"
 #include "shared/field/heights.h"
 

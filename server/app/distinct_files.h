@@ -12,9 +12,11 @@ struct NamedFile {
   std::string option;  ///< with its dashes
   std::string path;    ///< empty: not given
   bool written = false;
+  bool database = false;  ///< of SQLite: files with its name and a suffix are its own
 };
 
-/// Refuses two names of one file, by whatever path or link, when it is written for one of them. Devices and
+/// Refuses two names of one file, by whatever path or link, when it is written for one of them, and names of
+/// files that a database keeps beside it. Devices and
 /// pipes take anything. Nothing is created.
 Result<void> check_distinct(std::span<const NamedFile> files);
 

@@ -257,15 +257,15 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
   const AccessConfig& access = live.net.access;
   const std::array files = {NamedFile{"--config", config_path},
                             NamedFile{"--ground", raw.ground},
-                            NamedFile{"--replay", live.replay.path},
+                            NamedFile{"--replay", live.replay.path, false, true},
                             NamedFile{"--admin-token-file", raw.token_path},
                             NamedFile{"--tls-cert", access.tls_certificate_path},
                             NamedFile{"--tls-key", access.tls_key_path},
                             NamedFile{"--token-key", access.token_key_path},
                             NamedFile{"--token-revoked", access.token_revoked_path},
                             NamedFile{"--bans", access.bans_path, true},
-                            NamedFile{"--world", live.world_path, true},
-                            NamedFile{"--record", live.record_path, true},
+                            NamedFile{"--world", live.world_path, true, true},
+                            NamedFile{"--record", live.record_path, true, true},
                             NamedFile{"--events", live.events_path, true},
                             NamedFile{"--report", raw.options.report_path, true},
                             NamedFile{"--trace", live.trace_path, true}};

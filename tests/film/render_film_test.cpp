@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 const Stopped never = [] { return false; };
 const auto unseen = [](double) {};
 
+bool has_partial(const fs::path& folder) {
+  return std::ranges::any_of(fs::directory_iterator(folder),
+                             [](const auto& entry) { return entry.path().extension() == ".partial"; });
+}
+
 /// A carve in front of a fixed camera.
 class FilmPictures : public RecordingTest {
  protected:
@@ -81,7 +86,7 @@ TEST_F(FilmPictures, particles_can_be_left_out) {
 
 TEST_F(FilmPictures, a_film_has_all_frames) {
   rendered(options("film.mp4"));
-  EXPECT_FALSE(fs::exists(folder / "film.mp4.partial"));
+  EXPECT_FALSE(has_partial(folder));
   const auto [code, said] = run_program(
       "ffprobe -v error -count_frames -show_entries "
       "stream=width,height,nb_read_frames,r_frame_rate -of csv=p=0 " +
@@ -196,12 +201,22 @@ TEST_F(FilmProgram, wrong_usage_is_2_and_what_cannot_be_made_is_1) {
   expect_refused(path + film + "--orbit 99", 1, "no event 99");
 }
 
+TEST_F(FilmProgram, its_recording_is_not_overwritten) {
+  const fs::path same = folder / "session.mp4";
+  fs::rename(path, same);
+  const auto before = read_file(same);
+  const auto [code, said] = run(same.string() + " -o " + (folder / "." / "session.mp4").string(), "");
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("are one file"), std::string::npos) << said;
+  EXPECT_EQ(read_file(same), before);
+}
+
 TEST_F(FilmProgram, without_ffmpeg_it_says_how_to_get_it) {
   const auto [code, said] = run(path + " -o " + (folder / "film.mp4").string(), "PATH=/nowhere");
   EXPECT_EQ(code, 1) << said;
   EXPECT_NE(said.find("ffmpeg"), std::string::npos) << said;
   EXPECT_NE(said.find("scree setup"), std::string::npos) << said;
-  EXPECT_FALSE(fs::exists(folder / "film.mp4.partial"));
+  EXPECT_FALSE(has_partial(folder));
 }
 
 }  // namespace

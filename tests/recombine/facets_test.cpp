@@ -98,8 +98,9 @@ TEST(facets, a_merged_block_keeps_more_of_its_edges_than_by_the_stamp_and_weighs
     const QuantisedPose pose = turned({0.1F, 2.0F, 0.3F}, random);
     for (const StampMethod method : {StampMethod::stamp, StampMethod::facets}) {
       MapField field(flat_terrain);
-      PieceTable pieces{{1, std::make_shared<const Volume>(stone(half))}};
-      const Volume& volume = *pieces.at(1);
+      const auto block = std::make_shared<const Volume>(stone(half));
+      PieceTable pieces{{1, block}};
+      const Volume& volume = *block;  // which apply() takes out of the table
       const Window before = gather(field, stamp_box(method, volume, pose, voxel_m));
       const StampPlan plan = plan_stamp(method, before, volume, pose, voxel_m, volume.mass);
       const Applied applied = apply(StampOperation{1, pose, plan.shift, method}, field, pieces);

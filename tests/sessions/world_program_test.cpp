@@ -69,6 +69,28 @@ TEST_F(WorldProgramTest, recordings_of_this_version_play_verify_and_compare) {
   EXPECT_EQ(run_program(program + " cut " + recording + " " + cut).first, 1) << "it exists";
 }
 
+TEST_F(WorldProgramTest, what_is_exported_never_takes_the_place_of_its_source) {
+  const std::string program = std::string(SCREE_REPLAY_PROGRAM) + " export ", csv = folder / "old.csv";
+  const auto bytes = fs::file_size(recording);
+  for (const std::string& out : {recording, recording + "-wal", (folder / "./hills.scree")}) {
+    const auto [code, said] = run_program(program + recording + " --events " + out);
+    EXPECT_EQ(code, 1) << said;
+    EXPECT_NE(said.find("are one file"), std::string::npos) << said;
+  }
+  EXPECT_EQ(run_program(program + recording + " --events " + csv + " --ticks " + csv).first, 1);
+  EXPECT_EQ(fs::file_size(recording), bytes);
+  std::ofstream(csv) << "before";
+  EXPECT_EQ(run_program(program + "missing.scree --events " + csv).first, 1);
+  EXPECT_EQ(fs::file_size(csv), 6U) << "what failed leaves what was there";
+  EXPECT_EQ(run_program(program + recording + " --events " + csv).first, 0);
+  EXPECT_GT(fs::file_size(csv), 6U);
+  fs::copy_file(recording, folder / "same.ply");
+  const auto [code, said] = run_program(std::string(SCREE_EXPORT_PROGRAM) + " " + (folder / "same.ply") +
+                                        " --tick 100 -o " + (folder / "same.ply"));
+  EXPECT_NE(said.find("are one file"), std::string::npos) << said;
+  EXPECT_EQ(fs::file_size(folder / "same.ply"), bytes);
+}
+
 TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
   expect_whole(world);
   const Ran before = run("info " + world);

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "ground/whole_file.h"
+#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/recording_cut.h"
@@ -179,20 +181,35 @@ int verify_file(const Options& options) {
   return report->agrees() ? 0 : differs_or_failed;
 }
 
-/// Writes lines to a file, or to the standard output ("-"), as `write` gives them.
-Result<void> write_lines(const std::string& path, const std::function<Result<void>(const TakeLine&)>& write) {
-  const bool is_out = path == "-";
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
-      is_out ? nullptr : std::fopen(path.c_str(), "w"), std::fclose);
-  std::FILE* const file = is_out ? stdout : opened.get();
-  if (file == nullptr) return fail(path + " cannot be written: " + std::strerror(errno));
+using WriteLines = std::function<Result<void>(const TakeLine&)>;
+
+Result<void> write_lines_to(std::FILE* file, const std::string& path, const WriteLines& write) {
   auto written = write([file](const std::string& line) { std::fprintf(file, "%s\n", line.c_str()); });
   if (std::fflush(file) != 0 || std::ferror(file) != 0)
     return fail(path + " cannot be written: " + std::strerror(errno));
   return written;
 }
 
+/// Writes lines to the standard output ("-"), or to a file, which has its name when it is whole.
+Result<void> write_lines(const std::string& path, const WriteLines& write) {
+  if (path == "-") return write_lines_to(stdout, path, write);
+  const auto written = write_whole(path, [&](const std::string& unfinished) -> Result<void> {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(unfinished.c_str(), "w"),
+                                                               std::fclose);
+    if (file == nullptr) return fail(std::strerror(errno));
+    return write_lines_to(file.get(), path, write);
+  });
+  if (!written) return tl::unexpected(written.error());
+  return {};
+}
+
 int export_lines(const Options& options) {
+  if (!options.events_path.empty() || !options.ticks_path.empty()) {
+    const std::array files{NamedFile{"the recording", options.path, false, true},
+                           NamedFile{"--events", options.events_path, options.events_path != "-"},
+                           NamedFile{"--ticks", options.ticks_path, options.ticks_path != "-"}};
+    if (const auto distinct = check_distinct(files); !distinct) return complain(distinct.error());
+  }
   const auto ground = ground_giver(options.path, options.ground);
   if (!ground) return complain(ground.error());
   const auto format_of = [&](const std::string& path) {

@@ -1,4 +1,4 @@
-#include "export/whole_file.h"
+#include "ground/whole_file.h"
 
 #include <filesystem>
 #include <unistd.h>
