@@ -153,7 +153,8 @@ void add_keeping(CLI::App& app, Raw& raw) {
                      "file that keeps the world: made where there is none, else the world goes on");
   app.add_option(
          "--durability", raw.durability,
-         "when the world is saved: after each tick, each second, or off: at the end and every --autosave")
+         "when the world is saved: after each tick, each second, or off: at the end, every --autosave, and "
+         "before much of it waits")
       ->check(CLI::IsMember(names_of_durability()))
       ->capture_default_str()
       ->needs(world);

@@ -39,6 +39,10 @@ inline constexpr size_t noted_events_max = 1024;
 /// Bytes of one row of a recording; a longer one is refused as damaged.
 inline constexpr size_t row_bytes_max = size_t{1} << 29;
 
+/// Chunks that changed since the last save. Above: the next save is due at once, for all of them are in
+/// memory three times while it is written: 20 MB.
+inline constexpr size_t unsaved_chunks_max = 256;
+
 /// Chunks that the storage thread keeps from one save to the next, so that chunks that change again and again
 /// are not read again: at most 10 MiB. Above: they are forgotten after a save.
 inline constexpr size_t chunks_between_saves_max = 256;

@@ -5,9 +5,11 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <unordered_set>
 #include <utility>
 
 #include "server/store/kept_terrain.h"
+#include "server/store/limits.h"
 #include "server/world/shared_brick.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
@@ -74,8 +76,9 @@ struct WorldKeeper::State {
 
   // Of the caller's thread.
   ChangedBricks gathered;
-  Tick next_due = 0;  ///< 0: none by the clock
-  bool over = false;  ///< nothing is saved any more, nor gathered
+  std::unordered_set<ChunkCoord, CoordHash> gathered_chunks;  ///< of those bricks
+  Tick next_due = 0;                                          ///< 0: none by the clock
+  bool over = false;                                          ///< nothing is saved any more, nor gathered
 
   // Of the storage thread.
   std::unique_ptr<WorldFile> file;
@@ -152,14 +155,20 @@ WorldKeeper::~WorldKeeper() {
 bool WorldKeeper::note(const TickDelta& delta, bool pressed) {
   State& s = *state_;
   if (s.over) return false;
-  for (const BrickState& state : delta.bricks) s.gathered[state.coord] = state;
+  for (const BrickState& state : delta.bricks) {
+    s.gathered[state.coord] = state;
+    s.gathered_chunks.insert(chunk_of(state.coord));
+  }
   const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
-  if (!by_clock && !pressed && !(s.config.durability == Durability::tick && something_happened(delta)))
+  const bool much = s.gathered_chunks.size() >= limits::unsaved_chunks_max;
+  if (!by_clock && !pressed && !much &&
+      !(s.config.durability == Durability::tick && something_happened(delta)))
     return false;
   const std::scoped_lock lock(s.mutex);
   if (s.status.given_up) {
     s.over = true;
     s.gathered.clear();
+    s.gathered_chunks.clear();
     return false;
   }
   if (s.waiting) {
@@ -186,6 +195,7 @@ void WorldKeeper::save(WorldMoment moment, const ChunkNow& now) {
     const std::scoped_lock lock(s.mutex);
     CHECK(!s.waiting && !s.stopping);
     s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {}), s.whole_chunks(now)};
+    s.gathered_chunks.clear();
   }
   s.changed.notify_all();
 }

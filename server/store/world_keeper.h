@@ -23,7 +23,7 @@
 namespace scree {
 
 /// When a world is saved: after each tick in which something happened, once a second, or at the end and every
-/// autosave.
+/// autosave; and whenever limits::unsaved_chunks_max chunks have changed.
 enum class Durability : uint8_t { tick, second, off };
 
 struct DurabilityRow {

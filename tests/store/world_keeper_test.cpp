@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/store/ground_mass.h"
+#include "server/store/limits.h"
 #include "server/store/stored_field.h"
 #include "server/store/world_schema.h"
 #include "tests/store/faulty_disk.h"
@@ -37,6 +38,34 @@ TEST_F(WorldFileTest, without_durability_a_world_is_saved_every_autosave_or_only
     EXPECT_EQ(value_in_file(), encode(world->snapshot()));
     std::filesystem::remove(path);
   }
+}
+
+TEST_F(WorldFileTest, without_durability_a_world_is_saved_before_much_of_it_waits) {
+  make();
+  ASSERT_TRUE(file->read().has_value());
+  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
+                     {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}});
+  const auto brick = std::make_shared<const Brick>(Brick{});
+  const auto changed = [&](size_t chunk, int brick_of_chunk) {
+    const BrickCoord coord = brick_in_chunk({static_cast<int>(chunk), 0, 0}, brick_of_chunk);
+    return BrickState{coord, brick, brick_hash(coord, *brick, {}), {}};
+  };
+  TickDelta delta;
+  delta.tick = world->tick() + 1;
+  for (size_t chunk = 1; chunk < limits::unsaved_chunks_max; ++chunk)
+    for (const int of_chunk : {0, 1, 2}) delta.bricks.push_back(changed(chunk, of_chunk));
+  EXPECT_FALSE(keeper.note(delta));
+  ++delta.tick;
+  EXPECT_FALSE(keeper.note(delta)) << "the same chunks again";
+  ++delta.tick;
+  delta.bricks = {changed(limits::unsaved_chunks_max, 0)};
+  EXPECT_TRUE(keeper.note(delta));
+  WorldMoment moment = world->moment();
+  moment.tick = delta.tick;
+  keeper.save(moment);
+  while (keeper.status().saved_tick < delta.tick) std::this_thread::yield();
+  ++delta.tick;
+  EXPECT_FALSE(keeper.note(delta)) << "all others are saved";
 }
 
 TEST_F(WorldFileTest, rows_without_the_grounds_mass_are_read_and_a_keeper_adds_it) {
