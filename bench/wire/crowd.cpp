@@ -33,6 +33,7 @@ BotReport play_one(const BotConfig& config, Clock::time_point end) {
 
 Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots, double seconds) {
   LiveConfig config;
+  config.governed = true;
   config.world = world;
   auto started = LiveServer::start(config);
   if (!started) return tl::unexpected(started.error());

@@ -47,12 +47,14 @@ void report_crowd(BenchReport& report, const std::string& name, const CrowdOutco
   report.metric(name + "_others_accepted", greedy_accepted);
   report.metric(name + "_ticks_per_s", outcome.ticks_per_s);
   report.metric(name + "_tick_p99_ms", outcome.server.tick.quantile_ms(0.99));
+  std::string refused;
+  for (const auto& [reason, count] : honest.refusals) refused += fmt::format(", {} by {}", count, reason);
   report.check(
       name,
       honest.failure.empty() && accepted >= 0.95 && reply_p99_ms <= 1000.0 && outcome.ticks_per_s >= 59.0,
-      fmt::format("{:.0f} % accepted, reply p99 {:.0f} ms, {:.1f} ticks a second {}; wanted 95 %, 1,000 "
-                  "ms, 59 a second",
-                  100.0 * accepted, reply_p99_ms, outcome.ticks_per_s, honest.failure));
+      fmt::format("{:.0f} % accepted{}, reply p99 {:.0f} ms, {:.1f} ticks a second {}; wanted 95 %, "
+                  "1,000 ms, 59 a second",
+                  100.0 * accepted, refused, reply_p99_ms, outcome.ticks_per_s, honest.failure));
 }
 
 }  // namespace

@@ -63,6 +63,15 @@ inline constexpr double beyond_relief = 1.0 / 16.0;
 inline constexpr int heap_arenas = 4;
 inline constexpr int heap_block_bytes = 4 * 1024 * 1024;
 
+/// Seconds of ticks between two looks at how many were late; share of late ticks above which, or of lost ones
+/// with which, the simulation may take so many percent of what it took; looks in a row without a late tick
+/// after which it may take so much more of a tick's length, percent.
+inline constexpr double governor_look_s = 0.5;
+inline constexpr double governor_late_share = 0.1;
+inline constexpr uint32_t governor_lower_percent = 75;
+inline constexpr uint32_t governor_calm_looks = 4;
+inline constexpr uint32_t governor_raise_percent = 5;
+
 /// Milliseconds between two looks at what the process has in RAM.
 inline constexpr int resident_look_ms = 500;
 

@@ -84,6 +84,9 @@ bool LiveServer::State::step() {
     admitted =
         admission.admit(std::move(admitted.commands), {*world, *pager, generator, !kept->status().error});
   }
+  if (work_percent_next)
+    admitted.commands.push_back(
+        {0, 0, SettingsRequest{{{"work-percent", std::to_string(*std::exchange(work_percent_next, {}))}}}});
   const double terrain_in_ms = watch.lap_ms();
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
@@ -164,10 +167,27 @@ void LiveServer::State::count(TickSchedule::Delay delay) {
               "tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
 }
 
+/// Of a tick that took `length` of a tick's length.
+void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
+  if (!governor) return;
+  const uint32_t percent = feed->world()->config().work_percent;
+  work_percent_next = governor->tick_ended(length, delay.lost_ticks, percent);
+  if (work_percent_next)
+    spdlog::info("ticks are {}: their work may take {} % of their length, so far {} %",
+                 *work_percent_next < percent ? "late" : "in time again", *work_percent_next, percent);
+}
+
 void LiveServer::State::run() {
   if (!wait_for_clients()) return end("");
   TickSchedule schedule(Clock::now(), period);
-  while (sleep_until(schedule.due()) && step()) count(schedule.tick_ended(Clock::now()));
+  while (sleep_until(schedule.due())) {
+    const Clock::time_point began = Clock::now();
+    if (!step()) break;
+    const Clock::time_point ended = Clock::now();
+    const TickSchedule::Delay delay = schedule.tick_ended(ended);
+    count(delay);
+    govern(std::chrono::duration<double>(ended - began) / period, delay);
+  }
   end("");
 }
 

@@ -37,6 +37,7 @@ struct LiveConfig {
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
   std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
+  bool governed = false;      ///< the setting work-percent follows how late ticks are (load_governor.h)
   Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
   double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never
   uint32_t wait_clients = 0;  ///< the first tick waits until so many clients have joined

@@ -50,7 +50,10 @@ Result<void> LiveServer::State::open() {
     report.settings = keyframe->settings;  // ticks say only what changes
     net->publish(keyframe);
   }
-  if (feed->world() != nullptr) ahead = std::make_unique<TerrainAhead>(config.world.terrain);
+  if (feed->world() != nullptr) {
+    ahead = std::make_unique<TerrainAhead>(config.world.terrain);
+    if (config.governed) governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz);
+  }
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   return {};
 }

@@ -10,6 +10,7 @@
 #include "server/app/admission.h"
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
+#include "server/app/load_governor.h"
 #include "server/app/piece_outlook.h"
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
@@ -49,6 +50,7 @@ struct LiveServer::State {
   /// Notes nothing where nobody wants to know.
   bool has_events() const { return !config.events_path.empty() || !config.record_path.empty(); }
   void count(TickSchedule::Delay delay);
+  void govern(double length, TickSchedule::Delay delay);
   bool sleep_until(Clock::time_point when);
   void end(const std::string& error);
 
@@ -62,6 +64,8 @@ struct LiveServer::State {
   std::unique_ptr<ResidentMemory> resident;  ///< likewise
   PieceOutlook outlook;
   Admission admission;
+  std::unique_ptr<LoadGovernor> governor;     ///< null: a replay, or not wanted
+  std::optional<uint32_t> work_percent_next;  ///< the governor's wish, for the next tick
   std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace

@@ -90,6 +90,10 @@ void add_world(CLI::App& app, Raw& raw) {
           whole_within(limits::tick_rate_min_hz, limits::tick_rate_max_hz))
       ->capture_default_str();
   add_threads(app, "--sim-threads", raw.options.live.sim_threads, "step the bodies");
+  raw.options.live.governed = true;
+  app.add_option("--govern", raw.options.live.governed,
+                 "lower work-percent while ticks are late, and raise it again: true or false")
+      ->capture_default_str();
 }
 
 /// Every row of the table of settings is an option.
@@ -182,7 +186,7 @@ void add_recordings(CLI::App& app, Raw& raw) {
       ->needs(record);
   CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
   replay->excludes(record);
-  for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate"})
+  for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate", "--govern"})
     replay->excludes(app.get_option(of_the_recording));
   bounded(app.add_option("--from", live.replay.from, "tick of the recording to start after"),
           whole_within(0, whole_most))

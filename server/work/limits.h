@@ -8,9 +8,11 @@
 
 namespace scree::limits {
 
-/// Share of a tick's length that its work may take by the model; the rest is for work outside the model, and
-/// for other threads. Above: requests wait, pieces merge sooner, fewer break.
-inline constexpr float work_share = 0.7F;
+/// Percent of a tick's length that its work may take by the model, at most and at least: the rest is for work
+/// outside the model, and for other threads. Above: requests wait, pieces merge sooner, fewer break. At
+/// least: what bodies at rest and their merges need.
+inline constexpr uint32_t work_percent_max = 70;
+inline constexpr uint32_t work_percent_min = 15;
 
 /// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.
 inline constexpr float crowded_share = 0.5F;

@@ -20,9 +20,12 @@ struct PieceRoom {
 
 /// How many of the pieces that a carve asks for it may make.
 struct PieceGrant {
-  uint32_t pieces = 0;       ///< 0: none
-  bool contested = false;    ///< other parties have pieces, or ask for some
-  bool may_wait = false;     ///< none, but others hold more than this party: room is coming
+  uint32_t pieces = 0;     ///< 0: none
+  bool contested = false;  ///< other parties have pieces, or ask for some
+  bool may_wait = false;   ///< none, but others hold more than this party: room is coming
+  /// Where none: what it may make when it has waited in vain, because it holds less than half of what parties
+  /// hold on average. Else a few that fill the server keep out whoever asks for little.
+  uint32_t pieces_at_last = 0;
   uint32_t pieces_most = 0;  ///< where none: the most that the party would have been granted a part of
 };
 

@@ -27,6 +27,7 @@ class RequestQueue {
  public:
   /// `client_us_per_s`: estimated work that all clients together get a second.
   explicit RequestQueue(float client_us_per_s);
+  void expect(float client_us_per_s) { client_us_per_s_ = client_us_per_s; }
 
   /// Refuses, by name, what would make a session wait too long or take the other parties' places
   /// (limits::waiting_work_max_s, requests_waiting_max).

@@ -19,9 +19,15 @@ float cost_of(const Bodies& bodies) {
 
 }  // namespace
 
-WorkBudget::WorkBudget(uint32_t tick_rate_hz)
-    : budget_us_(limits::work_share * 1e6F / static_cast<float>(tick_rate_hz)) {
+WorkBudget::WorkBudget(uint32_t tick_rate_hz, uint32_t percent)
+    : tick_us_(1e6F / static_cast<float>(tick_rate_hz)) {
   CHECK(tick_rate_hz > 0);
+  allow(percent);
+}
+
+void WorkBudget::allow(uint32_t percent) {
+  CHECK(percent >= limits::work_percent_min && percent <= limits::work_percent_max);
+  budget_us_ = 0.01F * static_cast<float>(percent) * tick_us_;
 }
 
 void WorkBudget::begin(const Bodies& bodies) {

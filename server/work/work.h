@@ -16,8 +16,10 @@ namespace scree {
 
 class WorkBudget {
  public:
-  /// The tick rate must be positive.
-  explicit WorkBudget(uint32_t tick_rate_hz);
+  /// The tick rate must be positive. `percent` of a tick's length is the budget.
+  WorkBudget(uint32_t tick_rate_hz, uint32_t percent);
+  /// From the next tick on.
+  void allow(uint32_t percent);
 
   /// Starts a tick with the estimated cost of the bodies' step, and pays back debt by the rest of the budget.
   void begin(const Bodies& bodies);
@@ -51,7 +53,8 @@ class WorkBudget {
   void report(TickWork& work) const;
 
  private:
-  float budget_us_;
+  float tick_us_;
+  float budget_us_ = 0.0F;
   float spent_us_ = 0.0F;
   float bodies_us_ = 0.0F;
   float debt_us_ = 0.0F;

@@ -208,6 +208,8 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
     state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
   state.field.bound_generated(generated_bytes_within(state.config.memory_max_mb));
+  state.work.allow(state.config.work_percent);
+  state.requests.expect(client_us_per_s(state.work, state.config));
   return 0U;
 }
 
@@ -329,11 +331,12 @@ void carry_out(World::State& state, TickDelta& delta) {
   const float relief = relief_us(state);
   bool first = true;
   while (const WaitingRequest* const next = state.requests.next()) {
-    const PieceGrant grant = grant_for(state, next->command);
+    PieceGrant grant = grant_for(state, next->command);
     if (may_wait(state, *next, grant)) {
       state.requests.pass_over();
       continue;
     }
+    if (grant.pieces == 0) grant.pieces = grant.pieces_at_last;
     const float cost = cost_with(state, *next, grant);
     const bool costs_nothing = cost <= limits::refusal_cost_us;
     if (!costs_nothing) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "server/work/limits.h"
 #include "server/world/limits.h"
 #include "shared/base/kind_table.h"
 #include "shared/base/limits.h"
@@ -69,6 +70,7 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
 }
 
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
+constexpr std::array<std::string_view, 1> little_work{"20"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
@@ -86,6 +88,9 @@ constexpr std::array table{
     number<&WorldConfig::memory_max_mb>("memory-max",
                                         "memory of the terrain and the program; edits beyond are refused",
                                         {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
+    number<&WorldConfig::work_percent>(
+        "work-percent", "of a tick's length, for its work; lowered while ticks are late",
+        {limits::work_percent_min, limits::work_percent_max, "percent"}, little_work),
     number<&ServiceLimits::sessions_max>("sessions-max", "clients at once; more are refused",
                                          {1, limits::sessions_max_max, "clients"}),
     number<&ServiceLimits::requests_per_second>(
@@ -96,16 +101,16 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. Of a WorldConfig,
 /// the terrain, the tick's length and merges_per_tick_max are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
-  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, methods, service,
-               ground] = world;
+  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
+               service, ground] = world;
   static_cast<void>(ground);  // names the terrain's
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
   const auto& [sessions_max, requests_per_second] = service;
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
-                          static_cast<double>(pieces_max), static_cast<double>(memory_max_mb),
-                          static_cast<double>(merges_per_tick_max)};
+                          static_cast<double>(pieces_max),           static_cast<double>(memory_max_mb),
+                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),

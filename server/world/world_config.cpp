@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "server/work/limits.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
@@ -62,6 +63,12 @@ Result<void> validate(const WorldConfig& config) {
        .name = "memory_max_mb",
        .limits = "limits.memory_max_min_mb, memory_max_max_mb",
        .option = "--memory-max"},
+      {.value = static_cast<double>(config.work_percent),
+       .min = limits::work_percent_min,
+       .max = limits::work_percent_max,
+       .name = "work_percent",
+       .limits = "limits.work_percent_min, work_percent_max",
+       .option = "--work-percent"},
       {.value = static_cast<double>(config.merges_per_tick_max),
        .min = 0.0,
        .max = limits::merges_per_tick_max_max,

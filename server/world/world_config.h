@@ -21,6 +21,9 @@ struct WorldConfig {
       4096;  ///< of the terrain and the program; the server keeps to it (server/app/terrain_pager.h)
   /// At once; the tick's budget allows fewer. 0: nothing merges, and nothing freezes either.
   uint32_t merges_per_tick_max = 1000;
+  /// Percent of a tick's length that its work may take by the model (server/work/work.h). A live server
+  /// lowers it while its ticks are late, and raises it again (server/app/load_governor.h).
+  uint32_t work_percent = 70;
   Methods methods;
   ServiceLimits service;  ///< for the network; the simulation does not read it
   Digest ground{};        ///< names the file that terrain.heights is from; zeros: of no file

@@ -55,13 +55,17 @@ Loose left_by(const Operation& operation) {
 
 }  // namespace
 
+float client_us_per_s(const WorkBudget& work, const WorldConfig& config) {
+  return limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz);
+}
+
 World::State::State(const WorldConfig& world_config, size_t threads)
     : config(world_config),
       field(config.terrain),
       bodies(field, bodies_config(config, threads)),
       rest(RestConfig{}, config.tick_rate_hz),
-      work(config.tick_rate_hz),
-      requests(limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz)) {
+      work(config.tick_rate_hz, config.work_percent),
+      requests(client_us_per_s(work, config)) {
   WorldConfig parsed = config;
   CHECK(set_all(parsed, print(config)) && parsed == config);
   field.bound_generated(generated_bytes_within(config.memory_max_mb));

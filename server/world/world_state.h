@@ -78,4 +78,7 @@ struct World::State {
   ThreadCheck thread;            ///< that of step()
 };
 
+/// Estimated work that all clients together get a second.
+float client_us_per_s(const WorkBudget& work, const WorldConfig& config);
+
 }  // namespace scree

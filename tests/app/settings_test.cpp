@@ -331,7 +331,7 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
   start("");
   const auto status = read_status(target);
   ASSERT_TRUE(status) << status.error().message;
-  const auto budget_us = static_cast<uint32_t>(limits::work_share * 1e6F / 60.0F);
+  const auto budget_us = static_cast<uint32_t>(0.01F * limits::work_percent_max * 1e6F / 60.0F);
   EXPECT_EQ(status->work.budget_us, budget_us);
   EXPECT_EQ(status->clients, 0U) << "who asks does not count itself";
   EXPECT_TRUE(holds(status_json(*status), "\"budget_us\": " + std::to_string(budget_us)));

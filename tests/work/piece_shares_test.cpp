@@ -79,6 +79,21 @@ TEST(piece_shares, bodies_that_take_their_share_of_the_tick_leave_no_room) {
   EXPECT_FALSE(owner.may_wait) << "it holds the room itself";
 }
 
+TEST(piece_shares, who_holds_much_less_than_others_gets_the_least_at_last) {
+  PieceShares shares = holding(1, 500);
+  PieceRoom room{.alive = 500, .pieces_max = 2000, .bodies_load = limits::bodies_share};
+  EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 64U / limits::seeds_cut_max);
+  EXPECT_EQ(shares.grant(2, 1, room).pieces_at_last, 1U);
+  EXPECT_EQ(shares.grant(1, 64, room).pieces_at_last, 0U);
+  room.pieces_max = 501;
+  EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 0U) << "a limit is a limit";
+  for (int i = 0; i < 200; ++i) shares.add(2);
+  EXPECT_EQ(shares.grant(2, 64, {.alive = 700, .pieces_max = 2000, .bodies_load = limits::bodies_share})
+                .pieces_at_last,
+            0U)
+      << "it holds more than half of the average";
+}
+
 TEST(piece_shares, a_piece_that_nobody_has_cannot_go) {
   PieceShares shares = holding(1, 1);
   shares.remove(1);

@@ -212,9 +212,22 @@ TEST(work, what_is_cut_is_the_same_every_time_and_reported) {
   }
   EXPECT_TRUE(sooner) << "a crowd merges sooner";
   EXPECT_GT(report.work.ticks_cut_short, 0U);
-  EXPECT_EQ(report.work.budget_us, static_cast<uint32_t>(limits::work_share * 1e6F / 60.0F));
+  EXPECT_EQ(report.work.budget_us, static_cast<uint32_t>(0.01F * limits::work_percent_max * 1e6F / 60.0F));
   EXPECT_LE(report.work.first_cut_short, report.work.last_cut_short);
   EXPECT_NE(to_json(report).find("ticks_merging_sooner"), std::string::npos);
+}
+
+TEST(work, a_tick_has_the_percent_that_the_settings_say) {
+  World world({});
+  const auto budget_us = [](uint32_t percent) {
+    return static_cast<uint32_t>(0.01F * static_cast<float>(percent) * 1e6F / 60.0F);
+  };
+  EXPECT_EQ(step(world, {})->work.budget_us, budget_us(limits::work_percent_max));
+  const std::vector<Command> less{{0, 0, SettingsRequest{{{"work-percent", "30"}}}}};
+  EXPECT_EQ(step(world, less)->work.budget_us, budget_us(30));
+  const std::vector<Command> too_little{{0, 0, SettingsRequest{{{"work-percent", "14"}}}}};
+  EXPECT_FALSE(step(world, too_little)->replies.front().refusal.empty());
+  EXPECT_EQ(step(world, {})->work.budget_us, budget_us(30));
 }
 
 TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {

@@ -1,0 +1,35 @@
+#include "server/app/load_governor.h"
+
+#include <algorithm>
+
+#include "server/app/limits.h"
+#include "server/work/limits.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+LoadGovernor::LoadGovernor(uint32_t tick_rate_hz)
+    : ticks_a_look_(std::max(2U, static_cast<uint32_t>(limits::governor_look_s * tick_rate_hz))) {}
+
+std::optional<uint32_t> LoadGovernor::tick_ended(double length, uint64_t lost, uint32_t percent) {
+  CHECK(percent >= limits::work_percent_min && percent <= limits::work_percent_max);
+  ++ticks_;
+  late_ += length > 1.0 ? 1 : 0;
+  lost_ += lost;
+  if (ticks_ < ticks_a_look_) return std::nullopt;
+  const double late_share = static_cast<double>(late_) / ticks_;
+  const bool behind = lost_ > 0 || late_share > limits::governor_late_share;
+  calm_looks_ = late_ == 0 && lost_ == 0 ? calm_looks_ + 1 : 0;
+  ticks_ = late_ = 0;
+  lost_ = 0;
+  uint32_t wanted = percent;
+  if (behind) {
+    wanted = std::max(limits::work_percent_min, percent * limits::governor_lower_percent / 100);
+  } else if (calm_looks_ >= limits::governor_calm_looks) {
+    calm_looks_ = 0;
+    wanted = std::min(limits::work_percent_max, percent + limits::governor_raise_percent);
+  }
+  return wanted == percent ? std::nullopt : std::optional(wanted);
+}
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// Lowers the share of a tick that the simulation's work may take while its ticks are late, and raises it
+// again.
+//
+// The model of that work (server/work/work.h) knows no clock, so that the same commands give the same hashes
+// on every machine. A machine that is slower than the model's, or busy with other things, would run late for
+// ever. What the governor wants becomes a command, a change of the setting work-percent, which is recorded
+// like all. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace scree {
+
+class LoadGovernor {
+ public:
+  explicit LoadGovernor(uint32_t tick_rate_hz);
+
+  /// A tick ended: it took `length` of a tick's length by the clock, and `lost` ticks of real time were lost
+  /// after it. `percent` is what its work may take now. Returns what it should be from now on, if that is
+  /// something else; a new answer comes after limits::governor_look_s at the soonest.
+  std::optional<uint32_t> tick_ended(double length, uint64_t lost, uint32_t percent);
+
+ private:
+  uint32_t ticks_a_look_;
+  uint32_t ticks_ = 0;  ///< since the last look
+  uint32_t late_ = 0;   ///< of these
+  uint64_t lost_ = 0;
+  uint32_t calm_looks_ = 0;  ///< in a row
+};
+
+}  // namespace scree
