@@ -67,8 +67,8 @@ inline constexpr int heap_block_bytes = 4 * 1024 * 1024;
 /// with which, the simulation may take so many percent of what it took; looks in a row without a late tick
 /// after which it may take so much more of a tick's length, percent.
 inline constexpr double governor_look_s = 0.5;
-inline constexpr double governor_late_share = 0.1;
-inline constexpr uint32_t governor_lower_percent = 75;
+inline constexpr double governor_late_share = 0.2;
+inline constexpr uint32_t governor_lower_percent = 80;
 inline constexpr uint32_t governor_calm_looks = 4;
 inline constexpr uint32_t governor_raise_percent = 5;
 

@@ -125,6 +125,8 @@ inline constexpr float waiting_work_max_s = 1.0F;
 /// How long a carve waits for room for its pieces when other clients hold more than their share, seconds.
 /// Above: refused.
 inline constexpr float room_wait_max_s = 0.75F;
+/// The same, where it then gets the least: others' large pieces may leave no room for long.
+inline constexpr float room_wait_least_s = 0.25F;
 
 /// When several clients have pieces: a carve gets at most one of so many pieces that its client may still
 /// make, so that there is something left for its next carves.

@@ -56,9 +56,10 @@ PieceGrant PieceShares::grant(uint64_t party, uint32_t wanted, const PieceRoom& 
     return grant;
   }
   const size_t parties = pieces_.size() + (own == 0 ? 1 : 0);
-  grant.may_wait = wanted <= room.pieces_max && own * parties <= room.alive;
+  if (wanted > room.pieces_max) return grant;
+  grant.may_wait = own * parties <= room.alive;
   const uint32_t least = (wanted + limits::seeds_cut_max - 1) / limits::seeds_cut_max;
-  if (grant.may_wait && least <= left && 2 * own * parties < room.alive) grant.pieces_at_last = least;
+  if (least <= left && own * (parties + 1) < room.pieces_max) grant.pieces_at_last = least;
   return grant;
 }
 

@@ -23,8 +23,8 @@ struct PieceGrant {
   uint32_t pieces = 0;     ///< 0: none
   bool contested = false;  ///< other parties have pieces, or ask for some
   bool may_wait = false;   ///< none, but others hold more than this party: room is coming
-  /// Where none: what it may make when it has waited in vain, because it holds less than half of what parties
-  /// hold on average. Else a few that fill the server keep out whoever asks for little.
+  /// Where none: what it may make when it has waited a little in vain, because it holds less than its part of
+  /// the limit of pieces. Else a few with large pieces keep out whoever has small ones.
   uint32_t pieces_at_last = 0;
   uint32_t pieces_most = 0;  ///< where none: the most that the party would have been granted a part of
 };

@@ -264,9 +264,10 @@ bool may_begin(const World::State& state, float cost_us) {
 }
 
 bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
-  const auto ticks =
-      static_cast<Tick>(limits::room_wait_max_s * static_cast<float>(state.config.tick_rate_hz));
-  return grant.may_wait && state.tick - request.since < ticks;
+  const bool gets_some = grant.pieces_at_last > 0;
+  const float wait_s = gets_some ? limits::room_wait_least_s : limits::room_wait_max_s;
+  const auto ticks = static_cast<Tick>(wait_s * static_cast<float>(state.config.tick_rate_hz));
+  return grant.pieces == 0 && (grant.may_wait || gets_some) && state.tick - request.since < ticks;
 }
 
 void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {

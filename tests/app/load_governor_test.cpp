@@ -27,12 +27,12 @@ std::vector<uint32_t> wanted_after(LoadGovernor& governor, uint32_t looks, doubl
 
 TEST(LoadGovernor, work_is_reduced_look_by_look_while_ticks_are_late_and_never_below_the_least) {
   LoadGovernor governor(60);
-  EXPECT_EQ(wanted_after(governor, 8, 1.2, 70), (std::vector<uint32_t>{52, 39, 29, 21, 15}));
+  EXPECT_EQ(wanted_after(governor, 10, 1.2, 70), (std::vector<uint32_t>{56, 44, 35, 28, 22, 17, 15}));
 }
 
 TEST(LoadGovernor, a_lost_tick_counts_as_late_whatever_the_others_were) {
   LoadGovernor governor(60);
-  EXPECT_EQ(wanted_after(governor, 2, 0.3, 70, 1), (std::vector<uint32_t>{52, 39}));
+  EXPECT_EQ(wanted_after(governor, 2, 0.3, 70, 1), (std::vector<uint32_t>{56, 44}));
 }
 
 TEST(LoadGovernor, work_comes_back_in_small_steps_while_no_tick_is_late) {
@@ -50,7 +50,7 @@ TEST(LoadGovernor, few_late_ticks_change_nothing) {
 TEST(LoadGovernor, slow_ticks_are_looked_at_two_at_a_time) {
   LoadGovernor governor(1);
   EXPECT_FALSE(governor.tick_ended(2.0, 0, 70));
-  EXPECT_EQ(governor.tick_ended(2.0, 0, 70), 52U);
+  EXPECT_EQ(governor.tick_ended(2.0, 0, 70), 56U);
 }
 
 }  // namespace

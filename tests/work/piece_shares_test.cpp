@@ -79,19 +79,19 @@ TEST(piece_shares, bodies_that_take_their_share_of_the_tick_leave_no_room) {
   EXPECT_FALSE(owner.may_wait) << "it holds the room itself";
 }
 
-TEST(piece_shares, who_holds_much_less_than_others_gets_the_least_at_last) {
+TEST(piece_shares, who_holds_less_than_his_part_of_the_limit_gets_the_least_at_last) {
   PieceShares shares = holding(1, 500);
   PieceRoom room{.alive = 500, .pieces_max = 2000, .bodies_load = limits::bodies_share};
   EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 64U / limits::seeds_cut_max);
   EXPECT_EQ(shares.grant(2, 1, room).pieces_at_last, 1U);
-  EXPECT_EQ(shares.grant(1, 64, room).pieces_at_last, 0U);
+  EXPECT_EQ(shares.grant(2, 2001, room).pieces_at_last, 0U) << "more than there can ever be";
   room.pieces_max = 501;
   EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 0U) << "a limit is a limit";
-  for (int i = 0; i < 200; ++i) shares.add(2);
-  EXPECT_EQ(shares.grant(2, 64, {.alive = 700, .pieces_max = 2000, .bodies_load = limits::bodies_share})
-                .pieces_at_last,
-            0U)
-      << "it holds more than half of the average";
+  for (int i = 0; i < 665; ++i) shares.add(2);
+  room = {.alive = 1165, .pieces_max = 2000, .bodies_load = limits::bodies_share};
+  EXPECT_GT(shares.grant(2, 64, room).pieces_at_last, 0U);
+  for (int i = 0; i < 2; ++i) shares.add(2);
+  EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 0U) << "it holds a third";
 }
 
 TEST(piece_shares, a_piece_that_nobody_has_cannot_go) {
