@@ -97,6 +97,8 @@ start_server() {
     grep -qs '"listening"' "$out/server.out"
   port=$(jq -r 'select(.listening) | .listening' "$out/server.out")
   say "the server listens on port $port"
+  page=$(jq -r 'select(.page) | .page' "$out/server.out")
+  [[ -z $page ]] || say "in a browser: $page"
 }
 
 # start_bot SECONDS: carves, stays until all has settled, then compares its hash with the server's.

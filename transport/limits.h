@@ -5,13 +5,21 @@
 
 namespace scree::limits {
 
-/// Bytes that TLS encrypts, and reads, at once: one record (RFC 8446, 5.1). Above: the rest is taken next
+/// Bytes that a layer (TLS, WebSocket) reads at once from the stream below. Above: the rest is read next
 /// time.
-inline constexpr size_t tls_chunk_bytes = size_t{16} << 10;
+inline constexpr size_t layer_read_bytes = size_t{16} << 10;
 
-/// Encrypted bytes that wait to be sent. Above: no more is read, because what arrives may ask for answers
-/// (key updates), until these are gone.
-inline constexpr size_t tls_unsent_bytes_max = size_t{64} << 10;
+/// Bytes of a layer that wait to be sent. Above: no more is read, because what arrives may ask for answers
+/// (key updates, pings), until these are gone.
+inline constexpr size_t layer_unsent_bytes_max = size_t{64} << 10;
+
+/// Payload of a WebSocket's frame that the server sends: with its header it fits in a TLS record.
+inline constexpr size_t websocket_chunk_bytes = (size_t{16} << 10) - 16;
+
+/// Frames of a WebSocket that carry nothing (pings, pongs, empty ones), a second and at once after a silence;
+/// what they cost is in no session's count of bytes. Above: the connection ends.
+inline constexpr double bare_frames_per_second_max = 20.0;
+inline constexpr double bare_frames_burst_max = 100.0;
 
 /// Of a simulated link: bytes that are delayed together; and what waits at the bottleneck if not said
 /// otherwise, in seconds of its rate, within the bounds that may be said. Above: nothing more is taken.

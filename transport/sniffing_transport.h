@@ -1,8 +1,10 @@
-// A server's end of a stream whose client chooses between plain bytes and TLS: its first bytes tell. Whoever
-// is written to before its first bytes came is written to plainly, and stays so.
+// A server's end of a stream whose client chooses between the protocol's bytes and HTTP, both plainly or
+// within TLS: its first bytes tell, and within TLS the first of those. Whoever is written to before its first
+// bytes came is written to plainly, and stays so. A stream of HTTP is given away.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 
 #include "crypto/tls_engine.h"
@@ -10,9 +12,20 @@
 
 namespace scree {
 
+/// Whether bytes that arrived first begin an HTTP request: capital letters of a method, which would begin a
+/// message of 4 MB. Needs http_greeting_bytes of them.
+inline constexpr size_t http_greeting_bytes = 3;
+bool is_http_greeting(std::span<const uint8_t> first);
+
 class SniffingTransport final : public Transport, public std::enable_shared_from_this<SniffingTransport> {
  public:
-  SniffingTransport(std::shared_ptr<Transport> below, std::shared_ptr<const TlsServerContext> tls);
+  /// Takes a stream of HTTP, and what was read of it. The read under way is never answered, and the
+  /// SniffingTransport is empty: nothing done to it reaches the stream any more.
+  using TakeHttp = std::function<void(std::shared_ptr<Transport> stream, std::span<const uint8_t> first)>;
+
+  /// `tls` may be null: TLS is not spoken; so may `http`.
+  SniffingTransport(std::shared_ptr<Transport> below, std::shared_ptr<const TlsServerContext> tls,
+                    TakeHttp http);
 
   void read_some(std::span<uint8_t> into, Done done) override;
   void write_some(Buffers buffers, Done done) override;
@@ -20,8 +33,12 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
   void send_rest() override { chosen_->send_rest(); }
   size_t unsent_bytes() override { return chosen_->unsent_bytes(); }
   void finish_sending() override { chosen_->finish_sending(); }
-  void close() override { chosen_->close(); }
-  void cut() override { chosen_->cut(); }
+  void close() override {
+    if (!given_) chosen_->close();
+  }
+  void cut() override {
+    if (!given_) chosen_->cut();
+  }
   bool established() const override { return chosen_->established(); }
   bool encrypted() const override { return chosen_->encrypted(); }
   const std::string& address() const override { return chosen_->address(); }
@@ -33,9 +50,11 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
 
   std::shared_ptr<Transport> chosen_;  ///< the one below, until TLS is put over it
   std::shared_ptr<const TlsServerContext> tls_;
+  TakeHttp http_;
   std::array<uint8_t, tls_greeting_bytes> first_{};
   size_t first_bytes_ = 0;
   bool decided_ = false;
+  bool given_ = false;  ///< away
 };
 
 }  // namespace scree

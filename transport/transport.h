@@ -1,5 +1,5 @@
-// A stream of bytes both ways, whatever carries it: TCP, TLS over another stream. What is above it knows no
-// other.
+// A stream of bytes both ways, whatever carries it: TCP, TLS or a WebSocket over another stream. What is
+// above it knows no other.
 //
 // All calls and all handlers are on one thread, the one that runs the sockets; write_now() alone may be
 // called by another one while that one waits for it. At most one read and one write are under way at a time,
@@ -20,6 +20,7 @@ namespace scree {
 struct StreamEnd {
   bool orderly = false;  ///< the other side finished sending
   std::string why;       ///< in words for people
+  bool broken = false;   ///< the other side broke the rules of what carries the stream
 };
 
 /// The bytes that were read or written, at least one; or the end.

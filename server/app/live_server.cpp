@@ -4,6 +4,7 @@
 
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
+#include "server/app/server_status.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -250,27 +251,36 @@ Result<void> LiveServer::stop() {
   return {};
 }
 
+ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyCounts& latency) const {
+  const std::scoped_lock lock(mutex);
+  ServerReport now = report;
+  now.net = stats;
+  now.latency = latency;
+  now.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  if (recorder) {
+    now.ticks_recorded = recorder->ticks_written();
+    now.record_waits = recorder->waits();
+    if (!now.error) now.error = recorder->error();
+  }
+  if (kept && !kept->is_temporary()) now.saving = kept->status();
+  now.resident_mb = resident_bytes() / bytes_per_mb;
+  if (pager) {
+    now.paging = pager->status();
+    now.work.memory_mb = now.paging.memory_mb;
+    now.requests_held = told.paging.requests_held;
+  }
+  if (events) now.events = events->status();
+  return now;
+}
+
+std::string LiveServer::State::status(const NetFigures& figures) const {
+  if (!is_open) return {};
+  return status_json(report_now(figures.stats, figures.latency), figures,
+                     {config.world.tick_rate_hz, config.net.replay});
+}
+
 ServerReport LiveServer::report() const {
-  const NetStats net = state_->net->stats();
-  const std::scoped_lock lock(state_->mutex);
-  ServerReport report = state_->report;
-  report.net = net;
-  report.latency = state_->net->latency();
-  report.seconds = std::chrono::duration<double>(State::Clock::now() - state_->started).count();
-  if (state_->recorder) {
-    report.ticks_recorded = state_->recorder->ticks_written();
-    report.record_waits = state_->recorder->waits();
-    if (!report.error) report.error = state_->recorder->error();
-  }
-  if (state_->kept && !state_->kept->is_temporary()) report.saving = state_->kept->status();
-  report.resident_mb = resident_bytes() / bytes_per_mb;
-  if (state_->pager) {
-    report.paging = state_->pager->status();
-    report.work.memory_mb = report.paging.memory_mb;
-    report.requests_held = state_->told.paging.requests_held;
-  }
-  if (state_->events) report.events = state_->events->status();
-  return report;
+  return state_->report_now(state_->net->stats(), state_->net->latency());
 }
 
 World* LiveServer::world() {

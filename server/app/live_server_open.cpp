@@ -33,6 +33,7 @@ Result<void> LiveServer::State::open() {
   if (config.world.ground != given && given != Digest{})
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
+  config.net.status = [this](const NetFigures& figures) { return status(figures); };
   config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
@@ -55,6 +56,7 @@ Result<void> LiveServer::State::open() {
     if (config.governed) governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz);
   }
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
+  is_open = true;
   return {};
 }
 

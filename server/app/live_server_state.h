@@ -2,6 +2,7 @@
 // (live_server.cpp).
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -34,6 +35,9 @@ struct LiveServer::State {
   Result<void> open_world();
   Result<void> open_recorder();
   Result<void> open_events();
+  ServerReport report_now(const NetStats& stats, const LatencyCounts& latency) const;
+  /// On the network thread.
+  std::string status(const NetFigures& figures) const;
   Saving saving() const;
   void tell();
   std::shared_ptr<const TickDelta> keep(std::shared_ptr<const TickDelta> delta, std::vector<Reply> refused);
@@ -79,6 +83,8 @@ struct LiveServer::State {
   uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only
   uint32_t read_last_second = 0;
   bool broken = false;  ///< the world does not stand between two ticks; used as saved is
+
+  std::atomic<bool> is_open = false;  ///< all that status() looks at is there
 
   mutable std::mutex mutex;  ///< guards the members below
   Saving told;

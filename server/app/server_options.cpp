@@ -13,6 +13,8 @@
 #include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
+#include "server/app/web_folder.h"
+#include "server/web/site.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
@@ -33,6 +35,7 @@ struct Raw {
   std::string durability = "second";
   std::string anonymous;  ///< empty: by what else is given
   std::string ground;     ///< empty: generated
+  std::string web;        ///< empty: the folder beside the program
   bool loop = false;      ///< of a replay
   bool end = false;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
@@ -67,6 +70,12 @@ void add_network(CLI::App& app, Raw& raw) {
   app.add_option("--chat", net.chat, "pass on what persons say to each other: true or false")
       ->capture_default_str();
   add_threads(app, "--net-threads", net.net_threads, "encode and send");
+  app.add_option("--web", raw.web,
+                 "folder of the page for browsers, as ./scree web builds it; off: no HTTP; unless said, the "
+                 "folder beside this program (../share/scree/web, ../../web/dist)");
+  app.add_option("--web-origin", net.web.origins,
+                 "a site beside this server's own whose pages may join, as https://game.example; may be said "
+                 "again");
 }
 
 void add_world(CLI::App& app, Raw& raw) {
@@ -227,6 +236,24 @@ void add_run(CLI::App& app, Raw& raw) {
       ->capture_default_str();
 }
 
+/// A folder that was named has a page; the one beside the program may be missing.
+void take_web(Raw& raw) {
+  WebConfig& web = raw.options.live.net.web;
+  web.on = raw.web != "off";
+  web.folder = raw.web.empty() ? web_folder_beside_program() : raw.web;
+  if (!web.on) web.folder.clear();
+  for (const std::string& origin : web.origins)
+    if (!is_origin(origin))
+      throw CLI::ValidationError("--web-origin",
+                                 "'" + origin +
+                                     "' is no site: http:// or https://, a host, a "
+                                     "port where it is not the usual one, and nothing behind");
+  if (raw.web.empty() || !web.on) return;
+  const auto files = web_files(web);
+  if (!files) throw CLI::ValidationError("--web", files.error().message);
+  if (!(*files)->has_page()) throw CLI::ValidationError("--web", web.folder + " has no index.html");
+}
+
 void take_end(Raw& raw) {
   if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
   if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
@@ -363,6 +390,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     take_anonymous(raw);
     take_durability(raw);
     take_end(raw);
+    take_web(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0 && file->count() > 0;

@@ -93,6 +93,11 @@ Json json_of(const NetStats& net) {
           {"publish_waits", net.publish_waits}};
 }
 
+Json json_of(const WebStats& web) {
+  return {{"requests", web.requests},     {"files", web.files},           {"not_modified", web.not_modified},
+          {"bytes_sent", web.bytes_sent}, {"websockets", web.websockets}, {"connections", web.connections}};
+}
+
 Json json_of(const std::string& path, const KeeperStatus& saving) {
   Json json{{"path", path},
             {"saved_tick", saving.saved_tick},
@@ -175,6 +180,7 @@ std::string to_json(const ServerReport& report) {
                {"bytes_per_carve", mean<CarveOperation>(sent)},
                {"bytes_per_merge", mean<StampOperation>(sent)},
                {"sessions", json_of(report.net)},
+               {"web", json_of(report.net.web)},
                {"refusals", json_of(report.net.refusals)},
                {"request_latency_ms", json_of(report.latency)}});
   Json stages = Json::object();

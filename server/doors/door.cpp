@@ -38,7 +38,8 @@ Door::Visitor& Door::visitor(const std::string& address, double now_s) {
   Visitor& found =
       visitors_
           .try_emplace(address,
-                       Visitor{.connects = RateLimit(rules_.connects_per_second, rules_.connects_burst)})
+                       Visitor{.connects = RateLimit(rules_.connects_per_second, rules_.connects_burst),
+                               .requests = RateLimit(rules_.requests_per_second, rules_.requests_burst)})
           .first->second;
   found.seen_s = now_s;
   return found;
@@ -69,6 +70,10 @@ void Door::leave(const std::string& address, double now_s) {
   Visitor& from = visitor(address, now_s);
   CHECK(from.connections > 0);
   --from.connections;
+}
+
+bool Door::may_request(const std::string& address, double now_s) {
+  return is_free(address) || visitor(address, now_s).requests.take(now_s);
 }
 
 double Door::wait_for_guess_s(const std::string& address, double now_s) const {

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "server/doors/limits.h"
 #include "server/work/refusal.h"
 #include "shared/base/rate_limit.h"
 
@@ -28,6 +29,8 @@ class Door {
     double connects_per_second = 0.0;
     double connects_burst = 1.0;
     bool loopback_is_free = true;
+    double requests_per_second = limits::http_requests_per_second_max;
+    double requests_burst = limits::http_requests_burst_max;
   };
 
   explicit Door(const Rules& rules) : rules_(rules) {}
@@ -36,6 +39,9 @@ class Door {
   std::optional<Refusal> enter(const std::string& address, double now_s);
   /// A connection that was let in has ended.
   void leave(const std::string& address, double now_s);
+
+  /// Whether the address may be answered an HTTP request now; it is counted.
+  bool may_request(const std::string& address, double now_s);
 
   /// Seconds until this address may present a token again; 0: now.
   double wait_for_guess_s(const std::string& address, double now_s) const;
@@ -56,6 +62,7 @@ class Door {
   struct Visitor {
     size_t connections = 0;
     RateLimit connects;
+    RateLimit requests;
     uint32_t wrong_guesses = 0;
     std::vector<size_t> wrong_tokens{};  ///< hashes
     double guess_after_s = 0.0;

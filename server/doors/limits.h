@@ -25,6 +25,11 @@ inline constexpr size_t connections_per_address_max = 64;
 inline constexpr double connects_per_second_max = 10.0;
 inline constexpr double connects_burst_max = 64.0;
 
+/// HTTP requests from one address, a second and at once: a page is about ten, and a status page asks once a
+/// second. Above: 429, and closed.
+inline constexpr double http_requests_per_second_max = 50.0;
+inline constexpr double http_requests_burst_max = 200.0;
+
 /// Seconds for which a party without sessions keeps its number; longer than any request waits.
 inline constexpr double party_memory_s = 10.0;
 

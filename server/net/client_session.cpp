@@ -38,24 +38,25 @@ void ClientSession::read() {
     if (moved)
       self->read_done(*moved);
     else
-      self->read_failed(moved.error().orderly, moved.error().why);
+      self->read_failed(moved.error());
   });
 }
 
-void ClientSession::read_failed(bool orderly, const std::string& why) {
+void ClientSession::read_failed(const StreamEnd& end) {
   if (phase_ == Phase::refused) return close("refused before");
   peer_ended_ = true;
   if (!transport_->established()) {
     cut_for_ = Refusal::tls_failed;
-    return close(why);
+    return close(end.why);
   }
   const std::string cut_short = "the connection ended in the middle of a message, after " +
                                 std::to_string(reader_.buffered_bytes()) + " bytes of it";
-  const bool within_message = orderly && reader_.buffered_bytes() != 0;
+  const bool within_message = end.orderly && reader_.buffered_bytes() != 0;
   if (within_message && phase_ == Phase::hello) return refuse({Refusal::message_cut_short, cut_short});
   was_lost_ = true;
+  if (end.broken) return cut_off(Refusal::stream_malformed, end.why);
   if (within_message) return cut_off(Refusal::message_cut_short, cut_short);
-  close(orderly ? "its end of the connection is closed" : why);
+  close(end.orderly ? "its end of the connection is closed" : end.why);
 }
 
 void ClientSession::read_done(size_t bytes) {
@@ -233,6 +234,11 @@ void ClientSession::close(const std::string& reason) {
   outbox_.clear();
   backlog_bytes_ = 0;
   host_.closed(*this, reason);
+}
+
+void ClientSession::give_up_connection() {
+  CHECK(phase_ == Phase::hello && outbox_.empty());
+  phase_ = Phase::closed;
 }
 
 void ClientSession::leave() {

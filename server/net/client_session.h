@@ -73,6 +73,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void refuse(const Refused& refused);
   /// Closes at once.
   void close(const std::string& reason);
+  /// It is over, and nobody is told: its connection goes on as something else's.
+  void give_up_connection();
   /// Closes at once: the client has said goodbye, and does not go on.
   void leave();
   /// Ends the session if the client sent no hello, or has not read, for too long. Call a few times a second.
@@ -112,7 +114,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
  private:
   void read();
   void read_done(size_t bytes);
-  void read_failed(bool orderly, const std::string& why);
+  void read_failed(const StreamEnd& end);
   bool take_message(std::span<const uint8_t> body);
   void write();
   void write_done(size_t bytes);

@@ -8,7 +8,6 @@
 
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
-#include "server/doors/descriptors.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -25,10 +24,6 @@ constexpr std::chrono::milliseconds timer_period{100};
 constexpr std::chrono::milliseconds timer_period_stopping{5};
 /// Given to clients to read the goodbye.
 constexpr double stop_seconds_max = 0.5;
-
-double burst_of(double requests_per_second) {
-  return std::max(1.0, requests_per_second * limits::requests_burst_s);
-}
 
 PublisherConfig publisher_config(const NetConfig& config) {
   return {config.terrain, std::max(1U, config.tick_rate_hz), std::max(1U, config.ticks_per_transform),
@@ -55,6 +50,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
 
 Result<void> NetHost::listen() {
   if (Result<void> opened = open_access(); !opened) return opened;
+  if (Result<void> opened = open_site(); !opened) return opened;
   if (auto listening = entrance_.listen(config_.bind, config_.port); !listening) return listening;
   fit_descriptors();
   tick_timer();
@@ -66,76 +62,12 @@ void NetHost::run() {
   context_.run();
 }
 
-/// Room for all sessions and outsiders, or as many as the process may have.
-void NetHost::fit_descriptors() {
-  const size_t wanted = service_.sessions_max + limits::outsiders_max + limits::descriptors_reserved;
-  const size_t granted = raise_descriptors(wanted);
-  descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
-  outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
-  if (granted >= wanted) return;
-  spdlog::warn(
-      "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
-      "LimitNOFILE of a "
-      "service, says how many",
-      granted, descriptors_ - outsiders_max_, service_.sessions_max);
-}
-
 void NetHost::say(spdlog::level::level_enum level, std::string_view kind, const std::string& line) {
   if (const auto more = log_.take(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
 }
 
 void NetHost::note(Event event) const {
   if (config_.noted) config_.noted(std::move(event));
-}
-
-void NetHost::accepting_failed(const std::string& why) {
-  say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
-  close_oldest_outsider("the server lacks descriptors: " + why);
-}
-
-void NetHost::turned_away(const std::string& peer, const Refused& refused) {
-  ++counts_.turned_away;
-  counts_.refusals.add(refused.reason);
-  say(spdlog::level::warn, name_of(refused.reason),
-      fmt::format("{} turned away ({}): {}", peer, name_of(refused.reason), refused.message));
-  update_stats();
-}
-
-void NetHost::entered(asio::ip::tcp::socket socket, const std::string& address) {
-  begin(transport_over(std::move(socket)), address);
-}
-
-bool NetHost::enter(std::shared_ptr<Transport> transport) {
-  const std::string address = door_address(transport->address());
-  if (const auto no = entrance_.door().enter(address, steady_now_s())) {
-    turned_away(transport->address(), {*no, "by the door"});
-    return false;
-  }
-  begin(std::move(transport), address);
-  return true;
-}
-
-void NetHost::begin(std::shared_ptr<Transport> transport, const std::string& address) {
-  const uint64_t id = next_session_++;
-  const SessionTimes times{config_.hello_seconds, config_.stall_seconds, limits::linger_seconds_max};
-  const auto session =
-      std::make_shared<ClientSession>(std::move(transport), address, id, *this, times, steady_now_s());
-  const double rate = service_.requests_per_second;
-  CHECK(!sessions_.contains(id));
-  sessions_.emplace(id, Entry{session, RateLimit(rate, burst_of(rate))});
-  outsiders_.insert(id);
-  spdlog::debug("session {}: {} connected", id, session->peer());
-  if (outsiders_.size() > outsiders_max_)
-    close_oldest_outsider("too many connections that have not said hello (limits.outsiders_max)");
-  session->start();
-}
-
-/// The longest silent, or what was refused first.
-void NetHost::close_oldest_outsider(const std::string& why) {
-  if (outsiders_.empty()) return;
-  const auto session = sessions_.at(*outsiders_.begin()).session;
-  if (session->phase() == ClientSession::Phase::refused) return session->close("refused before");
-  session->cut_off(Refusal::outsiders_max, why);
 }
 
 void NetHost::tick_timer() {
@@ -146,6 +78,7 @@ void NetHost::tick_timer() {
     std::vector<std::shared_ptr<ClientSession>> sessions;
     for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
     for (const auto& session : sessions) session->check_time(now_s);
+    check_http(now_s);
     end_lapsed_grants();
     tickets_.expire(now_s);
     if (!stopping_) tell_persons(now_s);
@@ -279,7 +212,7 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
       refuse_request(session, message.request, admin.error());
       return {};
     }
-    if (auto right = check_admin_token(session, message.token); !right) return right;
+    if (auto right = check_admin_token(session.address(), message.token); !right) return right;
   }
   const auto* settings = std::get_if<SettingValues>(&message.act);
   if (settings == nullptr) {
@@ -351,6 +284,8 @@ void NetHost::shut_down() {
   std::vector<std::shared_ptr<ClientSession>> sessions;
   for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
   for (const auto& session : sessions) session->refuse({Refusal::server_stops, "the server stops"});
+  const auto http = http_;  // closing one erases its entry
+  for (const auto& [id, connection] : http) connection->close();
   flush_timer_.cancel();
   timer_.cancel();
   tick_timer();
@@ -360,6 +295,7 @@ void NetHost::update_stats() {
   watched_ = publisher_.is_watched();
   counts_.published = publisher_.stats();
   counts_.sessions = joined_count();
+  counts_.web.connections = static_cast<uint32_t>(http_.size());
   const std::scoped_lock lock(stats_mutex_);
   stats_ = counts_;
   eyes_m_ = publisher_.eyes_m();

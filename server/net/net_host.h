@@ -27,12 +27,14 @@
 #include "server/net/net_server.h"
 #include "server/net/request_times.h"
 #include "server/net/talk.h"
+#include "server/web/http_connection.h"
+#include "server/web/site.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/thread_check.h"
 
 namespace scree {
 
-class NetHost final : public SessionHost, public EntranceHost {
+class NetHost final : public SessionHost, public EntranceHost, public HttpHost {
  public:
   NetHost(const NetConfig& config, CommandQueue& commands);
   ~NetHost() override = default;
@@ -51,6 +53,8 @@ class NetHost final : public SessionHost, public EntranceHost {
   void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.
   void take_access(std::shared_ptr<const Access> access);
+  /// Of the page, from now on.
+  void take_files(std::shared_ptr<const WebFiles> files);
   /// Hands all that is queued to the sockets.
   void flush();
   void shut_down();
@@ -83,6 +87,9 @@ class NetHost final : public SessionHost, public EntranceHost {
   void accepting_failed(const std::string& why) override;
 
   void begin(std::shared_ptr<Transport> transport, const std::string& address);
+  void begin_session(std::shared_ptr<Transport> transport, const std::string& address, uint64_t id);
+  void bound_outsiders();
+  static double burst_of(double requests_per_second);
   void close_oldest_outsider(const std::string& why);
   static Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
   /// A line of the log, of a kind of which there are few a second.
@@ -112,8 +119,8 @@ class NetHost final : public SessionHost, public EntranceHost {
 
   // ---- who may come in and do what (net_host_access.cpp)
   Result<void> open_access();
-  std::shared_ptr<Transport> transport_over(asio::ip::tcp::socket socket) const;
-  tl::expected<void, Refused> check_admin_token(const ClientSession& session, const std::string& token);
+  /// `address`: as of Door.
+  tl::expected<void, Refused> check_admin_token(const std::string& address, const std::string& token);
   tl::expected<Grant, Refused> grant_to(const ClientSession& session, const HelloMessage& hello);
   void end_lapsed_grants();
   uint64_t join_party(const ClientSession& session, const Grant& grant, uint64_t before);
@@ -127,6 +134,19 @@ class NetHost final : public SessionHost, public EntranceHost {
   Result<void> kick(const KickSession& kick);
   Result<void> ban(const BanAddress& ban);
   Result<void> lift(const LiftBan& lift);
+
+  // ---- connections that speak HTTP (net_host_web.cpp)
+  Result<void> open_site();
+  void begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived);
+  HttpResponse answer(const HttpConnection& from, const HttpRequest& request) override;
+  void answered(const HttpResponse& response, size_t bytes) override;
+  void opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
+                        std::span<const uint8_t> arrived) override;
+  void cut_off(const HttpConnection& connection, Refusal reason) override;
+  void ended(HttpConnection& connection) override;
+  HttpResponse status_json(const HttpConnection& from, const HttpRequest& request);
+  tl::expected<void, Refused> may_see_status(const HttpConnection& from, const HttpRequest& request);
+  void check_http(double now_s);
 
   // ---- what persons are told of each other (net_host_talk.cpp)
   void tell_persons(double now_s);
@@ -154,9 +174,11 @@ class NetHost final : public SessionHost, public EntranceHost {
   std::vector<Unflushed> unflushed_;  ///< have messages that are only queued; once each, by since
   FlushRate flush_rate_;
   asio::steady_timer flush_timer_;
-  std::set<uint64_t> outsiders_;  ///< sessions that have not joined, or were refused
-  size_t outsiders_max_ = limits::outsiders_max;
-  size_t descriptors_ = 0;  ///< for connections
+  std::set<uint64_t> outsiders_;                  ///< sessions that have not joined, or were refused
+  size_t outsiders_max_ = limits::outsiders_max;  ///< they and the next
+  std::map<uint64_t, std::shared_ptr<HttpConnection>> http_;  ///< by numbers as of sessions
+  std::unique_ptr<Site> site_;                                ///< null: HTTP is not spoken
+  size_t descriptors_ = 0;                                    ///< for connections
   std::shared_ptr<const Access> access_;
   Bans bans_;
   Parties parties_;

@@ -1,25 +1,18 @@
 // NetHost's part of who may come in and do what, and of the administrators' requests.
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "server/doors/unix_time.h"
 #include "server/net/net_host.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 #include "shared/base/token.h"
-#include "transport/sniffing_transport.h"
-#include "transport/tcp_transport.h"
 
 namespace scree {
 
 namespace {
-
-uint64_t unix_now_s() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::seconds>(now).count());
-}
 
 constexpr uint64_t seconds_per_minute = 60;
 
@@ -55,26 +48,19 @@ void NetHost::take_access(std::shared_ptr<const Access> access) {
   end_lapsed_grants();
 }
 
-std::shared_ptr<Transport> NetHost::transport_over(asio::ip::tcp::socket socket) const {
-  auto plain = std::make_shared<TcpTransport>(std::move(socket));
-  if (!access_->tls()) return plain;
-  return std::make_shared<SniffingTransport>(std::move(plain), access_->tls());
-}
-
 /// A wrong token ends the connection, and costs its address a wait (Door). The right one waits, too: if it
 /// were taken at once, any answer would tell who guesses what he wants to know, as fast as he likes.
-tl::expected<void, Refused> NetHost::check_admin_token(const ClientSession& session,
-                                                       const std::string& token) {
+tl::expected<void, Refused> NetHost::check_admin_token(const std::string& address, const std::string& token) {
   Door& door = entrance_.door();
   const double now_s = steady_now_s();
-  if (door.knows_as_wrong(session.address(), token))
+  if (door.knows_as_wrong(address, token))
     return refuse(Refusal::admin_token_wrong, "the admin token is wrong, as it was before");
-  if (const double wait_s = door.wait_for_guess_s(session.address(), now_s); wait_s > 0.0)
+  if (const double wait_s = door.wait_for_guess_s(address, now_s); wait_s > 0.0)
     return refuse(Refusal::token_guesses,
                   fmt::format("wrong tokens came from your address: the next is looked at in {:.0f} s",
                               std::ceil(wait_s)));
   if (same_token(token, config_.admin_token)) return {};
-  door.guessed_wrong(session.address(), token, now_s);
+  door.guessed_wrong(address, token, now_s);
   return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
 }
 
@@ -83,7 +69,8 @@ tl::expected<Grant, Refused> NetHost::grant_to(const ClientSession& session, con
     return refuse(Refusal::tls_required, "this server is reached by TLS alone (--tls)");
   const bool guesses = !hello.token.empty() && !config_.admin_token.empty() && !is_access_token(hello.token);
   if (guesses)
-    if (auto right = check_admin_token(session, hello.token); !right) return tl::unexpected(right.error());
+    if (auto right = check_admin_token(session.address(), hello.token); !right)
+      return tl::unexpected(right.error());
   const uint64_t now_s = unix_now_s();
   auto grant = access_->grant(hello.token, now_s);
   if (!grant) return grant;

@@ -80,8 +80,12 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& 
 Result<void> NetServer::reload() {
   auto access = Access::load(impl_->config.access, impl_->config.admin_token);
   if (!access) return tl::unexpected(access.error());
-  asio::post(impl_->host.context(),
-             [host = &impl_->host, access = std::move(*access)] { host->take_access(access); });
+  auto files = web_files(impl_->config.web);
+  if (!files) return tl::unexpected(files.error());
+  asio::post(impl_->host.context(), [host = &impl_->host, access = std::move(*access), files = *files] {
+    host->take_access(access);
+    host->take_files(files);
+  });
   return {};
 }
 

@@ -21,11 +21,37 @@
 #include "server/net/request_times.h"
 #include "server/publish/limits.h"
 #include "server/publish/publisher.h"
+#include "server/web/web_config.h"
 #include "server/world/service_limits.h"
 #include "shared/base/result.h"
 #include "shared/base/timing.h"
 
 namespace scree {
+
+/// Counts since the start.
+struct NetStats {
+  PublisherStats published;
+  uint32_t sessions = 0;  ///< now
+  uint64_t sessions_joined = 0;
+  uint64_t sessions_resumed = 0;  ///< of those that joined: went on by a ticket
+  uint64_t tickets_void = 0;      ///< presented, and did not hold
+  uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
+  uint64_t sessions_cut = 0;      ///< cut off: they did not read, or said no hello
+  uint64_t turned_away = 0;       ///< connections closed without a session
+  uint64_t requests = 0;
+  uint64_t requests_refused = 0;  ///< by a limit of the network side
+  RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
+  uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
+  WebStats web;
+};
+
+/// What the network side knows of a server's state, for operators.
+struct NetFigures {
+  NetStats stats;
+  LatencyCounts latency;  ///< of requests that a tick answered, since the start
+  StatusMessage status;   ///< what clients are told alike
+  std::vector<SessionRow> sessions;
+};
 
 struct NetConfig {
   std::string bind = "127.0.0.1";
@@ -53,22 +79,9 @@ struct NetConfig {
   bool chat = true;                     ///< whether persons' lines are passed on
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
-};
-
-/// Counts since the start.
-struct NetStats {
-  PublisherStats published;
-  uint32_t sessions = 0;  ///< now
-  uint64_t sessions_joined = 0;
-  uint64_t sessions_resumed = 0;  ///< of those that joined: went on by a ticket
-  uint64_t tickets_void = 0;      ///< presented, and did not hold
-  uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
-  uint64_t sessions_cut = 0;      ///< cut off: they did not read, or said no hello
-  uint64_t turned_away = 0;       ///< connections closed without a session
-  uint64_t requests = 0;
-  uint64_t requests_refused = 0;  ///< by a limit of the network side
-  RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
-  uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
+  WebConfig web;
+  /// status.json for operators (docs/web.md); on the network thread. Empty, or an empty text: there is none.
+  std::function<std::string(const NetFigures&)> status;
 };
 
 class NetServer {
@@ -86,9 +99,9 @@ class NetServer {
   /// thread only. `span`: when the tick took its commands, and was done; unless told, it took no time.
   void publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span = instant(steady_now_s()));
 
-  /// Reads the files of NetConfig::access again: certificate, keys, revoked tokens. Sessions go on, but those
-  /// whose token is revoked end. The error says what is wrong with the files; all old ones stay in force
-  /// then.
+  /// Reads the files of NetConfig::access again, certificate, keys, revoked tokens, and those of the page.
+  /// Sessions go on, but those whose token is revoked end. The error says what is wrong with the files; all
+  /// old ones stay in force then.
   Result<void> reload();
 
   /// Waits until the network thread has handed all published ticks to the sockets.

@@ -120,6 +120,8 @@ class Publisher {
   const std::map<uint64_t, PlayerCursor>& cursors() const { return cursors_; }
   /// Why the client may not control a replay, for PlaybackMessage; empty: it may.
   void set_control_refusal(uint64_t session, const std::string& refusal);
+  /// What all clients are told alike, of the last second.
+  StatusMessage status() const;
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void watch(uint64_t session, bool physics);
   bool is_watched() const { return watchers_ > 0; }
@@ -178,8 +180,6 @@ class Publisher {
   bool has_poses(Tick tick) const { return tick % config_.ticks_per_transform == 0; }
   void count_operations(const TickDelta& delta);
   uint32_t ticks_of(double seconds) const { return static_cast<uint32_t>(seconds * config_.tick_rate_hz); }
-  /// What all clients are told alike.
-  StatusMessage status() const;
   void serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog);
   void add(Part&& part);
 

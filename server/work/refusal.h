@@ -33,6 +33,12 @@ enum class Refusal : uint8_t {
   no_admin_token,
   role,
   admin_invalid,
+  // Of an HTTP request.
+  http_malformed,
+  http_too_long,
+  http_late,
+  http_requests_per_second,
+  origin_foreign,
   // Of a connection, which is closed at once.
   connects_per_second,
   connections_per_address,
@@ -54,6 +60,7 @@ enum class Refusal : uint8_t {
   token_guesses,
   tls_required,
   tls_failed,
+  stream_malformed,
   token_missing,
   token_malformed,
   token_foreign,

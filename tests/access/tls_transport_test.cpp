@@ -170,7 +170,7 @@ TEST(TlsTransports, send_at_once_as_much_as_the_link_takes_and_the_rest_in_its_o
   ASSERT_TRUE(server->established());
   far->takes_now = 100'000;
   EXPECT_EQ(write_now(700), 700U);
-  EXPECT_EQ(write_now(100'000), limits::tls_chunk_bytes) << "one record";
+  EXPECT_EQ(write_now(100'000), tls_record_bytes) << "one record";
   far->takes_now = 300;
   EXPECT_EQ(write_now(5000), 5000U);
   EXPECT_EQ(write_now(10), 0U) << "the rest of the last ones goes first";

@@ -3,103 +3,16 @@
 #include <csignal>
 #include <deque>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-#include <sstream>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
 #include "shared/base/random.h"
+#include "tests/support/attack_fixture.h"
 #include "tests/support/holds.h"
-#include "tests/support/net_server_fixture.h"
-#include "tests/support/patience.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
 namespace {
-
-/// A client as people have it.
-class HonestClient {
- public:
-  explicit HonestClient(uint16_t port) {
-    auto connected = Connection::connect({.port = port}, hello(), patience);
-    if (!connected) return;
-    connection_ = std::move(*connected);
-    mirror_ = std::make_unique<Mirror>(connection_->welcome());
-  }
-  bool joined() const { return connection_ != nullptr; }
-  /// Applies all up to the tick; the hash then.
-  std::optional<uint64_t> hash_at(Tick tick) {
-    while (mirror_->tick() < tick) {
-      const auto received = connection_->wait(std::chrono::duration_cast<milliseconds>(patience));
-      if (received.empty()) return std::nullopt;
-      for (const Received& one : received)
-        if (!mirror_->apply(one.message)) return std::nullopt;
-    }
-    return mirror_->field().hash();
-  }
-
- private:
-  std::unique_ptr<Connection> connection_;
-  std::unique_ptr<Mirror> mirror_;
-};
-
-class AttackTest : public NetServerTest {
- protected:
-  void SetUp() override {
-    before_ = spdlog::default_logger();
-    const auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(log_);
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>("attack", sink));
-  }
-  void TearDown() override {
-    if (server) server->stop();
-    spdlog::set_default_logger(before_);
-    const std::string text = log_.str();
-    EXPECT_LE(std::ranges::count(text, '\n'), lines_max) << text.substr(0, 4000);
-  }
-
-  void open(const std::function<void(NetConfig&)>& change = {}) {
-    start([&](NetConfig& config) {
-      config.service.sessions_max = 64;
-      if (change) change(config);
-    });
-    resident_ = std::make_unique<HonestClient>(server->port());
-    ASSERT_TRUE(resident_->joined());
-  }
-  /// A newcomer comes in, and what is carved then reaches both.
-  void expect_honest_served() {
-    HonestClient newcomer(server->port());
-    ASSERT_TRUE(newcomer.joined());
-    tick({source.carve({static_cast<float>(carves_++ % 8), 0.0F, 0.0F}, 1.0F, 2)});
-    for (int i = 0; i < 3; ++i) tick();
-    const std::optional<uint64_t> hash = source.field().hash();
-    EXPECT_EQ(resident_->hash_at(source.tick()), hash);
-    EXPECT_EQ(newcomer.hash_at(source.tick()), hash);
-  }
-  void expect_refused_as(Refusal reason, uint64_t at_least) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    const auto count = [&] { return server->stats().refusals.of(reason); };
-    while (count() < at_least && std::chrono::steady_clock::now() < end) {
-      tick();
-      std::this_thread::yield();
-    }
-    EXPECT_GE(count(), at_least) << name_of(reason);
-  }
-  /// What was logged; the server is stopped for it.
-  std::string logged() {
-    server->stop();
-    return log_.str();
-  }
-
- private:
-  static constexpr ptrdiff_t lines_max = 150;  // whatever is done to the server in a test of a second
-  std::shared_ptr<spdlog::logger> before_;
-  std::ostringstream log_;
-  std::unique_ptr<HonestClient> resident_;
-  int carves_ = 0;
-};
 
 /// Connections from another process, which has descriptors of its own.
 class SilentCrowd {

@@ -10,6 +10,7 @@
 
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
+#include "server/app/web_folder.h"
 
 namespace scree {
 namespace {
@@ -31,7 +32,7 @@ sigset_t block_signals() {
 
 void reload(LiveServer& server) {
   if (const auto reloaded = server.reload(); reloaded)
-    spdlog::info("certificate, keys and revoked tokens are read again (SIGHUP)");
+    spdlog::info("certificate, keys, revoked tokens and the page are read again (SIGHUP)");
   else
     spdlog::error("nothing is read again (SIGHUP), the old stays in force: {}", reloaded.error().message);
 }
@@ -50,8 +51,10 @@ void wait_for_end(LiveServer& server, const sigset_t& signals) {
   }
 }
 
-void announce(const LiveServer& server, const std::string& bind) {
-  const nlohmann::ordered_json line{{"listening", server.port()}, {"bind", bind}};
+void announce(const LiveServer& server, const NetConfig& net) {
+  nlohmann::ordered_json line{{"listening", server.port()}, {"bind", net.bind}};
+  if (!net.web.folder.empty())
+    line["page"] = page_url(net.bind, server.port(), !net.access.tls_certificate_path.empty());
   std::printf("%s\n", line.dump().c_str());
   std::fflush(stdout);
 }
@@ -75,7 +78,7 @@ int run(const ServerOptions& options) {
     spdlog::error("{}", server.error().message);
     return failed;
   }
-  announce(**server, options.live.net.bind);
+  announce(**server, options.live.net);
   wait_for_end(**server, signals);
   const auto stopped = (*server)->stop();
   const bool reported = write_report(**server, options.report_path);

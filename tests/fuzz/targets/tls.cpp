@@ -92,7 +92,7 @@ class User {
 class Ends {
  public:
   explicit Ends(bool plain)
-      : server_(std::make_shared<SniffingTransport>(server_link_, contexts().server)),
+      : server_(std::make_shared<SniffingTransport>(server_link_, contexts().server, nullptr)),
         client_(
             plain ? std::static_pointer_cast<Transport>(client_link_)
                   : std::make_shared<TlsTransport>(client_link_, TlsEngine(contexts().client, "localhost"))),

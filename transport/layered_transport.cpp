@@ -1,4 +1,4 @@
-#include "transport/tls_transport.h"
+#include "transport/layered_transport.h"
 
 #include <algorithm>
 
@@ -6,60 +6,60 @@
 
 namespace scree {
 
-TlsTransport::TlsTransport(std::shared_ptr<Transport> below, TlsEngine engine,
-                           std::span<const uint8_t> arrived)
+LayeredTransport::LayeredTransport(std::shared_ptr<Transport> below, std::unique_ptr<StreamEngine> engine,
+                                   std::span<const uint8_t> arrived)
     : below_(std::move(below)), engine_(std::move(engine)) {
-  engine_.feed(arrived);
+  engine_->feed(arrived);
 }
 
-void TlsTransport::read_some(std::span<uint8_t> into, Done done) {
+void LayeredTransport::read_some(std::span<uint8_t> into, Done done) {
   CHECK(!read_done_ && !into.empty());
   into_ = into;
   read_done_ = std::move(done);
   go_on();
 }
 
-/// A copy: one record holds what many buffers do, and each record costs 22 bytes.
-void TlsTransport::take(Buffers buffers) {
+/// A copy: one record or frame holds what many buffers do, and each costs some bytes.
+void LayeredTransport::take(Buffers buffers) {
   CHECK(!write_done_ && plain_.empty());
   for (const std::span<const uint8_t> bytes : buffers) {
-    const auto some = bytes.first(std::min(bytes.size(), limits::tls_chunk_bytes - plain_.size()));
+    const auto some = bytes.first(std::min(bytes.size(), engine_->chunk_bytes() - plain_.size()));
     plain_.insert(plain_.end(), some.begin(), some.end());
   }
   taken_bytes_ = plain_.size();
 }
 
-void TlsTransport::write_some(Buffers buffers, Done done) {
+void LayeredTransport::write_some(Buffers buffers, Done done) {
   take(buffers);
   write_done_ = std::move(done);
   go_on();
 }
 
-/// While anything waits to be sent, nothing more is encrypted: it could not go either.
-size_t TlsTransport::write_now(Buffers buffers) {
-  const bool waiting = sending_ || unsent_from_ < unsent_.size() || engine_.output_bytes() > 0;
-  if (waiting || closed_ || broken_ || !engine_.established()) return 0;
+/// While anything waits to be sent, nothing more goes through the engine: it could not leave.
+size_t LayeredTransport::write_now(Buffers buffers) {
+  const bool waiting = sending_ || unsent_from_ < unsent_.size() || engine_->output_bytes() > 0;
+  if (waiting || closed_ || broken_ || !engine_->established()) return 0;
   take(buffers);
-  encrypt();
+  pass_on();
   if (broken_) return 0;
-  engine_.take_output(unsent_);
+  engine_->take_output(unsent_);
   const std::span<const uint8_t> bytes(unsent_);
   unsent_from_ = below_->write_now({&bytes, 1});
   return taken_bytes_;
 }
 
-void TlsTransport::send_rest() {
+void LayeredTransport::send_rest() {
   below_->send_rest();
   send();
 }
 
 /// Does all that can be done now. A handler called from here may end the stream.
-void TlsTransport::go_on() {
+void LayeredTransport::go_on() {
   const auto self = shared_from_this();
   if (closed_) return;
   if (!broken_)
-    if (const Result<void> shaken = engine_.shake(); !shaken) break_off(shaken.error());
-  encrypt();
+    if (const Result<void> shaken = engine_->shake(); !shaken) break_off(shaken.error());
+  pass_on();
   send();
   deliver();
   if (closed_) return;
@@ -67,23 +67,23 @@ void TlsTransport::go_on() {
   receive();
 }
 
-void TlsTransport::encrypt() {
-  if (broken_ || plain_.empty() || !engine_.established()) return;
-  const Result<void> written = engine_.write(plain_);
+void LayeredTransport::pass_on() {
+  if (broken_ || plain_.empty() || !engine_->established()) return;
+  const Result<void> written = engine_->write(plain_);
   plain_.clear();
   if (!written) break_off(written.error());
 }
 
-/// The engine is of no more use, but for the alert in its output.
-void TlsTransport::break_off(const Error& error) {
+/// The engine is of no more use, but for the reason in its output.
+void LayeredTransport::break_off(const Error& error) {
   broken_ = true;
-  end_ = StreamEnd{false, error.message};
+  end_ = StreamEnd{.orderly = false, .why = error.message, .broken = engine_->established()};
 }
 
-void TlsTransport::send() {
+void LayeredTransport::send() {
   if (sending_ || closed_) return;
   if (unsent_from_ == unsent_.size()) {
-    engine_.take_output(unsent_);
+    engine_->take_output(unsent_);
     unsent_from_ = 0;
   }
   if (unsent_.empty()) return;
@@ -92,7 +92,7 @@ void TlsTransport::send() {
   below_->write_some({&bytes, 1}, [self = shared_from_this()](const Moved& moved) { self->sent(moved); });
 }
 
-void TlsTransport::sent(const Moved& moved) {
+void LayeredTransport::sent(const Moved& moved) {
   sending_ = false;
   if (closed_) return;
   if (!moved) {
@@ -101,7 +101,7 @@ void TlsTransport::sent(const Moved& moved) {
     return;
   }
   unsent_from_ += *moved;
-  if (unsent_from_ < unsent_.size() || engine_.output_bytes() > 0) return send();
+  if (unsent_from_ < unsent_.size() || engine_->output_bytes() > 0) return send();
   unsent_.clear();
   unsent_from_ = 0;
   if (finishing_) below_->finish_sending();
@@ -110,31 +110,31 @@ void TlsTransport::sent(const Moved& moved) {
   go_on();
 }
 
-void TlsTransport::deliver() {
-  if (!read_done_ || broken_ || !engine_.established()) return;
-  const Result<TlsEngine::Got> got = engine_.read(into_);
+void LayeredTransport::deliver() {
+  if (!read_done_ || broken_ || !engine_->established()) return;
+  const Result<StreamEngine::Got> got = engine_->read(into_);
   if (got && got->bytes > 0) return std::exchange(read_done_, nullptr)(got->bytes);
   if (!got) break_off(got.error());
   if (got && got->ended) end_ = StreamEnd{true, "the other side ended it"};
 }
 
-void TlsTransport::receive() {
-  const bool wanted = read_done_ || (!engine_.established() && write_done_);
+void LayeredTransport::receive() {
+  const bool wanted = read_done_ || (!engine_->established() && write_done_);
   const bool blocked =
-      engine_.output_bytes() + (unsent_.size() - unsent_from_) > limits::tls_unsent_bytes_max;
+      engine_->output_bytes() + (unsent_.size() - unsent_from_) > limits::layer_unsent_bytes_max;
   if (!wanted || blocked || receiving_ || end_) return;
   receiving_ = true;
   below_->read_some(incoming_, [self = shared_from_this()](const Moved& moved) { self->received(moved); });
 }
 
-void TlsTransport::received(const Moved& moved) {
+void LayeredTransport::received(const Moved& moved) {
   receiving_ = false;
   if (closed_) return;
   if (moved) {
-    engine_.feed(std::span(incoming_).first(*moved));
+    engine_->feed(std::span(incoming_).first(*moved));
   } else {
     end_ = moved.error();
-    if (!engine_.established())
+    if (!engine_->established())
       end_ = StreamEnd{
           false, "the other side ended the TLS handshake (" + moved.error().why + "): does it speak TLS?"};
   }
@@ -142,8 +142,8 @@ void TlsTransport::received(const Moved& moved) {
 }
 
 /// Nothing is read any more; what waits for a handshake that failed is not written either.
-void TlsTransport::fail_waiting() {
-  send();  // the alert that says why
+void LayeredTransport::fail_waiting() {
+  send();  // the reason, for the other side
   const StreamEnd end = *end_;
   const bool never_written = !plain_.empty();
   plain_.clear();
@@ -153,26 +153,26 @@ void TlsTransport::fail_waiting() {
   if (write && !closed_) write(tl::unexpected(end));
 }
 
-void TlsTransport::finish_sending() {
+void LayeredTransport::finish_sending() {
   finishing_ = true;
-  engine_.finish();
+  engine_->finish();
   send();
   if (!sending_) below_->finish_sending();
 }
 
-void TlsTransport::drop() {
+void LayeredTransport::drop() {
   closed_ = true;
   const Done read = std::exchange(read_done_, nullptr);
   const Done write = std::exchange(write_done_, nullptr);
 }
 
-void TlsTransport::close() {
+void LayeredTransport::close() {
   const auto self = shared_from_this();
   drop();
   below_->close();
 }
 
-void TlsTransport::cut() {
+void LayeredTransport::cut() {
   const auto self = shared_from_this();
   drop();
   below_->cut();

@@ -1,0 +1,75 @@
+#include "server/web/http_request.h"
+
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <utility>  // Boost.Beast 1.74 lacks it
+
+#include "server/web/limits.h"
+
+namespace scree {
+
+namespace {
+
+namespace http = boost::beast::http;
+using Head = http::request<http::empty_body>;
+
+std::string text_of(const Head& head, http::field field) {
+  const auto value = head[field];
+  return {value.data(), value.size()};
+}
+
+HttpMethod method_of(const Head& head) {
+  if (head.method() == http::verb::get) return HttpMethod::get;
+  return head.method() == http::verb::head ? HttpMethod::head : HttpMethod::other;
+}
+
+/// "gzip", but not "gzip;q=0" (RFC 9110, 12.5.3).
+bool takes_gzip(const Head& head) {
+  for (const auto& [coding, parameters] : http::ext_list(head[http::field::accept_encoding])) {
+    if (!boost::beast::iequals(coding, "gzip")) continue;
+    for (const auto& [name, value] : parameters)
+      if (boost::beast::iequals(name, "q") && value.find_first_not_of("0.") == value.npos) return false;
+    return true;
+  }
+  return false;
+}
+
+bool has_body(const Head& head) {
+  const auto length = head[http::field::content_length];
+  return head.count(http::field::transfer_encoding) > 0 || (!length.empty() && length != "0");
+}
+
+}  // namespace
+
+Result<HttpRequest> parse_http_head(std::string_view text) {
+  http::request_parser<http::empty_body> parser;
+  parser.header_limit(limits::http_head_bytes_max);
+  boost::beast::error_code error;
+  const size_t used = parser.put(boost::asio::const_buffer(text.data(), text.size()), error);
+  if (error) return fail("no HTTP request: " + error.message());
+  if (!parser.is_header_done() || used != text.size()) return fail("no HTTP request: its head has no end");
+  const Head& head = parser.get();
+  if (head.version() != 10 && head.version() != 11) return fail("this server speaks HTTP/1.1");
+  if (has_body(head)) return fail("a request with a body: this server takes none");
+  const size_t hosts = head.count(http::field::host);
+  if (hosts > 1 || (hosts == 0 && head.version() == 11)) return fail("a request names one host (Host)");
+  const std::string target(head.target().data(), head.target().size());
+  if (!target.starts_with('/')) return fail("the target must be a path");
+  HttpRequest request;
+  request.method = method_of(head);
+  request.path = target.substr(0, target.find('?'));
+  request.host = text_of(head, http::field::host);
+  if (head.count(http::field::origin) > 0) request.origin = text_of(head, http::field::origin);
+  request.authorization = text_of(head, http::field::authorization);
+  request.if_none_match = text_of(head, http::field::if_none_match);
+  request.takes_gzip = takes_gzip(head);
+  request.keep_alive = head.keep_alive();
+  request.wants_websocket =
+      parser.upgrade() && http::token_list(head[http::field::upgrade]).exists("websocket");
+  request.websocket_key = text_of(head, http::field::sec_websocket_key);
+  request.websocket_version = text_of(head, http::field::sec_websocket_version);
+  return request;
+}
+
+}  // namespace scree

@@ -1,0 +1,23 @@
+// Bounds of HTTP. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Bytes of a request's head, its line and all fields. Browsers send a tenth of it. Above: 431, and closed.
+inline constexpr size_t http_head_bytes_max = size_t{8} << 10;
+
+/// Seconds from the first byte of a head to its end. Above: closed.
+inline constexpr double http_head_seconds_max = 5.0;
+
+/// Seconds that a connection may stay open between requests. Above: closed; browsers open another one.
+inline constexpr double http_idle_seconds_max = 15.0;
+
+/// Files of the page, their bytes in memory with the compressed ones, and folders in folders. Above: the
+/// server does not start, and says which folder it is.
+inline constexpr size_t web_files_max = 512;
+inline constexpr size_t web_bytes_max = size_t{64} << 20;
+inline constexpr int web_folders_max = 4;
+
+}  // namespace scree::limits

@@ -1,0 +1,204 @@
+// What a site answers: the page's files and nothing else, handshakes of WebSockets, by whose page asks.
+#include "server/web/site.h"
+
+#include <gtest/gtest.h>
+
+#include "server/web/limits.h"
+#include "tests/support/holds.h"
+#include "tests/support/web_folder.h"
+
+namespace scree {
+namespace {
+
+class SiteTest : public ::testing::Test {
+ protected:
+  HttpResponse ask(const std::string& path, const std::function<void(HttpRequest&)>& change = {},
+                   bool from_here = false) {
+    HttpRequest request;
+    request.path = path;
+    request.host = "game.example:4177";
+    if (change) change(request);
+    return Site(*WebFiles::load(folder.path()), origins).answer(request, from_here);
+  }
+  /// Status of the answer to a handshake.
+  int open_websocket(const std::function<void(HttpRequest&)>& change = {}, bool from_here = false) {
+    return ask(
+               "/session",
+               [&](HttpRequest& request) {
+                 request.wants_websocket = true;
+                 request.websocket_version = "13";
+                 request.websocket_key = "dGhlIHNhbXBsZSBub25jZQ==";
+                 if (change) change(request);
+               },
+               from_here)
+        .status;
+  }
+  static std::string field(const HttpResponse& response, const std::string& name) {
+    for (const auto& [key, value] : response.fields)
+      if (key == name) return value;
+    return "";
+  }
+
+  WebFolder folder;
+  std::vector<std::string> origins;
+};
+
+TEST_F(SiteTest, gives_the_page_and_its_files_by_their_types) {
+  EXPECT_TRUE(holds(*ask("/").body, "page"));
+  EXPECT_TRUE(holds(*ask("/status").body, "status"));
+  EXPECT_EQ(field(ask("/"), "Content-Type"), "text/html; charset=utf-8");
+  EXPECT_EQ(field(ask("/main.js"), "Content-Type"), "text/javascript; charset=utf-8");
+  EXPECT_EQ(field(ask("/parts/style.css"), "Content-Type"), "text/css; charset=utf-8");
+  EXPECT_EQ(field(ask("/client.0123abcd.wasm"), "Content-Type"), "application/wasm");
+  EXPECT_EQ(*ask("/client.0123abcd.wasm").body, std::string("\0asm", 4));
+  EXPECT_EQ(*ask("/healthz").body, "ok\n");
+  EXPECT_EQ(ask("/nothing.js").status, 404);
+}
+
+TEST_F(SiteTest, sends_the_compressed_file_to_who_takes_it) {
+  const auto with_gzip = [](HttpRequest& request) { request.takes_gzip = true; };
+  const HttpResponse wasm = ask("/client.0123abcd.wasm", with_gzip);
+  EXPECT_EQ(*wasm.body, "compressed wasm");
+  EXPECT_EQ(field(wasm, "Content-Encoding"), "gzip");
+  EXPECT_EQ(field(wasm, "Content-Type"), "application/wasm");
+  EXPECT_EQ(field(wasm, "Vary"), "Accept-Encoding");
+  EXPECT_EQ(field(ask("/main.js", with_gzip), "Content-Encoding"), "");
+  EXPECT_EQ(ask("/client.0123abcd.wasm.gz").status, 404) << "it is no file of its own";
+}
+
+TEST_F(SiteTest, lets_browsers_keep_what_never_changes_and_ask_again_for_the_rest) {
+  EXPECT_EQ(field(ask("/client.0123abcd.wasm"), "Cache-Control"), "public, max-age=31536000, immutable");
+  EXPECT_EQ(field(ask("/"), "Cache-Control"), "no-cache");
+  const std::string etag = field(ask("/"), "ETag");
+  const auto again = [&](const std::string& known) {
+    return ask("/", [&](HttpRequest& request) { request.if_none_match = known; });
+  };
+  EXPECT_EQ(again(etag).status, 304);
+  EXPECT_EQ(again(etag).body, nullptr);
+  EXPECT_EQ(again("\"other\", " + etag).status, 304);
+  EXPECT_EQ(again("\"other\"").status, 200);
+  folder.write("index.html", "another page");
+  EXPECT_EQ(again(etag).status, 200);
+}
+
+TEST_F(SiteTest, answers_nothing_but_get_and_head) {
+  const auto other = [](HttpRequest& request) { request.method = HttpMethod::other; };
+  EXPECT_EQ(ask("/", other).status, 405);
+  EXPECT_EQ(field(ask("/", other), "Allow"), "GET, HEAD");
+  EXPECT_EQ(ask("/session", other).status, 405);
+}
+
+TEST_F(SiteTest, leads_no_path_out_of_the_folder) {
+  std::filesystem::create_directories(folder.beside("outside"));
+  std::ofstream(folder.beside("outside/secret.txt")) << "secret";
+  std::filesystem::create_symlink(folder.beside("outside/secret.txt"), folder.path() + "link.txt");
+  std::filesystem::create_directory_symlink(folder.beside("outside"), folder.path() + "linked");
+  folder.write(".hidden", "hidden");
+  folder.write(".git/config", "hidden");
+  for (const char* path :
+       {"/../secret.txt", "/parts/../../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/.hidden",
+        "/.git/config", "/link.txt", "/linked/secret.txt", "//etc/passwd", "/etc/passwd", "/..\\secret.txt",
+        "/parts", "/parts/", "/./index.html", "/index.html/", "/Index.html"})
+    EXPECT_EQ(ask(path).status, 404) << path;
+  EXPECT_EQ(ask(std::string("/index.html\0.js", 15)).status, 404);
+}
+
+TEST_F(SiteTest, follows_links_within_the_folder) {
+  std::filesystem::create_symlink("main.js", folder.path() + "other.js");
+  EXPECT_EQ(*ask("/other.js").body, "let a = 1;");
+}
+
+TEST_F(SiteTest, says_what_to_do_without_a_page) {
+  const Site site(std::make_shared<const WebFiles>(), {});
+  HttpRequest request;
+  request.path = "/";
+  EXPECT_EQ(site.answer(request, true).status, 404);
+  EXPECT_TRUE(holds(*site.answer(request, true).body, "./scree web"));
+  request.path = "/healthz";
+  EXPECT_EQ(site.answer(request, true).status, 200);
+}
+
+TEST_F(SiteTest, bounds_what_a_folder_may_hold) {
+  EXPECT_FALSE(WebFiles::load(folder.path() + "nothing"));
+  EXPECT_FALSE(WebFiles::load(folder.path() + "main.js"));
+  std::string deep = "a/";
+  for (int depth = 0; depth < limits::web_folders_max; ++depth) deep += "a/";
+  folder.write(deep + "deep.js", "deep");
+  EXPECT_EQ(ask("/" + deep + "deep.js").status, 404);
+  for (size_t i = 0; i < limits::web_files_max; ++i) folder.write("f" + std::to_string(i) + ".txt", "");
+  EXPECT_FALSE(WebFiles::load(folder.path()));
+}
+
+TEST_F(SiteTest, opens_a_websocket_by_the_rules) {
+  EXPECT_EQ(open_websocket(), 101);
+  EXPECT_EQ(open_websocket([](HttpRequest& r) { r.wants_websocket = false; }), 426);
+  EXPECT_EQ(open_websocket([](HttpRequest& r) { r.websocket_version = "8"; }), 426);
+  EXPECT_EQ(open_websocket([](HttpRequest& r) { r.method = HttpMethod::head; }), 405);
+  for (const char* key : {"", "dGhlIHNhbXBsZSBub25jZQ=", "dGhlIHNhbXBsZSBub25jZQ==x",
+                          "dGhlIHNhbXBsZSBub25j!Q==", "dGhlIHNhbXBsZSBub25jZQAA"})
+    EXPECT_EQ(open_websocket([&](HttpRequest& r) { r.websocket_key = key; }), 400) << key;
+  // The example of RFC 6455, 1.3.
+  const HttpResponse response = ask("/session", [](HttpRequest& r) {
+    r.wants_websocket = true;
+    r.websocket_version = "13";
+    r.websocket_key = "dGhlIHNhbXBsZSBub25jZQ==";
+  });
+  EXPECT_EQ(field(response, "Sec-WebSocket-Accept"), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+}
+
+TEST_F(SiteTest, lets_its_own_pages_join_and_those_of_named_sites) {
+  const auto from = [&](const std::string& origin, const std::string& host, bool from_here = false) {
+    return open_websocket(
+        [&](HttpRequest& r) {
+          r.origin = origin;
+          r.host = host;
+        },
+        from_here);
+  };
+  EXPECT_EQ(from("http://game.example:4177", "game.example:4177"), 101);
+  EXPECT_EQ(from("https://Game.example", "game.example:443"), 101);
+  EXPECT_EQ(from("http://game.example", "game.example"), 101);
+  for (const char* origin :
+       {"http://evil.example", "null", "", "http://game.example", "http://game.example:4178",
+        "ftp://game.example:4177", "http://game.example:4177.evil.example",
+        "http://evil.example/game.example:4177"})
+    EXPECT_EQ(from(origin, "game.example:4177"), 403) << origin;
+  origins = {"https://other.example"};
+  EXPECT_EQ(from("https://other.example", "game.example:4177"), 101);
+  EXPECT_EQ(from("http://other.example", "game.example:4177"), 403);
+}
+
+TEST_F(SiteTest, distrusts_names_that_lead_from_this_machine_to_itself) {
+  const auto from = [&](const std::string& host) {
+    return open_websocket(
+        [&](HttpRequest& r) {
+          r.origin = "http://" + host;
+          r.host = host;
+        },
+        true);
+  };
+  for (const char* host : {"localhost:4177", "127.0.0.1:4177", "[::1]:4177", "192.168.0.7"})
+    EXPECT_EQ(from(host), 101) << host;
+  EXPECT_EQ(from("rebound.example:4177"), 403);
+  EXPECT_EQ(open_websocket({}, true), 101) << "a program that is no browser";
+  origins = {"http://rebound.example:4177"};
+  EXPECT_EQ(from("rebound.example:4177"), 101);
+}
+
+TEST(WebFileNames, hold_a_hash_between_two_dots) {
+  for (const char* name : {"a.0123abcd.js", "a.b.0123456789abcdef.wasm"})
+    EXPECT_TRUE(holds_hash(name)) << name;
+  for (const char* name : {"index.html", "a.0123abc.js", "0123abcd.js", "a.0123abcd", "a.0123abcg.js"})
+    EXPECT_FALSE(holds_hash(name)) << name;
+}
+
+TEST(Origins, are_schemes_with_hosts) {
+  for (const char* good : {"https://game.example", "http://localhost:8080", "http://[::1]:80801"})
+    EXPECT_TRUE(is_origin(good)) << good;
+  for (const char* bad : {"game.example", "https://game.example/", "https://", "*", "https://*.example",
+                          "https://a b", "http://a:80", "https://a:443", "ftp://a", "null"})
+    EXPECT_FALSE(is_origin(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,331 @@
+// HTTP and WebSocket by the server's own port, plainly and by TLS.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "client/mirror/mirror.h"
+#include "server/app/live_server.h"
+#include "tests/support/certificates.h"
+#include "tests/support/holds.h"
+#include "tests/support/net_server_fixture.h"
+#include "tests/support/web_client.h"
+#include "tests/support/web_folder.h"
+
+namespace scree {
+namespace {
+
+class WebServerTest : public NetServerTest {
+ protected:
+  void open(const std::function<void(NetConfig&)>& change = {}) {
+    start([&](NetConfig& config) {
+      config.web.folder = folder.path();
+      if (change) change(config);
+    });
+  }
+  /// The server's context; for a client that trusts it.
+  std::shared_ptr<const TlsClientContext> open_with_tls(bool required = false) {
+    TestCertificate("DNS:localhost").write(files / "certificate", files / "key");
+    const auto change = [&](NetConfig& config) {
+      config.web.folder = folder.path();
+      config.access.tls_certificate_path = files / "certificate";
+      config.access.tls_key_path = files / "key";
+      config.access.tls_required = required;
+    };
+    NetConfig config;
+    config.terrain = flat_terrain;
+    config.heartbeat_s = 0.0;
+    change(config);
+    auto listening = NetServer::listen(config, commands);
+    EXPECT_TRUE(listening.has_value());
+    server = std::move(*listening);
+    return *TlsClientContext::make({files / "certificate", ""});
+  }
+  /// Joins, has something carved, and compares hashes.
+  void expect_session(WebSocketClient& client) {
+    ASSERT_TRUE(client.open());
+    ASSERT_TRUE(client.send(hello()));
+    const auto welcome = client.receive_as<WelcomeMessage>();
+    ASSERT_TRUE(welcome);
+    Mirror mirror(*welcome);
+    ASSERT_TRUE(client.send(carve(1)));
+    std::vector<Command> asked;
+    for (const Within within(60.0); asked.empty() && !within.over();) asked = commands.drain();
+    ASSERT_EQ(asked.size(), 1U);
+    EXPECT_TRUE(std::holds_alternative<CarveRequest>(asked.front().body));
+    tick({source.carve({}, 1.0F, 4)});
+    for (int i = 0; i < 3; ++i) tick();
+    while (mirror.tick() < source.tick()) {
+      const auto message = client.receive();
+      ASSERT_TRUE(message);
+      ASSERT_TRUE(mirror.apply(*message));
+    }
+    EXPECT_EQ(mirror.field().hash(), source.field().hash());
+  }
+
+  WebFolder folder;
+  TestFolder files;
+};
+
+TEST_F(WebServerTest, serves_the_page_isolated_and_by_itself_alone) {
+  open();
+  HttpClient client(server->port());
+  const HttpAnswer page = client.get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_TRUE(holds(page.body, "<title>page</title>"));
+  EXPECT_EQ(page.field("Cross-Origin-Opener-Policy"), "same-origin");
+  EXPECT_EQ(page.field("Cross-Origin-Embedder-Policy"), "require-corp");
+  EXPECT_EQ(page.field("X-Content-Type-Options"), "nosniff");
+  EXPECT_TRUE(holds(page.field("Content-Security-Policy"),
+                    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"));
+  EXPECT_FALSE(page.field("Date").empty());
+  EXPECT_EQ(page.field("Connection"), "keep-alive");
+  EXPECT_EQ(client.get("/healthz").body, "ok\n") << "on the same connection";
+  EXPECT_EQ(client.get("/client.0123abcd.wasm", "Accept-Encoding: gzip\r\n").body, "compressed wasm");
+  EXPECT_EQ(client.get("/", "If-None-Match: " + page.field("ETag") + "\r\n").status, 304);
+  const HttpAnswer head = client.get("/", "", "HEAD");
+  EXPECT_EQ(head.field("Content-Length"), std::to_string(page.body.size()));
+  EXPECT_TRUE(head.body.empty());
+  EXPECT_EQ(client.get("/nothing").status, 404) << "nothing of the head's body is in between";
+  EXPECT_EQ(client.get("/", "Connection: close\r\n").field("Connection"), "close");
+  EXPECT_TRUE(client.pipe().ends());
+  tick();
+  const WebStats web = server->stats().web;
+  EXPECT_EQ(web.requests, 7U);
+  EXPECT_EQ(web.files, 4U);
+  EXPECT_EQ(web.not_modified, 1U);
+  expect_witness_unmoved();
+}
+
+TEST_F(WebServerTest, answers_requests_that_come_at_once_in_their_order) {
+  open();
+  HttpClient client(server->port());
+  std::string many;
+  for (int i = 0; i < 100; ++i)
+    many += std::string("GET ") + (i % 2 == 0 ? "/healthz" : "/main.js") +
+            " HTTP/1.1\r\nHost: localhost\r\n\r\n\r\n";
+  ASSERT_TRUE(client.pipe().send(many));
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(client.answer().body, i % 2 == 0 ? "ok\n" : "let a = 1;") << i;
+}
+
+TEST_F(WebServerTest, answers_a_request_that_comes_byte_by_byte) {
+  open();
+  HttpClient client(server->port());
+  for (const char c : std::string("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+    ASSERT_TRUE(client.pipe().send(std::string_view(&c, 1)));
+  EXPECT_EQ(client.answer().status, 200);
+}
+
+TEST_F(WebServerTest, sends_large_files_whole) {
+  const std::string large(3'000'000, 'x');
+  folder.write("large.bin", large);
+  open();
+  HttpClient client(server->port());
+  EXPECT_EQ(client.get("/large.bin").body, large);
+  EXPECT_EQ(client.get("/healthz").status, 200);
+}
+
+TEST_F(WebServerTest, carries_a_whole_session_by_websocket) {
+  open();
+  WebSocketClient client(server->port());
+  EXPECT_EQ(client.handshake().field("Sec-WebSocket-Accept"), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+  expect_session(client);
+  EXPECT_EQ(server->stats().web.websockets, 1U);
+  EXPECT_EQ(server->stats().sessions, 2U);
+  EXPECT_EQ(server->stats().web.connections, 0U);
+  expect_witness_unmoved();
+}
+
+TEST_F(WebServerTest, carries_messages_cut_into_fragments_anyhow) {
+  open();
+  WebSocketClient client(server->port());
+  const std::vector<uint8_t> bytes = encode(ClientMessage(hello()));
+  for (size_t i = 0; i < bytes.size(); ++i)
+    ASSERT_TRUE(client.send_frame(std::span(bytes).subspan(i, 1),
+                                  {.opcode = uint8_t(i == 0 ? 2 : 0), .fin = i + 1 == bytes.size()}));
+  EXPECT_TRUE(client.receive_as<WelcomeMessage>());
+  ASSERT_TRUE(client.send_frame({}, {.opcode = 9}));
+  while (client.pongs() == 0) ASSERT_TRUE(client.fill());
+}
+
+TEST_F(WebServerTest, ends_a_session_of_a_websocket_that_closes) {
+  open();
+  WebSocketClient client(server->port());
+  ASSERT_TRUE(client.send(hello()));
+  ASSERT_TRUE(client.receive_as<WelcomeMessage>());
+  ASSERT_TRUE(client.send_frame(std::vector<uint8_t>{0x03, 0xe8}, {.opcode = 8}));
+  EXPECT_TRUE(client.ends());
+  EXPECT_EQ(client.close_code(), 1000) << "and answers it";
+  expect_witness_unmoved();
+}
+
+TEST_F(WebServerTest, closes_websockets_in_order_when_it_refuses_their_session) {
+  open();
+  WebSocketClient client(server->port());
+  ASSERT_TRUE(client.send(hello(protocol_version + 1)));
+  const auto refusal = client.receive_as<RefusalMessage>();
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->name, "protocol_version");
+  while (client.close_code() == 0) ASSERT_TRUE(client.fill());
+  EXPECT_EQ(client.close_code(), 1000);
+}
+
+TEST_F(WebServerTest, says_all_of_it_by_tls) {
+  const auto tls = open_with_tls();
+  HttpClient client(server->port(), tls);
+  EXPECT_EQ(client.get("/").status, 200);
+  WebSocketClient websocket(server->port(),
+                            "Origin: https://localhost:" + std::to_string(server->port()) + "\r\n", tls);
+  expect_session(websocket);
+  HttpClient plain(server->port());
+  EXPECT_EQ(plain.get("/healthz").status, 200);
+  RawClient bytes(server->port());
+  EXPECT_TRUE(bytes.send(hello()));
+  EXPECT_TRUE(bytes.receive_as<WelcomeMessage>());
+}
+
+TEST_F(WebServerTest, sends_who_comes_plainly_to_tls_where_it_is_required) {
+  const auto tls = open_with_tls(true);
+  HttpClient plain(server->port());
+  const HttpAnswer answer = plain.get("/main.js");
+  EXPECT_EQ(answer.status, 307);
+  EXPECT_EQ(answer.field("Location"), "https://" + plain.host() + "/main.js");
+  HttpClient client(server->port(), tls);
+  EXPECT_EQ(client.get("/main.js").status, 200);
+}
+
+TEST_F(WebServerTest, gives_tokens_the_same_rights_by_websocket) {
+  open([](NetConfig& config) {
+    config.admin_token = "the-admin-token";
+    config.access.anonymous = Role::builder;
+  });
+  WebSocketClient client(server->port());
+  HelloMessage with_token = hello();
+  with_token.token = "the-admin-token";
+  ASSERT_TRUE(client.send(with_token));
+  const auto welcome = client.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome);
+  EXPECT_EQ(welcome->role, Role::admin);
+}
+
+TEST_F(WebServerTest, counts_a_websocket_among_the_connections_of_its_address) {
+  open([](NetConfig& config) {
+    config.door.loopback_is_free = false;
+    config.door.connections_max = 3;
+    config.door.connects_burst = 100.0;
+  });
+  WebSocketClient first(server->port()), second(server->port());
+  EXPECT_TRUE(first.open() && second.open());
+  HttpClient third(server->port());
+  EXPECT_EQ(third.get("/").status, 0) << "the witness has the third place";
+}
+
+TEST_F(WebServerTest, speaks_no_http_where_it_is_off) {
+  open([](NetConfig& config) { config.web.on = false; });
+  RawClient client(server->port());
+  const std::string get = "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  ASSERT_TRUE(client.send_bytes(std::span(reinterpret_cast<const uint8_t*>(get.data()), get.size())));
+  const auto refusal = client.receive_as<RefusalMessage>();
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->name, "message_malformed");
+}
+
+TEST_F(WebServerTest, reads_the_page_again_when_it_is_told_to) {
+  open();
+  HttpClient client(server->port());
+  folder.write("index.html", "new");
+  EXPECT_TRUE(holds(client.get("/").body, "page"));
+  ASSERT_TRUE(server->reload());
+  for (const Within within(60.0); client.get("/").body != "new";) ASSERT_FALSE(within.over());
+  std::filesystem::remove_all(folder.path());
+  EXPECT_FALSE(server->reload());
+  EXPECT_EQ(client.get("/").body, "new");
+}
+
+TEST_F(WebServerTest, does_not_start_without_the_folder_that_it_is_told) {
+  NetConfig config;
+  config.terrain = flat_terrain;
+  config.web.folder = folder.path() + "nowhere";
+  const auto listening = NetServer::listen(config, commands);
+  ASSERT_FALSE(listening);
+  EXPECT_TRUE(holds(listening.error().message, "--web"));
+}
+
+// ---- status.json
+
+class WebStatusTest : public ::testing::Test {
+ protected:
+  HttpClient open(const std::function<void(NetConfig&)>& change = {}) {
+    LiveConfig config;
+    config.pacing = Pacing::by_hand;
+    config.world.terrain = flat_terrain;
+    if (change) change(config.net);
+    server = *LiveServer::start(config);
+    server->step_once();
+    return HttpClient(server->port());
+  }
+  std::unique_ptr<LiveServer> server;
+};
+
+TEST_F(WebStatusTest, tells_this_machine_of_an_open_server) {
+  open();
+  WebSocketClient person(server->port());
+  ASSERT_TRUE(person.send(hello()));
+  ASSERT_TRUE(person.receive_as<WelcomeMessage>());
+  server->step_once();
+  HttpClient client(server->port());
+  const HttpAnswer answer = client.get("/status.json");
+  ASSERT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.field("Content-Type"), "application/json");
+  EXPECT_EQ(answer.field("Cache-Control"), "no-store");
+  const auto json = nlohmann::json::parse(answer.body);
+  EXPECT_EQ(json["now"]["tick"], 2);
+  EXPECT_EQ(json["now"]["stages_ms"].size(), tick_stages.size());
+  EXPECT_EQ(json["now"]["latency_ms"].size(), latency_stages.size());
+  EXPECT_EQ(json["sessions"].size(), 1U);
+  EXPECT_EQ(json["sessions"][0]["program"], "test");
+  EXPECT_EQ(json["sessions"][0]["role"], "builder");
+  EXPECT_EQ(json["report"]["ledger"]["error"], 0);
+  EXPECT_EQ(json["report"]["sessions"]["now"], 1);
+  EXPECT_EQ(json["report"]["web"]["websockets"], 1);
+  EXPECT_EQ(json["tick_rate_hz"], 60);
+  EXPECT_EQ(json["replay"], false);
+  EXPECT_TRUE(json["report"]["refusals"].contains("by_reason"));
+}
+
+TEST_F(WebStatusTest, tells_nobody_by_a_name_that_leads_here) {
+  HttpClient client = open();
+  client.pipe().send("GET /status.json HTTP/1.1\r\nHost: rebound.example\r\n\r\n");
+  EXPECT_EQ(client.answer().status, 403);
+}
+
+TEST_F(WebStatusTest, tells_administrators_alone_where_there_are_any) {
+  HttpClient client = open([](NetConfig& net) { net.admin_token = "the-admin-token"; });
+  const auto with = [&](const std::string& token) {
+    return client.get("/status.json", token.empty() ? "" : "Authorization: Bearer " + token + "\r\n");
+  };
+  EXPECT_EQ(with("").status, 401);
+  EXPECT_EQ(with("").field("WWW-Authenticate"), "Bearer");
+  EXPECT_EQ(with("").body, "token_missing\n");
+  EXPECT_EQ(with("the-admin-token").status, 200);
+  EXPECT_EQ(with("a-wrong-token").status, 403);
+  EXPECT_EQ(with("a-wrong-token").status, 403) << "the same one again costs nothing";
+  EXPECT_EQ(with("the-admin-token").status, 429) << "after a wrong one everybody there waits";
+  EXPECT_EQ(client.get("/status.json?token=the-admin-token").status, 401) << "addresses are written down";
+  EXPECT_EQ(client.get("/healthz").status, 200);
+}
+
+TEST_F(WebStatusTest, tells_holders_of_an_administrators_access_token) {
+  const TestFolder folder;
+  const SigningKey key = SigningKey::generate();
+  ASSERT_TRUE(key.write(folder / "key", folder / "key.pub"));
+  HttpClient client = open([&](NetConfig& net) { net.access.token_key_path = folder / "key.pub"; });
+  const auto with = [&](Role role) {
+    const std::string token = *sign({7, role, 0, 0, "", ""}, key);
+    return client.get("/status.json", "Authorization: Bearer " + token + "\r\n").status;
+  };
+  EXPECT_EQ(with(Role::admin), 200);
+  EXPECT_EQ(with(Role::builder), 403);
+  EXPECT_EQ(client.get("/status.json", "Authorization: Bearer nonsense\r\n").status, 403);
+}
+
+}  // namespace
+}  // namespace scree
