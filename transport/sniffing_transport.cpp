@@ -21,6 +21,7 @@ SniffingTransport::SniffingTransport(std::shared_ptr<Transport> below,
 
 void SniffingTransport::read_some(std::span<uint8_t> into, Done done) {
   CHECK(into.size() >= tls_greeting_bytes && !given_);
+  if (end_) return done(tl::unexpected(*end_));
   if (decided_ && first_bytes_ == 0) return chosen_->read_some(into, std::move(done));
   sniff(into, std::move(done));
 }
@@ -28,13 +29,17 @@ void SniffingTransport::read_some(std::span<uint8_t> into, Done done) {
 void SniffingTransport::sniff(std::span<uint8_t> into, Done done) {
   chosen_->read_some(std::span(first_).subspan(first_bytes_),
                      [self = shared_from_this(), into, done = std::move(done)](const Moved& moved) {
-                       if (!moved) return done(moved);
-                       self->first_bytes_ += *moved;
+                       if (!moved && self->first_bytes_ == 0) return done(moved);
+                       if (moved)
+                         self->first_bytes_ += *moved;
+                       else
+                         self->end_ = moved.error();
                        self->choose(into, done);
                      });
 }
 
 void SniffingTransport::choose(std::span<uint8_t> into, Done done) {
+  decided_ = decided_ || end_;
   if (!decided_ && first_bytes_ < tls_greeting_bytes) return sniff(into, std::move(done));
   const std::span<const uint8_t> first = std::span(first_).first(first_bytes_);
   first_bytes_ = 0;

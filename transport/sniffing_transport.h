@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "crypto/tls_engine.h"
 #include "transport/transport.h"
@@ -53,6 +54,7 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
   TakeHttp http_;
   std::array<uint8_t, tls_greeting_bytes> first_{};
   size_t first_bytes_ = 0;
+  std::optional<StreamEnd> end_;  ///< it came before there were enough; told behind those that came
   bool decided_ = false;
   bool given_ = false;  ///< away
 };

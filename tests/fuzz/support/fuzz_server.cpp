@@ -17,6 +17,7 @@ NetConfig net_config(const TerrainSource& terrain) {
   config.terrain = terrain;
   config.service.sessions_max = 6;
   config.admin_token = FuzzServer::admin_token;
+  config.web.on = false;  // what a server sends is the protocol
   return config;
 }
 

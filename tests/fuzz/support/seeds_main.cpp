@@ -248,6 +248,39 @@ void write_texts(Corpora& corpora) {
     corpora.add("texts", Seed().byte(5).text(address).bytes);
 }
 
+/// Requests, and a WebSocket with a message in parts, a ping, a close, and what is refused.
+void write_web(Corpora& corpora) {
+  constexpr uint8_t any_bytes = 0, get = 1, head = 2, handshake = 3, frame = 4;
+  for (const char* text :
+       {"GET /../a?b HTTP/1.1\r\nHost: a\r\nAccept-Encoding: br, gzip;q=0\r\nIf-None-Match: *\r\n\r\n",
+        "GET /session HTTP/1.1\r\nHost: a:4177\r\nOrigin: https://a:4177\r\nConnection: keep-alive, "
+        "Upgrade\r\n"
+        "Upgrade: websocket\r\nSec-WebSocket-Version: 8\r\nSec-WebSocket-Key: "
+        "AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n",
+        "POST / HTTP/1.0\r\nContent-Length: 3\r\nAuthorization: Bearer a\r\n\r\nabc"}) {
+    const std::string bytes = text;
+    corpora.add(
+        "web",
+        Seed().byte(any_bytes).packet({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}).bytes);
+  }
+  Seed asks;
+  asks.byte(get).byte(4).text("file").byte(head).byte(get).byte(0).byte(handshake);
+  corpora.add("web", asks.bytes);
+  const auto with_frame = [&](uint8_t opcode, uint8_t fin, uint8_t unmasked, size_t bytes) {
+    asks.byte(frame).byte(opcode).byte(fin).byte(unmasked).byte(0).packet(Bytes(bytes, opcode));
+    corpora.add("web", asks.bytes);
+  };
+  with_frame(2, 0, 0, 5);
+  with_frame(0, 1, 0, 300);
+  with_frame(9, 1, 0, 3);
+  with_frame(2, 1, 0, 2000);
+  with_frame(8, 1, 0, 2);
+  asks = Seed().byte(handshake);
+  with_frame(2, 1, 7, 4);
+  asks = Seed().byte(handshake);
+  with_frame(1, 1, 0, 4);
+}
+
 void write_config(Corpora& corpora) {
   const WorldConfig defaults;
   std::string file;
@@ -271,7 +304,7 @@ void write_config(Corpora& corpora) {
 /// Targets that take bytes for choices alone: any bytes are a beginning.
 void write_choices(Corpora& corpora) {
   Random random(20261122);
-  for (const char* target : {"world", "motions", "server", "mirror", "tls"})
+  for (const char* target : {"world", "motions", "server", "mirror", "tls", "web"})
     for (size_t bytes = 64; bytes <= 512; bytes *= 2) {
       Seed seed;
       while (seed.bytes.size() < bytes) seed.byte(static_cast<uint8_t>(random.next()));
@@ -296,6 +329,7 @@ int main(int argc, char** argv) {
   write_kept(corpora);
   write_texts(corpora);
   write_config(corpora);
+  write_web(corpora);
   write_choices(corpora);
   corpora.print();
   return 0;
