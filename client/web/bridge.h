@@ -1,0 +1,186 @@
+// The client in a browser, as the page sees it: C functions of scree.wasm. The page (client/web/page) owns
+// the WebSocket, the elements, the keys and the fingers; all else is here: the protocol, the mirror of the
+// world, the camera, the drawing, reconnecting.
+//
+// scree.js is an ES module whose default export makes the client: `const client = await createScree({canvas,
+// wasmBinary})`, with the bytes of scree.wasm, so that the page can show how much of them has come. Numbers
+// go by client._scree_NAME(…), texts by client.ccall("scree_NAME", result, types, values).
+//
+// All calls are from the page's one thread, never from within each other. Nothing waits and nothing throws.
+// Texts are UTF-8 and end in NUL. A text that is returned belongs to this side and holds until the same
+// function is called again; of a text that is passed nothing is kept. Functions that return an int and say no
+// more return 1 when it was done, and 0 when the argument is none that they know, which changes nothing.
+// Lengths are metres, angles degrees, times seconds, unless a name says otherwise. Numbers that are not
+// finite are refused.
+//
+// Order: scree_begin(), the wishes that the page's address has (camera, method, token …), then scree_frame()
+// in every animation frame. Everything else may be called at any time after scree_begin(), before the first
+// connection, too.
+#pragma once
+
+#include <cstdint>
+
+extern "C" {
+
+// ---- life
+
+/// Makes the WebGL 2 context of `canvas`, a CSS selector ("#view"), and whatever draws in it. 0: done. 1: the
+/// browser has no WebGL 2, or refuses it now. 2: something else, as scree_error() says. After 1 or 2 nothing
+/// else may be called but scree_error().
+int scree_begin(const char* canvas);
+/// What failed, in words for people; empty: nothing did. What scree_frame() met is here, too.
+const char* scree_error();
+/// Says goodbye to the server, as far as a page that is closed can: call it on "pagehide", then send
+/// scree_outgoing().
+void scree_leave();
+
+// ---- the WebSocket: path /session of the page's own server, binary messages
+
+/// What is to be done with the socket; ask after every frame. 0: nothing. 1: open one; asked once for each
+/// attempt, and never while one is open or opening: whether and when to try again is decided here. 2: close
+/// it. Of a socket that was closed by 2, or replaced, nothing may be passed on any more.
+int scree_socket_wish();
+/// The socket is open: the hello waits in scree_outgoing().
+void scree_socket_opened();
+/// The socket is closed, or could not be opened; `why` in words for people, possibly empty.
+void scree_socket_closed(const char* why);
+/// Memory for the bytes of one binary message; then scree_received() with as many. They are only kept: the
+/// work is done in scree_frame(), under its budget.
+uint8_t* scree_incoming(uint32_t bytes);
+void scree_received(uint32_t bytes);
+/// The bytes that wait to be sent, as one binary message: how many, and then where. Ask after every frame,
+/// and after scree_socket_opened(). The first call takes them: they hold until it is called again.
+uint32_t scree_outgoing();
+const uint8_t* scree_outgoing_bytes();
+
+// ---- the picture
+
+/// The size of the drawing buffer, pixels of the device; the page sets canvas.width and canvas.height to the
+/// same. `ratio`: pixels of the device for one of CSS, by which looking around goes as far as the hand does.
+void scree_resize(int width, int height, float ratio);
+/// One animation frame: takes in messages, moves the camera, draws. 1: drawn. 0: it cannot go on,
+/// scree_error() says why (a context that was lost among others): the page offers to load itself anew.
+int scree_frame();
+
+// ---- wishes; also from the page's address
+
+/// The person's name, and the token that goes with the hello; from the next connection on.
+int scree_set_name(const char* name);
+int scree_set_token(const char* token);
+/// "x,y,z,yaw,pitch", as the viewer's --camera, in metres and degrees. Without it the camera begins where the
+/// ground says.
+int scree_set_camera(const char* text);
+const char* scree_camera();
+/// A method by its name (scree_catalogue()); 0: there is none, or this browser cannot draw it.
+int scree_set_method(const char* name);
+/// "low", "medium", "high" or "auto": by the time that the first frames take.
+int scree_set_quality(const char* name);
+/// How far terrain is drawn and followed, metres, within scree_catalogue()'s limits; 0: as the quality says.
+int scree_set_view_radius(float metres);
+int scree_set_field_of_view(float degrees);  ///< vertical
+int scree_set_look_speed(float factor);      ///< 1: a seventh of a degree for a pixel of CSS
+int scree_set_particles(int on);             ///< dust of breaks, blows and merges
+int scree_set_predict(int on);               ///< own carves are shown before the server has answered
+int scree_set_overlay(int on);               ///< borders, interest, bodies, contacts
+
+// ---- the hand
+
+/// The mouse, or a finger, moved by so many pixels of CSS to the right and down; adds up until the next
+/// frame.
+void scree_look(float right, float down);
+/// What is held down now, until it is said again: right, up, forward as parts of the full speed, from −1
+/// to 1. On foot any `up` above 0 is a jump. `fast`: as with Shift.
+void scree_move(float right, float up, float forward, int fast);
+/// The tool strikes what is in the middle of the picture.
+void scree_strike();
+/// The wheel, notches: a larger tool, or a smaller one.
+void scree_grow(float notches);
+/// A key went down or up: `code` as of KeyboardEvent, "KeyW". Moves (W A S D, Space, C, Shift), and does the
+/// actions of scree_catalogue(), by the native viewer's own table. 1: the key means something here, so the
+/// page calls preventDefault(). Not to be called while a text is written; scree_keys_up() when the page loses
+/// the keyboard.
+int scree_key(const char* code, int down);
+void scree_keys_up();
+/// A gamepad of the standard mapping, once a frame while there is one: `axes` 4 and `buttons` 17 numbers, as
+/// in Gamepad.axes and Gamepad.buttons[i].value.
+void scree_gamepad(float left_x, float left_y, float right_x, float right_y, float left_trigger,
+                   float right_trigger, uint32_t buttons);
+/// An action by its name, as if its key had been pressed. Those that are the page's own (scree_asked()) come
+/// back there.
+int scree_act(const char* action);
+/// Actions that keys or buttons asked for and that are the page's to do, as JSON, ["talk", "panel"]; takes
+/// them. They are: end, figures, free_mouse, full_screen, graphs, help, hide, panel, persons, picture,
+/// copy_place, talk, larger_text, smaller_text.
+const char* scree_asked();
+
+/// The tool, by the names in scree_catalogue().
+int scree_set_tool(const char* kind);      ///< its shape: "crater"
+int scree_set_use(const char* use);        ///< "carve", "fill", "paint"
+int scree_set_material(const char* name);  ///< to paint with
+int scree_set_pattern(const char* name);   ///< of the cracks
+int scree_set_radius(float metres);
+int scree_set_blast(float metres_per_second);
+int scree_set_seeds(int seeds);  ///< pieces that a carve makes; 0: by its volume
+
+// ---- others
+
+/// A line to all persons. 0: it is empty, too long (limits.line_bytes), or there is no connection.
+int scree_say(const char* text);
+
+// ---- a replay; each does nothing where it is none, or where this person may not control it
+
+void scree_replay_play(int on);
+/// Times real time, negative: backwards.
+int scree_replay_speed(float factor);
+/// To that tick, or the nearest there is. Dragging may call it as often as it likes.
+void scree_replay_seek(double tick);
+
+// ---- what there is to show, as JSON
+
+/// What never changes, once: {"methods": [{"name", "summary", "missing"}] (missing: what this browser lacks,
+/// or null), "qualities": ["auto", "low", …], "tools": […], "uses": […], "materials": […], "patterns": […],
+/// "limits": {"view_radius_m": [least, most], "tool_radius_m": […], "blast_speed_m_s": […], "seeds": […],
+/// "field_of_view_degrees": […], "look_speed": […], "replay_speed": […], "line_bytes": n, "name_bytes": n},
+/// "events": [{"kind", "what"}],
+/// "controls": [{"action", "key", "button", "does", "of_replay"}]}.
+const char* scree_catalogue();
+/// What changes, for panels: a few times a second.
+///
+/// {"connection": {"phase": "connecting" | "connected" | "lost" | "refused" (for good), "text", "replay",
+/// "role",
+///                 "session", "retry_s" (until the next attempt, when lost)},
+///  "notice": the server's last refusal for some seconds, or "",
+///  "camera": as scree_camera(), "walks": bool, "eye": whose eye one looks through, in words, or "",
+///  "tick", "tick_rate_hz", "pace" (1: as fast as the clock), "lost_ticks", "pieces_near", "predictions",
+///  "joined": the edits around the camera have come, "loaded": and are drawn, "complete": in their newest
+///  state, "traffic": {"received_bytes", "sent_bytes", "received_bytes_per_s", "waiting_bytes"}, "mirror":
+///  {"frames", "carves", "merged", "checks", "mismatches", "repairs", "held_chunks", "edited_bricks"},
+///  "frame": {"ms" (the last one, from one to the next), "median_ms", "worst_ms" (of the last 120),
+///  "update_ms", "draw_ms",
+///            "apply_worst_ms" (the longest single message of the session), "work_worst_ms" (the longest job
+///            of drawing)},
+///  "draw": {"method", "draws", "triangles", "pieces", "kept", "waiting", "driver", "gl_errors",
+///  "first_gl_error"}, "preparing": null | {"method", "share"}, "latency_ms": of one's own last request, or
+///  null, "status": null | the server's last StatusMessage: {"clients", "pieces", "pieces_made",
+///  "pieces_merged",
+///            "tick_median_ms", "tick_worst_ms", "field_hash" (hexadecimal), "repairs", "chunks_waiting",
+///            "saving", "ledger": {"terrain", "pieces", "dust", "poured", "moved"} (m³), "refusals": {reason:
+///            count}},
+///  "tool": {"kind", "use", "material", "radius_m", "blast_speed_m_s", "pattern", "seeds", "seeds_now"},
+///  "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "predict", "overlay",
+///           "field_of_view_degrees", "look_speed"},
+///  "persons": {"list": [{"session", "name", "role"}], "more", "chat"},
+///  "lines": ["Ann: mind the edge"] of the last seconds,
+///  "playback": null | {"moment", "first", "last" (ticks), "speed", "playing", "grows", "refusal" ("": may
+///  control),
+///              "marks": how many times scree_marks() has become another}}
+const char* scree_state();
+/// Other persons within the picture, every frame if wanted: [{"session", "name", "colour": "#rrggbb", "x",
+/// "y" (parts of the width and height, from the upper left), "metres"}].
+const char* scree_names();
+/// A replay's events, counted in columns of equal time: {"first" (column 0 begins after this tick),
+/// "ticks_per_column", "read_to" (up to this tick the recording has been looked through), "marks": [{"kind",
+/// "column", "count"}]}.
+const char* scree_marks();
+
+}  // extern "C"
