@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "client/render/scene/limits.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -37,16 +38,42 @@ void WorkPool::run() {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [this] { return stopping_ || !queues_[0].empty() || !queues_[1].empty(); });
       if (stopping_) return;
-      auto& queue = queues_[0].empty() ? queues_[1] : queues_[0];
-      job = std::move(queue.front());
-      queue.pop_front();
+      job = take();
     }
     job();
   }
 }
 
+/// The next job; one waits, and the mutex is held.
+std::function<void()> WorkPool::take() {
+  auto& queue = queues_[0].empty() ? queues_[1] : queues_[0];
+  std::function<void()> job = std::move(queue.front());
+  queue.pop_front();
+  return job;
+}
+
+void WorkPool::run_for(double seconds) {
+  if (!threads_.empty()) return;
+  const double begun_s = steady_now_s();
+  for (double last_s = begun_s; last_s - begun_s < seconds;) {
+    std::function<void()> job;
+    {
+      const std::lock_guard lock(mutex_);
+      if (queues_[0].empty() && queues_[1].empty()) return;
+      job = take();
+    }
+    job();
+    const double now_s = steady_now_s();
+    worst_ms_ = std::max(worst_ms_, (now_s - std::exchange(last_s, now_s)) * 1000.0);
+  }
+}
+
 unsigned default_worker_threads() {
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+  return 0;
+#else
   return std::clamp(std::thread::hardware_concurrency(), 1U, limits::worker_threads_max);
+#endif
 }
 
 }  // namespace scree

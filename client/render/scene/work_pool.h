@@ -1,4 +1,5 @@
-// A few threads that run jobs; urgent ones first, each kind in the order in which it came.
+// A few threads that run jobs; urgent ones first, each kind in the order in which it came. Where there are no
+// threads, a few jobs at a time run when their owner calls run_for().
 //
 // submit() may be called from any thread. Jobs must not throw, and must own all data that they use. The
 // destructor drops waiting jobs, and waits for running ones.
@@ -18,6 +19,7 @@ class WorkPool {
  public:
   enum class Urgency { edit, load };
 
+  /// 0: only run_for() runs anything.
   explicit WorkPool(unsigned threads);
   ~WorkPool();
   WorkPool(const WorkPool&) = delete;
@@ -25,17 +27,25 @@ class WorkPool {
 
   void submit(Urgency urgency, std::function<void()> job);
 
+  /// Without threads: runs jobs on the caller's, one after another, until so much time is over; one at least,
+  /// if any waits. With threads: does nothing.
+  void run_for(double seconds);
+  /// The longest job that run_for() ran, milliseconds.
+  double worst_ms() const { return worst_ms_; }
+
  private:
   void run();
+  std::function<void()> take();
 
   std::mutex mutex_;
   std::condition_variable wake_;
   std::array<std::deque<std::function<void()>>, 2> queues_;  ///< by urgency
   bool stopping_ = false;
+  double worst_ms_ = 0.0;
   std::vector<std::thread> threads_;
 };
 
-/// As many as the machine has cores, at most limits::worker_threads_max.
+/// As many as the machine has cores, at most limits::worker_threads_max; none where a program has no threads.
 unsigned default_worker_threads();
 
 }  // namespace scree
