@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "client/viewer/base/camera_text.h"
 #include "film/encoded_film.h"
 #include "film/limits.h"
 #include "shared/base/option_check.h"

@@ -9,7 +9,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
-#include "client/cache/rejoin.h"
+#include "client/cache/join_server.h"
 #include "server/net/net_server.h"
 #include "server/world/world_config.h"
 #include "shared/base/timing.h"
@@ -109,7 +109,7 @@ Joined join(Rejoin& rejoin, uint16_t port, const Field& field, glm::vec3 eye_m) 
   Joined joined;
   const double begin_s = steady_now_s();
   auto connected =
-      rejoin.connect(server, {protocol_version, "join", eye_m, interest_m}, std::chrono::seconds(5));
+      join_server(rejoin, server, {protocol_version, "join", eye_m, interest_m}, std::chrono::seconds(5));
   if (!connected) return {.failure = connected.error().message};
   Connection& connection = **connected;
   const std::unique_ptr<Mirror> mirror = rejoin.begin(connection);

@@ -5,6 +5,7 @@
 
 #include "client/bot/limits.h"
 #include "client/bot/tally.h"
+#include "client/cache/join_server.h"
 #include "client/connection/come_again.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/text.h"
@@ -53,7 +54,7 @@ Result<void> Bot::join() {
 
 tl::expected<void, ConnectionEnd> Bot::connect() {
   const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
-  auto connected = rejoin_.connect(config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
+  auto connected = join_server(rejoin_, config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
   if (!connected) return tl::unexpected(connected.error());
   connection_ = std::move(*connected);
   report_.welcome = connection_->welcome();

@@ -51,4 +51,8 @@ inline constexpr uint64_t tiles_between_bounds = 64;
 /// Metres beyond the radius of interest up to which chunks are offered, for who moves.
 inline constexpr float offer_margin_m = 8.0F;
 
+/// Milliseconds that a session's attempt to reach its server may take. Above: it failed, and the next one
+/// begins later.
+inline constexpr int connect_ms_max = 3000;
+
 }  // namespace scree::limits

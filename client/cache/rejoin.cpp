@@ -18,25 +18,21 @@ void Rejoin::load(std::optional<uint64_t> world) {
   cache_.load(kept->chunks);
 }
 
-tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Rejoin::connect(const ServerEndpoint& server,
-                                                                         HelloMessage hello,
-                                                                         std::chrono::milliseconds within) {
+Rejoin::Opening Rejoin::open(const std::string& address, HelloMessage hello) {
   save();
-  address_ = server.host + ":" + std::to_string(server.port);
+  address_ = address;
   if (keeps() && world_ == 0) load(std::nullopt);
   eye_m_ = hello.eye_m;
   radius_m_ = hello.interest_radius_m;
   hello.ticket = ticket_;
-  std::vector<ClientMessage> then;
+  Opening opening{std::move(hello), {}};
   offered_.clear();
-  if (world_ != 0) {
-    OfferMessage offer = next_offer({});
-    if (!offer.chunks.empty()) {
-      hello.world = world_;
-      then.emplace_back(std::move(offer));
-    }
-  }
-  return Connection::connect(server, std::move(hello), within, then);
+  if (world_ == 0) return opening;
+  OfferMessage offer = next_offer({});
+  if (offer.chunks.empty()) return opening;
+  opening.hello.world = world_;
+  opening.then.emplace_back(std::move(offer));
+  return opening;
 }
 
 /// Tiles that came by an earlier connection are not asked for again.
@@ -54,13 +50,13 @@ WelcomeMessage Rejoin::with_ground(const WelcomeMessage& welcome) {
   return grounded;
 }
 
-void Rejoin::ask_for_tiles(Connection& connection) {
+void Rejoin::ask_for_tiles(ServerChannel& connection) {
   if (tiles_ == nullptr) return;
   const TileRequest request = tiles_->next_request(eye_m_, radius_m_);
   if (!request.wanted.empty() || !request.held.empty()) connection.send(request);
 }
 
-std::unique_ptr<Mirror> Rejoin::begin(Connection& connection) {
+std::unique_ptr<Mirror> Rejoin::begin(ServerChannel& connection) {
   const WelcomeMessage welcome = with_ground(connection.welcome());
   ask_for_tiles(connection);
   ticket_ = welcome.ticket;
@@ -88,7 +84,7 @@ OfferMessage Rejoin::next_offer(const std::unordered_set<ChunkCoord, CoordHash>&
   return offer;
 }
 
-void Rejoin::offer(const Mirror& mirror, Connection& connection) {
+void Rejoin::offer(const Mirror& mirror, ServerChannel& connection) {
   const OfferMessage offer = next_offer(mirror.held_chunks());
   if (!offer.chunks.empty()) connection.send(offer);
 }
@@ -109,20 +105,20 @@ Result<void> Rejoin::before(const ServerMessage& message, Mirror& mirror) {
   return {};
 }
 
-void Rejoin::after(const ServerMessage& message, Mirror& mirror, Connection& connection) {
+void Rejoin::after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection) {
   if (!keeps() || !std::holds_alternative<ResetMessage>(message)) return;
   offered_.clear();
   offer(mirror, connection);
 }
 
-void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection& connection) {
+void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChannel& connection) {
   eye_m_ = eye_m;
   radius_m_ = radius_m;
   connection.send(InterestMessage{eye_m, radius_m});
   if (keeps()) offer(mirror, connection);
 }
 
-void Rejoin::tend(double now_s, Mirror& mirror, Connection& connection) {
+void Rejoin::tend(double now_s, Mirror& mirror, ServerChannel& connection) {
   ask_for_tiles(connection);
   keep_chunks(now_s, mirror);
 }
@@ -141,7 +137,7 @@ void Rejoin::keep_chunks(double now_s, Mirror& mirror) {
     to_pack_.assign(mirror.held_chunks().begin(), mirror.held_chunks().end());
     const bool busy =
         writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-    if (changed_ && !busy) {
+    if (changed_ && !busy && !config_.folder.empty()) {
       changed_ = false;
       writing_ = std::async(std::launch::async, [folder = folder_, address = address_,
                                                  kept = KeptWorld{world_, voxel_size_m_, cache_.all()}] {

@@ -2,19 +2,19 @@
 // again, and its session goes on by the ticket of the last welcome (proto/join.proto). What it keeps outlives
 // the program when there is a folder for it.
 //
-// Outlives the mirrors that it makes. One thread at a time: connect() may run on another one while there is
-// no connection.
+// Outlives the mirrors that it makes. One thread at a time: open() may run on another one while there is no
+// connection.
 #pragma once
 
-#include <chrono>
 #include <future>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "client/cache/cache_folder.h"
 #include "client/cache/chunk_cache.h"
 #include "client/cache/received_tiles.h"
-#include "client/connection/connection.h"
+#include "client/connection/server_channel.h"
 #include "client/mirror/mirror.h"
 
 namespace scree {
@@ -31,23 +31,27 @@ class Rejoin {
   /// Waits for a file that is being written.
   ~Rejoin() = default;
 
-  /// As Connection::connect(), with ticket and offer. Reads files; writes what was kept before.
-  tl::expected<std::unique_ptr<Connection>, ConnectionEnd> connect(const ServerEndpoint& server,
-                                                                   HelloMessage hello,
-                                                                   std::chrono::milliseconds within);
-  /// The mirror for a new connection, which is the last one that connect() made.
-  std::unique_ptr<Mirror> begin(Connection& connection);
+  /// The first messages of a connection.
+  struct Opening {
+    HelloMessage hello;
+    std::vector<ClientMessage> then;
+  };
+  /// Puts ticket and offer to the hello, for the server of that address. Reads files; writes what was kept
+  /// before.
+  Opening open(const std::string& address, HelloMessage hello);
+  /// The mirror for a new connection, which began with what open() last said.
+  std::unique_ptr<Mirror> begin(ServerChannel& connection);
 
   /// Call before the mirror applies the message, and after: chunks that it forgets are kept, and offered
   /// again when they are to come again. The error: a tile of the ground that cannot be one; the connection is
   /// of no more use.
   Result<void> before(const ServerMessage& message, Mirror& mirror);
-  void after(const ServerMessage& message, Mirror& mirror, Connection& connection);
+  void after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection);
   /// Sends the interest, and an offer of what is kept of what comes into it.
-  void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, Connection& connection);
+  void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChannel& connection);
   /// Call often: asks for tiles of the ground that were missed, packs a few chunks, and writes the file from
   /// time to time, on another thread. Seconds, of any origin.
-  void tend(double now_s, Mirror& mirror, Connection& connection);
+  void tend(double now_s, Mirror& mirror, ServerChannel& connection);
   /// Whether the ground within the interest is known, as far as its heights go.
   bool has_near_ground() const { return tiles_ == nullptr || tiles_->has_near(eye_m_, radius_m_); }
   /// Keeps all that the mirror holds: its connection is lost.
@@ -65,9 +69,9 @@ class Rejoin {
   bool keeps() const { return config_.bytes_max != 0; }
   void load(std::optional<uint64_t> world);
   OfferMessage next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held);
-  void offer(const Mirror& mirror, Connection& connection);
+  void offer(const Mirror& mirror, ServerChannel& connection);
   WelcomeMessage with_ground(const WelcomeMessage& welcome);
-  void ask_for_tiles(Connection& connection);
+  void ask_for_tiles(ServerChannel& connection);
   void keep_chunks(double now_s, Mirror& mirror);
 
   CacheConfig config_;

@@ -11,9 +11,9 @@
 #include <optional>
 #include <thread>
 
+#include "client/connection/intake.h"
 #include "client/connection/limits.h"
 #include "proto/codec.h"
-#include "proto/frame_reader.h"
 #include "shared/base/text.h"
 #include "transport/asio_link_clock.h"
 #include "transport/link_transport.h"
@@ -41,7 +41,7 @@ struct Connection::Impl {
   tcp::resolver::results_type::iterator untried;
   tcp::socket socket{context};           ///< until it is connected
   std::shared_ptr<Transport> transport;  ///< from then on
-  FrameReader reader;
+  Intake intake;
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
   std::deque<std::vector<uint8_t>> outbox;
   size_t front_sent_bytes = 0;  ///< sent bytes of the first message in the outbox
@@ -50,10 +50,8 @@ struct Connection::Impl {
   bool paused = false;   ///< by pause_reading
   bool leaving = false;  ///< ends when all is sent
   bool ended = false;    ///< the socket is closed
-  std::optional<WelcomeMessage> welcome;
   asio::steady_timer silence{context};
   double silent_seconds_max = 0.0;
-  bool sends_frames = false;  ///< the server does, so that its silence says something
   Clock::time_point heard{};  ///< when bytes came last, or were not asked for
 
   mutable std::mutex mutex;
@@ -73,7 +71,7 @@ struct Connection::Impl {
   void read();
   void take_messages();
   void enqueue(ServerMessage message, size_t bytes);
-  void handle(ServerMessage message, size_t bytes);
+  void open_up();
   void push(std::vector<uint8_t> bytes);
   void note_sent(size_t bytes);
   void write();
@@ -143,7 +141,7 @@ void Connection::Impl::end(const std::string& why, const std::string& refusal) {
     reason = {{why}, refusal};
   }
   changed.notify_all();
-  if (!welcome) context.stop();
+  if (!intake.welcome()) context.stop();
 }
 
 void Connection::Impl::read() {
@@ -160,7 +158,7 @@ void Connection::Impl::read() {
       counters.received_bytes += *moved;
     }
     heard = Clock::now();
-    reader.push(std::span<const uint8_t>(buffer).first(*moved));
+    intake.push(std::span<const uint8_t>(buffer).first(*moved));
     take_messages();
   });
 }
@@ -171,7 +169,7 @@ void Connection::Impl::watch_silence() {
   silence.expires_after(std::chrono::duration_cast<Clock::duration>(most / 4));
   silence.async_wait([this, most](const asio::error_code& error) {
     if (error || ended) return;
-    if (!reading || !sends_frames) heard = Clock::now();
+    if (!reading || !intake.sends_frames()) heard = Clock::now();
     if (Clock::now() - heard > most)
       return end("the connection was lost: the server has been silent for " +
                  std::to_string(std::lround(most.count())) + " s");
@@ -192,31 +190,20 @@ void Connection::Impl::take_messages() {
         return;
       }
     }
-    const auto next = reader.next();
-    if (!next) return end("what the server sent is not this protocol: " + next.error().message);
+    auto next = intake.next();
+    if (!next) return end(next.error().message, next.error().refusal);
     if (!*next) break;
-    Result<ServerMessage> message = decode_server(**next);
-    if (!message) return end("what the server sent is not this protocol: " + message.error().message);
-    handle(std::move(*message), (*next)->size() + length_prefix_bytes);
+    if (std::holds_alternative<WelcomeMessage>((*next)->message)) {
+      open_up();
+    } else {
+      enqueue(std::move((*next)->message), (*next)->bytes);
+    }
   }
   read();
 }
 
-void Connection::Impl::handle(ServerMessage message, size_t bytes) {
-  if (const auto* refusal = std::get_if<RefusalMessage>(&message))
-    return end("the server refused: " + refusal->reason, refusal->name);
-  if (welcome) {
-    if (std::holds_alternative<WelcomeMessage>(message)) return end("the server sent a second welcome");
-    sends_frames = sends_frames || std::holds_alternative<FrameMessage>(message);
-    enqueue(std::move(message), bytes);
-    return;
-  }
-  const auto* first = std::get_if<WelcomeMessage>(&message);
-  if (first == nullptr) return end("the server did not begin with a welcome");
-  if (first->protocol != protocol_version)
-    return end("the server speaks protocol " + std::to_string(first->protocol) + ", this client " +
-               std::to_string(protocol_version) + "; use the same version of both");
-  welcome = *first;
+/// The welcome has come.
+void Connection::Impl::open_up() {
   {
     const std::scoped_lock lock(mutex);
     open = true;
@@ -311,7 +298,7 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
     impl->silent_seconds_max = server.silent_seconds_max;
     if (Result<void> started = impl->start(server, first); !started) return failed(started.error().message);
     impl->context.run_for(within);
-    if (!impl->welcome) {
+    if (!impl->intake.welcome()) {
       impl->end("no answer within " + std::to_string(within.count()) + " ms");
       return failed(impl->reason.message, impl->reason.refusal);
     }
@@ -330,7 +317,7 @@ Connection::~Connection() {
 }
 
 const WelcomeMessage& Connection::welcome() const {
-  return *impl_->welcome;
+  return *impl_->intake.welcome();
 }
 
 std::vector<Received> Connection::poll() {

@@ -5,39 +5,16 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "client/connection/endpoint.h"
-#include "proto/messages.h"
-#include "shared/base/result.h"
+#include "client/connection/server_channel.h"
 
 namespace scree {
 
-/// Why there is no connection, or no more.
-struct ConnectionEnd : Error {
-  std::string refusal{};  ///< the name of the server's reason, if it refused (RefusalMessage); else empty
-};
-
-struct Received {
-  ServerMessage message;
-  size_t bytes = 0;  ///< on the wire, length prefix included
-  std::chrono::steady_clock::time_point arrived;
-};
-
-struct ConnectionCounters {
-  uint64_t received_bytes = 0;
-  uint64_t received_messages = 0;
-  uint64_t sent_bytes = 0;  ///< handed over to be sent, the hello included
-  uint64_t sent_messages = 0;
-  size_t waiting_messages = 0;  ///< received, not yet polled
-  size_t waiting_bytes = 0;     ///< their memory, decoded
-  uint64_t pauses = 0;          ///< times that reading stopped because the queue was full
-};
-
-class Connection {
+class Connection final : public ServerChannel {
  public:
   /// Connects, sends a hello, with the endpoint's token, then other messages if there are any, and waits for
   /// the welcome. The error names the address and the failure; a refusal has the server's reason.
@@ -45,31 +22,26 @@ class Connection {
       const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
       const std::vector<ClientMessage>& then = {});
   /// Closes.
-  ~Connection();
+  ~Connection() override;
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  const WelcomeMessage& welcome() const;
+  const WelcomeMessage& welcome() const override;
 
-  /// Takes all messages that arrived after the welcome, in order. Does not wait. Messages that arrived before
-  /// the connection closed can still be polled.
-  std::vector<Received> poll();
+  /// Takes all messages that arrived.
+  std::vector<Received> poll() override;
   /// Like poll(), but waits until a message arrives, the connection closes, or the time is over.
   std::vector<Received> wait(std::chrono::milliseconds within);
 
-  /// Queues a message for sending; does nothing after the connection closed.
-  void send(const ClientMessage& message);
-
-  bool connected() const;
-  /// The reason for which the connection closed; empty while it is open.
-  ConnectionEnd end() const;
+  void send(const ClientMessage& message) override;
+  bool connected() const override;
+  ConnectionEnd end() const override;
   std::string close_reason() const { return end().message; }
-  ConnectionCounters counters() const;
+  ConnectionCounters counters() const override;
 
   /// Closes; the server takes it for a lost connection, to which the client may come back by its ticket.
   void close();
-  /// Says goodbye and closes: the session is over, and its place is free.
-  void leave();
+  void leave() override;
 
   /// For tests: pause_reading() stops reading the socket, as a stuck client does; cut() ends the connection
   /// without closing it in order, as a lost link does.

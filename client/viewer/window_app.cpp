@@ -1,6 +1,5 @@
 #include "client/viewer/window_app.h"
 
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -8,29 +7,13 @@
 #include <tuple>
 
 #include "client/viewer/app.h"
+#include "client/viewer/base/camera_text.h"
 #include "client/viewer/base/files.h"
 #include "client/viewer/pictures/png.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 namespace {
-
-/// Of the shape in the person's hand.
-LineColour preview_colour(const Tool& tool) {
-  constexpr uint8_t opacity = 150;
-  switch (tool.use) {
-    case ToolUse::carve:
-      break;
-    case ToolUse::fill:
-      return {170, 255, 190, opacity};
-    case ToolUse::paint: {
-      const auto& [r, g, b] = traits_of(tool.material).albedo;
-      const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
-      return {bright(r), bright(g), bright(b), opacity};
-    }
-  }
-  return {255, 236, 170, opacity};
-}
 
 constexpr double said_s = 6.0;
 
@@ -73,17 +56,8 @@ void WindowApp::follow_path(double now_s) {
 }
 
 void WindowApp::choose_quality(float frame_ms, double now_s) {
-  if (quality_) {
-    if (*quality_ != viewing_.quality()) viewing_.use(*quality_);
-    auto_quality_ = {};
-    return;
-  }
-  if (viewing_.quality() != auto_quality_.quality()) viewing_.use(auto_quality_.quality());
-  if (!viewing_.session.connected()) return;
-  const std::optional<Quality> other = auto_quality_.note(frame_ms, viewing_.view->methods().loaded());
-  if (!other) return;
-  viewing_.use(*other);
-  say("quality: " + std::string(name_of(*other)) + ", by the time of a frame; the panel has others", now_s);
+  if (const std::optional<Quality> other = viewing_.choose_quality(quality_, frame_ms))
+    say("quality: " + std::string(name_of(*other)) + ", by the time of a frame; the panel has others", now_s);
 }
 
 Result<void> WindowApp::choose(const MethodEntry& method) {
@@ -93,22 +67,6 @@ Result<void> WindowApp::choose(const MethodEntry& method) {
 void WindowApp::say(const std::string& text, double now_s) {
   said_ = text;
   said_until_s_ = now_s + said_s;
-}
-
-void WindowApp::move(const AppInput& input, double now_s) {
-  ViewerSession& session = viewing_.session;
-  if (session.mirror() == nullptr) feet_.stop();
-  if (input.fly.move != glm::vec3(0.0F)) eye_.end();
-  if (eye_.follows()) return eye_.step(viewing_.camera, session.figures(now_s), now_s);
-  if (!feet_.walks()) return fly(viewing_.camera, input.fly, input.elapsed_s);
-  feet_.step(viewing_.camera, input.fly, input.elapsed_s, Scene{session.field(), session.pieces(now_s)});
-}
-
-void WindowApp::look_through_next(double now_s) {
-  const Figures& figures = viewing_.session.figures(now_s);
-  eye_.next(figures);
-  feet_.stop();
-  if (figures.all().empty()) say("there is nobody here through whose eye to look", now_s);
 }
 
 /// Flips what the action shows or hides.
@@ -168,8 +126,9 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     change(hand_, action);
     act_on_view(action);
     viewing_.session.timeline().act(action);
-    if (action == Action::next_eye) look_through_next(now_s);
-    if (action == Action::walk && viewing_.session.mirror() != nullptr) feet_.change(viewing_.camera);
+    if (action == Action::next_eye && !whereabouts_.look_through_next(viewing_.session, now_s))
+      say("there is nobody here through whose eye to look", now_s);
+    if (action == Action::walk) whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
     if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
     if (action == Action::next_method)
       if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
@@ -190,23 +149,12 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
     lines.push_back(
         std::string(shown->name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
         " m far, as far as its cells reach: the world goes on; the panel has more cells, and larger");
-  if (eye_.follows()) lines.push_back(eye_.description(viewing_.session.figures(now_s)));
+  if (eye().follows()) lines.push_back(eye().description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
   if (!window_.holds_mouse())
     lines.emplace_back(viewing_.session.is_replay()
                            ? "click into the picture to take the mouse: then it looks; Tab frees it"
                            : "click into the picture to take the mouse: then it looks, and a click strikes");
-  return lines;
-}
-
-LineList WindowApp::lines(double now_s) {
-  LineList lines;
-  const glm::vec3 direction = viewing_.camera.forward();
-  const auto hit_m = viewing_.session.aim(viewing_.camera.eye_m, direction);
-  if (hit_m && !viewing_.session.is_replay())
-    lines.shape(shape_of(tool_, *hit_m, direction), preview_colour(tool_));
-  viewing_.session.figures(now_s).add_to(lines, viewing_.camera.eye_m, eye_.person());
-  viewing_.add_overlay(lines, overlay_, now_s);
   return lines;
 }
 
@@ -221,7 +169,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
     hud_.names(viewing_.session.figures(now_s),
-               camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye_.person());
+               camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye().person());
     hud_.figures(facts, choice_.figures);
     hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
                      choice_.graphs);
@@ -246,7 +194,7 @@ Result<void> WindowApp::frame() {
   const double now_s = steady_now_s();
   input.fly.look *= hand_.mouse_speed;
   viewing_.camera.field_of_view = glm::radians(hand_.field_of_view_degrees);
-  move(input, now_s);
+  whereabouts_.step(viewing_.camera, input.fly, input.elapsed_s, viewing_.session, now_s);
   if (viewing_.options.path) follow_path(now_s);
   record_path(now_s);
   if (Result<void> acted = act(input, now_s); !acted) return acted;
@@ -257,7 +205,7 @@ Result<void> WindowApp::frame() {
   if (!window_.minimised()) {
     View& view = *viewing_.view;
     view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
-                         lines(now_s));
+                         viewing_.lines(tool_, overlay_, eye().person(), now_s));
     parts.draw_ms = static_cast<float>(watch.lap_ms());
     if (Result<void> drawn = draw_hud(parts, now_s); !drawn) return drawn;
   }

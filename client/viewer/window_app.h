@@ -4,9 +4,7 @@
 #include <optional>
 
 #include "client/viewer/pictures/path_recorder.h"
-#include "client/viewer/session/followed_eye.h"
-#include "client/viewer/session/on_foot.h"
-#include "client/viewer/viewing/auto_quality.h"
+#include "client/viewer/session/whereabouts.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/viewing/viewing.h"
 #include "client/viewer/window/app_window.h"
@@ -25,19 +23,16 @@ class WindowApp {
   /// The current settings, to be kept.
   Settings settings() const;
   /// Rather than walks.
-  bool flies() const { return !feet_.walks(); }
+  bool flies() const { return !whereabouts_.walks(); }
   /// Through whose eye the person looks.
-  const FollowedEye& eye() const { return eye_; }
+  const FollowedEye& eye() const { return whereabouts_.eye(); }
   /// Where the panels stood in the last frame.
   const PanelRectangles& panels() const { return hud_.panels().rectangles(); }
 
  private:
   void follow_path(double now_s);
-  /// Flies, or walks.
-  void move(const AppInput& input, double now_s);
   Result<void> act(const AppInput& input, double now_s);
   Result<void> choose(const MethodEntry& method);
-  void look_through_next(double now_s);
   void act_on_view(Action action);
   Result<void> act_on_files(Action action, double now_s);
   void record_path(double now_s);
@@ -46,8 +41,6 @@ class WindowApp {
   void choose_quality(float frame_ms, double now_s);
   void say(const std::string& text, double now_s);
   std::vector<std::string> messages(double now_s) const;
-  /// Lines over the world: the shape of the next strike, other persons, the overlay.
-  LineList lines(double now_s);
   Result<void> draw_hud(const FrameParts& parts, double now_s);
 
   AppWindow& window_;
@@ -59,13 +52,11 @@ class WindowApp {
   HandChoice hand_;
   OverlayChoice overlay_;
   Tool tool_;
-  OnFoot feet_;
-  FollowedEye eye_;
+  Whereabouts whereabouts_;
   GridShape grid_;
   bool particles_;
   bool predict_;
   std::optional<Quality> quality_;  ///< as chosen; nothing: by the first frames
-  AutoQuality auto_quality_;
   FactFinder facts_;
   std::optional<double> path_begun_s_;
   std::optional<PathRecorder> recorder_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "client/cache/rejoin.h"
+#include "client/cache/join_server.h"
 #include "export/limits.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -66,7 +66,8 @@ class Fetcher {
     if (connection_) connection_->close();  // the next session goes on by its ticket
     const HelloMessage hello{protocol_version, "scree-export", eye_m, limits::interest_radius_max_m};
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(ends_ - Clock::now());
-    auto connected = rejoin_.connect(how_.server, hello, std::clamp(left, 1ms, limits::export_connect_ms));
+    auto connected =
+        join_server(rejoin_, how_.server, hello, std::clamp(left, 1ms, limits::export_connect_ms));
     if (!connected) return tl::unexpected<Error>(connected.error());
     connection_ = std::move(*connected);
     mirror_ = rejoin_.begin(*connection_);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "client/bot/bot.h"
+#include "client/cache/join_server.h"
 #include "client/cache/limits.h"
 #include "server/app/live_server.h"
 #include "tests/support/flat_terrain.h"
@@ -145,7 +146,7 @@ TEST_F(RejoinTest, while_a_session_lasts_its_chunks_are_packed_few_at_once_and_w
   ServerEndpoint endpoint;
   endpoint.port = server_->port();
   const auto connected =
-      rejoin.connect(endpoint, {protocol_version, "test", {}, 96.0F}, std::chrono::seconds(10));
+      join_server(rejoin, endpoint, {protocol_version, "test", {}, 96.0F}, std::chrono::seconds(10));
   ASSERT_TRUE(connected) << connected.error().message;
   Connection& connection = **connected;
   const std::unique_ptr<Mirror> mirror = rejoin.begin(connection);

@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "client/viewer/base/camera_text.h"
 #include "client/viewer/pictures/png.h"
 #include "film/stop_signals.h"
 #include "tests/support/loaded_libraries.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "client/viewer/base/camera_text.h"
 #include "client/viewer/pictures/camera_path.h"
 #include "client/viewer/pictures/path_recorder.h"
 #include "client/viewer/session/pace.h"

@@ -8,6 +8,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "client/cache/join_server.h"
 #include "client/viewer/session/followed_eye.h"
 #include "client/viewer/session/viewer_session.h"
 #include "server/app/live_server.h"
@@ -174,7 +175,8 @@ class ReplayedSessions : public testing::Test {
     endpoint.host = "127.0.0.1";
     endpoint.port = server_->port();
     endpoint.token = token;
-    sessions_.push_back(std::make_unique<ViewerSession>(endpoint, 60.0F, "", CacheConfig{}));
+    sessions_.push_back(std::make_unique<ViewerSession>(std::make_unique<ServerConnector>(endpoint),
+                                                        SessionChoice{.interest_radius_m = 60.0F}));
   }
   void frame() {
     server_->step_once();

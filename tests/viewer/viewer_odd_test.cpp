@@ -5,7 +5,7 @@
 
 #include "client/viewer/pictures/egl_context.h"
 #include "client/viewer/pictures/picture_difference.h"
-#include "client/viewer/window/hud_facts.h"
+#include "client/viewer/viewing/hud_facts.h"
 #include "server/app/live_server.h"
 #include "shared/base/timing.h"
 #include "tests/support/loaded_libraries.h"

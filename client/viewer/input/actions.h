@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,8 +67,9 @@ inline constexpr int unbound = -1;
 
 struct Binding {
   Action action;
-  int key = unbound;     ///< of GLFW
-  int button = unbound;  ///< of GLFW's gamepads
+  std::string_view name;  ///< of the action, for programs
+  int key = unbound;      ///< of GLFW
+  int button = unbound;   ///< of GLFW's gamepads
   std::string_view key_name;
   std::string_view button_name;
   std::string_view does;
@@ -94,6 +96,7 @@ constexpr TellingRow row_of(Telling telling) {
 }
 
 std::span<const Binding> bindings();
+std::optional<Action> action_named(std::string_view name);
 
 constexpr Telling after(Telling telling) {
   return static_cast<Telling>((static_cast<size_t>(telling) + 1) % kind_count<Telling>);

@@ -17,14 +17,6 @@
 
 namespace scree {
 
-/// x, y, z in metres, yaw and pitch in degrees. Refuses values that are not finite, or outside the world; a
-/// pitch beyond straight up or down is cut.
-Result<Camera> camera_of(const std::array<float, 5>& values);
-/// "x,y,z,yaw,pitch" in metres and degrees, as --camera takes it.
-std::string camera_text(const Camera& camera);
-/// The other way round. The error says what is wrong with the text.
-Result<Camera> parse_camera(const std::string& text);
-
 class CameraPath {
  public:
   /// The text of such a file. The error says which key is wrong, and how.

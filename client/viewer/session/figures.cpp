@@ -92,6 +92,13 @@ void Figures::step(const std::vector<PlayerCursor>& cursors, double now_s) {
   figures_ = std::move(next);
 }
 
+std::optional<glm::vec2> Figures::place_of_name(const Figure& figure, const glm::mat4& view_projection) {
+  constexpr float over_eye_m = 0.32F;
+  const glm::vec4 place = view_projection * glm::vec4(figure.eye_m + glm::vec3(0.0F, over_eye_m, 0.0F), 1.0F);
+  if (place.w <= 0.0F) return std::nullopt;
+  return glm::vec2(place.x / place.w * 0.5F + 0.5F, 0.5F - place.y / place.w * 0.5F);
+}
+
 void Figures::add_to(LineList& lines, glm::vec3 eye_m, std::optional<uint64_t> looked_through) const {
   for (const auto& [session, figure] : figures_) {
     const LineColour colour = colour_of_person(session);

@@ -23,6 +23,9 @@ class Figures {
   };
   /// By session.
   const std::map<uint64_t, Figure>& all() const { return figures_; }
+  /// Where a name belongs, over the head: parts of the picture's width and height, from its upper left;
+  /// nothing behind the eye.
+  static std::optional<glm::vec2> place_of_name(const Figure& figure, const glm::mat4& view_projection);
   /// Adds them as bodies, and a cross where each aims; not the body of one that the eye is in, or through
   /// whose eye one looks.
   void add_to(LineList& lines, glm::vec3 eye_m, std::optional<uint64_t> looked_through = {}) const;

@@ -43,16 +43,19 @@ double Playback::clock(double now_s) {
   return clock_;
 }
 
+std::optional<ServerMessage> Playback::take_next(double now_s) {
+  overfull_ = !waiting_.empty() && (overfull_ || waiting_.size() > limits::playback_messages_max);
+  if (waiting_.empty()) return std::nullopt;
+  const auto* frame = std::get_if<FrameMessage>(&waiting_.front());
+  if (frame != nullptr && static_cast<double>(frame->tick) > clock(now_s) && !overfull_) return std::nullopt;
+  ServerMessage next = std::move(waiting_.front());
+  waiting_.pop_front();
+  return next;
+}
+
 std::vector<ServerMessage> Playback::take_due(double now_s) {
   std::vector<ServerMessage> due;
-  const double until = clock(now_s);
-  const bool overfull = waiting_.size() > limits::playback_messages_max;
-  while (!waiting_.empty()) {
-    const auto* frame = std::get_if<FrameMessage>(&waiting_.front());
-    if (frame != nullptr && static_cast<double>(frame->tick) > until && !overfull) break;
-    due.push_back(std::move(waiting_.front()));
-    waiting_.pop_front();
-  }
+  while (std::optional<ServerMessage> next = take_next(now_s)) due.push_back(std::move(*next));
   return due;
 }
 

@@ -18,7 +18,9 @@ class Playback {
   /// Until the welcome, everything passes at once.
   void start(const WelcomeMessage& welcome);
   void push(ServerMessage message, double now_s);
-  /// The messages that are due, in order.
+  /// The next message that is due, in order; nothing when none is.
+  std::optional<ServerMessage> take_next(double now_s);
+  /// All of them.
   std::vector<ServerMessage> take_due(double now_s);
   /// The tick (with its fraction) at which pieces are drawn now. It is behind the frames that take_due()
   /// returned by the interval of the transforms, so that the poses before and after it are known.
@@ -32,6 +34,7 @@ class Playback {
   double transform_ticks_ = 3.0;
   std::deque<ServerMessage> waiting_;
   std::optional<double> start_s_;  ///< local time of tick 0, as the least delayed frames tell it
+  bool overfull_ = false;          ///< all that waits is due
   Tick newest_ = 0;
   double clock_ = 0.0;  ///< never runs backwards, but for a new start
 };

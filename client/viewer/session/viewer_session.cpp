@@ -9,12 +9,11 @@
 #include "client/connection/come_again.h"
 #include "client/viewer/base/limits.h"
 #include "shared/base/overloaded.h"
-#include "shared/base/text.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 namespace {
 
-constexpr std::chrono::seconds connect_within{3};
 constexpr double notice_s = 5.0;
 constexpr double rate_window_s = 1.0;
 
@@ -30,16 +29,14 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 
 }  // namespace
 
-ViewerSession::ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name,
-                             const CacheConfig& cache)
-    : server_(std::move(server)),
-      interest_radius_m_(interest_radius_m),
-      name_(std::move(name)),
-      rejoin_(cache),
+ViewerSession::ViewerSession(std::unique_ptr<Connector> connector, SessionChoice choice)
+    : choice_(std::move(choice)),
+      rejoin_(choice_.cache),
+      connector_(std::move(connector)),
       retry_s_(limits::reconnect_min_s) {}
 
 ViewerSession::~ViewerSession() {
-  if (connecting_.valid()) connecting_.wait();
+  connector_.reset();
   rejoin_.finish(connection_ ? mirror_.get() : nullptr);
   if (connection_) connection_->leave();
 }
@@ -48,7 +45,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   const glm::vec3 eye_m = camera.eye_m;
   SessionStep step;
   if (!connection_) {
-    if (!connecting_.valid() && !gave_up_ && now_s >= next_try_s_) begin_connecting(eye_m);
+    if (!connector_->busy() && !gave_up_ && now_s >= next_try_s_) begin_connecting(now_s, eye_m);
     finish_connecting(now_s, step);
   }
   if (connection_) receive(now_s, step);
@@ -62,36 +59,27 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
 }
 
 void ViewerSession::set_interest_radius(float metres) {
-  radius_is_new_ = radius_is_new_ || metres != interest_radius_m_;
-  interest_radius_m_ = metres;
+  radius_is_new_ = radius_is_new_ || metres != choice_.interest_radius_m;
+  choice_.interest_radius_m = metres;
 }
 
-void ViewerSession::begin_connecting(glm::vec3 eye_m) {
+void ViewerSession::begin_connecting(double now_s, glm::vec3 eye_m) {
   reported_eye_m_ = eye_m;
   HelloMessage hello;
-  hello.client = "scree-viewer";
+  hello.client = choice_.program;
   hello.eye_m = eye_m;
-  hello.interest_radius_m = interest_radius_m_;
-  hello.name = name_;
+  hello.interest_radius_m = choice_.interest_radius_m;
+  hello.name = choice_.name;
   hello.meets = true;
-  connecting_ = std::async(std::launch::async, [this, hello] {
-    auto made = rejoin_.connect(server_, hello, connect_within);
-    Attempt attempt;
-    if (made) {
-      attempt.connection = std::move(*made);
-    } else {
-      attempt.end = std::move(made.error());
-    }
-    return attempt;
-  });
+  connector_->begin(rejoin_, hello, now_s);
 }
 
 void ViewerSession::finish_connecting(double now_s, SessionStep& step) {
-  if (!connecting_.valid() || connecting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return;
-  Attempt attempt = connecting_.get();
-  if (!attempt.connection) return lose(now_s, attempt.end);
-  connection_ = std::move(attempt.connection);
+  if (!connector_->busy()) return;
+  std::optional<Connector::Attempt> attempt = connector_->take(now_s);
+  if (!attempt) return;
+  if (!attempt->channel) return lose(now_s, attempt->end);
+  connection_ = std::move(attempt->channel);
   connected_since_s_ = now_s;
   predictions_.reset();
   mirror_ = rejoin_.begin(*connection_);
@@ -146,10 +134,8 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
       pace_.note(frame->tick, seconds_of(received.arrived));
     playback_.push(std::move(received.message), seconds_of(received.arrived));
   }
-  for (const ServerMessage& message : playback_.take_due(now_s)) {
-    apply(message, now_s, step);
-    if (!connection_) return;
-  }
+  apply_due(now_s, step);
+  if (!connection_) return;
   while (const std::optional<RepairRequest> repair = mirror_->take_repair_request())
     connection_->send(*repair);
   if (now_s - rate_since_s_ >= rate_window_s) {
@@ -158,6 +144,19 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
     rate_bytes_ = 0;
   }
   if (last) lose(now_s, connection_->end());
+}
+
+void ViewerSession::apply_due(double now_s, SessionStep& step) {
+  const double begun_s = steady_now_s();
+  double last_s = begun_s;
+  while (last_s - begun_s < choice_.apply_s) {
+    const std::optional<ServerMessage> message = playback_.take_next(now_s);
+    if (!message) return;
+    apply(*message, now_s, step);
+    if (!connection_) return;
+    apply_worst_ms_ = std::max(apply_worst_ms_, (steady_now_s() - last_s) * 1000.0);
+    last_s = steady_now_s();
+  }
 }
 
 void ViewerSession::measure(const ReplyMessage& reply, double arrived_s) {
@@ -224,7 +223,7 @@ void ViewerSession::report(double now_s, glm::vec3 eye_m) {
   if (glm::distance(eye_m, reported_eye_m_) < limits::report_distance_m && !radius_is_new_) return;
   radius_is_new_ = false;
   reported_eye_m_ = eye_m;
-  rejoin_.follow(eye_m, interest_radius_m_, *mirror_, *connection_);
+  rejoin_.follow(eye_m, choice_.interest_radius_m, *mirror_, *connection_);
 }
 
 void ViewerSession::report_cursor(double now_s, const Camera& camera) {
@@ -306,7 +305,7 @@ void ViewerSession::foresee(const Request& asked, uint32_t number, double now_s)
   const WelcomeMessage& welcome = connection_->welcome();
   const Role role = std::holds_alternative<CarveRequest>(asked) ? Role::carver : Role::builder;
   if (welcome.replay || !may_act_as(welcome.role, role)) return;
-  const float radius_m = std::min(interest_radius_m_, welcome.interest_radius_m);
+  const float radius_m = std::min(choice_.interest_radius_m, welcome.interest_radius_m);
   const float side_m = static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m;
   const auto known = [&](ChunkCoord chunk) {
     if (!is_here(mirror_->terrain(), chunk)) return false;
@@ -320,13 +319,23 @@ void ViewerSession::foresee(const Request& asked, uint32_t number, double now_s)
 }
 
 std::string ViewerSession::description() const {
-  const std::string where = endpoint_text(server_.host, server_.port);
+  const std::string where = connector_->where();
   if (connection_) {
     const WelcomeMessage& welcome = connection_->welcome();
     return where + (welcome.replay ? " (a recording)" : ", as " + std::string(name_of(welcome.role)));
   }
   if (trouble_.empty()) return "connecting to " + where + " ...";
   return gave_up_ ? trouble_ : trouble_ + " - trying again";
+}
+
+std::optional<double> ViewerSession::next_try_s(double now_s) const {
+  if (connection_ || gave_up_ || connector_->busy()) return std::nullopt;
+  return std::max(next_try_s_ - now_s, 0.0);
+}
+
+std::optional<ConnectionCounters> ViewerSession::traffic() const {
+  if (!connection_) return std::nullopt;
+  return connection_->counters();
 }
 
 std::string ViewerSession::notice(double now_s) const {

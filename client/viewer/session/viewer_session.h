@@ -2,18 +2,18 @@
 // mirror; reports the camera's place. Without a connection, the last world stays visible. A refusal that
 // cannot change by itself (come_again.h) is shown, and not tried against.
 //
-// Main thread only (connecting runs on another). Time comes in as seconds of std::chrono::steady_clock.
+// Main thread only. Time comes in as seconds of std::chrono::steady_clock.
 #pragma once
 
 #include <cstdint>
-#include <future>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "client/cache/connector.h"
 #include "client/cache/rejoin.h"
-#include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "client/mirror/predictions.h"
 #include "client/render/scene/draw_method.h"
@@ -39,10 +39,19 @@ struct SessionStep {
   MirrorChanges changes;
 };
 
+struct SessionChoice {
+  float interest_radius_m = 0.0F;
+  std::string name{};                    ///< the person's, shown to others
+  std::string program = "scree-viewer";  ///< for the server's log
+  CacheConfig cache{};
+  /// Seconds in which a step applies messages: after these, what is due waits for the next one. A message is
+  /// applied as a whole.
+  double apply_s = std::numeric_limits<double>::infinity();
+};
+
 class ViewerSession {
  public:
-  /// `name`: the person's, shown to others.
-  ViewerSession(ServerEndpoint server, float interest_radius_m, std::string name, const CacheConfig& cache);
+  ViewerSession(std::unique_ptr<Connector> connector, SessionChoice choice);
   ~ViewerSession();
   ViewerSession(const ViewerSession&) = delete;
   ViewerSession& operator=(const ViewerSession&) = delete;
@@ -56,6 +65,8 @@ class ViewerSession {
   Field& field() { return predictions_->field(); }
   /// The pieces at the poses to draw now; those of predicted carves where they are cut.
   const ScenePieces& pieces(double now_s);
+  /// The person's name from the next connection on.
+  void set_name(const std::string& name) { choice_.name = name; }
   /// Follows the server so far about the camera.
   void set_interest_radius(float metres);
   /// Whether carves are shown before the server has answered.
@@ -87,11 +98,21 @@ class ViewerSession {
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
   /// The last reported place of interest, and its radius.
   glm::vec3 interest_m() const { return reported_eye_m_; }
-  float interest_radius_m() const { return interest_radius_m_; }
+  float interest_radius_m() const { return choice_.interest_radius_m; }
 
   /// For display: the state of the connection, in one line; the server's last refusal, for some seconds.
   std::string description() const;
   std::string notice(double now_s) const;
+  /// Whether the server refused for a reason that stays (may_come_again): there is no other attempt.
+  bool gave_up() const { return gave_up_; }
+  /// Seconds until the next attempt; nothing while there is a connection, or an attempt.
+  std::optional<double> next_try_s(double now_s) const;
+  /// Of the connection; nothing without one.
+  std::optional<ConnectionCounters> traffic() const;
+  /// Of the connection; null without one.
+  const WelcomeMessage* welcome() const { return connection_ ? &connection_->welcome() : nullptr; }
+  /// The longest time that a message took to be applied, milliseconds.
+  double apply_worst_ms() const { return apply_worst_ms_; }
   double received_bytes_per_s() const { return bytes_per_s_; }
   /// Of the world's time; and its rate.
   const Pace& pace() const { return pace_; }
@@ -103,15 +124,10 @@ class ViewerSession {
   size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
 
  private:
-  /// One of the two.
-  struct Attempt {
-    std::unique_ptr<Connection> connection;
-    ConnectionEnd end;
-  };
-
-  void begin_connecting(glm::vec3 eye_m);
+  void begin_connecting(double now_s, glm::vec3 eye_m);
   void finish_connecting(double now_s, SessionStep& step);
   void receive(double now_s, SessionStep& step);
+  void apply_due(double now_s, SessionStep& step);
   void measure(const ReplyMessage& reply, double arrived_s);
   void foresee(const Request& asked, uint32_t number, double now_s);
   void apply(const ServerMessage& message, double now_s, SessionStep& step);
@@ -121,13 +137,11 @@ class ViewerSession {
   void take(const RecordedCursorsMessage& recorded);
   void lose(double now_s, const ConnectionEnd& end);
 
-  ServerEndpoint server_;
-  float interest_radius_m_;
+  SessionChoice choice_;
   bool radius_is_new_ = false;  ///< the server has not heard of it
-  std::string name_;
-  Rejoin rejoin_;  ///< of the thread that connects, while there is one
-  std::future<Attempt> connecting_;
-  std::unique_ptr<Connection> connection_;
+  Rejoin rejoin_;               ///< of the attempt, while one is under way
+  std::unique_ptr<Connector> connector_;
+  std::unique_ptr<ServerChannel> connection_;
   std::unique_ptr<Mirror> mirror_;
   std::unique_ptr<Predictions> predictions_;  ///< over the mirror
   bool predict_ = true;
@@ -164,6 +178,7 @@ class ViewerSession {
   double rate_since_s_ = 0.0;
   uint64_t rate_bytes_ = 0;
   double bytes_per_s_ = 0.0;
+  double apply_worst_ms_ = 0.0;
 };
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include "client/cache/cache_options.h"
 #include "client/cache/limits.h"
 #include "client/connection/endpoint_options.h"
+#include "client/viewer/base/camera_text.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
 #include "client/viewer/pictures/picture_size.h"

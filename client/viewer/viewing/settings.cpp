@@ -73,39 +73,6 @@ T merged(const T& loaded, const T& start, const T& end) {
 
 }  // namespace
 
-void change(HandChoice& choice, Action action) {
-  constexpr float degrees = 5.0F, step = 1.25F;
-  const auto scale = [](float& value, float factor, float min, float max) {
-    value = std::clamp(value * factor, min, max);
-  };
-  const auto turn = [&](float by_degrees) {
-    choice.field_of_view_degrees = std::clamp(choice.field_of_view_degrees + by_degrees,
-                                              field_of_view_min_degrees, field_of_view_max_degrees);
-  };
-  switch (action) {
-    case Action::narrower_view:
-      turn(-degrees);
-      break;
-    case Action::wider_view:
-      turn(degrees);
-      break;
-    case Action::slower_mouse:
-      scale(choice.mouse_speed, 1.0F / step, mouse_speed_min, mouse_speed_max);
-      break;
-    case Action::faster_mouse:
-      scale(choice.mouse_speed, step, mouse_speed_min, mouse_speed_max);
-      break;
-    case Action::smaller_text:
-      scale(choice.text_scale, 1.0F / step, text_scale_min, text_scale_max);
-      break;
-    case Action::larger_text:
-      scale(choice.text_scale, step, text_scale_min, text_scale_max);
-      break;
-    default:
-      break;
-  }
-}
-
 std::string settings_file() {
   const std::string folder = xdg_folder("XDG_CONFIG_HOME", ".config");
   return folder.empty() ? folder : folder + "/viewer.json";

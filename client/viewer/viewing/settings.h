@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "client/viewer/input/hand_choice.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/overlay.h"
 #include "client/viewer/viewing/options.h"
@@ -19,25 +20,6 @@ struct HudChoice {
 
   bool operator==(const HudChoice&) const = default;
 };
-
-inline constexpr float field_of_view_min_degrees = 20.0F;  ///< vertical
-inline constexpr float field_of_view_max_degrees = 110.0F;
-inline constexpr float mouse_speed_min = 0.1F;
-inline constexpr float mouse_speed_max = 10.0F;
-inline constexpr float text_scale_min = 0.5F;
-inline constexpr float text_scale_max = 4.0F;
-
-/// How a person looks and reads.
-struct HandChoice {
-  float field_of_view_degrees = 60.0F;
-  float mouse_speed = 1.0F;  ///< 1: a seventh of a degree a pixel
-  float text_scale = 1.0F;
-
-  bool operator==(const HandChoice&) const = default;
-};
-
-/// Changes the choice, if the action concerns it.
-void change(HandChoice& choice, Action action);
 
 struct Settings {
   int width = 1280;

@@ -68,16 +68,13 @@ void Hud::help(Telling telling, bool gamepad, ControlsOf of) {
 
 void Hud::names(const Figures& figures, const glm::mat4& view_projection,
                 std::optional<uint64_t> looked_through) {
-  constexpr float over_eye_m = 0.32F;
   const glm::vec2 size = screen_size();
   for (const auto& [session, figure] : figures.all()) {
-    const glm::vec4 place =
-        view_projection * glm::vec4(figure.eye_m + glm::vec3(0.0F, over_eye_m, 0.0F), 1.0F);
-    if (place.w <= 0.0F || session == looked_through) continue;
+    const std::optional<glm::vec2> place = Figures::place_of_name(figure, view_projection);
+    if (!place || session == looked_through) continue;
     const std::string name = called(session, figure.name);
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
-    const ImVec2 at((place.x / place.w * 0.5F + 0.5F) * size.x - 0.5F * text.x,
-                    (0.5F - place.y / place.w * 0.5F) * size.y - text.y);
+    const ImVec2 at(place->x * size.x - 0.5F * text.x, place->y * size.y - text.y);
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     list->AddText(ImVec2(at.x + 1.0F, at.y + 1.0F), IM_COL32(0, 0, 0, 200), name.c_str());
     list->AddText(at, IM_COL32(255, 255, 255, 255), name.c_str());

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "client/viewer/viewing/hud_facts.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/window/history.h"
-#include "client/viewer/window/hud_facts.h"
 #include "client/viewer/window/hud_panels.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-#include "client/viewer/window/hud_facts.h"
+#include "client/viewer/viewing/hud_facts.h"
 
 #include <cmath>
 #include <cstdio>
@@ -21,8 +21,8 @@ std::string place_of(const Camera& camera) {
 
 }  // namespace
 
-HudFacts FactFinder::find(Viewing& viewing, double now_s) {
-  ViewerSession& session = viewing.session;
+HudFacts FactFinder::find(Visit& visit, double now_s) {
+  ViewerSession& session = visit.session;
   const Mirror* mirror = session.mirror();
   if (mirror != nullptr && now_s >= next_count_s_) {
     next_count_s_ = now_s + limits::count_interval_s;
@@ -35,8 +35,8 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
   facts.notice = session.notice(now_s);
   facts.latency = session.latency();
   facts.predictions = session.predictions();
-  facts.driver = viewing.view->renderer().description();
-  facts.camera = place_of(viewing.camera);
+  facts.driver = visit.view->renderer().description();
+  facts.camera = place_of(visit.camera);
   facts.tick_rate_hz = session.tick_rate_hz();
   facts.pace = session.pace().factor();
   facts.lost_ticks = session.pace().lost_ticks();
@@ -48,13 +48,13 @@ HudFacts FactFinder::find(Viewing& viewing, double now_s) {
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }
-  if (DrawMethod* method = viewing.view->methods().shown()) {
+  if (DrawMethod* method = visit.view->methods().shown()) {
     facts.method = method->name();
     facts.draw = method->stats();
-    facts.gpu_times = viewing.view->renderer().gpu_times();
+    facts.gpu_times = visit.view->renderer().gpu_times();
     facts.memory = facts.draw.memory;
   }
-  if (DrawMethod* method = viewing.view->methods().preparing()) {
+  if (DrawMethod* method = visit.view->methods().preparing()) {
     const DrawStats stats = method->stats();
     facts.preparing = {std::string(method->name()), stats.kept, stats.waiting};
   }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "client/viewer/viewing/viewing.h"
+#include "client/viewer/viewing/visit.h"
 
 namespace scree {
 
@@ -51,7 +51,7 @@ struct HudFacts {
 /// Caches costly counts for limits::count_interval_s.
 class FactFinder {
  public:
-  HudFacts find(Viewing& viewing, double now_s);
+  HudFacts find(Visit& visit, double now_s);
 
  private:
   void count(const Mirror& mirror, const ViewerSession& session);

@@ -1,0 +1,37 @@
+// Joins a server by a socket of this program, with what is kept of it.
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <memory>
+
+#include "client/cache/connector.h"
+#include "client/cache/rejoin.h"
+#include "client/connection/connection.h"
+
+namespace scree {
+
+/// As Connection::connect(), with ticket and offer. Reads files; writes what was kept before.
+tl::expected<std::unique_ptr<Connection>, ConnectionEnd> join_server(Rejoin& rejoin,
+                                                                     const ServerEndpoint& server,
+                                                                     HelloMessage hello,
+                                                                     std::chrono::milliseconds within);
+
+/// The same on a thread of its own.
+class ServerConnector final : public Connector {
+ public:
+  explicit ServerConnector(ServerEndpoint server) : server_(std::move(server)) {}
+  /// Waits for the attempt that is under way.
+  ~ServerConnector() override;
+
+  void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) override;
+  bool busy() const override { return attempt_.valid(); }
+  std::optional<Attempt> take(double now_s) override;
+  std::string where() const override;
+
+ private:
+  ServerEndpoint server_;
+  std::future<Attempt> attempt_;
+};
+
+}  // namespace scree

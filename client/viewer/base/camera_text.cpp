@@ -1,0 +1,58 @@
+#include "client/viewer/base/camera_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+#include <sstream>
+
+#include "shared/base/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr float radians_per_degree = 0.01745329F;
+
+}  // namespace
+
+Result<Camera> camera_of(const std::array<float, 5>& values) {
+  if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+    return fail("x, y, z, yaw and pitch must be numbers");
+  Camera camera;
+  camera.eye_m = {values[0], values[1], values[2]};
+  camera.yaw = values[3] * radians_per_degree;
+  camera.pitch = std::clamp(values[4] * radians_per_degree, -placed_pitch_max, placed_pitch_max);
+  const glm::vec3 away = glm::abs(camera.eye_m);
+  if (std::max(away.x, away.z) > limits::world_half_width_m || away.y > limits::world_half_height_m)
+    return fail("the place is outside the world (limits.world_half_width_m, world_half_height_m)");
+  return camera;
+}
+
+std::string camera_text(const Camera& camera) {
+  // A yaw that went round several times is told as one turn.
+  const double degrees = static_cast<double>(glm::degrees(camera.yaw));
+  const double yaw = degrees - 360.0 * static_cast<double>(static_cast<long>(degrees / 360.0));
+  char text[128];
+  std::snprintf(text, sizeof text, "%.2f,%.2f,%.2f,%.1f,%.1f", static_cast<double>(camera.eye_m.x),
+                static_cast<double>(camera.eye_m.y), static_cast<double>(camera.eye_m.z), yaw,
+                static_cast<double>(glm::degrees(camera.pitch)));
+  return text;
+}
+
+Result<Camera> parse_camera(const std::string& text) {
+  std::istringstream in(text);
+  std::array<float, 5> values{};
+  for (size_t i = 0; i < values.size(); ++i) {
+    char comma = ',';
+    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
+      return fail("'" + text + "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
+  }
+  if (in.peek() != std::istringstream::traits_type::eof())
+    return fail("'" + text + "' has more than x,y,z,yaw,pitch");
+  const Result<Camera> place = camera_of(values);
+  if (!place) return fail("'" + text + "': " + place.error().message);
+  return place;
+}
+
+}  // namespace scree

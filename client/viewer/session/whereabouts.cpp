@@ -1,0 +1,25 @@
+#include "client/viewer/session/whereabouts.h"
+
+namespace scree {
+
+void Whereabouts::step(Camera& camera, const FlyInput& input, float elapsed_s, ViewerSession& session,
+                       double now_s) {
+  if (session.mirror() == nullptr) feet_.stop();
+  if (input.move != glm::vec3(0.0F)) eye_.end();
+  if (eye_.follows()) return eye_.step(camera, session.figures(now_s), now_s);
+  if (!feet_.walks()) return fly(camera, input, elapsed_s);
+  feet_.step(camera, input, elapsed_s, Scene{session.field(), session.pieces(now_s)});
+}
+
+void Whereabouts::walk_or_fly(const Camera& camera, ViewerSession& session) {
+  if (session.mirror() != nullptr) feet_.change(camera);
+}
+
+bool Whereabouts::look_through_next(ViewerSession& session, double now_s) {
+  const Figures& figures = session.figures(now_s);
+  eye_.next(figures);
+  feet_.stop();
+  return !figures.all().empty();
+}
+
+}  // namespace scree

@@ -1,0 +1,28 @@
+// How a person is in the world: flies, walks, or looks through another person's eye.
+#pragma once
+
+#include "client/viewer/session/followed_eye.h"
+#include "client/viewer/session/on_foot.h"
+#include "client/viewer/session/viewer_session.h"
+
+namespace scree {
+
+class Whereabouts {
+ public:
+  bool walks() const { return feet_.walks(); }
+  const FollowedEye& eye() const { return eye_; }
+
+  /// Moves the camera by the input of one frame. Who moves looks through their own eye again. `now_s`: never
+  /// backwards.
+  void step(Camera& camera, const FlyInput& input, float elapsed_s, ViewerSession& session, double now_s);
+  /// Walks from where the camera is, or flies on; only in a world.
+  void walk_or_fly(const Camera& camera, ViewerSession& session);
+  /// Through the next person's eye, or the own one again. False: there is nobody.
+  bool look_through_next(ViewerSession& session, double now_s);
+
+ private:
+  OnFoot feet_;
+  FollowedEye eye_;
+};
+
+}  // namespace scree

@@ -1,0 +1,135 @@
+#include "client/viewer/viewing/visit.h"
+
+#include <cmath>
+#include <utility>
+
+namespace scree {
+namespace {
+
+/// Of the shape in the person's hand.
+LineColour preview_colour(const Tool& tool) {
+  constexpr uint8_t opacity = 150;
+  switch (tool.use) {
+    case ToolUse::carve:
+      break;
+    case ToolUse::fill:
+      return {170, 255, 190, opacity};
+    case ToolUse::paint: {
+      const auto& [r, g, b] = traits_of(tool.material).albedo;
+      const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
+      return {bright(r), bright(g), bright(b), opacity};
+    }
+  }
+  return {255, 236, 170, opacity};
+}
+
+}  // namespace
+
+Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice, const VisitChoice& choice,
+             std::unique_ptr<View> drawn, std::unique_ptr<Trace> traced)
+    : trace(std::move(traced)),
+      session(std::move(connector), std::move(session_choice)),
+      view(std::move(drawn)),
+      particles_(choice.particles),
+      quality_(choice.quality),
+      chosen_radius_m_(choice.view_radius_m),
+      render_scale_(choice.render_scale) {
+  if (choice.camera) look_from(*choice.camera);
+  view->renderer().set_trace(trace.get());
+  use(choice.quality);
+  session.predict(choice.predict);
+}
+
+void Visit::use(Quality quality) {
+  quality_ = quality;
+  Fineness fineness = traits_of(quality).fineness;
+  if (render_scale_) fineness.render_scale = *render_scale_;
+  view->set_fineness(fineness, view_radius_m());
+  session.set_interest_radius(view_radius_m());
+}
+
+void Visit::set_view_radius(std::optional<float> metres) {
+  chosen_radius_m_ = metres;
+  use(quality_);
+}
+
+std::optional<Quality> Visit::choose_quality(std::optional<Quality> wanted, float frame_ms) {
+  if (wanted) {
+    if (*wanted != quality_) use(*wanted);
+    auto_quality_ = {};
+    return std::nullopt;
+  }
+  if (quality_ != auto_quality_.quality()) use(auto_quality_.quality());
+  if (!session.connected()) return std::nullopt;
+  const std::optional<Quality> other = auto_quality_.note(frame_ms, view->methods().loaded());
+  if (other) use(*other);
+  return other;
+}
+
+void Visit::look_from(const Camera& place) {
+  camera = place;
+  stands_ = true;
+}
+
+/// Where a ground has a middle, and nobody said where to look from, the camera begins above it.
+void Visit::stand_on_ground() {
+  if (std::exchange(stands_, true)) return;
+  if (const auto eye_m = spawn_of(session.mirror()->terrain())) camera.eye_m = *eye_m;
+}
+
+Result<void> Visit::step(double now_s) {
+  const SessionStep step = [&] {
+    const TraceSpan span(trace.get(), "viewer", "messages");
+    return session.step(now_s, camera);
+  }();
+  if (step.new_mirror) stand_on_ground();
+  if (step.new_mirror || step.jumped) {
+    watch_.begin();
+    dust_.clear();
+  }
+  events_.clear();
+  if (session.mirror() != nullptr) {
+    follow_pieces(now_s);
+    view->renderer().set_contacts(
+        contacts_of(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, camera.eye_m));
+  }
+  const TraceSpan span(trace.get(), "viewer", "update");
+  return view->follow(step, session, camera, now_s);
+}
+
+/// What they do is heard and seen.
+void Visit::follow_pieces(double now_s) {
+  if (!listens_ && !particles_) return;
+  events_ = watch_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s);
+  if (!particles_) return;
+  dust_.add(events_, now_s);
+  view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
+}
+
+void Visit::show_particles(bool on) {
+  if (on == particles_) return;
+  particles_ = on;
+  dust_.clear();
+  view->renderer().set_particles({});
+}
+
+LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
+                      double now_s) {
+  LineList lines;
+  const glm::vec3 direction = camera.forward();
+  const auto hit_m = session.aim(camera.eye_m, direction);
+  if (hit_m && !session.is_replay()) lines.shape(shape_of(tool, *hit_m, direction), preview_colour(tool));
+  session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
+  add_overlay(lines, overlay, now_s);
+  return lines;
+}
+
+void Visit::add_overlay(LineList& lines, const OverlayChoice& choice, double now_s) {
+  session.watch(choice.shown && choice.physics);
+  if (!choice.shown || session.mirror() == nullptr) return;
+  add_borders(lines, session, choice, camera.eye_m, now_s);
+  if (const PhysicsMessage* physics = session.physics())
+    add_physics(lines, *physics, session.pieces(now_s), session.mirror()->terrain().voxel_size_m);
+}
+
+}  // namespace scree

@@ -1,0 +1,83 @@
+// A visit to a world: a session with its server, the view of it, and the camera. What a window, offscreen
+// drawing and a page have in common. Needs the GL context current.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "client/viewer/events/dust.h"
+#include "client/viewer/events/piece_watch.h"
+#include "client/viewer/session/overlay.h"
+#include "client/viewer/session/view.h"
+#include "client/viewer/session/viewer_session.h"
+#include "client/viewer/viewing/auto_quality.h"
+#include "shared/base/trace.h"
+
+namespace scree {
+
+struct VisitChoice {
+  Quality quality = AutoQuality::first;
+  std::optional<float> view_radius_m;  ///< instead of the quality's
+  std::optional<float> render_scale;   ///< the same
+  std::optional<Camera> camera;        ///< instead of where the ground says
+  bool particles = true;               ///< dust, grit and splinters
+  bool predict = true;                 ///< carves are shown before the server answers
+};
+
+class Visit {
+ public:
+  /// `drawn`: of the choice's view radius. `traced`: null: no trace.
+  Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice, const VisitChoice& choice,
+        std::unique_ptr<View> drawn, std::unique_ptr<Trace> traced = nullptr);
+
+  /// Takes in messages, begins work and shows finished work.
+  Result<void> step(double now_s);
+  /// What pieces did in the last step; nothing while neither dust nor listen() asks for it.
+  const std::vector<PieceEvent>& events() const { return events_; }
+  void listen(bool on) { listens_ = on; }
+
+  /// Lines over the world: the shape of the tool's next strike, other persons but the one through whose eye
+  /// one looks, the overlay.
+  LineList lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
+                 double now_s);
+  /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
+  void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
+
+  /// The camera stays there, whatever the ground says.
+  void look_from(const Camera& place);
+  /// Draws by that preset, but for what was chosen apart.
+  void use(Quality quality);
+  Quality quality() const { return quality_; }
+  /// Draws by the preset that is wanted, or by that which the first frames suggest; returns that one when it
+  /// is another than before.
+  std::optional<Quality> choose_quality(std::optional<Quality> wanted, float frame_ms);
+  void set_view_radius(std::optional<float> metres);
+  float view_radius_m() const { return chosen_radius_m_.value_or(traits_of(quality_).view_radius_m); }
+  /// Whether breaks, blows and merges raise dust; not any more: it is gone at once.
+  void show_particles(bool on);
+  /// Whether everything around the camera has arrived and is shown.
+  bool joined(double now_s) const { return view->methods().loaded() && session.joined(now_s); }
+
+  std::unique_ptr<Trace> trace;  ///< null: no trace
+  ViewerSession session;
+  std::unique_ptr<View> view;
+  Camera camera;
+
+ private:
+  void stand_on_ground();
+  void follow_pieces(double now_s);
+
+  PieceWatch watch_;
+  Dust dust_;
+  std::vector<PieceEvent> events_;
+  bool listens_ = false;
+  bool particles_;
+  Quality quality_;
+  AutoQuality auto_quality_;
+  std::optional<float> chosen_radius_m_;
+  std::optional<float> render_scale_;
+  bool stands_ = false;  ///< the camera is where somebody wanted it, or where the first world's ground said
+};
+
+}  // namespace scree
