@@ -15,7 +15,8 @@ const void* offset_of(size_t index) {
 
 }  // namespace
 
-/// The row's buffer is bound neither as vertices nor as indices here: an array object would remember that.
+/// The row's buffer is bound as vertices or indices only while the arena's own array object is bound, which
+/// remembers it.
 size_t MeshArena::put(Row& row, const void* data, size_t count, size_t bytes_each) {
   const size_t first = row.ranges.take(count);
   glBindBuffer(GL_COPY_WRITE_BUFFER, row.buffer.name());
@@ -23,6 +24,9 @@ size_t MeshArena::put(Row& row, const void* data, size_t count, size_t bytes_eac
     const size_t kept = row.capacity;
     row.capacity = std::max(row.ranges.end(), row.capacity + row.capacity / 2);
     gl::Buffer larger;
+    // WebGL takes for indices only what was first bound as that.
+    glBindVertexArray(array_.name());
+    glBindBuffer(row.target, larger.name());
     glBindBuffer(GL_COPY_READ_BUFFER, row.buffer.name());
     glBindBuffer(GL_COPY_WRITE_BUFFER, larger.name());
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(row.capacity * bytes_each), nullptr,

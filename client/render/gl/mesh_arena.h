@@ -36,16 +36,17 @@ class MeshArena {
  private:
   /// A buffer, and what of it is taken.
   struct Row {
-    gl::Buffer buffer;
-    Ranges ranges;
+    GLenum target;  ///< what it is bound as
+    gl::Buffer buffer{};
+    Ranges ranges{};
     size_t capacity = 0;
   };
 
-  static size_t put(Row& row, const void* data, size_t count, size_t bytes_each);
+  size_t put(Row& row, const void* data, size_t count, size_t bytes_each);
 
   gl::VertexArray array_;
-  Row vertices_;
-  Row indices_;
+  Row vertices_{GL_ARRAY_BUFFER};
+  Row indices_{GL_ELEMENT_ARRAY_BUFFER};
   std::vector<GLsizei> counts_;  ///< of the last draw; kept for its memory, as the next
   std::vector<const void*> offsets_;
 };
