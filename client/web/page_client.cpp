@@ -1,0 +1,136 @@
+#include "client/web/page_client.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "client/web/limits.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+namespace {
+
+SessionChoice session_choice() {
+  SessionChoice choice;
+  choice.interest_radius_m = traits_of(AutoQuality::first).view_radius_m;
+  choice.program = "scree-web";
+  choice.cache.bytes_max = limits::page_cache_bytes;
+  choice.apply_s = limits::page_apply_s;
+  return choice;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PageClient>> PageClient::begin(PageSocket& socket) {
+  Result<std::unique_ptr<View>> view =
+      View::create(all_methods().front(), traits_of(AutoQuality::first).view_radius_m);
+  if (!view) return fail(view.error().message);
+  return std::unique_ptr<PageClient>(
+      new PageClient(std::move(*view), std::make_unique<SocketConnector>(socket, "this server")));
+}
+
+PageClient::PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector)
+    : connector_(connector.get()),
+      visit_(std::move(connector), session_choice(), VisitChoice{}, std::move(view)) {}
+
+void PageClient::resize(int width, int height, float ratio) {
+  width_ = width;
+  height_ = height;
+  ratio_ = ratio;
+}
+
+float PageClient::aspect() const {
+  return height_ > 0 ? static_cast<float>(width_) / static_cast<float>(height_) : 1.0F;
+}
+
+void PageClient::act(Action action, double now_s) {
+  change(tool, action);
+  change(hand, action);
+  visit_.session.timeline().act(action);
+  switch (action) {
+    case Action::walk:
+      return whereabouts_.walk_or_fly(visit_.camera, visit_.session);
+    case Action::next_eye:
+      static_cast<void>(whereabouts_.look_through_next(visit_.session, now_s));
+      return;
+    case Action::next_method:
+      // It is one that this context can draw.
+      static_cast<void>(choose_method(next_available(visit_.view->methods().chosen())));
+      return;
+    case Action::overlay:
+      overlay.shown = !overlay.shown;
+      return;
+    case Action::picture:
+    case Action::copy_place:
+    case Action::talk:
+    case Action::persons:
+    case Action::figures:
+    case Action::graphs:
+    case Action::panel:
+    case Action::help:
+    case Action::hide:
+    case Action::full_screen:
+    case Action::free_mouse:
+    case Action::end:
+    case Action::smaller_text:
+    case Action::larger_text:
+      asked_.push_back(action);
+      return;
+    default:  // done above, or not here
+      return;
+  }
+}
+
+Result<void> PageClient::frame() {
+  const double now_s = steady_now_s();
+  const double elapsed_s = last_s_ ? now_s - *last_s_ : 0.0;
+  last_s_ = now_s;
+  const float moved_s = std::min(static_cast<float>(elapsed_s), limits::page_elapsed_max_s);
+  PageIntents intents = input.take(moved_s);
+  intents.fly.look *= hand.mouse_speed;
+  visit_.camera.field_of_view = glm::radians(hand.field_of_view_degrees);
+  whereabouts_.step(visit_.camera, intents.fly, moved_s, visit_.session, now_s);
+  for (const Action action : intents.actions) act(action, now_s);
+  grow(tool, intents.wheel);
+  if (intents.strike) visit_.session.strike(tool, visit_.camera.eye_m, visit_.camera.forward(), now_s);
+  visit_.show_particles(particles);
+  visit_.session.predict(predicts);
+  Stopwatch watch;
+  if (Result<void> stepped = visit_.step(now_s); !stepped) return stepped;
+  visit_.view->work_for(limits::page_work_s);
+  const double update_ms = watch.lap_ms();
+  if (width_ > 0 && height_ > 0)
+    visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
+                                 visit_.lines(tool, overlay, whereabouts_.eye().person(), now_s));
+  note(elapsed_s * 1000.0, update_ms, watch.lap_ms());
+  if (visit_.session.timeline().is_known() && visit_.session.timeline().marks() != marks_) {
+    marks_ = visit_.session.timeline().marks();
+    ++marks_told_;
+  }
+  return {};
+}
+
+void PageClient::note(double elapsed_ms, double update_ms, double draw_ms) {
+  if (elapsed_ms > 0.0) frames_ms_.push_back(static_cast<float>(elapsed_ms));
+  if (frames_ms_.size() > limits::page_frames_kept) frames_ms_.pop_front();
+  times_.last = elapsed_ms;
+  times_.update = update_ms;
+  times_.draw = draw_ms;
+  static_cast<void>(visit_.choose_quality(quality, static_cast<float>(elapsed_ms)));
+}
+
+FrameTimes PageClient::frame_times() const {
+  FrameTimes times = times_;
+  if (frames_ms_.empty()) return times;
+  std::vector<float> sorted(frames_ms_.begin(), frames_ms_.end());
+  std::ranges::sort(sorted);
+  times.median = static_cast<double>(sorted[sorted.size() / 2]);
+  times.worst = static_cast<double>(sorted.back());
+  return times;
+}
+
+HudFacts PageClient::facts() {
+  return facts_.find(visit_, steady_now_s());
+}
+
+}  // namespace scree

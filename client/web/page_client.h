@@ -1,0 +1,80 @@
+// The client of one page: a visit by the page's socket, drawn into its canvas, under its person's hand.
+// bridge.h says what the page asks for; this is what it gets. The socket outlives it. Needs the WebGL
+// context current.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/viewer/input/hand_choice.h"
+#include "client/viewer/session/whereabouts.h"
+#include "client/viewer/viewing/hud_facts.h"
+#include "client/viewer/viewing/visit.h"
+#include "client/web/page_input.h"
+#include "client/web/socket_connector.h"
+
+namespace scree {
+
+/// Milliseconds.
+struct FrameTimes {
+  double last = 0.0;  ///< from one frame to the next
+  double median = 0.0;
+  double worst = 0.0;
+  double update = 0.0;  ///< of the last frame: messages, and the work of drawing
+  double draw = 0.0;    ///< the commands alone
+};
+
+class PageClient {
+ public:
+  /// Fails when the context cannot draw what it has to.
+  static Result<std::unique_ptr<PageClient>> begin(PageSocket& socket);
+  void resize(int width, int height, float ratio);
+  /// From what the person did to the picture.
+  Result<void> frame();
+
+  void set_token(const std::string& token) { connector_->set_token(token); }
+  Result<void> choose_method(const MethodEntry& entry) { return visit_.view->methods().choose(entry); }
+  /// Actions that are the page's to do; takes them.
+  std::vector<Action> take_asked() { return std::exchange(asked_, {}); }
+  FrameTimes frame_times() const;
+  HudFacts facts();
+  float aspect() const;
+
+  PageInput input;
+  Tool tool;
+  HandChoice hand;
+  std::optional<Quality> quality;  ///< nothing: by the first frames
+  OverlayChoice overlay;
+  bool particles = true;
+  bool predicts = true;
+
+  Visit& visit() { return visit_; }
+  const Whereabouts& whereabouts() const { return whereabouts_; }
+  float pixel_ratio() const { return ratio_; }
+  /// How many times the timeline's marks have changed.
+  uint64_t marks_told() const { return marks_told_; }
+
+ private:
+  PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector);
+  void act(Action action, double now_s);
+  void note(double elapsed_ms, double update_ms, double draw_ms);
+
+  SocketConnector* connector_;  ///< the session's
+  Visit visit_;
+  Whereabouts whereabouts_;
+  FactFinder facts_;
+  std::vector<Action> asked_;
+  MarksMessage marks_;
+  uint64_t marks_told_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  float ratio_ = 1.0F;
+  std::optional<double> last_s_;
+  std::deque<float> frames_ms_;
+  FrameTimes times_;
+};
+
+}  // namespace scree

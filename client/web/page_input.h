@@ -1,0 +1,52 @@
+// What a person does at a page, until a frame takes it: keys by their codes, a mouse or fingers, a gamepad.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "client/viewer/input/gamepad.h"
+
+namespace scree {
+
+/// Of one frame.
+struct PageIntents {
+  FlyInput fly;
+  float wheel = 0.0F;
+  bool strike = false;
+  std::vector<Action> actions;
+};
+
+class PageInput {
+ public:
+  /// Pixels as the native viewer counts them.
+  void look(float right, float down) { look_ += glm::vec2(right, down); }
+  void move(const glm::vec3& way, bool fast);
+  void strike() { strike_ = true; }
+  void grow(float notches) { wheel_ += notches; }
+  void act(Action action) { actions_.push_back(action); }
+  /// A KeyboardEvent's code. False: it means nothing here.
+  bool key(std::string_view code, bool down);
+  void keys_up() { down_.clear(); }
+  /// As of the W3C's standard mapping; triggers from 0 to 1.
+  void pad(const PadState& sticks, uint32_t standard_buttons);
+
+  PageIntents take(float elapsed_s);
+
+ private:
+  bool is_down(int key) const { return down_.contains(key); }
+
+  glm::vec2 look_{0.0F};
+  glm::vec3 move_{0.0F};
+  bool fast_ = false;
+  bool strike_ = false;
+  float wheel_ = 0.0F;
+  std::set<int> down_;  ///< keys, of GLFW
+  std::vector<Action> actions_;
+  Gamepad gamepad_;
+  std::optional<PadState> pad_;  ///< since the last frame
+};
+
+}  // namespace scree

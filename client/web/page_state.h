@@ -1,0 +1,16 @@
+// What a page shows of its client, as JSON texts; bridge.h says their fields.
+#pragma once
+
+#include <string>
+
+#include "client/web/page_client.h"
+
+namespace scree {
+
+std::string catalogue_text();
+std::string state_text(PageClient& client);
+std::string names_text(PageClient& client);
+std::string marks_text(PageClient& client);
+std::string actions_text(const std::vector<Action>& actions);
+
+}  // namespace scree
