@@ -6,6 +6,7 @@
 #include "client/viewer/pictures/egl_context.h"
 #include "client/viewer/pictures/picture_difference.h"
 #include "client/viewer/viewing/hud_facts.h"
+#include "client/viewer/viewing/viewing.h"
 #include "server/app/live_server.h"
 #include "shared/base/timing.h"
 #include "tests/support/loaded_libraries.h"
@@ -72,7 +73,7 @@ TEST(ViewerOdd, grids_that_cannot_be_are_refused_by_name) {
 }
 
 /// A viewer without a window, and a server that comes and goes.
-class ViewerSession : public testing::Test {
+class ViewerOddSession : public testing::Test {
  protected:
   void SetUp() override {
     Result<std::unique_ptr<EglContext>> context = EglContext::create(true);
@@ -124,7 +125,7 @@ class ViewerSession : public testing::Test {
   std::unique_ptr<Viewing> viewing_;
 };
 
-TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes_back_with_it) {
+TEST_F(ViewerOddSession, last_field_stays_when_the_server_goes_and_the_viewer_comes_back_with_it) {
   step_until_joined();
   const Result<Image> before = viewing_->picture(steady_now_s());
   ASSERT_TRUE(before) << before.error().message;
@@ -149,7 +150,7 @@ TEST_F(ViewerSession, last_field_stays_when_the_server_goes_and_the_viewer_comes
   EXPECT_EQ(*picture_difference(*before, *again), 0.0);
 }
 
-TEST_F(ViewerSession, figures_say_what_is_not_answered_and_how_long_the_last_answer_took) {
+TEST_F(ViewerOddSession, figures_say_what_is_not_answered_and_how_long_the_last_answer_took) {
   step_until_joined();
   FactFinder facts;
   EXPECT_FALSE(facts.find(*viewing_, steady_now_s()).latency);
@@ -164,7 +165,7 @@ TEST_F(ViewerSession, figures_say_what_is_not_answered_and_how_long_the_last_ans
              "the status");
 }
 
-TEST_F(ViewerSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
+TEST_F(ViewerOddSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
   const TestFolder folder;
   options_.cache = {folder / "cache", size_t{1} << 24U};
   RawClient builder(server_->port());
@@ -191,7 +192,7 @@ TEST_F(ViewerSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
   EXPECT_EQ(second.mismatches, 0U);
 }
 
-TEST_F(ViewerSession, pictures_of_one_pixel_and_of_8k_are_drawn_and_more_is_refused_by_name) {
+TEST_F(ViewerOddSession, pictures_of_one_pixel_and_of_8k_are_drawn_and_more_is_refused_by_name) {
   step_until_joined();
   Renderer& renderer = viewing_->view->renderer();
   DrawMethod& method = *viewing_->view->methods().shown();
@@ -208,7 +209,7 @@ TEST_F(ViewerSession, pictures_of_one_pixel_and_of_8k_are_drawn_and_more_is_refu
   EXPECT_TRUE(renderer.draw_image(method, viewing_->camera, 96, 64));
 }
 
-TEST_F(ViewerSession, a_minimised_window_draws_nothing_and_the_world_goes_on) {
+TEST_F(ViewerOddSession, a_minimised_window_draws_nothing_and_the_world_goes_on) {
   step_until_joined();
   const Tick tick = viewing_->session.mirror()->tick();
   viewing_->view->renderer().draw(viewing_->view->methods().shown(), viewing_->camera, 0, 0, 0);
@@ -216,7 +217,7 @@ TEST_F(ViewerSession, a_minimised_window_draws_nothing_and_the_world_goes_on) {
   EXPECT_EQ(viewing_->view->renderer().gl_errors(), 0U) << viewing_->view->renderer().first_gl_error();
 }
 
-TEST_F(ViewerSession, camera_inside_rock_strikes_where_it_is) {
+TEST_F(ViewerOddSession, camera_inside_rock_strikes_where_it_is) {
   step_until_joined();
   viewing_->camera.eye_m = {0.0F, -5.0F, 0.0F};
   EXPECT_TRUE(viewing_->picture(steady_now_s()));
@@ -225,7 +226,7 @@ TEST_F(ViewerSession, camera_inside_rock_strikes_where_it_is) {
   EXPECT_EQ(*hit_m, viewing_->camera.eye_m);
 }
 
-TEST_F(ViewerSession, lines_are_drawn_over_the_world_and_faintly_through_it) {
+TEST_F(ViewerOddSession, lines_are_drawn_over_the_world_and_faintly_through_it) {
   step_until_joined();
   const Result<Image> before = viewing_->picture(steady_now_s());
   LineList lines;

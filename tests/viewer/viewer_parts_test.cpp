@@ -53,6 +53,19 @@ TEST(Playback, what_comes_behind_a_frame_waits_with_it) {
   EXPECT_EQ(playback.take_due(10.2).size(), 2U);
 }
 
+TEST(Playback, messages_are_taken_one_by_one_as_well) {
+  Playback playback;
+  playback.start(WelcomeMessage{});
+  playback.push(ChunkMessage{}, 10.0);
+  playback.push(frame(60), 10.0);
+  ASSERT_TRUE(playback.take_next(10.0));
+  EXPECT_FALSE(playback.take_next(10.0)) << "the frame is not due";
+  playback.push(frame(61), 10.0);
+  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 60U);
+  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 61U);
+  EXPECT_FALSE(playback.take_next(11.0));
+}
+
 TEST(Playback, chunks_of_a_join_pass_at_once) {
   Playback playback;
   playback.start(WelcomeMessage{});

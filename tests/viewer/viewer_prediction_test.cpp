@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
+#include "client/cache/join_server.h"
 #include "client/viewer/session/viewer_session.h"
 #include "server/app/live_server.h"
 #include "tests/support/patience.h"
@@ -26,10 +27,11 @@ class PredictingViewer : public testing::Test {
     ServerEndpoint endpoint;
     endpoint.host = "127.0.0.1";
     endpoint.port = server_->port();
-    session_ = std::make_unique<Session>(endpoint, 24.0F, "", CacheConfig{});
+    session_ = std::make_unique<Session>(std::make_unique<ServerConnector>(endpoint), choice_);
     camera_.eye_m = {0.0F, 3.0F, 0.0F};
     until("the world", true, [&] { return session_->joined(steady_now_s()); });
   }
+  SessionChoice choice_{.interest_radius_m = 24.0F};
   SessionStep step() { return session_->step(steady_now_s(), camera_); }
   /// Steps the session, and the server if it `ticks`.
   template <typename Condition>
@@ -71,6 +73,18 @@ TEST_F(PredictingViewer, a_strike_is_in_the_next_frame_and_then_as_the_server_sa
   EXPECT_EQ(&session_->field(), &session_->mirror()->field());
   EXPECT_EQ(session_->pieces(steady_now_s()).size(), session_->mirror()->pieces().size());
   EXPECT_LE(session_->latency()->server.total_ms(), session_->latency()->total_ms + 1.0);
+}
+
+TEST_F(PredictingViewer, a_session_with_little_time_for_messages_takes_one_a_step_and_comes_to_the_same) {
+  choice_.apply_s = 1e-9;
+  start();
+  if (HasFatalFailure()) return;
+  strike();
+  until("the server's carve", true,
+        [&] { return session_->latency().has_value() && session_->predictions() == 0; });
+  until("what is due", false, [&] { return exact_hash() != 0; });
+  EXPECT_EQ(session_->mirror()->mismatches(), 0U);
+  EXPECT_GT(session_->apply_worst_ms(), 0.0);
 }
 
 TEST_F(PredictingViewer, what_the_server_refuses_is_taken_back) {
