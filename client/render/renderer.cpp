@@ -106,6 +106,7 @@ struct Renderer::Parts {
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
   std::string description;
   gl::ErrorLog errors;
+  bool asks_for_errors = true;
   GpuTimers timers;
   Trace* trace = nullptr;
   GridShape grid;
@@ -184,7 +185,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
-  parts_->errors.poll();
+  if (parts_->asks_for_errors) parts_->errors.poll();
 }
 
 Result<void> Renderer::Parts::draw_picture(DrawMethod* method, const Camera& camera, int width, int height,
@@ -331,6 +332,14 @@ void Renderer::set_terrain(const TerrainSource& terrain) {
 
 const std::string& Renderer::description() const {
   return parts_->description;
+}
+
+void Renderer::ask_for_errors_each_time(bool on) {
+  parts_->asks_for_errors = on;
+}
+
+void Renderer::ask_for_errors() {
+  parts_->errors.poll();
 }
 
 uint64_t Renderer::gl_errors() const {

@@ -72,6 +72,11 @@ class Renderer {
   void set_grid(const GridShape& shape);
   /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.
   void set_trace(Trace* trace);
+  /// Whether each draw() asks GL for errors, as it does unless told otherwise. Asking waits for the GPU where
+  /// its commands go through another process, as in a browser; ask_for_errors() does it when somebody wants
+  /// to know.
+  void ask_for_errors_each_time(bool on);
+  void ask_for_errors();
   /// Errors that GL reported since the start (by its debug output, where the context has one), and the first.
   uint64_t gl_errors() const;
   const std::string& first_gl_error() const;

@@ -107,9 +107,9 @@ void scree_leave() {
 
 // ---- the picture
 
-void scree_resize(int width, int height, float ratio) {
+void scree_resize(int width, int height) {
   if (width < 0 || height < 0 || width > limits::image_side_max || height > limits::image_side_max) return;
-  if (is_within(ratio, 0.1F, 16.0F)) client().resize(width, height, ratio);
+  client().resize(width, height);
 }
 
 int scree_frame() {
@@ -120,6 +120,12 @@ int scree_frame() {
   const Result<void> drawn = client().frame();
   if (!drawn) page().error = drawn.error().message;
   return drawn ? 1 : 0;
+}
+
+uint32_t scree_gl_errors() {
+  Renderer& renderer = client().visit().view->renderer();
+  renderer.ask_for_errors();
+  return static_cast<uint32_t>(renderer.gl_errors());
 }
 
 // ---- wishes

@@ -44,8 +44,8 @@ int scree_socket_wish();
 void scree_socket_opened();
 /// The socket is closed, or could not be opened; `why` in words for people, possibly empty.
 void scree_socket_closed(const char* why);
-/// Memory for the bytes of one binary message; then scree_received() with as many. They are only kept: the
-/// work is done in scree_frame(), under its budget.
+/// Memory for the bytes of one binary message, null for one over limits::page_message_bytes_max; then
+/// scree_received() with as many. They are only kept: the work is done in scree_frame(), under its budget.
 uint8_t* scree_incoming(uint32_t bytes);
 void scree_received(uint32_t bytes);
 /// The bytes that wait to be sent, as one binary message: how many, and then where. Ask after every frame,
@@ -56,11 +56,15 @@ const uint8_t* scree_outgoing_bytes();
 // ---- the picture
 
 /// The size of the drawing buffer, pixels of the device; the page sets canvas.width and canvas.height to the
-/// same. `ratio`: pixels of the device for one of CSS, by which looking around goes as far as the hand does.
-void scree_resize(int width, int height, float ratio);
+/// same.
+void scree_resize(int width, int height);
 /// One animation frame: takes in messages, moves the camera, draws. 1: drawn. 0: it cannot go on,
 /// scree_error() says why (a context that was lost among others): the page offers to load itself anew.
 int scree_frame();
+
+/// How many errors WebGL has reported; asking waits for the GPU. scree_state() says as many as were known
+/// when this was called last.
+uint32_t scree_gl_errors();
 
 // ---- wishes; also from the page's address
 
@@ -137,42 +141,46 @@ void scree_replay_seek(double tick);
 
 // ---- what there is to show, as JSON
 
-/// What never changes, once: {"methods": [{"name", "summary", "missing"}] (missing: what this browser lacks,
-/// or null), "qualities": ["auto", "low", …], "tools": […], "uses": […], "materials": […], "patterns": […],
-/// "limits": {"view_radius_m": [least, most], "tool_radius_m": […], "blast_speed_m_s": […], "seeds": […],
-/// "field_of_view_degrees": […], "look_speed": […], "replay_speed": […], "line_bytes": n, "name_bytes": n},
-/// "events": [{"kind", "what"}],
-/// "controls": [{"action", "key", "button", "does", "of_replay"}]}.
-const char* scree_catalogue();
-/// What changes, for panels: a few times a second.
+/// What never changes, once:
 ///
-/// {"connection": {"phase": "connecting" | "connected" | "lost" | "refused" (for good), "text", "replay",
-/// "role",
-///                 "session", "retry_s" (until the next attempt, when lost)},
-///  "notice": the server's last refusal for some seconds, or "",
-///  "camera": as scree_camera(), "walks": bool, "eye": whose eye one looks through, in words, or "",
-///  "tick", "tick_rate_hz", "pace" (1: as fast as the clock), "lost_ticks", "pieces_near", "predictions",
-///  "joined": the edits around the camera have come, "loaded": and are drawn, "complete": in their newest
-///  state, "traffic": {"received_bytes", "sent_bytes", "received_bytes_per_s", "waiting_bytes"}, "mirror":
-///  {"frames", "carves", "merged", "checks", "mismatches", "repairs", "held_chunks", "edited_bricks"},
-///  "frame": {"ms" (the last one, from one to the next), "median_ms", "worst_ms" (of the last 120),
-///  "update_ms", "draw_ms",
-///            "apply_worst_ms" (the longest single message of the session), "work_worst_ms" (the longest job
-///            of drawing)},
+/// {"methods": [{"name", "summary", "missing": what this browser lacks for it, or null}],
+///  "qualities": ["auto", "low", …], "tools": […], "uses": […], "materials": […], "patterns": […],
+///  "limits": {"view_radius_m": [least, most], "tool_radius_m": […], "blast_speed_m_s": […], "seeds": […],
+///             "field_of_view_degrees": […], "look_speed": […], "replay_speed": […],
+///             "line_bytes": n, "name_bytes": n},
+///  "events": [{"kind", "what"}],
+///  "controls": [{"action", "key", "button", "does", "of_replay"}]}
+const char* scree_catalogue();
+/// What changes, for panels, a few times a second:
+///
+/// {"connection": {"phase": "connecting", "connected", "lost", or "refused", which is for good,
+///                 "text", "replay", "role", "session", "retry_s": until the next attempt, when lost},
+///  "notice": the server's last refusal, for some seconds, or "",
+///  "camera": as scree_camera(), "walks", "eye": whose eye one looks through, in words, or "",
+///  "tick", "tick_rate_hz", "pace": 1 is as fast as the clock, "lost_ticks", "pieces_near", "predictions",
+///  "joined": the edits around the camera have come, "loaded": and are drawn,
+///  "complete": in their newest state,
+///  "traffic": {"received_bytes", "sent_bytes", "received_bytes_per_s", "waiting_bytes"},
+///  "mirror": null or {"frames", "pieces_made", "pieces_merged", "checks", "mismatches", "repairs",
+///                     "held_chunks", "edited_bricks"},
+///  "frame": {"ms": the last, from one to the next, "median_ms", "worst_ms": of the last 120,
+///            "update_ms", "draw_ms": of the last, "apply_worst_ms": the longest single message,
+///            "work_worst_ms": the longest job of drawing},
 ///  "draw": {"method", "draws", "triangles", "pieces", "kept", "waiting", "driver", "gl_errors",
-///  "first_gl_error"}, "preparing": null | {"method", "share"}, "latency_ms": of one's own last request, or
-///  null, "status": null | the server's last StatusMessage: {"clients", "pieces", "pieces_made",
-///  "pieces_merged",
-///            "tick_median_ms", "tick_worst_ms", "field_hash" (hexadecimal), "repairs", "chunks_waiting",
-///            "saving", "ledger": {"terrain", "pieces", "dust", "poured", "moved"} (m³), "refusals": {reason:
-///            count}},
+///           "first_gl_error"},
+///  "preparing": null or {"method", "share"},
+///  "latency_ms": of one's own last request, or null,
+///  "status": null or the server's last: {"clients", "pieces", "pieces_made", "pieces_merged",
+///            "tick_median_ms", "tick_worst_ms", "field_hash": hexadecimal, "repairs", "chunks_waiting",
+///            "saving", "ledger": {"terrain", "pieces", "dust", "poured", "moved"}, in m³,
+///            "refusals": {reason: count}},
 ///  "tool": {"kind", "use", "material", "radius_m", "blast_speed_m_s", "pattern", "seeds", "seeds_now"},
 ///  "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "predict", "overlay",
 ///           "field_of_view_degrees", "look_speed"},
 ///  "persons": {"list": [{"session", "name", "role"}], "more", "chat"},
-///  "lines": ["Ann: mind the edge"] of the last seconds,
-///  "playback": null | {"moment", "first", "last" (ticks), "speed", "playing", "grows", "refusal" ("": may
-///  control),
+///  "lines": ["Ann: mind the edge"], of the last seconds,
+///  "playback": null or {"moment", "first", "last": ticks, "speed", "playing", "grows",
+///              "refusal": why this person may not control it, or "",
 ///              "marks": how many times scree_marks() has become another}}
 const char* scree_state();
 /// Other persons within the picture, every frame if wanted: [{"session", "name", "colour": "#rrggbb", "x",

@@ -31,12 +31,13 @@ Result<std::unique_ptr<PageClient>> PageClient::begin(PageSocket& socket) {
 
 PageClient::PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector)
     : connector_(connector.get()),
-      visit_(std::move(connector), session_choice(), VisitChoice{}, std::move(view)) {}
+      visit_(std::move(connector), session_choice(), VisitChoice{}, std::move(view)) {
+  visit_.view->renderer().ask_for_errors_each_time(false);
+}
 
-void PageClient::resize(int width, int height, float ratio) {
+void PageClient::resize(int width, int height) {
   width_ = width;
   height_ = height;
-  ratio_ = ratio;
 }
 
 float PageClient::aspect() const {

@@ -31,7 +31,7 @@ class PageClient {
  public:
   /// Fails when the context cannot draw what it has to.
   static Result<std::unique_ptr<PageClient>> begin(PageSocket& socket);
-  void resize(int width, int height, float ratio);
+  void resize(int width, int height);
   /// From what the person did to the picture.
   Result<void> frame();
 
@@ -53,7 +53,6 @@ class PageClient {
 
   Visit& visit() { return visit_; }
   const Whereabouts& whereabouts() const { return whereabouts_; }
-  float pixel_ratio() const { return ratio_; }
   /// How many times the timeline's marks have changed.
   uint64_t marks_told() const { return marks_told_; }
 
@@ -71,7 +70,6 @@ class PageClient {
   uint64_t marks_told_ = 0;
   int width_ = 0;
   int height_ = 0;
-  float ratio_ = 1.0F;
   std::optional<double> last_s_;
   std::deque<float> frames_ms_;
   FrameTimes times_;

@@ -194,6 +194,8 @@ std::string catalogue_text() {
     methods.push_back(
         {{"name", entry.name}, {"summary", entry.summary}, {"missing", missing ? Json(*missing) : Json()}});
   }
+  Json qualities = names_of<Quality>();
+  qualities.insert(qualities.begin(), "auto");
   Json patterns = Json::array();
   for (const SeedPattern pattern : tool_patterns) patterns.push_back(name_of(pattern));
   Json controls = Json::array();
@@ -207,7 +209,7 @@ std::string catalogue_text() {
   for (const EventKind kind : all_kinds<EventKind>)
     events.push_back({{"kind", name_of(kind)}, {"what", traits_of(kind).what}});
   return text_of({{"methods", methods},
-                  {"qualities", names_of<Quality>()},
+                  {"qualities", qualities},
                   {"tools", names_of<ToolKind>()},
                   {"uses", names_of<ToolUse>()},
                   {"materials", names_of<Material>()},

@@ -35,9 +35,6 @@ void ErrorLog::detach() {
 }
 
 void ErrorLog::poll() {
-  // An error stays until it is asked for. Asking waits for the GPU where its commands go through another
-  // process.
-  if (!epoxy_is_desktop_gl() && polls_++ % polls_per_question != 0) return;
   for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
     if (!attached_) add("GL error " + std::to_string(error));
 }

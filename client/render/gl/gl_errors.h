@@ -12,8 +12,7 @@ class ErrorLog {
   /// Receives the debug output, if the context has it; else poll() is all there is.
   void attach();
   void detach();
-  /// Call once a frame: also counts the errors that glGetError returns. On OpenGL ES it asks in the first
-  /// frame, and then in every 64th.
+  /// Also counts the errors that glGetError returns.
   void poll();
 
   uint64_t count() const { return count_; }
@@ -21,8 +20,6 @@ class ErrorLog {
   void add(std::string message);
 
  private:
-  static constexpr uint64_t polls_per_question = 64;
-  uint64_t polls_ = 0;
   uint64_t count_ = 0;
   std::string first_;
   bool attached_ = false;
