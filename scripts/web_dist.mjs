@@ -1,5 +1,5 @@
 // Puts the web client together: scree.js and scree.wasm with the page's files, each under a name that has its content's
-// hash, so that browsers may keep them for ever; index.html and what is not named by another file keep their names.
+// hash, so that browsers may keep them for ever; pages, whose names are in addresses, keep theirs.
 // Beside each lies the same compressed, NAME.gz. Where one file names another in quotes ("main.js", './main.js'), the
 // name becomes the one with the hash.
 //   node web_dist.mjs PAGE_DIR BUILD_DIR OUT_DIR
@@ -15,6 +15,7 @@ for (const name of readdirSync(page)) files.set(name, readFileSync(join(page, na
 for (const name of ['scree.js', 'scree.wasm']) files.set(name, readFileSync(join(build, name)));
 
 const quoted = (name) => new RegExp(`(["'\`])((?:\\./)?)${name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}\\1`, 'g');
+const isPage = (name) => extname(name) === '.html';
 const isText = (name) => texts.includes(extname(name));
 const named = new Map(); // by name: the one with the hash
 
@@ -26,7 +27,7 @@ const done = (name, on = []) => {
   if (isText(name)) {
     let text = content.toString('utf8');
     for (const other of files.keys()) {
-      if (other === name || other === 'index.html' || !quoted(other).test(text)) continue;
+      if (other === name || isPage(other) || !quoted(other).test(text)) continue;
       const made = done(other, [...on, name]);
       text = text.replace(quoted(other), (_, quote, here) => `${quote}${here}${made}${quote}`);
     }
@@ -34,7 +35,7 @@ const done = (name, on = []) => {
   }
   const hash = createHash('sha256').update(content).digest('hex').slice(0, 12);
   const kind = extname(name);
-  const made = name === 'index.html' ? name : `${name.slice(0, -kind.length)}.${hash}${kind}`;
+  const made = isPage(name) ? name : `${name.slice(0, -kind.length)}.${hash}${kind}`;
   files.set(name, content);
   named.set(name, made);
   return made;
