@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "client/viewer/base/limits.h"
+#include "client/viewer/input/actions.h"
 #include "client/viewer/input/fly_camera.h"
 #include "client/viewer/pictures/screenshots.h"
 #include "client/viewer/session/playback.h"
@@ -51,6 +52,12 @@ TEST(Playback, what_comes_behind_a_frame_waits_with_it) {
   playback.push(StatusMessage{}, 10.0);
   EXPECT_TRUE(playback.take_due(10.0).empty());
   EXPECT_EQ(playback.take_due(10.2).size(), 2U);
+}
+
+TEST(Actions, each_has_a_name_by_which_programs_know_it) {
+  for (const Binding& binding : bindings())
+    EXPECT_EQ(action_named(binding.name), binding.action) << binding.name;
+  EXPECT_FALSE(action_named("dance"));
 }
 
 TEST(Playback, messages_are_taken_one_by_one_as_well) {
