@@ -15,6 +15,10 @@ inline constexpr double page_decode_s = 0.004;
 /// Seconds of a frame in which terrain and pieces are generated and meshed; a job runs as a whole.
 inline constexpr double page_work_s = 0.006;
 
+/// The same while the world within view is not drawn yet: nothing moves smoothly then, and it is there the
+/// sooner.
+inline constexpr double page_load_s = 0.03;
+
 /// Seconds that an attempt to join may take, the browser's handshakes among them. Above: it failed.
 inline constexpr double page_join_s = 10.0;
 

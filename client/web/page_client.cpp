@@ -98,7 +98,7 @@ Result<void> PageClient::frame() {
   visit_.session.predict(predicts);
   Stopwatch watch;
   if (Result<void> stepped = visit_.step(now_s); !stepped) return stepped;
-  visit_.view->work_for(limits::page_work_s);
+  visit_.view->work_for(visit_.view->methods().loaded() ? limits::page_work_s : limits::page_load_s);
   const double update_ms = watch.lap_ms();
   if (width_ > 0 && height_ > 0)
     visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
