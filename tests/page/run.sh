@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# run.sh FOLDER PROGRAM ARGUMENTS…: runs a program of this folder with the modules that `./scree test` installed in FOLDER,
+# and with the page's own beside it in page/. Exits with 77, which ctest counts as skipped, without Chromium.
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+folder=$1 program=$2
+shift 2
+if ! cmp -s "$here/package-lock.json" "$folder/node_modules/.installed"; then
+  echo "The modules of the page's tests are not installed in $folder: ./scree setup --web, then ./scree test, installs them." >&2
+  exit 77
+fi
+# Node looks for modules beside and above a program, so the programs lie beside them.
+copy=$(mktemp --directory --tmpdir="$folder")
+trap 'rm -rf "$copy"' EXIT
+mkdir "$copy/page"
+cp "$here"/*.js "$here/package.json" "$copy"
+cp "$here"/../../client/web/page/* "$copy/page"
+cd "$copy"
+node "$program" "$@"

@@ -1,0 +1,243 @@
+// The page's modules that need no browser.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { AddressBar, format, parse } from './page/address.js';
+import { Backoff } from './page/backoff.js';
+import { STICK, TAP, Thumbs, tilt } from './page/gestures.js';
+import { terrain_part } from './page/gate.js';
+import { is_taken, kind_of } from './page/keyboard.js';
+import { buffer_size, layout_of } from './page/layout.js';
+import { events_near, part_of, rows_of, span_of, tick_at } from './page/marks.js';
+import { pad_state } from './page/pad.js';
+import { picture_name } from './page/picture.js';
+import { Socket, session_url, why_closed } from './page/socket.js';
+import { points } from './page/spark.js';
+import { heads, lists, stage_bars } from './page/status_figures.js';
+import { bytes, span, time, whole } from './page/words.js';
+
+test('an address says the view and says it back', () => {
+  const state = { camera: '30,9,19,63.5,-7', method: 'raymarch', quality: 'low', view: '64' };
+  assert.deepEqual(parse(format(state)), state);
+  assert.equal(format(state), '#camera=30,9,19,63.5,-7&method=raymarch&quality=low&view=64');
+});
+
+test('an address takes nothing that is not well formed', () => {
+  for (const fragment of ['#camera=1,2,3', '#camera=1,2,3,4,5,6', '#camera=1,2,3,4,x', '#camera=1e9,2,3,4,5', '#camera=NaN,2,3,4,5', '#method=<b>', '#quality=LOW',
+    '#view=-3', '#view=99999', '#token=a%20b', `#token=${'x'.repeat(5000)}`, `#name=${'x'.repeat(65)}`, '#name=a%0ab', '#%', '#'])
+    assert.deepEqual(parse(fragment), {}, fragment);
+});
+
+test('a link never has the token or the name', () => {
+  assert.equal(format(parse('#token=secret&name=Ann&method=mesh')), '#method=mesh');
+});
+
+test('the address is written after a rest, once', () => {
+  const written = [];
+  const bar = new AddressBar('', (fragment) => written.push(fragment), 500);
+  for (let now = 0; now < 1000; now += 100) bar.note(`#camera=${now},0,0,0,0`, now);
+  assert.deepEqual(written, []);
+  for (let now = 1000; now < 3000; now += 100) bar.note('#camera=7,0,0,0,0', now);
+  assert.deepEqual(written, ['#camera=7,0,0,0,0']);
+});
+
+test('waits double up to a minute, and begin anew after success', () => {
+  const backoff = new Backoff();
+  assert.deepEqual(Array.from({ length: 8 }, () => backoff.failed()), [1000, 2000, 4000, 8000, 16000, 32000, 60000, 60000]);
+  backoff.well();
+  assert.equal(backoff.failed(), 1000);
+});
+
+test('the left thumb moves and the right one looks, at once', () => {
+  const thumbs = new Thumbs();
+  assert.equal(thumbs.down(1, 50, 300, 360, 0), true);
+  assert.equal(thumbs.down(2, 300, 300, 360, 10), false);
+  thumbs.move(1, 50, 300 - STICK.full);
+  thumbs.move(2, 310, 295);
+  thumbs.move(2, 320, 290);
+  const stick = thumbs.stick();
+  assert.ok(Math.abs(stick.forward - 1) < 1e-9 && Math.abs(stick.right) < 1e-9 && !stick.fast);
+  assert.deepEqual(thumbs.take_look(), { right: 20, down: -10 });
+  assert.deepEqual(thumbs.take_look(), { right: 0, down: 0 });
+  thumbs.up(1, 1000);
+  assert.equal(thumbs.stick(), null);
+});
+
+test('a second finger on the left looks, and the first goes on moving', () => {
+  const thumbs = new Thumbs();
+  thumbs.down(1, 50, 300, 360, 0);
+  assert.equal(thumbs.down(2, 60, 200, 360, 0), false);
+  thumbs.move(2, 70, 200);
+  assert.equal(thumbs.take_look().right, 10);
+  assert.equal(thumbs.stick().x, 50);
+});
+
+test('a short touch that stays is a tap, a long or a moved one is none', () => {
+  const thumbs = new Thumbs();
+  const touch = (to, ms) => {
+    thumbs.down(1, 300, 300, 360, 0);
+    thumbs.move(1, 300 + to, 300);
+    thumbs.move(1, 300, 300);
+    return thumbs.up(1, ms);
+  };
+  assert.equal(touch(TAP.pixels, TAP.ms), true);
+  assert.equal(touch(TAP.pixels + 1, TAP.ms), false);
+  assert.equal(touch(0, TAP.ms + 1), false);
+  assert.equal(thumbs.up(9, 0), false);
+});
+
+test('a stick has a middle that is still, a full speed, and beyond that it runs', () => {
+  assert.deepEqual(tilt(STICK.dead, 0), { right: 0, forward: 0, fast: false });
+  assert.equal(tilt(STICK.full * 2, 0).right, 1);
+  assert.equal(tilt(0, STICK.fast).fast, true);
+  const both = tilt(30, 30);
+  assert.ok(Math.hypot(both.right, both.forward) <= 1);
+});
+
+test('keys go to what has the focus first', () => {
+  assert.equal(is_taken('KeyW', 'text'), true);
+  assert.equal(is_taken('KeyW', 'button'), false);
+  assert.equal(is_taken('Space', 'button'), true);
+  assert.equal(is_taken('ArrowLeft', 'slider'), true);
+  assert.equal(is_taken('ArrowLeft', null), false);
+  assert.equal(kind_of({ tagName: 'INPUT', type: 'range' }), 'slider');
+  assert.equal(kind_of({ tagName: 'INPUT', type: 'password' }), 'text');
+  assert.equal(kind_of({ tagName: 'CANVAS', getAttribute: () => null }), null);
+});
+
+test('panels lie by the room that there is', () => {
+  assert.equal(layout_of(1920, 1080), 'wide');
+  assert.equal(layout_of(360, 640), 'tall');
+  assert.equal(layout_of(640, 360), 'low');
+  assert.equal(layout_of(800, 1280), 'tall');
+  assert.equal(layout_of(1280, 400), 'low');
+});
+
+test('what is drawn has as many pixels as the screen, up to a bound', () => {
+  assert.deepEqual(buffer_size(360, 640, 3), { width: 1080, height: 1920, ratio: 3 });
+  const large = buffer_size(2560, 1440, 3);
+  assert.ok(large.width * large.height <= 3840 * 2160 * 1.001 && Math.abs(large.width / large.height - 16 / 9) < 0.01);
+  assert.deepEqual(buffer_size(0, 0, 1), { width: 1, height: 1, ratio: 1 });
+});
+
+const playback = { first: 100, last: 1100 };
+const marks = { first: 100, ticks_per_column: 10, marks: [{ kind: 'carve', column: 0, count: 2 }, { kind: 'fall', column: 50, count: 1 }, { kind: 'carve', column: 51, count: 3 }] };
+
+test('places on a timeline and ticks are each other', () => {
+  for (const tick of [100, 350, 1100]) assert.equal(tick_at(part_of(tick, playback), playback), tick);
+  assert.equal(part_of(0, playback), 0);
+  assert.equal(tick_at(2, playback), 1100);
+  assert.deepEqual(span_of(50, marks, playback), [0.5, 0.51]);
+});
+
+test('a timeline tells what is near', () => {
+  assert.equal(events_near(0.51, 0.005, marks, playback), '1 fall, 3 carve');
+  assert.equal(events_near(0.3, 0.005, marks, playback), '');
+  assert.deepEqual([...rows_of(marks)], [['carve', 3], ['fall', 1]]);
+});
+
+test("a gamepad's state is the client's eight numbers", () => {
+  const buttons = Array.from({ length: 17 }, (_, i) => ({ pressed: i === 0 || i === 16, value: i === 7 ? 0.75 : 0 }));
+  assert.deepEqual(pad_state({ axes: [0.5, -1, 0, 0.25], buttons }), [0.5, -1, 0, 0.25, 0, 0.75, 1 | 1 << 16]);
+  assert.deepEqual(pad_state({ axes: [], buttons: [] }), [0, 0, 0, 0, 0, 0, 0]);
+});
+
+class FakeSocket {
+  static all = [];
+  constructor(url) { Object.assign(this, { url, readyState: 0, sent: [], closed: false }); FakeSocket.all.push(this); }
+  send(data) { this.sent.push(data); }
+  close() { this.closed = true; }
+}
+
+function client_of(wishes) {
+  const told = [];
+  return { told, socket_wish: () => wishes.shift() ?? '', socket_opened: () => told.push('opened'), socket_closed: (why) => told.push(`closed ${why}`),
+    receive: (data) => { told.push(data.length); return data.length < 5; }, take_outgoing: () => 'hello' };
+}
+
+test('a socket opens when the client wishes, and passes bytes on', () => {
+  const client = client_of(['open']);
+  const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url));
+  socket.step();
+  const made = FakeSocket.all.at(-1);
+  assert.deepEqual(made.sent, []);
+  made.readyState = 1;
+  made.onopen({});
+  made.onmessage({ data: new ArrayBuffer(3) });
+  assert.deepEqual(client.told, ['opened', 3]);
+  assert.deepEqual(made.sent, ['hello']);
+});
+
+test('of a socket that was replaced nothing is passed on', () => {
+  const client = client_of(['open', 'open', 'close']);
+  const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url));
+  socket.step();
+  const first = FakeSocket.all.at(-1);
+  socket.step();
+  assert.equal(first.closed, true);
+  first.onmessage({ data: new ArrayBuffer(3) });
+  first.onclose({ code: 1006, reason: '' });
+  assert.deepEqual(client.told, []);
+  socket.step();
+  assert.equal(FakeSocket.all.at(-1).closed, true);
+});
+
+test('a message that is too long, or is text, ends the connection', () => {
+  for (const data of [new ArrayBuffer(9), 'text']) {
+    const client = client_of(['open']);
+    const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url));
+    socket.step();
+    FakeSocket.all.at(-1).onmessage({ data });
+    assert.equal(FakeSocket.all.at(-1).closed, true);
+    assert.match(client.told.at(-1), /^closed /);
+  }
+});
+
+test('a page joins its own server', () => {
+  assert.equal(session_url({ protocol: 'https:', host: 'a.example' }), 'wss://a.example/session');
+  assert.equal(session_url({ protocol: 'http:', host: '127.0.0.1:4177' }), 'ws://127.0.0.1:4177/session');
+  assert.equal(why_closed(1006, ''), '');
+  assert.equal(why_closed(1008, 'no'), 'no');
+});
+
+test('how much of the terrain is there is between none and all', () => {
+  assert.equal(terrain_part({ draw: { kept: 0, waiting: 0 }, preparing: null, complete: false }), 0);
+  assert.equal(terrain_part({ draw: { kept: 30, waiting: 10 }, preparing: null, complete: false }), 0.75);
+  assert.equal(terrain_part({ draw: { kept: 1, waiting: 9 }, preparing: { share: 0.5 }, complete: false }), 0.5);
+  assert.equal(terrain_part({ draw: { kept: 1, waiting: 9 }, preparing: null, complete: true }), 1);
+});
+
+test('numbers read as people write them', () => {
+  assert.equal(bytes(999), '999 B');
+  assert.equal(bytes(1234), '1.2 kB');
+  assert.equal(bytes(999600), '1.0 MB');
+  assert.equal(time(3 * 60 * 60 + 30, 60), '3:00');
+  assert.equal(time(60 * 3600 * 2, 60), '2:00:00');
+  assert.equal(whole(1234567), '1\u00a0234\u00a0567');
+  assert.equal(span(90061), '1 d 1 h');
+  assert.equal(picture_name(new Date('2026-01-02T03:04:05Z')), 'scree-2026-01-02T03-04-05.png');
+});
+
+test('a curve ends at its right, and its highest value is at the top', () => {
+  assert.equal(points([0, 2], 100, 10, 3), '50.0,9.0 100.0,1.0');
+  assert.equal(points([], 100, 10), '');
+});
+
+const status = {
+  tick_rate_hz: 60, replay: false, version: '1',
+  now: { tick: 600, clients: 2, pieces: 3, tick_median_ms: 20, tick_worst_ms: 30, stages_ms: { commands: 1, step: 8 }, work: { budget_us: 0, islands_put_off: 4 }, saving: 'failed', saved_tick: 1 },
+  report: { ticks: 600, late_ticks: 5, seconds: 10, pieces_made: 9, pieces_merged: 6, resident_mb: 100, sessions: { joined: 4 }, ledger: { terrain: 1, pieces: 2, dust: 3, poured: 4, moved: 5, error: 1 },
+    refusals: { total: 3, by_reason: { rate: 1, shape: 2 } }, bytes_sent: 5000 },
+};
+
+test('the status page marks what is wrong', () => {
+  const bad = heads(status).filter((head) => head.bad).map((head) => head.name);
+  assert.deepEqual(bad, ['Tick, median', 'Ledger error']);
+  const { ledger, memory, refusals, work, wire } = lists(status);
+  assert.deepEqual(ledger.at(-1), ['error', '1', true]);
+  assert.ok(memory.some(([name, , failed]) => name === 'saving' && failed));
+  assert.deepEqual(refusals, [['shape', '2'], ['rate', '1']]);
+  assert.deepEqual(work, [['islands put off', '4']]);
+  assert.deepEqual(wire, [['bytes sent', '5.0 kB']]);
+  assert.deepEqual(stage_bars(status).map(({ part }) => part <= 1), [true, true]);
+});
