@@ -22,12 +22,26 @@ function(scree_library NAME)
 endfunction()
 
 # Options and reports: nobody waits for them to run, but for CLI11 and nlohmann's JSON to compile, which are headers
-# only. (Precompiled they are slower: every source then compiles CLI11's global objects once more; and the precompiled
-# header is an optimised one.)
-# Usage: scree_optimise_little(SOURCES …)
-function(scree_optimise_little)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O0>
-                                                 SKIP_PRECOMPILE_HEADERS ON)
+# only. They are compiled as one source, without optimisation, and by headers precompiled without it.
+# Usage: scree_optimise_little(TARGET SOURCES…), sources of the target and of the folder that calls this
+function(scree_optimise_little TARGET)
+  set(TEXT)
+  foreach(SOURCE IN LISTS ARGN)
+    string(APPEND TEXT "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${SOURCE}\"\n")
+  endforeach()
+  set(WHOLE ${CMAKE_CURRENT_BINARY_DIR}/${TARGET}_little.cpp)
+  file(CONFIGURE OUTPUT ${WHOLE} CONTENT "${TEXT}" @ONLY)
+  set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
+  target_sources(${TARGET} PRIVATE ${WHOLE})
+  set(HEADER ${PROJECT_BINARY_DIR}/CMakeFiles/scree_precompiled_little.dir/cmake_pch.hxx)
+  set(PRECOMPILED ${HEADER}.gch)
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    set(PRECOMPILED ${HEADER}.pch)
+  endif()
+  set_source_files_properties(${WHOLE} PROPERTIES
+    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O0>;-Winvalid-pch;-include;${HEADER}"
+    OBJECT_DEPENDS ${PRECOMPILED}
+    SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # False alarms of g++ 12 where strings are put together from literals (its bugs 105329 and 105651).
@@ -44,7 +58,7 @@ function(scree_program NAME MAIN)
   add_executable(${NAME} ${MAIN})
   target_link_libraries(${NAME} PRIVATE ${ARGN} CLI11::CLI11 nlohmann_json::nlohmann_json)
   target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
-  scree_optimise_little(${MAIN})
+  scree_optimise_little(${NAME} ${MAIN})
 endfunction()
 
 # Asio, compiled once. What its headers define depends on these: every target in one program must say the same.

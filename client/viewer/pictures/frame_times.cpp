@@ -9,8 +9,6 @@
 namespace scree {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::vector<double> column(const TimeDemo& demo, double FrameTime::*field) {
   std::vector<double> times;
   times.reserve(demo.frames.size());
@@ -18,7 +16,7 @@ std::vector<double> column(const TimeDemo& demo, double FrameTime::*field) {
   return times;
 }
 
-Json summary(std::vector<double> times) {
+nlohmann::ordered_json summary(std::vector<double> times) {
   std::ranges::sort(times);
   const auto quantile = [&](double part) {
     return times[static_cast<size_t>(part * static_cast<double>(times.size() - 1) + 0.5)];
@@ -35,17 +33,17 @@ Json summary(std::vector<double> times) {
 std::string to_json(const TimeDemo& demo) {
   CHECK(!demo.frames.empty());
   const std::vector<double> each = column(demo, &FrameTime::frame_ms);
-  const Json json{{"method", demo.method},
-                  {"driver", demo.driver},
-                  {"width", demo.width},
-                  {"height", demo.height},
-                  {"path", demo.path},
-                  {"frames", demo.frames.size()},
-                  {"frame_ms", summary(each)},
-                  {"update_ms", summary(column(demo, &FrameTime::update_ms))},
-                  {"draw_ms", summary(column(demo, &FrameTime::draw_ms))},
-                  {"each_frame_ms", each}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const nlohmann::ordered_json json{{"method", demo.method},
+                                    {"driver", demo.driver},
+                                    {"width", demo.width},
+                                    {"height", demo.height},
+                                    {"path", demo.path},
+                                    {"frames", demo.frames.size()},
+                                    {"frame_ms", summary(each)},
+                                    {"update_ms", summary(column(demo, &FrameTime::update_ms))},
+                                    {"draw_ms", summary(column(demo, &FrameTime::draw_ms))},
+                                    {"each_frame_ms", each}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace scree
