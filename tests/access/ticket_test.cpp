@@ -5,6 +5,7 @@
 
 #include "tests/support/access_fixture.h"
 #include "tests/support/holds.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 namespace {
@@ -29,8 +30,7 @@ class TicketTest : public AccessTest {
     const uint32_t before = server->stats().sessions;
     joined.client.reset();
     const auto end = std::chrono::steady_clock::now() + patience;
-    while (server->stats().sessions == before && std::chrono::steady_clock::now() < end)
-      std::this_thread::yield();
+    while (server->stats().sessions == before && std::chrono::steady_clock::now() < end) wait_a_moment();
   }
   void expect_fresh(const Joined& joined, const Joined& before) {
     EXPECT_FALSE(joined.welcome.resumed);

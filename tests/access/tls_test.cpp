@@ -199,7 +199,7 @@ TEST_F(TlsTest, half_a_handshake_ends_and_is_counted_and_no_other_notices) {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (server->stats().sessions_cut + server->stats().sessions_refused < 2 &&
          std::chrono::steady_clock::now() < end)
-    std::this_thread::yield();
+    wait_a_moment();
   EXPECT_EQ(server->stats().refusals.of(Refusal::tls_failed), 1U);
   EXPECT_EQ(server->stats().refusals.of(Refusal::hello_late), 1U);
   EXPECT_TRUE((*witness)->connected());

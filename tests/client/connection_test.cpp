@@ -7,6 +7,7 @@
 
 #include "client/connection/limits.h"
 #include "tests/support/holds.h"
+#include "tests/support/patience.h"
 #include "tests/support/raw_server.h"
 
 namespace scree {
@@ -192,8 +193,7 @@ TEST(Connection, a_client_that_does_not_poll_stops_reading_and_loses_nothing) {
   const ReplyMessage reply{1, std::string(limits::reason_bytes_max, 'x'), 0};
   std::thread sender([&] { server.send_until_stuck(reply, count, 10000); });
   const auto end = std::chrono::steady_clock::now() + deadline;
-  while (connection->counters().pauses == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::yield();
+  while (connection->counters().pauses == 0 && std::chrono::steady_clock::now() < end) wait_a_moment();
   EXPECT_EQ(connection->counters().waiting_messages, limits::received_messages_max);
   EXPECT_EQ(wait_for(*connection, count).size(), count);
   sender.join();
@@ -215,7 +215,7 @@ TEST(Connection, a_client_that_does_not_poll_holds_no_more_than_its_limit_of_mem
     const ConnectionCounters counters = connection->counters();
     return counters.pauses != 0 || counters.waiting_messages == count;
   };
-  while (!arrived() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  while (!arrived() && std::chrono::steady_clock::now() < end) wait_a_moment();
   const ConnectionCounters counters = connection->counters();
   EXPECT_GE(counters.waiting_bytes, limits::received_bytes_max);
   EXPECT_LE(counters.waiting_bytes, limits::received_bytes_max + 2 * memory_min);

@@ -7,11 +7,11 @@
 #include <latch>
 #include <map>
 #include <set>
-#include <thread>
 
 #include "client/render/levels/block_windows.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 namespace {
@@ -36,12 +36,11 @@ class Watched : public testing::Test {
   }
 
   void finish() {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    for (update(); !scheduler_.complete(); update()) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << scheduler_.waiting() << " are still waiting";
-      update();
-      std::this_thread::yield();
-    } while (!scheduler_.complete());
+      wait_a_moment();
+    }
   }
 
   MirrorChanges apply_now(const Operation& operation) {

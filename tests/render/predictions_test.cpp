@@ -9,6 +9,7 @@
 #include "client/render/methods.h"
 #include "tests/support/flat_welcome.h"
 #include "tests/support/offscreen_fixture.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 namespace {
@@ -82,11 +83,11 @@ class PredictedPictures : public OffscreenTest, public testing::WithParamInterfa
     return pieces;
   }
   Image picture_of(DrawMethod& method, Field& field, const ScenePieces& pieces) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
-      method.update(Scene{field, pieces}, camera_);
-      std::this_thread::yield();
-    } while (!method.complete() && std::chrono::steady_clock::now() < deadline);
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    for (method.update(Scene{field, pieces}, camera_);
+         !method.complete() && std::chrono::steady_clock::now() < deadline;
+         method.update(Scene{field, pieces}, camera_))
+      wait_a_moment();
     return draw(method);
   }
   Image seen() {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include "auth/access_token.h"
 #include "client/admin/admin.h"
@@ -63,7 +62,7 @@ class AccessTest : public ::testing::Test {
   /// Counts are published with ticks, and when sessions come and go.
   bool comes_to_refuse(Refusal reason) const {
     const auto end = std::chrono::steady_clock::now() + patience;
-    while (refusals(reason) == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    while (refusals(reason) == 0 && std::chrono::steady_clock::now() < end) wait_a_moment();
     return refusals(reason) > 0;
   }
 

@@ -5,13 +5,13 @@
 #include <chrono>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <thread>
 
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/viewer/pictures/egl_context.h"
 #include "shared/operation/operation.h"
 #include "tests/support/loaded_libraries.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 
@@ -51,12 +51,12 @@ class OffscreenTest : public testing::Test {
 
   void finish() { finish(*method_); }
   void finish(DrawMethod& method) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    for (method.update(Scene{field_, pieces_}, camera_); !method.complete();
+         method.update(Scene{field_, pieces_}, camera_)) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "not complete in time";
-      method.update(Scene{field_, pieces_}, camera_);
-      std::this_thread::yield();
-    } while (!method.complete());
+      wait_a_moment();
+    }
   }
 
   Image draw() { return draw(*method_); }

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <chrono>
+#include <thread>
 
 namespace scree {
 
 /// Far longer than any wait takes, even under a sanitizer and beside other tests.
 inline constexpr std::chrono::seconds patience{60};
+
+/// Between two looks at what another thread does, which may need this one's core.
+inline void wait_a_moment() {
+  std::this_thread::sleep_for(std::chrono::microseconds(200));
+}
 
 /// Since when so many seconds are over: what a test expects before that may not be so on a machine that stood
 /// still, and the test is skipped.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <thread>
+
+#include "tests/support/patience.h"
 
 namespace scree {
 
@@ -11,9 +12,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-
-/// Far longer than any wait here takes, even under a sanitizer and beside other tests.
-constexpr auto patience = 30s;
 
 /// Ticks without a change after which a session is at rest.
 constexpr int calm_ticks = 60;
@@ -104,8 +102,7 @@ void LoopbackSession::cut(const SessionClient& client) {
   (*found)->cut();
   clients_.erase(found);
   const auto deadline = Clock::now() + patience;
-  while (server_->report().net.sessions != clients_.size() && Clock::now() < deadline)
-    std::this_thread::yield();
+  while (server_->report().net.sessions != clients_.size() && Clock::now() < deadline) wait_a_moment();
   if (server_->report().net.sessions != clients_.size()) failure = "the server does not notice the cut";
 }
 
