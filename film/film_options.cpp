@@ -74,11 +74,12 @@ FilmOptionParser::FilmOptionParser(CLI::App& app) {
   declare_moments(app);
   declare_camera(app);
   declare_pictures(app);
+  refuse_empty(app);
 }
 
 void FilmOptionParser::declare_moments(CLI::App& app) {
   const auto moment = understood_by(parse_tick_or_time);
-  app.add_option("--from", from_, "the first moment: a tick, as 600, or a time, as 10s")
+  app.add_option("--from", from_, "the first moment: a tick, as 600, or a time, as 10s, 1.5m or 1:30")
       ->check(moment, "MOMENT");
   app.add_option(
          "--to", to_,
@@ -111,6 +112,7 @@ void FilmOptionParser::declare_camera(CLI::App& app) {
               listed(kind_names<EventKind>))
       ->check(understood_by(parse_event), "EVENT");
   places->require_option(0, 1);
+  refuse_empty(*places);
 }
 
 void FilmOptionParser::declare_pictures(CLI::App& app) {

@@ -146,16 +146,6 @@ Result<Shot> shot_of(const FilmOrder& order, const std::optional<Event>& event, 
 
 }  // namespace
 
-Result<TickOrTime> parse_tick_or_time(const std::string& text) {
-  const bool is_seconds = text.ends_with('s');
-  const std::string_view digits = std::string_view(text).substr(0, text.size() - (is_seconds ? 1 : 0));
-  const auto tick = is_seconds ? std::nullopt : number_in<uint32_t>(digits);
-  const auto seconds = is_seconds ? number_in<double>(digits) : std::nullopt;
-  if (tick) return TickOrTime{static_cast<double>(*tick), false};
-  if (seconds && *seconds >= 0.0 && *seconds <= 1.0e9) return TickOrTime{*seconds, true};
-  return fail("'" + text + "' is no moment: write a tick, as 600, or seconds, as 12.5s");
-}
-
 Result<WhichEvent> parse_event(const std::string& text) {
   if (const auto kind = kind_named<EventKind>(text)) return *kind;
   if (const auto number = number_in<uint32_t>(text); number && *number > 0) return size_t{*number};

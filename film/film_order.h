@@ -8,19 +8,10 @@
 #include "client/viewer/pictures/camera_path.h"
 #include "film/shot.h"
 #include "proto/event.h"
+#include "server/replay/recorded_moment.h"
 #include "server/replay/replay_source.h"
 
 namespace scree {
-
-/// A moment as a person says it: "600" is a tick, "12.5s" a time of the recording, as `replay control` has
-/// both.
-struct TickOrTime {
-  double value = 0.0;
-  bool is_seconds = false;
-
-  double tick(uint32_t tick_rate_hz) const { return is_seconds ? value * tick_rate_hz : value; }
-};
-Result<TickOrTime> parse_tick_or_time(const std::string& text);
 
 /// Round which event: the one of that number, counted from 1 in the order of `replay events`; or the largest
 /// of a kind; or, of neither, the largest of all.

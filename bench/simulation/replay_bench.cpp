@@ -165,7 +165,7 @@ void pause(BenchReport& report, const ScratchFolder& folder, int chunks_a_side, 
   const size_t chunks = world->field().edited_chunks().size();
   Stopwatch watch;
   auto recorder =
-      Recorder::create(folder / "wide", {"bench", world->config()}, {world->snapshot(), world->keyframe()});
+      Recorder::create(folder / "wide", {"bench", world->config()}, {world->moment(), world->keyframe()});
   CHECK(recorder.has_value());
   (*recorder)->commit_up_to(world->tick());
   report.metric("wide_chunks", static_cast<double>(chunks));

@@ -41,6 +41,9 @@ std::string sessions_lines(const std::vector<SessionRow>& sessions);
 Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish);
 std::string playback_json(const PlaybackMessage& playback);
 std::string playback_lines(const PlaybackMessage& playback);
+/// Of a wish for a tick that the recording has not, or not any more: that, and where it went; empty: it went
+/// there.
+std::string went_elsewhere(const ControlReplay& wish, const PlaybackMessage& playback);
 
 Result<std::vector<BanRow>> list_bans(const AdminServer& server);
 std::string bans_json(const std::vector<BanRow>& bans);

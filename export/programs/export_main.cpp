@@ -19,6 +19,7 @@
 #include "server/store/stored_field.h"
 #include "shared/base/limits.h"
 #include "shared/base/option_check.h"
+#include "shared/base/program_output.h"
 
 namespace scree {
 namespace {
@@ -207,6 +208,7 @@ void declare(CLI::App& app, Options& options) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   CLI::App app(
       "Writes the rock of a kept world, of a ground, of a recording's tick or of a running server as an "
       "OpenVDB level set, as a mesh or as an elevation model.",

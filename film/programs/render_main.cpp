@@ -5,6 +5,7 @@
 
 #include "film/render_film.h"
 #include "film/stop_signals.h"
+#include "shared/base/program_output.h"
 #include "shared/base/progress_bar.h"
 
 namespace scree {
@@ -39,7 +40,9 @@ int run(int argc, char** argv) {
   bar.end();
   if (film) {
     std::printf("%s\n", line_of(options, *film).c_str());
-    return 0;
+    const auto printed = flush_output();
+    if (!printed) std::fprintf(stderr, "scree-render: %s\n", printed.error().message.c_str());
+    return printed ? 0 : failed;
   }
   const std::string why = signals.asked()
                               ? "stopped: the film is not whole; of its files only whole PNGs stay"
@@ -52,5 +55,6 @@ int run(int argc, char** argv) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   return scree::run(argc, argv);
 }

@@ -10,6 +10,7 @@
 #include "import/heights_import.h"
 #include "import/programs/program.h"
 #include "shared/base/limits.h"
+#include "shared/base/program_output.h"
 
 namespace scree {
 namespace {
@@ -210,6 +211,7 @@ Result<void> run(const Options& options) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   CLI::App app("Makes a ground file of an elevation model or of solids: what scree-server --ground hosts.",
                "scree-import");
   app.set_version_flag("--version", SCREE_VERSION);

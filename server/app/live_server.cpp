@@ -64,6 +64,11 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
   recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part),
                  std::move(cursors));
   if (record_failed) return;
+  if (feed->world()->tick() % config.world.tick_rate_hz == 0 && !ring_told) {
+    const RecordingSize size = recorder->size();
+    ring_told = !size.over_limit.empty();
+    if (ring_told) spdlog::warn("{}: {}", config.record_path, size.over_limit);
+  }
   const auto error = recorder->error();
   if (!error) return;
   record_failed = true;
@@ -260,6 +265,7 @@ ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyC
   if (recorder) {
     now.ticks_recorded = recorder->ticks_written();
     now.record_waits = recorder->waits();
+    now.record_size = recorder->size();
     if (!now.error) now.error = recorder->error();
   }
   if (kept && !kept->is_temporary()) now.saving = kept->status();

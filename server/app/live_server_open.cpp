@@ -9,6 +9,22 @@
 
 namespace scree {
 
+namespace {
+
+/// Its terrain comes chunk by chunk: it may be larger than memory.
+RecordingStart start_of(World& world) {
+  const auto read = [&world](ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
+    try {
+      return world.chunk(chunk);
+    } catch (const ChunkUnreadable& unreadable) {
+      return fail(unreadable.what());
+    }
+  };
+  return {world.moment(), world.outline(), read};
+}
+
+}  // namespace
+
 Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;  // those of a recording are not this server's
   const Digest given = config.world.ground;
@@ -101,12 +117,7 @@ Result<void> LiveServer::State::open_recorder() {
   std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
   const bool goes_on =
       world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
-  if (world.field().pages() && world.field().chunks_out() > 0)
-    return fail(config.record_path +
-                ": a recording begins with all of the world's terrain, which is more than "
-                "half of the memory takes: raise memory-max, or do not record (--record)");
-  auto recording = goes_on ? Recorder::create(config.record_path, header,
-                                              {world.snapshot(), world.keyframe()}, config.record_ring)
+  auto recording = goes_on ? Recorder::create(config.record_path, header, start_of(world), config.record_ring)
                            : Recorder::create(config.record_path, header, config.record_ring);
   if (!recording) return tl::unexpected(recording.error());
   recorder = std::move(*recording);

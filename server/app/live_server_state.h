@@ -77,6 +77,7 @@ struct LiveServer::State {
   Clock::time_point started = Clock::now();
   Clock::duration period{};
   bool record_failed = false;  ///< used by the simulation thread only
+  bool ring_told = false;      ///< that it is over its limit; likewise
   bool saved = false;          ///< for good; used by the owner's thread only
 
   const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();

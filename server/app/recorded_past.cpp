@@ -73,7 +73,7 @@ Result<PastWorld> roll_back(const std::string& path, const std::string& recordin
   {
     const auto file = WorldFile::open(path);
     if (!file) return tl::unexpected(file.error());
-    const auto rows = (*file)->read();
+    const auto rows = (*file)->read_moment();
     if (!rows) return tl::unexpected(rows.error());
     if (auto fits = check_recording(*rows, path, **reader); !fits) return tl::unexpected(fits.error());
     header = rows->header;

@@ -7,6 +7,7 @@
 #include "crypto/signing_key.h"
 #include "server/app/temporary_world.h"
 #include "server/app/terrain_pager.h"
+#include "server/store/stored_field.h"
 #include "server/work/memory.h"
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
@@ -72,18 +73,11 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
   const auto config = config_of(header);
   const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;
   GroundMasses masses;
-  PagedTerrain terrain;
-  terrain.read = std::move(*reader);
-  terrain.bricks_max = bricks_max != 0 ? bricks_max : bricks_within(max_mb, {}) / 2;
-  terrain.each = [&](const PagedTerrain::Take& take) {
-    return file.each_chunk([&](const WorldChunk& chunk) {
-      ++chunks;
-      if (chunk.ground_mass) masses[chunk.chunk] = *chunk.ground_mass;
-      return take(chunk.chunk, chunk.bricks);
-    });
-  };
+  const PagedTerrain terrain = terrain_of(file, std::move(*reader), masses,
+                                          bricks_max != 0 ? bricks_max : bricks_within(max_mb, {}) / 2);
   auto world = World::restore(rows->world, terrain, threads, masses);
   if (!world) return fail(path + ": damaged: " + world.error().message);
+  chunks = (*world)->field().chunks_in().size() + (*world)->field().chunks_out();
   kept.number_ = rows->header.world;
   kept.first_session_ = first_free_session(rows->world.moment);
   return world;

@@ -317,13 +317,6 @@ void name_environment(CLI::App& app) {
   }
 }
 
-/// Nothing after an option is a mistake, as of a script whose variable is not set.
-void refuse_empty(CLI::App& app) {
-  for (CLI::Option* option : app.get_options())
-    if (option->get_expected_min() > 0 && option->get_type_size() > 0)
-      option->check([](const std::string& value) { return value.empty() ? "must not be empty" : ""; }, "");
-}
-
 void declare(CLI::App& app, Raw& raw) {
   add_network(app, raw);
   add_world(app, raw);

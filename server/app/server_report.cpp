@@ -98,6 +98,17 @@ Json json_of(const WebStats& web) {
           {"bytes_sent", web.bytes_sent}, {"websockets", web.websockets}, {"connections", web.connections}};
 }
 
+Json recording_json(const ServerReport& report) {
+  const RecordingSize& size = report.record_size;
+  Json json{{"path", report.record_path},
+            {"ticks", report.ticks_recorded},
+            {"waits", report.record_waits},
+            {"bytes", size.file_bytes},
+            {"log_bytes", size.log_bytes}};
+  if (!size.over_limit.empty()) json["over_limit"] = size.over_limit;
+  return json;
+}
+
 Json json_of(const std::string& path, const KeeperStatus& saving) {
   Json json{{"path", path},
             {"saved_tick", saving.saved_tick},
@@ -193,9 +204,7 @@ std::string to_json(const ServerReport& report) {
   stages["keep"] = json_of(report.keep);
   json["stages_ms"] = stages;
   json["resident_mb"] = report.resident_mb;
-  if (!report.record_path.empty())
-    json["recording"] = {
-        {"path", report.record_path}, {"ticks", report.ticks_recorded}, {"waits", report.record_waits}};
+  if (!report.record_path.empty()) json["recording"] = recording_json(report);
   if (!report.events_path.empty())
     json["events"] = {
         {"path", report.events_path}, {"written", report.events.written}, {"lost", report.events.lost}};

@@ -9,6 +9,7 @@
 #include "server/net/durations.h"
 #include "server/net/net_server.h"
 #include "server/store/event_log.h"
+#include "server/store/recording_ring.h"
 #include "server/store/world_keeper.h"
 #include "server/world/tick_delta.h"
 
@@ -62,6 +63,7 @@ struct ServerReport {
   std::string record_path;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;
+  RecordingSize record_size;
   std::string events_path;  ///< empty: no log
   EventLog::Status events;
   std::string world_path;  ///< empty: the world ends with the server

@@ -106,7 +106,8 @@ btTransform transform_of(const BodyMotion& motion) {
 
 }  // namespace
 
-Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given) {
+Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given,
+                          std::vector<glm::vec3> points_m) {
   const PrincipalAxes principal = principal_axes(given->inertia_kg_m2);
   const BodyShape shape = in_axes(*given, principal.rotation);
   Body& body = bodies[id];
@@ -129,17 +130,20 @@ Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given) {
   body.rigid->setUserPointer(body.hulls.get());
   body.rigid->setUserIndex(static_cast<int>(id));
   body.touches_by_surface = !shape.surface_m.empty();
-  body.points_m = shape.surface_m.empty()
-                      ? surface_points(shape.hull_m, limits::sample_spacing_voxels * voxel_size_m)
-                      : shape.surface_m;
+  body.points_m = std::move(points_m);
+  if (body.points_m.empty())
+    body.points_m = shape.surface_m.empty()
+                        ? surface_points(shape.hull_m, limits::sample_spacing_voxels * voxel_size_m)
+                        : shape.surface_m;
   body.probe = terrain_collider->attach(body.points_m);
   return body;
 }
 
-Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape) {
+Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape,
+                                    std::vector<glm::vec3> points_m) {
   if (Result<void> sound = check_shape(motion.id, *shape); !sound) return sound;
   if (Result<void> sound = check_motion(motion); !sound) return sound;
-  Body& body = make(motion.id, std::move(shape));
+  Body& body = make(motion.id, std::move(shape), std::move(points_m));
   body.rigid->setCenterOfMassTransform(transform_of(motion));
   body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(motion.spin_rad_s));
@@ -192,20 +196,28 @@ Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>
     if (contains(motions.bodies[i].id)) return refuse(motions.bodies[i].id, "it comes twice");
     if (Result<void> made = s.restore(motions.bodies[i], shapes[i]); !made) return made;
   }
-  for (const BoundsM& bounds : motions.freed)
-    s.freed.push_back({to_bullet(bounds.lo_m), to_bullet(bounds.hi_m)});
-  s.changes = motions.changes;
+  s.restore_common(motions);
   return {};
+}
+
+void Bodies::State::restore_common(const MotionValue& motions) {
+  for (const BoundsM& bounds : motions.freed)
+    freed.push_back({to_bullet(bounds.lo_m), to_bullet(bounds.hi_m)});
+  changes = motions.changes;
 }
 
 void Bodies::renew() {
   const MotionValue now = motions();
-  std::vector<std::shared_ptr<const BodyShape>> shapes;
-  for (const auto& [id, body] : state_->bodies) shapes.push_back(body.given);
+  std::vector<std::pair<std::shared_ptr<const BodyShape>, std::vector<glm::vec3>>> known;
+  for (auto& [id, body] : state_->bodies) known.emplace_back(body.given, std::move(body.points_m));
   while (size() > 0) remove(state_->bodies.begin()->first);
   state_ = std::make_unique<State>(state_->terrain_field, state_->config);
-  const Result<void> restored = restore(shapes, now);
-  CHECK(restored.has_value());
+  for (size_t i = 0; i < known.size(); ++i) {
+    const Result<void> restored =
+        state_->restore(now.bodies[i], std::move(known[i].first), std::move(known[i].second));
+    CHECK(restored.has_value());
+  }
+  state_->restore_common(now);
 }
 
 }  // namespace scree

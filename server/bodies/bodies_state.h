@@ -68,10 +68,14 @@ inline PieceId id_of(const btCollisionObject* object) {
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c);
 
-  /// A new body, which lies nowhere and is in no world yet.
-  Body& make(PieceId id, std::shared_ptr<const BodyShape> given);
+  /// A new body, which lies nowhere and is in no world yet. `points_m`: Body::points_m of one of that shape,
+  /// which are most of the work; empty: they are found.
+  Body& make(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<glm::vec3> points_m = {});
   /// Refuses what no Bodies has.
-  Result<void> restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape);
+  Result<void> restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape,
+                       std::vector<glm::vec3> points_m = {});
+  /// What is of all bodies together.
+  void restore_common(const MotionValue& motions);
   /// Turns all hulls, and refills the terrain manifolds of the bodies that are awake, for the step. Each body
   /// is one thread's; only the terrain is looked at by one thread for all.
   void find_ground();

@@ -1,7 +1,5 @@
 #include "server/replay/recording_cut.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "proto/world_codec.h"
@@ -127,7 +125,7 @@ class Cutting {
     Result<std::unique_ptr<World>> world =
         quiet ? restored_from(encode(*quiet), state_, ground_) : world_at(recording_, state_, ground_);
     if (!world) return fail(recording_.path() + ": " + world.error().message);
-    return RecordingWriter::create(path, header, {(*world)->snapshot(), (*world)->keyframe()});
+    return RecordingWriter::create(path, header, {(*world)->moment(), (*world)->keyframe()});
   }
 
   /// As they were recorded: the simulation goes on from the states that they went on from.
@@ -168,11 +166,6 @@ class Cutting {
   Tick state_ = 0;
 };
 
-void remove_recording(const std::string& path) {
-  std::error_code ignored;
-  for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path + end, ignored);
-}
-
 }  // namespace
 
 Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick first, Tick last,
@@ -206,38 +199,6 @@ Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick fi
     return tl::unexpected(done.error());
   }
   return CutReport{first, last, cutting.state(), fs::file_size(to, error)};
-}
-
-Result<Tick> tick_of(const std::string& text, uint32_t tick_rate_hz) {
-  const auto refused = fail("'" + text + "' is neither a tick, as 5400, nor a time, as 90s, 1.5m or 1:30");
-  if (text.empty() || text.find_first_not_of("0123456789.:smh") != std::string::npos) return refused;
-  if (text.find_first_not_of("0123456789") == std::string::npos) {
-    if (text.size() > 18) return refused;
-    return static_cast<Tick>(std::strtoull(text.c_str(), nullptr, 10));
-  }
-  double seconds = 0.0, unit_s = 1.0;
-  std::string rest = text;
-  const std::string_view letters = "smh";
-  if (const auto unit = letters.find(rest.back()); unit != std::string_view::npos) {
-    unit_s = std::pow(60.0, static_cast<double>(unit));
-    rest.pop_back();
-  } else if (rest.find(':') == std::string::npos) {
-    return refused;  // a time without its unit
-  }
-  if (rest.empty()) return refused;
-  for (size_t parts = 1; !rest.empty(); ++parts) {
-    const size_t end = std::min(rest.find(':'), rest.size());
-    const std::string number = rest.substr(0, end);
-    if (parts > 3 || number.empty() || number.find_first_not_of("0123456789.") != std::string::npos ||
-        number.find('.') != number.rfind('.') || number == ".")
-      return refused;
-    seconds = seconds * 60.0 + std::strtod(number.c_str(), nullptr);
-    rest = end == rest.size() ? std::string() : rest.substr(end + 1);
-    if (end != text.size() && rest.empty() && text.back() == ':') return refused;
-  }
-  const double tick = std::round(seconds * unit_s * tick_rate_hz);
-  if (!(tick >= 0.0 && tick < 1e15)) return refused;
-  return static_cast<Tick>(tick);
 }
 
 }  // namespace scree

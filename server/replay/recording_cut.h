@@ -25,7 +25,4 @@ struct CutReport {
 Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick first, Tick last,
                       const GroundGiver& ground, const std::function<void(double)>& progress = {});
 
-/// A tick of a recording, as people say it: "5400", or a time since tick 0: "90s", "1.5m" or "1:30".
-Result<Tick> tick_of(const std::string& text, uint32_t tick_rate_hz);
-
 }  // namespace scree

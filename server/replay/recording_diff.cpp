@@ -222,7 +222,9 @@ class Comparison {
     const bool begins_apart = a_.reader->first_tick() != b_.reader->first_tick();
     result_.tick =
         begins_apart ? std::min(a_.reader->first_tick(), b_.reader->first_tick()) : result_.last + 1;
-    add(DiffStage::extent, "has the ticks " + ticks(a_) + ", the other " + ticks(b_));
+    add(DiffStage::extent,
+        fmt::format("has the ticks {}, the other {}; the ticks {} to {}, which both have, are the same",
+                    ticks(a_), ticks(b_), result_.first, result_.last));
   }
 
   const DiffSide& names_a_;

@@ -38,7 +38,7 @@ constexpr DiffStageRow row_of(DiffStage stage) {
     case DiffStage::ledger:
       return {stage, "ledger"};
     case DiffStage::extent:
-      return {stage, "extent"};  // one has ticks that the other has not
+      return {stage, "extent"};  // one has ticks that the other has not; those that both have are the same
   }
   return {};
 }

@@ -18,9 +18,11 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOpt
     : source_(std::move(source)),
       options_(options),
       from_(source_->tick()),
+      first_known_(source_->first_tick()),
       speed_(options.speed),
       grows_(!source_->is_ended()) {
   CHECK(speed_ != 0.0F && options_.ticks_per_transform > 0);
+  source_->let_go();
 }
 
 Result<void> ReplayPlayer::take(const ControlReplay& wish) {
@@ -73,6 +75,9 @@ Result<void> ReplayPlayer::heed(const ControlReplay& wish) {
   }
   const auto to = target_of(wish);
   if (!to) return tl::unexpected(to.error());
+  const Tick first = source_->first_tick();
+  if (wish.move == ReplayMove::to_tick && first > first_known_ && wish.value < static_cast<int64_t>(first))
+    tell_dropped(static_cast<Tick>(std::max<int64_t>(wish.value, 0)), " is asked for", told_asked_);
   target_ = *to;
   ++moves_waiting_;
   return {};
@@ -94,7 +99,7 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::move() {
   if (target_ && may_jump()) {
     credit_ = 0.0;
     heeded_ += std::exchange(moves_waiting_, 0);
-    return source_->jump(*std::exchange(target_, std::nullopt));
+    return source_->jump(within(static_cast<double>(*std::exchange(target_, std::nullopt))));
   }
   if (target_ || !playing_ || at_border()) return source_->same();
   credit_ += std::abs(static_cast<double>(speed_));
@@ -112,8 +117,27 @@ Result<void> ReplayPlayer::look() {
   }
   const Tick before = source_->last_tick();
   if (auto looked = source_->look_again(); !looked) return looked;
-  quiet_looks_ = source_->last_tick() > before ? 0 : std::min(quiet_looks_ + 1, limits::quiet_looks_max);
-  grows_ = !source_->is_ended() && quiet_looks_ < limits::quiet_looks_max;
+  quiet_ticks_ = source_->last_tick() > before ? 0 : quiet_ticks_ + 1;
+  grows_ = !source_->is_ended() &&
+           static_cast<double>(quiet_ticks_) < limits::quiet_s_max * header().world.tick_rate_hz;
+  return source_->tick() < source_->first_tick() ? leave_dropped(before != 0) : Result<void>();
+}
+
+/// Once for each place where it begins: whoever drags a bar asks often.
+void ReplayPlayer::tell_dropped(Tick tick, const char* what, std::optional<Tick>& told) {
+  const Tick first = source_->first_tick();
+  if (!options_.tell || std::exchange(told, first) == first) return;
+  options_.tell("tick " + std::to_string(tick) + what +
+                ", which the recording's ring has dropped: the replay " + "goes on at tick " +
+                std::to_string(first) + ", where it begins now");
+}
+
+/// Its first tick has a keyframe. The jump waits for a tick with poses.
+Result<void> ReplayPlayer::leave_dropped(bool was_there) {
+  if (target_ && *target_ >= source_->first_tick()) return {};
+  if (was_there) tell_dropped(source_->tick(), " is shown", told_shown_);
+  if (!begun_) return source_->seek(source_->first_tick());
+  target_ = source_->first_tick();
   return {};
 }
 
@@ -131,6 +155,7 @@ Result<void> ReplayPlayer::add_company(TickDelta& delta) {
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
+  if (auto looked = look(); !looked) return tl::unexpected(looked.error());
   {
     std::vector<ControlReplay> wishes;
     {
@@ -140,8 +165,6 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
     for (const ControlReplay& wish : wishes)
       if (auto heeded = heed(wish); !heeded) return tl::unexpected(heeded.error());
   }
-  if (begun_ && number_ % std::max(header().world.tick_rate_hz / 2, 1U) == 0)
-    if (auto looked = look(); !looked) return tl::unexpected(looked.error());
   if (begun_ && playing_ && !target_ && at_border() && !waits_for_more()) {
     const bool at_end = speed_ > 0.0F;
     if (at_end && options_.at_end == AtEnd::end) return nullptr;
@@ -154,11 +177,12 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
   if (!moved) return moved;
   if (*moved == nullptr) return nullptr;  // nothing was recorded after where it begins
   auto delta = std::make_shared<TickDelta>(**moved);
-  number_ = begun_ ? number_ + 1 : delta->tick;
+  number_ = begun_ ? number_ + 1 : std::max<Tick>(delta->tick, 1);
   begun_ = true;
   delta->tick = number_;
   delta->playback = state();
   if (auto added = add_company(*delta); !added) return tl::unexpected(added.error());
+  source_->let_go();
   return delta;
 }
 

@@ -4,9 +4,11 @@
 // take() may be called from any thread; all else from one.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "server/replay/replay_source.h"
@@ -14,9 +16,9 @@
 namespace scree {
 
 namespace limits {
-/// Looks at a recording that is being written, two a second, as often as its writer commits. After so many
-/// that found nothing new it counts as cut short.
-inline constexpr uint32_t quiet_looks_max = 10;
+/// Seconds of the server's time without a new tick of a recording that is being written, whose writer commits
+/// twice a second. Above: it counts as cut short, until more comes.
+inline constexpr double quiet_s_max = 5.0;
 
 /// Wishes that wait for the next tick; above: refused.
 inline constexpr size_t replay_wishes_max = 256;
@@ -30,6 +32,8 @@ struct PlayerOptions {
   float speed = 1.0F;  ///< replay_speed_least to replay_speed_most
   /// Jumps happen in ticks with poses alone, so that who gets a jump also gets which pieces are gone.
   uint32_t ticks_per_transform = 3;
+  /// Is told, in words, when ticks that were played, or asked for, are not there any more; may be empty.
+  std::function<void(const std::string&)> tell{};
 };
 
 class ReplayPlayer {
@@ -48,8 +52,10 @@ class ReplayPlayer {
 
  private:
   Result<void> heed(const ControlReplay& wish);
-  /// Twice a second: whether the recording has grown.
+  /// Whether the recording has grown. A ring may have dropped the moment: then its first tick is gone to.
   Result<void> look();
+  Result<void> leave_dropped(bool was_there);
+  void tell_dropped(Tick tick, const char* what, std::optional<Tick>& told);
   /// What goes with the moment: events, and who was there.
   Result<void> add_company(TickDelta& delta);
   Result<Tick> target_of(const ControlReplay& wish);
@@ -58,21 +64,26 @@ class ReplayPlayer {
   /// The whole ticks of the credit.
   Tick take_due();
   bool at_border() const;
-  /// At the end of a recording that is being written: more will come.
-  bool waits_for_more() const { return grows_ && speed_ > 0.0F; }
+  /// At the end of a recording that is being written: more will come, and its first tick whenever it does.
+  bool waits_for_more() const {
+    const bool awaits_first = source_->last_tick() == 0 && !source_->is_ended();
+    return (grows_ || awaits_first) && speed_ > 0.0F;
+  }
   bool may_jump() const { return (number_ + 1) % options_.ticks_per_transform == 0; }
 
   std::unique_ptr<ReplaySource> source_;
   PlayerOptions options_;
-  const Tick from_;  ///< where a loop begins again
+  const Tick from_;         ///< where a loop begins again
+  const Tick first_known_;  ///< where the recording began when it was opened
   float speed_;
   bool playing_ = true;
   bool begun_ = false;
-  std::optional<Tick> target_;  ///< of a jump that waits
-  double credit_ = 0.0;         ///< ticks of the recording that are due
-  Tick number_ = 0;             ///< of the last tick that was given out
-  bool grows_;                  ///< the recording is being written
-  uint32_t quiet_looks_ = 0;
+  std::optional<Tick> target_;                             ///< of a jump that waits
+  double credit_ = 0.0;                                    ///< ticks of the recording that are due
+  Tick number_ = 0;                                        ///< of the last tick that was given out
+  bool grows_;                                             ///< the recording is being written
+  Tick quiet_ticks_ = 0;                                   ///< since it grew last
+  std::optional<Tick> told_shown_, told_asked_;            ///< where it began when a dropped tick was told of
   std::shared_ptr<const RecordedCursorsMessage> cursors_;  ///< as given out last
   uint64_t heeded_ = 0;                                    ///< wishes, their moves done
   uint64_t moves_waiting_ = 0;                             ///< wishes whose jump waits

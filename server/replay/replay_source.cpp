@@ -42,8 +42,9 @@ ReplaySource::ReplaySource(std::unique_ptr<State> state) : state_(std::move(stat
 ReplaySource::~ReplaySource() = default;
 
 Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const std::string& path, Tick from,
-                                                         const GroundGiver& ground) {
-  auto reader = RecordingReader::open(path);
+                                                         const GroundGiver& ground,
+                                                         WithoutTicks without_ticks) {
+  auto reader = RecordingReader::open(path, without_ticks);
   if (!reader) return tl::unexpected(reader.error());
   RecordingHeader header = (*reader)->header();
   if (auto given = give_ground(header.world.ground, header.world.terrain, ground); !given)
@@ -72,6 +73,9 @@ bool ReplaySource::is_ended() const {
 Result<void> ReplaySource::look_again() {
   return state_->reader->look_again();
 }
+void ReplaySource::let_go() {
+  state_->reader->let_go();
+}
 
 Result<std::vector<PlayerCursor>> ReplaySource::cursors() {
   return state_->cursors.at(*state_->reader, state_->tick);
@@ -91,6 +95,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::next(Tick count) {
   CHECK(count > 0);
   if (std::exchange(state_->keyframe_due, false)) return state_->whole_state();
   if (state_->tick >= last_tick()) return nullptr;
+  CHECK(state_->tick >= first_tick());
   auto joint = state_->advance();
   if (!joint) return tl::unexpected(joint.error());
   float work_us = state_->work_us;
@@ -154,7 +159,7 @@ Result<void> ReplaySource::seek(Tick tick) {
   BricksBefore forgotten;
   if (auto restored = state_->restore_before(tick, forgotten); !restored) return restored;
   if (auto gone = state_->go_to(tick, forgotten); !gone) return gone;
-  state_->keyframe_due = tick != 0;
+  state_->keyframe_due = tick != 0 || last_tick() == 0;
   return {};
 }
 

@@ -15,9 +15,11 @@ namespace scree {
 
 class ReplaySource {
  public:
-  /// Opens a recording, and seeks to tick `from`. `ground` gives it the ground that it names.
+  /// Opens a recording, and seeks to tick `from`. `ground` gives it the ground that it names. Where ticks are
+  /// awaited it may have none: then it stands at tick 0, and last_tick() is that, too.
   static Result<std::unique_ptr<ReplaySource>> open(const std::string& path, Tick from = 0,
-                                                    const GroundGiver& ground = {});
+                                                    const GroundGiver& ground = {},
+                                                    WithoutTicks without_ticks = WithoutTicks::refused);
   ~ReplaySource();
 
   const RecordingHeader& header() const;  ///< with its ground
@@ -25,8 +27,11 @@ class ReplaySource {
   Tick first_tick() const;  ///< the state before the recording's first tick
   Tick last_tick() const;
   bool is_ended() const;  ///< RecordingReader::is_ended()
-  /// RecordingReader::look_again(): the last tick of a recording that is being written may move on.
+  /// RecordingReader::look_again(): the last tick of a recording that is being written may move on, and the
+  /// first one of a ring past tick(): then only jump() and seek() go on.
   Result<void> look_again();
+  /// RecordingReader::let_go().
+  void let_go();
 
   /// The next tick; null at the end. A tick that cannot be applied, or whose field has another hash than
   /// recorded, is an error that names the tick.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/world/applied_operation.h"
+#include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/operation/price.h"
 
@@ -60,7 +61,11 @@ Result<void> ReplaySource::State::restore_before(Tick wanted, BricksBefore& befo
                          [this](PieceId piece) { return pieces.contains(piece); }};
   auto keyframe = reader->keyframe_before(wanted, known);
   if (!keyframe) return tl::unexpected(keyframe.error());
-  KeyframeParts parts = *keyframe ? std::move(**keyframe) : KeyframeParts();
+  KeyframeParts parts;
+  if (*keyframe)
+    parts = std::move(**keyframe);
+  else
+    parts.keyframe.settings = print(header.world);
   if (auto restored = restore(std::move(parts), before); !restored) return restored;
   if (tick < start()) return damaged("the recording has no state to start from");
   return {};

@@ -1,5 +1,7 @@
 #include "server/store/database.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <sqlite3.h>
 #include <xxhash.h>
@@ -18,6 +20,16 @@ int64_t checksum_of(std::span<const uint8_t> data) {
   return static_cast<int64_t>(XXH3_64bits(data.data(), data.size()));
 }
 
+/// What the system said to the call that failed last, if it is one of the reasons that somebody can act on:
+/// SQLite's own words do not say. 0: another.
+int refused_by_system(sqlite3* database) {
+  const int now = errno;  // SQLite keeps it for some calls alone
+  if ((sqlite3_errcode(database) & 0xFF) != SQLITE_IOERR) return 0;
+  for (const int refused : {sqlite3_system_errno(database), now})
+    if (refused == EFBIG || refused == EDQUOT || refused == EROFS || refused == EIO) return refused;
+  return 0;
+}
+
 }  // namespace
 
 void DatabaseCloser::operator()(sqlite3* database) const {
@@ -28,7 +40,9 @@ void StatementCloser::operator()(sqlite3_stmt* statement) const {
 }
 
 tl::unexpected<Error> Database::failure(const std::string& what) const {
-  return fail(path_ + ": " + what + ": " + sqlite3_errmsg(database_.get()));
+  const int refused = refused_by_system(database_.get());
+  return fail(path_ + ": " + what + ": " + sqlite3_errmsg(database_.get()) +
+              (refused != 0 ? " (" + std::string(std::strerror(refused)) + ")" : std::string()));
 }
 
 Result<Database> Database::create(const std::string& path) {
@@ -186,7 +200,14 @@ Result<void> Database::copy_to(const std::string& path) {
 }
 
 bool Database::is_full() const {
-  return sqlite3_errcode(database_.get()) == SQLITE_FULL;
+  const int refused = refused_by_system(database_.get());  // EFBIG: ulimit -f
+  return sqlite3_errcode(database_.get()) == SQLITE_FULL || refused == EFBIG || refused == EDQUOT;
+}
+
+bool Database::has_moved() const {
+  int moved = 0;
+  const int asked = sqlite3_file_control(database_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  return asked == SQLITE_OK && moved != 0;
 }
 
 bool Database::is_busy() const {

@@ -59,10 +59,12 @@ class Database {
   Result<void> each_number(const std::string& select, const TakeNumbers& take);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
-  /// Whether the last failure was that the disk has no room.
+  /// Whether the last failure was that the disk, or the limit of a file's size, has no room.
   bool is_full() const;
   /// Whether the last call failed because another program has the file open.
   bool is_busy() const;
+  /// Whether the file is not there any more under its name.
+  bool has_moved() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its
   /// checksum is an error. Nothing when there is no row.
   Result<std::optional<std::vector<uint8_t>>> get(const Statement& select, uint64_t tick);

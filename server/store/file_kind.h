@@ -19,8 +19,9 @@ struct FileKind {
 /// Refuses, before SQLite opens it, what is no SQLite file, or is cut short.
 Result<void> check_file(const std::string& path, const FileKind& kind);
 /// Whether what was written last may be missing: the file was in use when it was copied, or its program
-/// ended, and the log that belongs beside it is not there. To be asked before SQLite opens it.
-bool lacks_log(const std::string& path);
+/// ended, and the log that belongs beside it is not there. Not of a file that says that it is of another
+/// kind. To be asked before SQLite opens it.
+bool lacks_log(const std::string& path, const FileKind& kind);
 /// Appended to what is wrong with such a file.
 std::string missing_log_hint(const std::string& path);
 /// Refuses another kind of file, and another format.

@@ -70,6 +70,13 @@ Result<void> KeyframeReader::index() {
   return {};
 }
 
+void KeyframeReader::forget_before(Tick tick) {
+  for (auto& [key, rows] : chunks_) {
+    const auto after = std::ranges::upper_bound(rows, tick, {}, &Row::tick);
+    if (after - rows.begin() > 1) rows.erase(rows.begin(), std::prev(after));
+  }
+}
+
 Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known) {
   if (auto indexed = index(); !indexed) return indexed;
   for (const auto& [key, rows] : chunks_) {

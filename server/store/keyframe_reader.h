@@ -37,6 +37,8 @@ class KeyframeReader {
   /// That of a tick that has one.
   Result<KeyframeParts> read(Tick tick, const KnownParts& known);
   Result<uint64_t> count();
+  /// Forgets rows that a keyframe of that tick, or a later one, does not need: a ring drops them.
+  void forget_before(Tick tick);
 
  private:
   struct Row {

@@ -87,7 +87,8 @@ Result<void> KeyframeWriter::apply(const TickDelta& delta, PublishedState& state
   return {};
 }
 
-void KeyframeWriter::begin(const TickDelta& keyframe, PublishedState& state) {
+void KeyframeWriter::begin(const TickDelta& keyframe, PublishedState& state, ReadChunk read) {
+  read_ = std::move(read);
   state = {};
   state.apply(keyframe);
   changed_.clear();
@@ -100,13 +101,33 @@ bool KeyframeWriter::is_due(const PublishedState& state) const {
   return !changed_.empty() || !state.pieces().empty() || !pieces_.empty();
 }
 
+Result<std::vector<BrickPatch>> KeyframeWriter::read_whole(const PublishedChunk& published,
+                                                           ChunkCoord chunk) const {
+  CHECK(read_ != nullptr);
+  auto bricks = read_(chunk);
+  if (!bricks) return bricks;
+  uint64_t hash = 0;
+  for (const BrickPatch& brick : *bricks) hash += brick_hash(brick.coord, brick.brick, brick.paint);
+  if (hash != published.hash || bricks->empty())
+    return fail(database_->path() + " cannot begin: a chunk was read that is not the world's");
+  return bricks;
+}
+
 Result<void> KeyframeWriter::put_chunk(const PublishedState& state, ChunkCoord chunk) {
   const PublishedChunk& published = state.chunks().at(chunk);
   const auto written = written_.find(chunk);
   if (written != written_.end() && written->second == published.hash) return {};
   std::vector<BrickView> bricks;
-  for (const auto& [coord, brick] : published.bricks)
-    bricks.push_back({coord, brick.brick.get(), brick.paint});
+  std::vector<BrickPatch> read;
+  if (!published.is_whole()) {
+    auto whole = read_whole(published, chunk);
+    if (!whole) return tl::unexpected(whole.error());
+    read = std::move(*whole);
+  }
+  for (const BrickPatch& brick : read) bricks.push_back({brick.coord, &brick.brick, brick.paint});
+  if (read.empty())
+    for (const auto& [coord, brick] : published.bricks)
+      bricks.push_back({coord, brick.brick.get(), brick.paint});
   const std::vector<uint8_t> data = encode_bricks(bricks);
   const int64_t keys[] = {static_cast<int64_t>(state.tick()),
                           static_cast<int64_t>(world_schema::chunk_key(chunk)),
@@ -124,6 +145,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   for (const ChunkCoord chunk : changed_)
     if (auto put = put_chunk(state, chunk); !put) return put;
   changed_.clear();
+  read_ = {};
   RecordedKeyframe keyframe;
   std::set<PieceId> alive;
   for (const auto& [id, piece] : state.pieces()) {

@@ -22,8 +22,9 @@ class KeyframeWriter {
   /// Puts the next tick into the state. Bricks that it lacks are read from the rows first; more than
   /// limits::recorded_bricks_max are dropped.
   Result<void> apply(const TickDelta& delta, PublishedState& state);
-  /// The same with a whole state.
-  void begin(const TickDelta& keyframe, PublishedState& state);
+  /// The same with a whole state. `read` gives the bricks of chunks that come without, once, to the next
+  /// put(): the state does not keep them.
+  void begin(const TickDelta& keyframe, PublishedState& state, ReadChunk read = {});
 
   /// The state's keyframe.
   Result<void> put(const PublishedState& state);
@@ -37,6 +38,7 @@ class KeyframeWriter {
  private:
   explicit KeyframeWriter(Database& database) : database_(&database) {}
   Result<void> put_chunk(const PublishedState& state, ChunkCoord chunk);
+  Result<std::vector<BrickPatch>> read_whole(const PublishedChunk& published, ChunkCoord chunk) const;
   Result<void> put_piece(PieceId id, const PublishedPiece& piece);
   Result<void> bring_in(ChunkCoord chunk, PublishedState& state);
   void page_out(PublishedState& state) const;
@@ -44,7 +46,8 @@ class KeyframeWriter {
   Database* database_;
   Statement insert_chunk_, put_piece_, put_state_;
   SettingValues header_;
-  std::set<ChunkCoord> changed_;                                 ///< since the last keyframe
+  std::set<ChunkCoord> changed_;  ///< since the last keyframe
+  ReadChunk read_;                ///< gives those of them of which the state has not all bricks
   std::unordered_map<ChunkCoord, uint64_t, CoordHash> written_;  ///< hashes of the latest rows
   std::set<PieceId> pieces_;  ///< alive at the last keyframe, their rows written
 };

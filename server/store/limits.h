@@ -58,7 +58,14 @@ inline constexpr int page_cache_kib = 1024;
 /// Ticks until a chunk that could not be read is tried again; until then nobody waits for it.
 inline constexpr double unreadable_retry_s = 2.0;
 
-/// Pages in SQLite's write-ahead log, a file beside the recording. Above: SQLite merges them into the file.
+/// Pages in SQLite's write-ahead log, a file beside a world's. Above: SQLite merges them into the file.
 inline constexpr int wal_pages_max = 4096;
+
+/// Bytes of a page of a recording: frames of ticks in which little happens share one.
+inline constexpr uint64_t recording_page_bytes = 16384;
+
+/// Bytes of a recording's log, likewise; that of a ring of bytes has an eighth of them. Above: SQLite merges
+/// it and cuts it to this size, unless somebody reads the recording as of one moment.
+inline constexpr uint64_t log_bytes_max = 4096 * recording_page_bytes;
 
 }  // namespace scree::limits

@@ -52,6 +52,7 @@ struct Recorder::State {
   uint64_t waits = 0;
   PartWish wants_part = PartWish::none;
   bool part_waits = false;  ///< in the queue
+  RecordingSize size;
 };
 
 void Recorder::State::note(const Result<void>& result) {
@@ -83,6 +84,7 @@ void Recorder::State::commit() {
   {
     const std::scoped_lock lock(mutex);
     if (committed) safe = written;
+    size = writer->size();
   }
   changed.notify_all();
 }
@@ -205,6 +207,11 @@ uint64_t Recorder::ticks_written() const {
 PartWish Recorder::wants_part() const {
   const std::scoped_lock lock(state_->mutex);
   return state_->wants_part;
+}
+
+RecordingSize Recorder::size() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->size;
 }
 
 uint64_t Recorder::waits() const {

@@ -49,6 +49,7 @@ class Recorder {
   std::optional<std::string> error() const;
   uint64_t ticks_written() const;  ///< from any thread
   uint64_t waits() const;          ///< times that push() had to wait; from any thread
+  RecordingSize size() const;      ///< as of the last commit; from any thread
 
  private:
   struct State;

@@ -14,6 +14,7 @@
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"
+#include "shared/field/paging.h"
 
 namespace scree {
 
@@ -25,8 +26,9 @@ struct RecordingHeader {
 
 /// A world from which a recording begins, or goes on in another process.
 struct RecordingStart {
-  WorldSnapshot value;
-  TickDelta keyframe;  ///< World::keyframe() of that world
+  WorldMoment moment;
+  TickDelta keyframe;  ///< World::keyframe() or outline() of that world
+  ReadChunk read{};    ///< gives the bricks of chunks of which the keyframe has none
 };
 
 RecordedHeader to_recorded(const RecordingHeader& header);

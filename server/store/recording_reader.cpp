@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
-#include "proto/event_codec.h"
 #include "proto/world_codec.h"
 #include "server/store/database.h"
 #include "server/store/earlier_keyframes.h"
+#include "server/store/event_reader.h"
 #include "server/store/file_kind.h"
 #include "server/store/limits.h"
 #include "server/store/schema.h"
@@ -19,14 +20,13 @@ namespace scree {
 struct RecordingReader::State {
   explicit State(Database d) : database(std::move(d)) {}
   Result<void> read_header();
-  Result<void> read_extent();
-  Result<void> read_extent_now();
+  Result<void> hold();
+  Result<void> read_extent(WithoutTicks without_ticks);
   Result<void> read_later_tables();
-  Result<void> read_events_extent();
   Result<std::optional<Tick>> state_up_to(Tick tick);
   Result<std::optional<std::vector<uint8_t>>> state_of_moment(Tick tick);
   Result<void> read_end();
-  Result<std::optional<Tick>> event_tick(const std::string& select);
+  tl::unexpected<Error> missing(Tick tick);
   template <typename T>
   Result<T> decoded(Result<T> result, Tick tick) const;
 
@@ -37,6 +37,7 @@ struct RecordingReader::State {
   uint64_t keyframes = 0;
   uint64_t bytes = 0;
   bool is_ended = false;
+  bool holds = false;        ///< a transaction, which sees one moment
   bool without_log = false;  ///< it was open for writing when it was left, or copied
   Statement select_frame;
   Statement select_commands;
@@ -44,8 +45,7 @@ struct RecordingReader::State {
   Statement select_moment;  ///< null: a recording of an earlier release
   std::optional<KeyframeReader> keyframe_rows;
   std::optional<EarlierKeyframes> earlier_keyframes;
-  std::optional<Tick> events_from;
-  bool has_events = false;
+  std::optional<EventReader> events;
   bool has_end = false;  ///< a table that says whether it is ended
 };
 
@@ -65,15 +65,18 @@ Result<void> RecordingReader::State::read_header() {
   return {};
 }
 
-/// In one transaction, which sees one moment of a recording that is being written.
-Result<void> RecordingReader::State::read_extent() {
-  if (auto begun = database.execute("BEGIN"); !begun) return begun;
-  auto read = read_extent_now();
-  if (auto ended = database.execute("COMMIT"); read && !ended) return ended;
-  return read;
+/// Without SQLite's log nobody writes, and who begins to would be kept out.
+Result<void> RecordingReader::State::hold() {
+  if (holds || is_ended) return {};
+  const auto journal = database.text("PRAGMA journal_mode");
+  if (!journal) return tl::unexpected(journal.error());
+  if (*journal != "wal") return {};
+  auto begun = database.execute("BEGIN");
+  holds = begun.has_value();
+  return begun;
 }
 
-Result<void> RecordingReader::State::read_extent_now() {
+Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   const auto first = database.number("SELECT min(tick) FROM frames");
   const auto last = database.number("SELECT max(tick) FROM frames");
   const auto count = database.number("SELECT count(*) FROM frames");
@@ -82,6 +85,7 @@ Result<void> RecordingReader::State::read_extent_now() {
   const auto rows = keyframe_rows->count(), earlier = earlier_keyframes->count();
   for (const auto* number : {&rows, &earlier})
     if (!*number) return tl::unexpected(number->error());
+  if (!first->has_value() && without_ticks == WithoutTicks::awaited && !is_ended) return {};
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
   if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
   const auto begun = state_up_to(static_cast<Tick>(**first - 1));
@@ -101,11 +105,9 @@ Result<void> RecordingReader::State::read_extent_now() {
 }
 
 Result<void> RecordingReader::State::read_later_tables() {
-  const auto events = database.has_table("events"), machine = database.has_table("machine"),
-             moments = database.has_table("state_moments"), ended = database.has_table("ended");
-  for (const auto* has : {&events, &machine, &moments, &ended})
+  const auto moments = database.has_table("state_moments"), ended = database.has_table("ended");
+  for (const auto* has : {&moments, &ended})
     if (!*has) return tl::unexpected(has->error());
-  has_events = *events && *machine;
   has_end = *ended;
   if (*moments) {
     auto select = database.prepare(schema::select_from("state_moments"));
@@ -118,6 +120,9 @@ Result<void> RecordingReader::State::read_later_tables() {
   auto earlier = EarlierKeyframes::open(database);
   if (!earlier) return tl::unexpected(earlier.error());
   earlier_keyframes = std::move(*earlier);
+  auto log = EventReader::open(database);
+  if (!log) return tl::unexpected(log.error());
+  events = std::move(*log);
   return {};
 }
 
@@ -133,22 +138,6 @@ Result<void> RecordingReader::State::read_end() {
   return {};
 }
 
-/// Where the first row of the machine's begins. A recording that an earlier release began has it later.
-Result<void> RecordingReader::State::read_events_extent() {
-  if (!has_events) return {};
-  const auto row = database.number("SELECT min(tick) FROM machine");
-  if (!row) return tl::unexpected(row.error());
-  if (!row->has_value()) return {};
-  auto select = database.prepare(schema::select_from("machine"));
-  if (!select) return tl::unexpected(select.error());
-  const auto bytes_read = database.get(*select, static_cast<uint64_t>(**row));
-  if (!bytes_read) return tl::unexpected(bytes_read.error());
-  const auto machine = decoded(decode_recorded_machine(**bytes_read), static_cast<Tick>(**row));
-  if (!machine) return tl::unexpected(machine.error());
-  events_from = machine->tick + 1 - machine->tick_us.size();
-  return {};
-}
-
 /// A decoder's refusal, with the file and the tick in front.
 template <typename T>
 Result<T> RecordingReader::State::decoded(Result<T> result, Tick tick) const {
@@ -156,36 +145,32 @@ Result<T> RecordingReader::State::decoded(Result<T> result, Tick tick) const {
   return fail(database.path() + ": damaged at tick " + std::to_string(tick) + ": " + result.error().message);
 }
 
-Result<std::optional<Tick>> RecordingReader::State::event_tick(const std::string& select) {
-  if (!events_from) return std::optional<Tick>();
-  const auto tick = database.number(select);
-  if (!tick) return tl::unexpected(tick.error());
-  return tick->has_value() ? std::optional(static_cast<Tick>(**tick)) : std::nullopt;
-}
-
 RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RecordingReader::~RecordingReader() = default;
 
-Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string& path) {
-  const bool without_log = lacks_log(path);
-  auto opened = open_as_it_lies(path);
+Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string& path,
+                                                               WithoutTicks without_ticks) {
+  const bool without_log = lacks_log(path, schema::recording);
+  auto opened = open_as_it_lies(path, without_ticks);
   if (!opened && without_log) return fail(opened.error().message + missing_log_hint(path));
   if (opened) (*opened)->state_->without_log = without_log;
   return opened;
 }
 
-Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const std::string& path) {
+Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const std::string& path,
+                                                                          WithoutTicks without_ticks) {
   if (auto looks = check_file(path, schema::recording); !looks) return tl::unexpected(looks.error());
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database));
   if (auto format = check_format(state->database, schema::recording); !format)
     return tl::unexpected(format.error());
+  if (auto held = state->hold(); !held) return tl::unexpected(held.error());
   if (auto whole = check_pages(state->database); !whole) return tl::unexpected(whole.error());
   if (auto header = state->read_header(); !header) return tl::unexpected(header.error());
   if (auto tables = state->read_later_tables(); !tables) return tl::unexpected(tables.error());
-  if (auto extent = state->read_extent(); !extent) return tl::unexpected(extent.error());
-  if (auto events = state->read_events_extent(); !events) return tl::unexpected(events.error());
+  if (auto end = state->read_end(); !end) return tl::unexpected(end.error());
+  if (auto extent = state->read_extent(without_ticks); !extent) return tl::unexpected(extent.error());
   for (const auto& [statement, table] :
        {std::pair(&state->select_frame, "frames"), std::pair(&state->select_commands, "commands"),
         std::pair(&state->select_state, "states")}) {
@@ -196,7 +181,6 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   std::error_code ignored;
   state->bytes = std::filesystem::file_size(path, ignored);
   if (const auto log = std::filesystem::file_size(path + "-wal", ignored); !ignored) state->bytes += log;
-  if (auto end = state->read_end(); !end) return tl::unexpected(end.error());
   return std::unique_ptr<RecordingReader>(new RecordingReader(std::move(state)));
 }
 
@@ -224,14 +208,25 @@ bool RecordingReader::may_lack_ticks() const {
 Result<void> RecordingReader::look_again() {
   State& state = *state_;
   if (state.is_ended) return {};
+  let_go();
+  if (auto held = state.hold(); !held) return held;
   if (auto end = state.read_end(); !end) return end;
+  const auto first = state.database.number("SELECT min(tick) FROM frames");
   const auto last = state.database.number("SELECT max(tick) FROM frames");
-  if (!last) return tl::unexpected(last.error());
+  for (const auto* number : {&first, &last})
+    if (!*number) return tl::unexpected(number->error());
   if (last->value_or(0) < static_cast<int64_t>(state.last_tick))
     return fail(path() + ": its ticks after " + std::to_string(last->value_or(0)) +
                 " are gone, because its world was rolled back: open it again");
+  if (!first->has_value()) return {};
+  const Tick before = std::exchange(state.first_tick, static_cast<Tick>(**first));
   state.last_tick = static_cast<Tick>(**last);
-  return state.events_from ? Result<void>() : state.read_events_extent();
+  if (state.first_tick > before) state.keyframe_rows->forget_before(state.first_tick - 1);
+  return state.events->look();
+}
+
+void RecordingReader::let_go() {
+  if (std::exchange(state_->holds, false)) static_cast<void>(state_->database.execute("COMMIT"));
 }
 
 uint64_t RecordingReader::bytes() const {
@@ -288,11 +283,20 @@ Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
   return std::max(rows->value_or(0), earlier->value_or(0));
 }
 
+/// A ring that was gone on with, after it had been opened, may have dropped it.
+tl::unexpected<Error> RecordingReader::State::missing(Tick tick) {
+  const auto first = database.number("SELECT min(tick) FROM frames");
+  if (first && first->value_or(0) > static_cast<int64_t>(tick))
+    return fail(database.path() + ": its ring moved past tick " + std::to_string(tick) +
+                " while it was read, and begins at tick " + std::to_string(**first) + " now: read it again");
+  return fail(database.path() + ": damaged: tick " + std::to_string(tick) + " is missing");
+}
+
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
   CHECK(tick >= state_->first_tick && tick <= state_->last_tick);
   const auto bytes = state_->database.get(state_->select_frame, tick);
   if (!bytes) return tl::unexpected(bytes.error());
-  if (!bytes->has_value()) return fail(path() + ": damaged: tick " + std::to_string(tick) + " is missing");
+  if (!bytes->has_value()) return state_->missing(tick);
   auto frame = state_->decoded(decode_recorded_frame(**bytes), tick);
   if (frame && frame->tick != tick)
     return fail(path() + ": damaged: the frame of tick " + std::to_string(tick) + " says that it is tick " +
@@ -311,64 +315,27 @@ Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
 }
 
 std::optional<Tick> RecordingReader::events_from() const {
-  return state_->events_from;
+  return state_->events->from();
 }
 
 Result<std::vector<Event>> RecordingReader::events(Tick tick) {
   return events(tick, tick);
 }
 
-namespace {
-
-std::string rows_of(const std::string& table, Tick from, Tick to) {
-  return "SELECT tick, data, checksum FROM " + table + " WHERE tick BETWEEN " + std::to_string(from) +
-         " AND " + std::to_string(to) + " ORDER BY tick";
-}
-
-}  // namespace
-
 Result<std::vector<Event>> RecordingReader::events(Tick from, Tick to) {
-  std::vector<Event> events;
-  if (!state_->events_from) return events;
-  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
-    if (!whole) return fail(path() + ": damaged: the events of tick " + std::to_string(tick));
-    const auto row = state_->decoded(decode_recorded_events(data, tick), tick);
-    if (!row) return tl::unexpected(row.error());
-    events.insert(events.end(), row->begin(), row->end());
-    return {};
-  };
-  if (auto read = state_->database.each(rows_of("events", from, to), take); !read)
-    return tl::unexpected(read.error());
-  return events;
+  return state_->events->events(from, to);
 }
 
 Result<std::vector<RecordedMachine>> RecordingReader::machine(Tick from, Tick to) {
-  std::vector<RecordedMachine> rows;
-  if (!state_->events_from) return rows;
-  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
-    if (!whole) return fail(path() + ": damaged: the durations up to tick " + std::to_string(tick));
-    auto row = state_->decoded(decode_recorded_machine(data), tick);
-    if (!row) return tl::unexpected(row.error());
-    if (row->tick != tick)
-      return fail(path() + ": damaged: durations of another tick than they say, " + std::to_string(tick));
-    rows.push_back(std::move(*row));
-    return {};
-  };
-  // A row that ends after `to` has ticks before it.
-  if (auto read = state_->database.each(rows_of("machine", from, to + limits::ticks_per_row_max), take);
-      !read)
-    return tl::unexpected(read.error());
-  return rows;
+  return state_->events->machine(from, to);
 }
 
 Result<std::optional<Tick>> RecordingReader::next_event(Tick tick) {
-  return state_->event_tick("SELECT min(tick) FROM events WHERE tick > " + std::to_string(tick) +
-                            " AND tick <= " + std::to_string(state_->last_tick));
+  return state_->events->next(tick, state_->last_tick);
 }
 
 Result<std::optional<Tick>> RecordingReader::previous_event(Tick tick) {
-  return state_->event_tick("SELECT max(tick) FROM events WHERE tick < " + std::to_string(tick) +
-                            " AND tick >= " + std::to_string(state_->first_tick));
+  return state_->events->previous(tick, state_->first_tick);
 }
 
 Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {

@@ -15,16 +15,23 @@
 
 namespace scree {
 
+/// What a recording without any tick is: damaged, or one whose first tick will come.
+enum class WithoutTicks : uint8_t { refused, awaited };
+
 class RecordingReader {
  public:
-  static Result<std::unique_ptr<RecordingReader>> open(const std::string& path);
+  /// All that is read from now on is of this moment, whatever is written or dropped meanwhile, until
+  /// let_go(); as long its writer's log grows.
+  static Result<std::unique_ptr<RecordingReader>> open(const std::string& path,
+                                                       WithoutTicks without_ticks = WithoutTicks::refused);
   ~RecordingReader();
 
   const std::string& path() const;
   const RecordingHeader& header() const;
   /// As of open(), or of look_again(), while somebody still writes: the recording holds the ticks
-  /// first_tick() … last_tick() without a gap, at least one. Where the first is not 1, there is a state()
-  /// before it, from which it is simulated: by commands alone up to the first tick.
+  /// first_tick() … last_tick() without a gap, at least one, or 1 … 0 while they are awaited. Where the first
+  /// is not 1, there is a state() before it, from which it is simulated: by commands alone up to the first
+  /// tick.
   Tick first_tick() const;
   Tick last_tick() const;
   uint64_t keyframes() const;  ///< from which a replay can begin without the ones before
@@ -35,9 +42,11 @@ class RecordingReader {
   /// It has not ended, and there was no log beside it: if it was copied while it was written, what came last
   /// is missing.
   bool may_lack_ticks() const;
-  /// Looks again how far a recording goes that is being written. Refuses one whose last ticks were taken
-  /// back, with their world.
+  /// Looks again how far a recording goes that is being written, and from where on, if it is a ring; what is
+  /// read from now on is of this moment. Refuses one whose last ticks were taken back, with their world.
   Result<void> look_again();
+  /// Until look_again() what is read is of no one moment; a ring may drop ticks that it had.
+  void let_go();
 
   /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
   /// it; most ticks have none.
@@ -70,7 +79,8 @@ class RecordingReader {
 
  private:
   struct State;
-  static Result<std::unique_ptr<RecordingReader>> open_as_it_lies(const std::string& path);
+  static Result<std::unique_ptr<RecordingReader>> open_as_it_lies(const std::string& path,
+                                                                  WithoutTicks without_ticks);
   explicit RecordingReader(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

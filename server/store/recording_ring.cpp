@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "server/store/limits.h"
+
 namespace scree {
 
 namespace {
@@ -25,7 +27,7 @@ constexpr std::array units = {Unit{'s', 1.0, 0},
 Result<RingLimit> ring_limit_of(const std::string& text) {
   const auto refused = [&] {
     return fail("'" + text +
-                "' is no length of a ring: 10s to 10000000s (s, m or h), or 10M to 100T (M, G or T bytes)");
+                "' is no length of a ring: 10s to 10000000s (s, m or h), or 64M to 100T (M, G or T bytes)");
   };
   if (text.size() < 2) return refused();
   uint32_t number = 0;
@@ -45,6 +47,10 @@ Result<RingLimit> ring_limit_of(const std::string& text) {
   return refused();
 }
 
+uint64_t RingLimit::log_bytes() const {
+  return bytes == 0 ? limits::log_bytes_max : std::min(bytes / 8, limits::log_bytes_max);
+}
+
 void RecordingRing::begin(const Part& part, uint64_t bytes) {
   parts_.push_back(part);
   bytes_before_ = bytes;
@@ -52,16 +58,20 @@ void RecordingRing::begin(const Part& part, uint64_t bytes) {
 
 PartWish RecordingRing::wish(Tick tick, uint64_t bytes) const {
   if (parts_.empty() || !limit_.is_on()) return PartWish::none;
-  const double parts = limit_.seconds > 0.0 ? seconds_since(parts_.back().tick, tick) / limit_.part_seconds()
-                                            : static_cast<double>(bytes - std::min(bytes, bytes_before_)) /
-                                                  static_cast<double>(limit_.part_bytes());
+  double parts = seconds_since(parts_.back().tick, tick) / limit_.part_seconds();
+  if (limit_.bytes > 0)
+    parts = std::min(parts, static_cast<double>(bytes - std::min(bytes, bytes_before_)) /
+                                static_cast<double>(limit_.part_bytes()));
   if (parts < 1.0) return PartWish::none;
   return parts < 2.0 ? PartWish::soon : PartWish::now;
 }
 
 const RecordingRing::Part* RecordingRing::first_to_stay(Tick tick, uint64_t bytes) const {
   if (parts_.size() < 2) return nullptr;
-  if (limit_.bytes > 0) return bytes > limit_.bytes ? &parts_[1] : nullptr;
+  if (limit_.bytes > 0) {
+    const bool may_go = seconds_since(parts_[1].tick, tick) >= limits::ring_seconds_min;
+    return bytes > room() && may_go ? &parts_[1] : nullptr;
+  }
   const Part* first = nullptr;
   for (size_t i = 1; limit_.seconds > 0.0 && i < parts_.size(); ++i)
     if (seconds_since(parts_[i].tick, tick) >= limit_.seconds) first = &parts_[i];
@@ -71,6 +81,21 @@ const RecordingRing::Part* RecordingRing::first_to_stay(Tick tick, uint64_t byte
 void RecordingRing::drop_before(Tick tick, uint64_t bytes) {
   while (!parts_.empty() && parts_.front().tick < tick) parts_.pop_front();
   bytes_before_ = std::min(bytes_before_, bytes);
+}
+
+std::string RecordingRing::over_limit(const RecordingSize& size, uint64_t bytes) const {
+  if (limit_.bytes == 0 || size.bytes() <= limit_.bytes) return {};
+  constexpr uint64_t megabyte = 1'000'000;
+  const auto mb = [](uint64_t n) { return std::to_string((n + megabyte / 2) / megabyte) + " MB"; };
+  const std::string ring = "its ring of " + mb(limit_.bytes) + " takes " + mb(size.bytes());
+  if (size.log_bytes > 2 * limit_.log_bytes())
+    return ring + ": the log beside it has " + mb(size.log_bytes) +
+           ", as long as somebody reads the recording (replay verify, cut)";
+  if (bytes > room())
+    return ring + ": the terrain's edits and the last " +
+           std::to_string(static_cast<int>(limits::ring_seconds_min)) +
+           " s, which are kept whatever they take, need as much (--record-ring)";
+  return {};
 }
 
 }  // namespace scree

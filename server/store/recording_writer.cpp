@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "proto/event_codec.h"
@@ -12,7 +13,7 @@
 #include "server/store/event_deriver.h"
 #include "server/store/keyframe_writer.h"
 #include "server/store/limits.h"
-#include "server/store/recording_reader.h"
+#include "server/store/resumed_recording.h"
 #include "server/store/schema.h"
 #include "server/world/settings.h"
 #include "shared/base/check.h"
@@ -32,11 +33,8 @@ constexpr double us_per_ms = 1000.0;
 }  // namespace
 
 struct RecordingWriter::State {
-  State(Database d, RecordingHeader h, RingLimit limit)
-      : database(std::move(d)),
-        header(std::move(h)),
-        ring(limit, header.world.tick_rate_hz),
-        rings(limit.is_on()) {}
+  State(Database d, RecordingHeader h, RingLimit l)
+      : database(std::move(d)), header(std::move(h)), ring(l, header.world.tick_rate_hz), limit(l) {}
   Result<void> begin();
   Result<void> found();
   Result<void> prepare();
@@ -48,7 +46,9 @@ struct RecordingWriter::State {
   Result<void> put_end();
   Result<void> put_machine();
   Result<void> drop_parts();
+  Result<void> drop_before(RecordingRing::Part part);
   Result<void> count_bytes();
+  Result<void> measure();
   void begin_events(const SettingValues& settings) {
     deriver.emplace(header.world.terrain.voxel_size_m, settings, header.merge_burst_ticks);
   }
@@ -69,8 +69,9 @@ struct RecordingWriter::State {
   bool logs = false;          ///< it has a row of the machine from this process
   PublishedState published;   ///< after the last tick that was added
   RecordingRing ring;
-  const bool rings;    ///< there is a limit
+  const RingLimit limit;
   uint64_t bytes = 0;  ///< of the pages of the file that are in use, at the last commit; of a ring alone
+  RecordingSize size;
   bool in_transaction = false;
   ThreadCheck storage_thread;
 };
@@ -84,7 +85,9 @@ Result<void> RecordingWriter::State::begin() {
 
 /// The tables and the header of a new file.
 Result<void> RecordingWriter::State::found() {
-  if (auto done = database.execute("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;"); !done)
+  if (auto done = database.execute("PRAGMA page_size = " + std::to_string(limits::recording_page_bytes) +
+                                   "; PRAGMA journal_mode = WAL;");
+      !done)
     return done;
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
   auto insert_header = database.prepare(schema::insert_into("header"));
@@ -95,9 +98,11 @@ Result<void> RecordingWriter::State::found() {
 }
 
 Result<void> RecordingWriter::State::prepare() {
+  const uint64_t log_bytes = limit.log_bytes();
   const std::string settings =
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = " +
-      std::to_string(limits::wal_pages_max) + ";";
+      std::to_string(std::max<uint64_t>(1, log_bytes / limits::recording_page_bytes)) +
+      "; PRAGMA journal_size_limit = " + std::to_string(log_bytes) + ";";
   if (auto done = database.execute(settings); !done) return done;
   const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = database.prepare(sql);
@@ -169,8 +174,8 @@ Result<void> RecordingWriter::State::put_part(const WorldMoment& moment) {
 
 Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
   if (auto begun = begin(); !begun) return begun;
-  keyframes->begin(start.keyframe, published);
-  return put_part(start.value.moment);
+  keyframes->begin(start.keyframe, published, start.read);
+  return put_part(start.moment);
 }
 
 Result<void> RecordingWriter::State::count_bytes() {
@@ -186,12 +191,31 @@ Result<void> RecordingWriter::State::count_bytes() {
   return {};
 }
 
+/// After a commit, when the log has been merged if it is long.
+Result<void> RecordingWriter::State::measure() {
+  if (database.has_moved())
+    return fail(database.path() +
+                " was moved or removed while it was recorded: what follows is not recorded (--record)");
+  const auto bytes_of = [](const std::string& path) {
+    std::error_code none;
+    const uint64_t found = std::filesystem::file_size(path, none);
+    return none ? 0 : found;
+  };
+  size.file_bytes = bytes_of(database.path());
+  size.log_bytes = bytes_of(database.path() + "-wal");
+  size.over_limit = ring.over_limit(size, bytes);
+  return {};
+}
+
 /// Those that the limit has no room for. Their pages are used again.
 Result<void> RecordingWriter::State::drop_parts() {
   if (auto counted = count_bytes(); !counted) return counted;
-  const RecordingRing::Part* first = ring.first_to_stay(published.tick(), bytes);
-  if (first == nullptr) return {};
-  const RecordingRing::Part part = *first;
+  while (const RecordingRing::Part* first = ring.first_to_stay(published.tick(), bytes))
+    if (auto dropped = drop_before(*first); !dropped) return dropped;
+  return {};
+}
+
+Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part) {
   const std::string tick = std::to_string(part.tick);
   std::string sql;
   for (const char* table : {"frames", "commands", "events", "machine"})
@@ -208,48 +232,10 @@ Result<void> RecordingWriter::State::drop_parts() {
   return {};
 }
 
-namespace {
-
-bool alike(const WorldConfig& a, const WorldConfig& b) {
-  return is_same_terrain(a, b) && a.tick_rate_hz == b.tick_rate_hz &&
-         a.merges_per_tick_max == b.merges_per_tick_max;
+void remove_recording(const std::string& path) {
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(path + end, ignored);
 }
-
-/// The hash of the recorded world after the tick, which is the one before the first at least; nothing when it
-/// was not recorded.
-Result<std::optional<uint64_t>> hash_after(RecordingReader& recorded, Tick tick) {
-  if (tick >= recorded.first_tick()) {
-    const auto frame = recorded.frame(tick);
-    if (!frame) return tl::unexpected(frame.error());
-    return std::optional(frame->state_hash);
-  }
-  const auto keyframe = recorded.keyframe_before(tick);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  if (!keyframe->has_value() || (*keyframe)->tick != tick) return std::optional<uint64_t>();
-  return std::optional((*keyframe)->state_hash);
-}
-
-/// The header of the recording, if it is of this world and reaches to the tick.
-Result<RecordingHeader> may_resume(const std::string& path, const RecordingHeader& header,
-                                   const TickDelta& start) {
-  const Tick tick = start.tick;
-  const auto recorded = RecordingReader::open(path);
-  if (!recorded) return tl::unexpected(recorded.error());
-  const auto another = fail(path + " is the recording of another world: choose another name (--record)");
-  if (!alike((*recorded)->header().world, header.world)) return another;
-  if ((*recorded)->last_tick() < tick || (*recorded)->first_tick() > tick + 1)
-    return fail(path + " holds the ticks " + std::to_string((*recorded)->first_tick()) + " to " +
-                std::to_string((*recorded)->last_tick()) + ", and the world stands at " +
-                std::to_string(tick) + ": choose another name (--record)");
-  const auto hash = hash_after(**recorded, tick);
-  if (!hash) return tl::unexpected(hash.error());
-  // Before its first tick a world is what its configuration says.
-  const bool same = *hash ? **hash == start.state_hash : tick == 0;
-  if (!same) return another;
-  return (*recorded)->header();
-}
-
-}  // namespace
 
 RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
@@ -263,8 +249,13 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
   auto database = Database::create(path);
   if (!database) return tl::unexpected(database.error());
   auto state = std::make_unique<State>(std::move(*database), header, limit);
-  if (auto done = state->found(); !done) return tl::unexpected(done.error());
-  if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
+  auto made = state->found();
+  if (made) made = state->prepare();
+  if (!made) {
+    state.reset();
+    remove_recording(path);
+    return tl::unexpected(made.error());
+  }
   state->begin_events(print(header.world));
   state->ring.begin({0, 0}, 0);
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
@@ -277,8 +268,13 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
   auto writer = create(path, header, limit);
   if (!writer) return writer;
   (*writer)->state_->ring.drop_before(start.keyframe.tick, 0);
-  if (auto put = (*writer)->state_->put_start(start); !put) return tl::unexpected(put.error());
-  return writer;
+  const auto put = (*writer)->state_->put_start(start);
+  if (put) return writer;
+  static_cast<void>((*writer)->state_->database.execute("ROLLBACK"));
+  (*writer)->state_->in_transaction = false;
+  writer->reset();
+  remove_recording(path);
+  return tl::unexpected(put.error());
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::string& path,
@@ -286,7 +282,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
                                                                  const RecordingStart& start,
                                                                  RingLimit limit) {
   const Tick tick = start.keyframe.tick;
-  const auto recorded = may_resume(path, header, start.keyframe);
+  const auto recorded = header_to_resume(path, header, start.keyframe);
   if (!recorded) return tl::unexpected(recorded.error());
   auto database = Database::open(path);
   if (!database) return tl::unexpected(database.error());
@@ -351,10 +347,15 @@ PartWish RecordingWriter::wants_part() const {
 
 Result<void> RecordingWriter::commit() {
   if (!state_->in_transaction) return {};
-  if (state_->rings)
+  if (state_->limit.is_on())
     if (auto dropped = state_->drop_parts(); !dropped) return dropped;
   state_->in_transaction = false;
-  return state_->database.execute("COMMIT");
+  if (auto committed = state_->database.execute("COMMIT"); !committed) return committed;
+  return state_->measure();
+}
+
+const RecordingSize& RecordingWriter::size() const {
+  return state_->size;
 }
 
 Result<void> RecordingWriter::State::put_end() {

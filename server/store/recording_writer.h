@@ -15,6 +15,10 @@
 
 namespace scree {
 
+/// Removes a recording's file, and those beside it.
+void remove_recording(const std::string& path);
+
+/// What cannot be begun leaves no file behind.
 class RecordingWriter {
  public:
   static Result<std::unique_ptr<RecordingWriter>> create(const std::string& path,
@@ -48,7 +52,10 @@ class RecordingWriter {
                    const std::optional<std::vector<PlayerCursor>>& cursors = std::nullopt);
   /// Whether a part should begin, so that the limit can be kept.
   PartWish wants_part() const;
-  /// Ends the transaction: everything added so far is in the file.
+  /// As of the last commit.
+  const RecordingSize& size() const;
+  /// Ends the transaction: everything added so far is in the file. An error when the file is not there any
+  /// more under its name.
   Result<void> commit();
   /// Commits, and merges SQLite's log into the file, which is then readable from a read-only folder, unless
   /// another program reads it: then that one does so when it closes the file. The last call.

@@ -34,6 +34,17 @@ class Shelf {
 
 }  // namespace
 
+PagedTerrain terrain_of(WorldFile& file, ReadChunk read, GroundMasses& ground, size_t bricks_max) {
+  const auto each = [&file, &ground](const PagedTerrain::Take& take) -> Result<void> {
+    const auto bytes = file.each_chunk([&](const WorldChunk& chunk) {
+      if (chunk.ground_mass) ground[chunk.chunk] = *chunk.ground_mass;
+      return take(chunk.chunk, chunk.bricks);
+    });
+    return bytes ? Result<void>() : tl::unexpected(bytes.error());
+  };
+  return {each, std::move(read), bricks_max};
+}
+
 Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, const TerrainSource& source,
                                             size_t bricks_max) {
   auto field = std::make_unique<MapField>(source);

@@ -7,10 +7,9 @@
 #include <set>
 #include <unistd.h>
 
-#include "proto/limits.h"
 #include "server/store/ground_mass.h"
 #include "server/store/limits.h"
-#include "server/store/readable_rows.h"
+#include "server/store/world_reading.h"
 #include "server/store/world_schema.h"
 #include "shared/base/check.h"
 
@@ -164,153 +163,15 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
 }
 
-namespace {
-
-Result<WorldChunk> chunk_of_row(uint64_t key, std::span<const uint8_t> data) {
-  auto decoded = decode_world_chunk(data);
-  if (decoded && world_schema::chunk_key(decoded->chunk) != key) return fail("it is another chunk's");
-  return decoded;
-}
-
-/// Reads the rows of a file, table by table.
-class Reading {
- public:
-  Reading(Database& database, LostRows* lost) : database_(database), lost_(lost) {}
-
-  Result<WorldRows> run(bool with_chunks) {
-    if (auto done = one("header", [&](auto data) { return take(decode_world_header(data), rows_.header); });
-        !done)
-      return tl::unexpected(done.error());
-    if (auto done =
-            one("moment", [&](auto data) { return take(decode_world_moment(data), rows_.world.moment); });
-        !done) {
-      if (lost_ == nullptr) return tl::unexpected(done.error());
-      lost_->reasons.push_back(done.error().message);
-      rows_.world.moment = WorldMoment();
-      rows_.world.moment.config = rows_.header.config;
-      has_moment_ = false;
-    }
-    if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
-      return tl::unexpected(done.error());
-    if (with_chunks) {
-      const auto keep = [&](WorldChunk decoded) {
-        auto& bricks = rows_.world.bricks;
-        bricks.insert(bricks.end(), decoded.bricks.begin(), decoded.bricks.end());
-        decoded.bricks.clear();
-        if (decoded.ground_mass) rows_.ground[decoded.chunk] = *decoded.ground_mass;
-        rows_.chunks.push_back(std::move(decoded));
-        return Result<void>();
-      };
-      if (auto done = chunks(keep); !done) return tl::unexpected(done.error());
-    }
-    std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
-    if (!has_moment_) begin_anew();
-    return std::move(rows_);
-  }
-
-  /// Calls `take` for each chunk.
-  template <typename Take>
-  Result<void> chunks(Take&& take_chunk) {
-    return every("chunks", [&](uint64_t key, auto data) -> Result<void> {
-      auto decoded = chunk_of_row(key, data);
-      if (!decoded) return tl::unexpected(decoded.error());
-      return take_chunk(std::move(*decoded));
-    });
-  }
-
- private:
-  using Bytes = std::span<const uint8_t>;
-
-  /// Ids and ticks that were given away are not given again.
-  void begin_anew() {
-    WorldMoment& moment = rows_.world.moment;
-    for (const WorldChunk& chunk : rows_.chunks) moment.tick = std::max(moment.tick, chunk.version);
-    for (const KeptPiece& piece : moment.pieces)
-      moment.next_piece = std::max(moment.next_piece, piece.id + 1);
-  }
-
-  template <typename T>
-  static Result<void> take(Result<T> decoded, T& to) {
-    if (!decoded) return tl::unexpected(decoded.error());
-    to = std::move(*decoded);
-    return {};
-  }
-
-  tl::unexpected<Error> damaged(const std::string& what) const {
-    return fail(database_.path() + ": damaged: " + what);
-  }
-
-  /// The only row of a table.
-  template <typename Take>
-  Result<void> one(const std::string& table, Take&& take_row) {
-    size_t count = 0;
-    auto read =
-        database_.each(world_schema::all_of(table), [&](uint64_t, Bytes data, bool whole) -> Result<void> {
-          ++count;
-          rows_.bytes += data.size();
-          if (!whole) return damaged("the " + table + " is not what was saved");
-          if (auto taken = take_row(data); !taken) return damaged(taken.error().message);
-          return {};
-        });
-    if (read && count != 1) return damaged("it has " + std::to_string(count) + " rows of its " + table);
-    return read;
-  }
-
-  /// All rows of a table; those that are not whole are lost, or an error.
-  template <typename Take>
-  Result<void> every(const std::string& table, Take&& take_row) {
-    const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
-      rows_.bytes += data.size();
-      const std::string name = "row " + std::to_string(key) + " of its " + table;
-      if (!whole) return lose(name + " is not what was saved");
-      if (auto taken = take_row(key, data); !taken) return lose(name + ": " + taken.error().message);
-      return {};
-    };
-    if (lost_ == nullptr) return database_.each(world_schema::all_of(table), row);
-    return each_readable(database_, world_schema::all_from(table), row,
-                         [&](uint64_t first, uint64_t last, const std::string& why) {
-                           lost_->reasons.push_back("rows " + std::to_string(first) + " to " +
-                                                    std::to_string(last) + " of its " + table +
-                                                    " cannot be read (" + why + ")");
-                         });
-  }
-
-  Result<void> lose(const std::string& what) {
-    if (lost_ == nullptr) return damaged(what);
-    lost_->reasons.push_back(what);
-    return {};
-  }
-
-  Result<void> piece(uint64_t key, Bytes data) {
-    auto decoded = decode_kept_piece(data);
-    if (!decoded) return tl::unexpected(decoded.error());
-    if (decoded->id != key) return fail("it is another piece's");
-    voxels_ += decoded->volume->window.codes.size();
-    if (voxels_ > limits::piece_voxels_max)
-      return fail("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                  " voxels (limits.piece_voxels_max)");
-    rows_.world.moment.pieces.push_back(std::move(*decoded));
-    return {};
-  }
-
-  Database& database_;
-  LostRows* lost_;
-  WorldRows rows_;
-  size_t voxels_ = 0;
-  bool has_moment_ = true;
-};
-
-}  // namespace
-
 Result<WorldRows> WorldFile::read(LostRows* lost) {
   Database& file = state_->database;
   if (lost != nullptr) {
     if (auto whole = check_pages(file); !whole) lost->reasons.push_back(whole.error().message);
-    return Reading(file, lost).run(true);
+    return WorldReading(file, lost).run(true);
   }
   if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
   if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-  auto rows = Reading(file, nullptr).run(true);
+  auto rows = WorldReading(file, nullptr).run(true);
   if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
   return rows;
 }
@@ -324,11 +185,13 @@ Result<void> WorldFile::hold_moment() {
 Result<WorldRows> WorldFile::read_moment() {
   Database& file = state_->database;
   if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
-  return Reading(file, nullptr).run(false);
+  return WorldReading(file, nullptr).run(false);
 }
 
-Result<void> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take) {
-  return Reading(state_->database, nullptr).chunks(take);
+Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take) {
+  WorldReading reading(state_->database, nullptr);
+  if (auto read = reading.chunks(take); !read) return tl::unexpected(read.error());
+  return reading.bytes();
 }
 
 Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {

@@ -49,11 +49,11 @@ class WorldFile {
   /// All that is read from now on is as of one moment, whatever is saved meanwhile, unless nobody has saved
   /// yet; the log beside the file grows until this object is gone. Not for who saves.
   Result<void> hold_moment();
-  /// As read(), but of the terrain nothing: the header, and the world's moment.
+  /// As read(), but of the terrain nothing: the header, and the world's moment; the bytes are theirs.
   Result<WorldRows> read_moment();
   /// Calls `take` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of
-  /// `take`, or a damaged row.
-  Result<void> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take);
+  /// `take`, or a damaged row. Returns the bytes of the rows.
+  Result<uint64_t> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take);
   /// One chunk as it was saved last; nothing when it has no row. From any thread, if no other uses this file.
   Result<std::optional<WorldChunk>> read_chunk(ChunkCoord chunk);
 

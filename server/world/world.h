@@ -78,9 +78,13 @@ class World {
   /// Makes of this world what restore() makes of its snapshot, in place and without reading its terrain: so a
   /// recording may begin here. Bodies wake, and searches for islands begin again.
   void renew();
+  /// The edited bricks of a chunk, in order. One that is out is read, and stays out.
+  std::vector<BrickPatch> chunk(ChunkCoord chunk);
   /// One delta that takes an empty PublishedState to this world: every edited brick, every piece and every
   /// setting, without operations. Of chunks that are out, what is known of them.
   TickDelta keyframe();
+  /// The same without bricks: of every chunk, what is known of one that is out.
+  TickDelta outline();
   /// For reading between steps; only apply() changes it.
   Field& field();
 

@@ -308,27 +308,41 @@ void World::renew() {
 
 WorldSnapshot World::snapshot() {
   WorldSnapshot value{moment(), {}};
-  Field& field = state_->field;
-  for (const ChunkCoord chunk : field.edited_chunks()) {
-    const bool was_out = field.is_out(chunk);
-    for (const BrickCoord coord : field.edited_bricks(chunk))
-      value.bricks.push_back({coord, field.brick(coord), field.painted(coord)});
-    if (was_out) field.page_out(chunk);
+  for (const ChunkCoord coord : state_->field.edited_chunks()) {
+    const std::vector<BrickPatch> bricks = chunk(coord);
+    value.bricks.insert(value.bricks.end(), bricks.begin(), bricks.end());
   }
   std::ranges::sort(value.bricks, {}, &BrickPatch::coord);
   return value;
 }
 
+std::vector<BrickPatch> World::chunk(ChunkCoord chunk) {
+  Field& field = state_->field;
+  std::vector<BrickPatch> bricks;
+  const bool was_out = field.is_out(chunk);
+  for (const BrickCoord coord : field.edited_bricks(chunk))
+    bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+  if (was_out) field.page_out(chunk);
+  return bricks;
+}
+
 TickDelta World::keyframe() {
   State& s = *state_;
-  TickDelta delta;
-  delta.tick = s.tick;
+  TickDelta delta = outline();
+  if (!s.field.pages()) delta.chunks.clear();
   for (const ChunkCoord chunk : s.field.edited_chunks()) {
-    if (s.field.pages()) delta.chunks.push_back(s.chunk_state(chunk));
     if (s.field.is_out(chunk)) continue;
     for (const BrickCoord coord : s.field.edited_bricks(chunk)) delta.bricks.push_back(s.brick_state(coord));
   }
   std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+  return delta;
+}
+
+TickDelta World::outline() {
+  State& s = *state_;
+  TickDelta delta;
+  delta.tick = s.tick;
+  for (const ChunkCoord chunk : s.field.edited_chunks()) delta.chunks.push_back(s.chunk_state(chunk));
   for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
   for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = s.ledger;

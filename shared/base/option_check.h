@@ -30,6 +30,15 @@ Option* bounded(Option* option, const NumberWithin& check) {
   return option->check(check, check.says());
 }
 
+/// Refuses an option or an argument without a word in it: a mistake, as of a script whose variable is not
+/// set.
+template <typename App>
+void refuse_empty(App& app) {
+  for (auto* option : app.get_options())
+    if (option->get_expected_min() > 0 && option->get_type_size() > 0)
+      option->check([](const std::string& value) { return value.empty() ? "must not be empty" : ""; }, "");
+}
+
 /// A file can be written where the path says. What is there stays, and nothing is left behind.
 Result<void> can_be_written(const std::string& path);
 

@@ -39,7 +39,7 @@ class KeptGroundTest : public ::testing::Test {
     const RecordingHeader header{"test", live->config()};
     auto recorder = live->tick() == 0
                         ? Recorder::create(recording, header)
-                        : Recorder::create(recording, header, {live->snapshot(), live->keyframe()});
+                        : Recorder::create(recording, header, {live->moment(), live->keyframe()});
     if (!recorder) return recorder.error().message;
     if (auto begun = (*kept)->start(*live, {.durability = Durability::off, .before_save = {}}); !begun)
       return begun.error().message;

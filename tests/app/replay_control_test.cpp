@@ -198,6 +198,19 @@ TEST_F(ReplayControlTest, a_live_server_has_nothing_to_control) {
   EXPECT_TRUE(holds(refused.error().message, "--replay")) << refused.error().message;
 }
 
+TEST(ReplayControl, a_tick_that_is_not_there_is_told) {
+  const PlaybackMessage at{.moment = 400, .first = 400, .last = 900};
+  const auto told = [&](ReplayMove move, int64_t value) {
+    return went_elsewhere({.move = move, .value = value}, at);
+  };
+  EXPECT_EQ(told(ReplayMove::to_tick, 400), "");
+  EXPECT_EQ(told(ReplayMove::to_tick, 900), "");
+  EXPECT_EQ(told(ReplayMove::by_ticks, 5), "");
+  EXPECT_TRUE(
+      holds(told(ReplayMove::to_tick, 5), "tick 5 is not in the recording, which has the ticks 400 to 900"));
+  EXPECT_TRUE(holds(told(ReplayMove::to_tick, 901), "tick 901"));
+}
+
 TEST_F(ReplayControlTest, a_live_server_logs_its_events_and_records_them) {
   config.record_path = path;
   config.events_path = (folder / "events.jsonl").string();
@@ -248,10 +261,12 @@ TEST_F(ReplayControlTest, a_live_server_is_looked_back_at_while_it_goes_on) {
     ASSERT_TRUE(live->step_once());
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   };
-  // The recording has ticks as soon as it is committed the first time.
-  while (!(started = LiveServer::start(replaying))) live_step();
+  // It has no tick yet.
+  started = LiveServer::start(replaying);
+  ASSERT_TRUE(started.has_value()) << started.error().message;
   server = std::move(*started);
   step();
+  EXPECT_EQ(playback().last, 0U);
   const Tick begun = playback().last;
   EXPECT_TRUE(playback().grows);
   while (playback().last < begun + 30) {

@@ -15,7 +15,10 @@
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
+#include "server/replay/replay_source.h"
+#include "server/replay/verify.h"
 #include "server/store/database.h"
+#include "server/store/recorder.h"
 #include "server/world/limits.h"
 #include "server/world/world_snapshot.h"
 #include "tests/support/flat_world.h"
@@ -121,6 +124,47 @@ TEST_F(PagerTest, a_session_under_a_tiny_bound_has_the_hashes_of_one_without) {
   open(60);
   EXPECT_LE(world->field().bricks_in(), 60U + 64U);
   EXPECT_EQ(encode(world->snapshot()), encode(whole.snapshot()));
+}
+
+TEST_F(PagerTest, a_recording_begins_with_terrain_that_is_out_and_verifies) {
+  open(60);
+  for (int i = 0; i < 6; ++i) {
+    step({carve(60.0F * static_cast<float>(i))});
+    for (int tick = 0; tick < 20; ++tick) step();
+  }
+  ASSERT_TRUE(kept->finish(*world).has_value());
+  pager.reset();
+  world.reset();
+  kept.reset();
+  open(20);
+  const size_t out = world->field().chunks_out();
+  ASSERT_GT(out, 0U);
+  const std::string recording = folder / "recording";
+  const auto read = [this](ChunkCoord chunk) { return world->chunk(chunk); };
+  auto recorder =
+      Recorder::create(recording, {"test", world->config()}, {world->moment(), world->outline(), read});
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  EXPECT_EQ(world->field().chunks_out(), out) << "they stay out";
+  const uint64_t hash_before = world->field().hash();
+  const Tick before = world->tick();
+  for (int tick = 0; tick < 70; ++tick) {
+    const auto delta = tick == 5 ? step({carve(1.0F), carve(242.0F)}) : step();
+    (*recorder)->push(delta, handed.back());
+  }
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  auto reader = RecordingReader::open(recording);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  const auto report = verify(**reader);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(report->agrees()) << report->difference;
+  EXPECT_EQ(report->ticks, 70U);
+  EXPECT_EQ(report->state_hash, hashes.back());
+  auto source = ReplaySource::open(recording);
+  ASSERT_TRUE(source.has_value()) << source.error().message;
+  const auto first = (*source)->next();
+  ASSERT_TRUE(first.has_value()) << first.error().message;
+  EXPECT_EQ((*first)->tick, before);
+  EXPECT_EQ((*first)->field_hash, hash_before);
 }
 
 TEST_F(PagerTest, terrain_that_cannot_be_read_is_refused_by_name_and_the_rest_goes_on) {

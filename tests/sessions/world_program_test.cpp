@@ -209,6 +209,31 @@ TEST_F(WorldProgramTest, the_terrain_of_a_tick_of_a_recording_is_exported) {
   EXPECT_EQ(exported("-o " + early).first, 1) << "without a tick it is no world";
 }
 
+TEST_F(WorldProgramTest, what_cannot_be_printed_is_an_error) {
+  for (const std::string& program :
+       {SCREE_WORLD_PROGRAM " info " + world, SCREE_REPLAY_PROGRAM " info " + recording,
+        SCREE_REPLAY_PROGRAM " events " + recording}) {
+    const auto [code, said] = run_program("sh -c '" + program + " > /dev/full'");
+    EXPECT_EQ(code, 1) << program;
+    EXPECT_NE(said.find("cannot be written"), std::string::npos) << said;
+  }
+}
+
+TEST_F(WorldProgramTest, an_empty_argument_is_wrong_usage) {
+  const std::string cut =
+      std::string(SCREE_REPLAY_PROGRAM) + " cut " + recording + " " + (folder / "cut.scree");
+  EXPECT_EQ(run_program(cut + " --from ''").first, 2);
+  EXPECT_EQ(run("check ''").code, 2);
+  EXPECT_FALSE(fs::exists(folder / "cut.scree"));
+}
+
+TEST_F(WorldProgramTest, a_recording_and_its_cut_are_the_same_where_both_have_ticks) {
+  const auto [code, said] = run_program(std::string(SCREE_REPLAY_PROGRAM) + " diff " + recording + " " +
+                                        (folder / "hills_cut.scree"));
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("which both have, are the same"), std::string::npos) << said;
+}
+
 TEST_F(WorldProgramTest, wrong_usage_is_2_and_what_is_no_world_is_1) {
   EXPECT_EQ(run("").code, 2);
   EXPECT_EQ(run("mend " + world).code, 2);

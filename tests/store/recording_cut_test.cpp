@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/replay/recorded_moment.h"
 #include "server/replay/recording_diff.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
@@ -121,16 +122,39 @@ TEST_F(RecordingCutTest, nothing_is_overwritten_and_nothing_is_left_of_a_cut_tha
 }
 
 TEST(RecordedTime, is_a_tick_or_a_time_and_nothing_else) {
-  const auto tick = [](const std::string& text) { return tick_of(text, 60).value_or(999999); };
+  const auto tick = [](const std::string& text) {
+    const auto moment = parse_tick_or_time(text);
+    return moment ? moment->nearest_tick(60) : 999999;
+  };
   EXPECT_EQ(tick("5400"), 5400U);
   EXPECT_EQ(tick("90s"), 5400U);
   EXPECT_EQ(tick("1.5m"), 5400U);
   EXPECT_EQ(tick("1:30"), 5400U);
   EXPECT_EQ(tick("1:00:01.5"), 216090U);
   EXPECT_EQ(tick("1h"), 216000U);
-  for (const char* wrong : {"", "-1", "1.5", "s", "1::2", "1:", ":1", "1:2:3:4", "nan", "1e3", "1..2s",
-                            "0x10", "99999999999999999999"})
-    EXPECT_FALSE(tick_of(wrong, 60).has_value()) << wrong;
+  EXPECT_EQ(tick("2:03"), 7380U);
+  EXPECT_EQ(parse_tick_or_time("12.51s")->tick(60), 12.51 * 60.0) << "films have moments between two ticks";
+  for (const char* wrong : {"",
+                            "-1",
+                            "1.5",
+                            "s",
+                            "1::2",
+                            "1:",
+                            ":1",
+                            "1:2:3:4",
+                            "nan",
+                            "1e3",
+                            "1..2s",
+                            "0x10",
+                            "99999999999999999999",
+                            "m",
+                            "-1s",
+                            "1e99s",
+                            "nans",
+                            "ten",
+                            "5 s",
+                            "5ss"})
+    EXPECT_FALSE(parse_tick_or_time(wrong).has_value()) << wrong;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Recordings: what is recorded plays back as it was, verifies, and survives a crash.
 #include <chrono>
+#include <csignal>
 #include <future>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "proto/world_codec.h"
 #include "server/replay/replay_source.h"
@@ -92,6 +94,54 @@ TEST_F(RecordingTest, a_copy_without_its_log_says_what_is_missing) {
       << reader.error().message;
   fs::copy_file(path + "-wal", copy + "-wal", fs::copy_options::overwrite_existing);
   EXPECT_TRUE(RecordingReader::open(copy).has_value());
+}
+
+TEST_F(RecordingTest, another_kind_of_file_lacks_no_log) {
+  auto database = Database::create(path);
+  ASSERT_TRUE(database.has_value());
+  ASSERT_TRUE(
+      database->execute("PRAGMA journal_mode = WAL; PRAGMA application_id = 1396920919; CREATE TABLE t (a)"));
+  ASSERT_TRUE(database->execute("PRAGMA wal_checkpoint"));
+  const std::string copy = (folder / "copy.world").string();
+  fs::copy_file(path, copy);
+  const auto reader = RecordingReader::open(copy);
+  ASSERT_FALSE(reader.has_value());
+  EXPECT_NE(reader.error().message.find("is no recording"), std::string::npos) << reader.error().message;
+  EXPECT_EQ(reader.error().message.find("-wal"), std::string::npos) << reader.error().message;
+}
+
+TEST_F(RecordingTest,
+       a_file_over_its_limit_is_an_error_with_its_reason_and_leaves_nothing_that_was_not_begun) {
+  simulate(200);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto bound = [&](rlim_t bytes) {
+    const rlimit small{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  };
+  bound(8192);
+  const auto none = RecordingWriter::create(path, {"test", small_world()});
+  bound(before.rlim_cur);
+  ASSERT_FALSE(none.has_value());
+  EXPECT_NE(none.error().message.find("File too large"), std::string::npos) << none.error().message;
+  EXPECT_TRUE(fs::is_empty(folder));
+  auto recorder = Recorder::create(path, {"test", small_world()});
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  bound(fs::file_size(path + "-wal") + 300'000);
+  for (size_t i = 0; i < deltas.size() && !(*recorder)->error(); ++i) {
+    (*recorder)->push(deltas[i], commands_by_tick[i]);
+    if (i % 10 == 9) (*recorder)->commit_up_to(deltas[i]->tick);
+  }
+  const auto finished = (*recorder)->finish();
+  bound(before.rlim_cur);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(finished.has_value());
+  EXPECT_NE(finished.error().message.find("File too large"), std::string::npos) << finished.error().message;
+  const auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  EXPECT_GE((*reader)->last_tick(), 10U);
+  EXPECT_TRUE(verify(**reader)->agrees());
 }
 
 TEST_F(RecordingTest, what_is_being_written_reads_as_it_stands_and_says_that_it_has_not_ended) {
@@ -226,7 +276,7 @@ std::unique_ptr<World> carved_world(float x_m, Tick ticks, Recorder* recorder) {
 }
 
 RecordingStart start_of(World& world) {
-  return {world.snapshot(), world.keyframe()};
+  return {world.moment(), world.keyframe()};
 }
 
 TEST_F(RecordingTest, goes_on_with_the_world_that_it_is_of_and_with_no_other) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -133,6 +134,8 @@ scree::ControlReplay wish_of(const Options& options) {
 int control(const Options& options) {
   const auto playback = scree::control_replay(options.server, wish_of(options));
   if (!playback) return complain(playback.error(), exit_failed);
+  if (const std::string other = scree::went_elsewhere(wish_of(options), *playback); !other.empty())
+    std::fprintf(stderr, "scree-admin: %s\n", other.c_str());
   std::fputs((options.json ? scree::playback_json(*playback) : scree::playback_lines(*playback)).c_str(),
              stdout);
   return 0;
@@ -142,10 +145,15 @@ void add_control_options(CLI::App* command, Options& options) {
   CLI::Option* play = command->add_flag("--play", options.play, "goes on");
   command->add_flag("--pause", options.pause, "stands still")->excludes(play);
   const double most = scree::replay_speed_most;
-  scree::bounded(command->add_option("--speed", options.speed,
-                                     "times real time, 0.1 to 16, negative: backwards; 0: as it is"),
-                 {-most, most})
-      ->capture_default_str();
+  scree::bounded(
+      command->add_option("--speed", options.speed, "times real time, 0.1 to 16, negative: backwards"),
+      {-most, most})
+      ->check(
+          [](const std::string& text) {
+            const bool stands = std::abs(std::strtod(text.c_str(), nullptr)) < scree::replay_speed_least;
+            return stands ? "less than 0.1 either way is no speed; --pause stands still" : "";
+          },
+          "");
   CLI::Option_group* const moves = command->add_option_group("moves", "at most one");
   scree::bounded(moves->add_option("--to", options.to_tick, "goes to this tick"),
                  scree::whole_within(0, scree::whole_most));

@@ -15,11 +15,14 @@
 #include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/export_lines.h"
+#include "server/replay/recorded_moment.h"
 #include "server/replay/recording_cut.h"
 #include "server/replay/recording_diff.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
+#include "shared/base/option_check.h"
+#include "shared/base/program_output.h"
 #include "shared/base/progress_bar.h"
 #include "shared/operation/per_operation.h"
 
@@ -261,14 +264,14 @@ int cut_file(const Options& options) {
   const uint32_t rate_hz = (*recording)->header().world.tick_rate_hz;
   Tick first = (*recording)->first_tick(), last = (*recording)->last_tick();
   if (!options.first.empty()) {
-    const auto tick = tick_of(options.first, rate_hz);
-    if (!tick) return complain({tick.error().message + " (--from)"});
-    if (*tick != 0) first = *tick;
+    const auto moment = parse_tick_or_time(options.first);
+    if (!moment) return complain({moment.error().message + " (--from)"});
+    if (const Tick tick = moment->nearest_tick(rate_hz); tick != 0) first = tick;
   }
   if (!options.last.empty()) {
-    const auto tick = tick_of(options.last, rate_hz);
-    if (!tick) return complain({tick.error().message + " (--to)"});
-    last = *tick;
+    const auto moment = parse_tick_or_time(options.last);
+    if (!moment) return complain({moment.error().message + " (--to)"});
+    last = moment->nearest_tick(rate_hz);
   }
   ProgressBar bar(isatty(STDERR_FILENO) != 0);
   const auto report =
@@ -324,6 +327,8 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   exported->require_option(1, 0);
   for (CLI::App* command : {verify_command, events, exported, diff_command, cut_command})
     add_ground(command, options);
+  for (CLI::App* command : {info_command, verify_command, events, exported, diff_command, cut_command})
+    refuse_empty(*command);
   return {{info_command, info},
           {verify_command, verify_file},
           {diff_command, diff_files},
@@ -348,8 +353,12 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  for (const auto& [command, run_command] : commands)
-    if (command->parsed()) return run_command(options);
+  for (const auto& [command, run_command] : commands) {
+    if (!command->parsed()) continue;
+    const int code = run_command(options);
+    const auto printed = flush_output();
+    return code == 0 && !printed ? complain(printed.error()) : code;
+  }
   return usage_error;
 }
 
@@ -357,5 +366,6 @@ int run(int argc, char** argv) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   return scree::run(argc, argv);
 }

@@ -11,6 +11,7 @@
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
 #include "server/app/web_folder.h"
+#include "shared/base/program_output.h"
 
 namespace scree {
 namespace {
@@ -94,6 +95,7 @@ int run(const ServerOptions& options) {
 
 int main(int argc, char** argv) {
   scree::keep_heap_compact();
+  scree::fail_at_file_limit();
   const auto options = scree::parse_server_options(argc, argv);
   if (const int* code = std::get_if<int>(&options)) return *code;
   return scree::run(std::get<scree::ServerOptions>(options));

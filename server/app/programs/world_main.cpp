@@ -10,11 +10,14 @@
 #include "server/app/recorded_past.h"
 #include "server/store/ground_mass.h"
 #include "server/store/readable_rows.h"
+#include "server/store/stored_field.h"
 #include "server/store/world_file.h"
 #include "server/store/world_lock.h"
 #include "server/world/recorded_values.h"
 #include "server/world/settings.h"
 #include "server/world/world.h"
+#include "shared/base/option_check.h"
+#include "shared/base/program_output.h"
 
 namespace scree {
 namespace {
@@ -55,7 +58,12 @@ int complain(const Error& error) {
   return failed;
 }
 
-Json describe(const std::string& path, const WorldRows& rows) {
+/// Of the rows of chunks.
+struct ChunkSums {
+  uint64_t chunks = 0, bricks = 0, bytes = 0;
+};
+
+Json describe(const std::string& path, const WorldRows& rows, const ChunkSums& sums) {
   const WorldMoment& moment = rows.world.moment;
   Json settings = Json::object();
   for (const SettingValue& setting : moment.config.settings) settings[setting.name] = setting.value;
@@ -73,23 +81,43 @@ Json describe(const std::string& path, const WorldRows& rows) {
           {"settings", std::move(settings)},
           {"tick", moment.tick},
           {"seconds", static_cast<double>(moment.tick) / moment.config.tick_rate_hz},
-          {"chunks_edited", rows.chunks.size()},
-          {"bricks_edited", rows.world.bricks.size()},
+          {"chunks_edited", sums.chunks},
+          {"bricks_edited", sums.bricks},
           {"pieces_alive", moment.pieces.size()},
           {"requests_waiting", waiting},
           {"ledger_error", from_recorded(moment.ledger).error()},
           {"field_hash", hex(moment.field_hash)},
           {"state_hash", hex(moment.state_hash)},
-          {"bytes_of_rows", rows.bytes},
+          {"bytes_of_rows", rows.bytes + sums.bytes},
           {"bytes", std::filesystem::file_size(path, ignored)}};
+}
+
+/// What is read from now on is of one moment.
+Result<WorldRows> moment_of(WorldFile& file) {
+  if (auto held = file.hold_moment(); !held) return tl::unexpected(held.error());
+  return file.read_moment();
+}
+
+Result<ChunkSums> sum_up(WorldFile& file) {
+  ChunkSums sums;
+  const auto bytes = file.each_chunk([&](const WorldChunk& chunk) -> Result<void> {
+    ++sums.chunks;
+    sums.bricks += chunk.bricks.size();
+    return {};
+  });
+  if (!bytes) return tl::unexpected(bytes.error());
+  sums.bytes = *bytes;
+  return sums;
 }
 
 int info(const Options& options) {
   const auto file = WorldFile::open(options.path);
   if (!file) return complain(file.error());
-  const auto rows = (*file)->read();
+  const auto rows = moment_of(**file);
   if (!rows) return complain(rows.error());
-  print(describe(options.path, *rows), options.json);
+  const auto sums = sum_up(**file);
+  if (!sums) return complain(sums.error());
+  print(describe(options.path, *rows, *sums), options.json);
   return 0;
 }
 
@@ -103,25 +131,44 @@ Result<void> find_ground_of(WorldRows& rows, const Options& options) {
   return {};
 }
 
-/// What a start takes from the rows: the ground's mass in each chunk.
-Result<void> weigh_ground(const WorldRows& rows) {
-  const GroundMasses measured = measured_ground(rows.world.moment.config.terrain, rows.world.bricks);
-  for (const auto& [chunk, mass] : rows.ground)
-    if (measured.at(chunk) != mass)
-      return fail("the ground of chunk (" + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-                  std::to_string(chunk.z) + ") does not have the mass that its row says");
+/// What a start takes from the rows: the ground's mass in a chunk. Where the row has none, it is put there.
+Result<void> weigh_ground(const TerrainSource& terrain, ChunkCoord chunk, std::span<const BrickPatch> bricks,
+                          GroundMasses& ground) {
+  const GroundMasses measured = measured_ground(terrain, bricks);
+  const auto mass = measured.find(chunk);
+  if (mass == measured.end() || ground.try_emplace(chunk, mass->second).first->second != mass->second)
+    return fail("the ground of chunk (" + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
+                std::to_string(chunk.z) + ") does not have the mass that its row says");
   return {};
 }
 
-/// Everything that a server's start checks, and what that takes from the rows.
+/// Edited bricks that a check has in memory: 40 MB.
+constexpr size_t checked_bricks_max = size_t{1} << 16;
+
+/// Everything that a server's start checks, and what that takes from the rows, chunk by chunk.
 Result<void> check_file(const Options& options) {
-  const auto file = WorldFile::open(options.path);
-  if (!file) return tl::unexpected(file.error());
-  auto rows = (*file)->read();
+  const auto opened = WorldFile::open(options.path);
+  if (!opened) return tl::unexpected(opened.error());
+  WorldFile& file = **opened;
+  auto rows = moment_of(file);
   if (!rows) return tl::unexpected(rows.error());
   if (auto found = find_ground_of(*rows, options); !found) return found;
-  const auto world = World::restore(rows->world);
-  const auto weighed = world ? weigh_ground(*rows) : tl::unexpected(world.error());
+  GroundMasses ground;
+  const auto read = [&](ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
+    auto row = file.read_chunk(chunk);
+    if (!row) return tl::unexpected(row.error());
+    return *row ? std::move((*row)->bricks) : std::vector<BrickPatch>();
+  };
+  PagedTerrain terrain = terrain_of(file, read, ground, checked_bricks_max);
+  Result<void> weighed;
+  terrain.each = [&, each = terrain.each](const PagedTerrain::Take& take) {
+    return each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
+      if (weighed) weighed = weigh_ground(rows->world.moment.config.terrain, chunk, bricks, ground);
+      return take(chunk, bricks);
+    });
+  };
+  const auto world = World::restore(rows->world, terrain, 1, ground);
+  if (!world) return fail(options.path + ": damaged: " + world.error().message);
   if (!weighed) return fail(options.path + ": damaged: " + weighed.error().message);
   return {};
 }
@@ -199,7 +246,8 @@ int compact(const Options& options) {
   {
     const auto file = WorldFile::open(options.path);
     if (!file) return complain(file.error());
-    if (const auto whole = (*file)->read(); !whole) return complain(whole.error());
+    if (const auto moment = (*file)->read_moment(); !moment) return complain(moment.error());
+    if (const auto chunks = sum_up(**file); !chunks) return complain(chunks.error());
     if (const auto done = (*file)->compact(); !done) return complain(done.error());
   }
   print({{"file", options.path},
@@ -268,10 +316,12 @@ CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
   if (row.makes_file) command->add_option("NEW", options.to, "the new file")->required();
   if (row.needs_ground)
     command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
-  if (!row.has_recording) return command;
-  command->add_option("--from", options.recording, "a recording")->required();
-  command->add_option("--to", options.tick, "tick of the recording; its last unless said otherwise")
-      ->required(row.act == rollback);
+  if (row.has_recording) {
+    command->add_option("--from", options.recording, "a recording")->required();
+    command->add_option("--to", options.tick, "tick of the recording; its last unless said otherwise")
+        ->required(row.act == rollback);
+  }
+  refuse_empty(*command);
   return command;
 }
 
@@ -287,8 +337,12 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : usage_error;
   }
-  for (size_t i = 0; i < parsed.size(); ++i)
-    if (parsed[i]->parsed()) return commands[i].act(options);
+  for (size_t i = 0; i < parsed.size(); ++i) {
+    if (!parsed[i]->parsed()) continue;
+    const int code = commands[i].act(options);
+    const auto printed = flush_output();
+    return code == 0 && !printed ? complain(printed.error()) : code;
+  }
   return usage_error;
 }
 
@@ -296,5 +350,6 @@ int run(int argc, char** argv) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   return scree::run(argc, argv);
 }

@@ -1,0 +1,128 @@
+#include "server/store/world_reading.h"
+
+#include <algorithm>
+
+#include "proto/limits.h"
+#include "server/store/readable_rows.h"
+#include "server/store/world_schema.h"
+
+namespace scree {
+
+namespace {
+
+template <typename T>
+Result<void> put_into(T& to, Result<T> decoded) {
+  if (!decoded) return tl::unexpected(decoded.error());
+  to = std::move(*decoded);
+  return {};
+}
+
+}  // namespace
+
+Result<WorldChunk> chunk_of_row(uint64_t key, std::span<const uint8_t> data) {
+  auto decoded = decode_world_chunk(data);
+  if (decoded && world_schema::chunk_key(decoded->chunk) != key) return fail("it is another chunk's");
+  return decoded;
+}
+
+Result<WorldRows> WorldReading::run(bool with_chunks) {
+  if (auto done =
+          one("header", [&](auto, auto data) { return put_into(rows_.header, decode_world_header(data)); });
+      !done)
+    return tl::unexpected(done.error());
+  WorldMoment& moment = rows_.world.moment;
+  if (auto done = one("moment", [&](auto, auto data) { return put_into(moment, decode_world_moment(data)); });
+      !done) {
+    if (lost_ == nullptr) return tl::unexpected(done.error());
+    lost_->reasons.push_back(done.error().message);
+    moment = WorldMoment();
+    moment.config = rows_.header.config;
+    has_moment_ = false;
+  }
+  if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
+    return tl::unexpected(done.error());
+  if (with_chunks) {
+    const auto keep = [&](WorldChunk decoded) {
+      auto& bricks = rows_.world.bricks;
+      bricks.insert(bricks.end(), decoded.bricks.begin(), decoded.bricks.end());
+      decoded.bricks.clear();
+      if (decoded.ground_mass) rows_.ground[decoded.chunk] = *decoded.ground_mass;
+      rows_.chunks.push_back(std::move(decoded));
+      return Result<void>();
+    };
+    if (auto done = chunks(keep); !done) return tl::unexpected(done.error());
+  }
+  std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
+  if (!has_moment_) begin_anew();
+  return std::move(rows_);
+}
+
+Result<void> WorldReading::chunks(const TakeChunk& take) {
+  return every("chunks", [&](uint64_t key, auto data) -> Result<void> {
+    auto decoded = chunk_of_row(key, data);
+    if (!decoded) return tl::unexpected(decoded.error());
+    return take(std::move(*decoded));
+  });
+}
+
+/// Ids and ticks that were given away are not given again.
+void WorldReading::begin_anew() {
+  WorldMoment& moment = rows_.world.moment;
+  for (const WorldChunk& chunk : rows_.chunks) moment.tick = std::max(moment.tick, chunk.version);
+  for (const KeptPiece& piece : moment.pieces) moment.next_piece = std::max(moment.next_piece, piece.id + 1);
+}
+
+tl::unexpected<Error> WorldReading::damaged(const std::string& what) const {
+  return fail(database_.path() + ": damaged: " + what);
+}
+
+Result<void> WorldReading::one(const std::string& table, const TakeBytes& take) {
+  size_t count = 0;
+  auto read =
+      database_.each(world_schema::all_of(table), [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
+        ++count;
+        rows_.bytes += data.size();
+        if (!whole) return damaged("the " + table + " is not what was saved");
+        if (auto taken = take(key, data); !taken) return damaged(taken.error().message);
+        return {};
+      });
+  if (read && count != 1) return damaged("it has " + std::to_string(count) + " rows of its " + table);
+  return read;
+}
+
+Result<void> WorldReading::every(const std::string& table, const TakeBytes& take) {
+  const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
+    rows_.bytes += data.size();
+    const std::string name = "row " + std::to_string(key) + " of its " + table;
+    if (!whole) return lose(name + " is not what was saved");
+    if (auto taken = take(key, data); !taken) return lose(name + ": " + taken.error().message);
+    return {};
+  };
+  if (lost_ == nullptr) return database_.each(world_schema::all_of(table), row);
+  return each_readable(database_, world_schema::all_from(table), row,
+                       [&](uint64_t first, uint64_t last, const std::string& why) {
+                         lost_->reasons.push_back("rows " + std::to_string(first) + " to " +
+                                                  std::to_string(last) + " of its " + table +
+                                                  " cannot be read (" + why + ")");
+                       });
+}
+
+Result<void> WorldReading::lose(const std::string& what) {
+  if (lost_ == nullptr) return damaged(what);
+  lost_->reasons.push_back(what);
+  return {};
+}
+
+Result<void> WorldReading::piece(uint64_t key, Bytes data) {
+  auto decoded = decode_kept_piece(data);
+  if (!decoded) return tl::unexpected(decoded.error());
+  if (decoded->id != key) return fail("it is another piece's");
+  voxels_ += decoded->volume->window.codes.size();
+  if (voxels_ > limits::piece_voxels_max)
+    return fail("pieces of more than " + std::to_string(limits::piece_voxels_max) +
+                " voxels (limits.piece_voxels_max)");
+  rows_.world.moment.pieces.push_back(std::move(*decoded));
+  return {};
+}
+
+}  // namespace scree
