@@ -9,6 +9,7 @@
 
 #include "client/render/scene/look_at.h"
 #include "film/limits.h"
+#include "proto/person_name.h"
 #include "server/replay/recorded_cursors.h"
 
 namespace scree {
@@ -23,8 +24,9 @@ class PersonSearch {
   std::optional<PlayerCursor> among(const std::vector<PlayerCursor>& cursors) {
     std::optional<PlayerCursor> found;
     for (const PlayerCursor& cursor : cursors) {
-      const std::string name = cursor.name.empty() ? std::to_string(cursor.session) : cursor.name;
-      if (!found && name == person_) found = cursor;
+      const std::string name = called(cursor.session, cursor.name);
+      const bool by_number = cursor.name.empty() && std::to_string(cursor.session) == person_;
+      if (!found && (name == person_ || by_number)) found = cursor;
       if (seen_.size() < limits::persons_named_max) seen_.insert(name);
     }
     return found;
@@ -32,7 +34,7 @@ class PersonSearch {
   tl::unexpected<Error> nobody(const std::string& path) const {
     std::string there;
     for (const std::string& name : seen_) there += (there.empty() ? "" : ", ") + name;
-    return fail(path + ": the eye of '" + person_ + "' is not in it" +
+    return fail(path + ": the eye of '" + person_ + "' is not in these ticks of it (--from, --to)" +
                 (there.empty() ? "; nobody's is" : "; there are those of " + there));
   }
 

@@ -12,7 +12,7 @@ namespace scree {
 
 class EyeShot {
  public:
-  /// Of the person of that name, or of the number that stands for who has none, at each of these ticks, one a
+  /// Of the person of that name, or of who has none by number or as called(), at each of these ticks, one a
   /// frame. Where the person is not there, the camera waits where it was, or where the person will come. The
   /// error names those who are there.
   static Result<EyeShot> of(const std::string& person, RecordingReader& recording,

@@ -9,13 +9,15 @@ namespace scree {
 namespace {
 
 bool is_folder(const std::string& file) {
-  std::error_code unknown;
-  return file.ends_with('/') || std::filesystem::is_directory(file, unknown);
+  return file.ends_with('/');
 }
 
 }  // namespace
 
 Result<void> check_film_name(const std::string& file) {
+  std::error_code unknown;
+  if (!is_folder(file) && std::filesystem::is_directory(file, unknown))
+    return fail("'" + file + "' is a folder: write " + file + "/ for a film of PNGs in it");
   if (is_folder(file) || encoding_of(file) != nullptr) return {};
   return fail("'" + file + "' is no film: it ends in .mp4, .webp or .gif, or in / for a folder of PNGs");
 }

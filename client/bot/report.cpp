@@ -132,4 +132,12 @@ std::string to_json(const BotReport& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string all_refused(const BotReport& report) {
+  if (report.carves_refused == 0 || report.carves_accepted > 0) return {};
+  std::string why;
+  for (const auto& [reason, count] : report.refusals)
+    why += (why.empty() ? "" : ", ") + reason + " (" + std::to_string(count) + ")";
+  return "every carve was refused: " + why;
+}
+
 }  // namespace scree

@@ -85,5 +85,7 @@ struct BotReport {
 };
 
 std::string to_json(const BotReport& report);
+/// Where every carve was refused: that, and why; else empty.
+std::string all_refused(const BotReport& report);
 
 }  // namespace scree

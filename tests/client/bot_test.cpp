@@ -152,6 +152,23 @@ TEST_F(BotTest, damage_in_the_copy_is_found_by_the_checks_and_repaired) {
   EXPECT_EQ(report.connections, 1U);
 }
 
+TEST_F(BotTest, a_bot_all_of_whose_carves_are_refused_says_so) {
+  BotConfig far_too_large = config(2);
+  far_too_large.carver.radius_m = 1000.0F;
+  Bot bot(far_too_large);
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(finish(bot));
+  const BotReport report = bot.report();
+  EXPECT_EQ(report.carves_refused, 2U);
+  const std::string told = all_refused(report);
+  EXPECT_NE(told.find("every carve was refused: "), std::string::npos) << told;
+  EXPECT_NE(told.find("(2)"), std::string::npos) << told;
+  BotReport some = report;
+  some.carves_accepted = 1;
+  EXPECT_EQ(all_refused(some), "");
+  EXPECT_EQ(all_refused(BotReport{}), "");
+}
+
 TEST_F(BotTest, the_report_is_json_that_programs_can_read) {
   Bot bot(config(1));
   ASSERT_TRUE(bot.join());

@@ -34,13 +34,6 @@ class FilmOrders : public RecordingTest {
   }
 };
 
-TEST_F(FilmOrders, a_moment_is_a_tick_or_a_time) {
-  EXPECT_EQ(parse_tick_or_time("600")->tick(60), 600.0);
-  EXPECT_EQ(parse_tick_or_time("12.5s")->tick(60), 750.0);
-  for (const char* wrong : {"", "s", "-1", "-1s", "1.5", "1e99s", "nans", "ten", "5 s", "5ss"})
-    EXPECT_FALSE(parse_tick_or_time(wrong).has_value()) << wrong;
-}
-
 TEST_F(FilmOrders, an_event_is_a_number_or_a_kind) {
   EXPECT_EQ(event_tick("1"), 10U);
   EXPECT_EQ(event_tick("fill"), 10U) << "the first of several alike";
@@ -60,7 +53,8 @@ TEST_F(FilmOrders, an_eye_sees_what_its_person_saw) {
     std::optional<std::vector<PlayerCursor>> cursors;
     if (tick % 6 == 0 && tick >= 60)
       cursors = {{3, "Ann", {x_m, 2.0F, 0.0F}, {x_m, 2.0F, -8.0F}},
-                 {4, "Bo", {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, 0.0F}}};
+                 {4, "Bo", {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, 0.0F}},
+                 {7, "", {0.0F, 5.0F, 0.0F}, {8.0F, 5.0F, 0.0F}}};
     (*recorder)->push(deltas[i], commands_by_tick[i], {}, nullptr, cursors);
   }
   ASSERT_TRUE((*recorder)->finish().has_value());
@@ -80,9 +74,14 @@ TEST_F(FilmOrders, an_eye_sees_what_its_person_saw) {
   EXPECT_NEAR(waiting.eye_m.x, 0.125F * 60.0F, 0.02F) << "before she came, where she will come";
   const FilmOrder bo{.from = TickOrTime{100.0, false}, .camera = PersonsEye{"Bo"}};
   EXPECT_GT(camera_at(plan(bo).shot, 0.0).forward().y, -1.0F) << "straight down has no side";
+  for (const char* nameless : {"7", "client 7"})
+    EXPECT_EQ(camera_at(plan({.camera = PersonsEye{nameless}}).shot, 3.0).eye_m, glm::vec3(0.0F, 5.0F, 0.0F))
+        << "as the viewer calls who has no name";
+  const std::string early = refused({.to = TickOrTime{30.0, false}, .camera = PersonsEye{"Ann"}});
+  EXPECT_NE(early.find("is not in these ticks"), std::string::npos) << early;
   const std::string reason = refused({.camera = PersonsEye{"Cy"}});
   EXPECT_NE(reason.find("'Cy'"), std::string::npos) << reason;
-  EXPECT_NE(reason.find("Ann, Bo"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("Ann, Bo, client 7"), std::string::npos) << reason;
 }
 
 TEST_F(FilmOrders, without_a_word_the_largest_event_is_shown_from_around_it) {

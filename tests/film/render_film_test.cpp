@@ -161,6 +161,10 @@ TEST(FilmOptionTest, wrong_options_are_refused_by_name) {
                                                    {"--encoder-quality", "50", "film.gif"},
                                                    {"--encoder-quality", "50", "frames/"},
                                                    {"--particles", "perhaps"},
+                                                   {"--from", ""},
+                                                   {"--eye", ""},
+                                                   {"--orbit", ""},
+                                                   {"--out", ".", "."},
                                                    {"--path", "/nowhere/path.json"},
                                                    {"--out", "film.avi", "film.avi"}}) {
     testing::internal::CaptureStderr();
@@ -200,6 +204,14 @@ TEST_F(FilmProgram, wrong_usage_is_2_and_what_cannot_be_made_is_1) {
   expect_refused((folder / "none.scree").string() + film, 1, "none.scree");
   expect_refused(path + film + "--to 21", 1, "0 to 20");
   expect_refused(path + film + "--orbit 99", 1, "no event 99");
+}
+
+TEST_F(FilmProgram, pictures_of_another_film_are_not_mixed_with_its_own) {
+  fs::create_directories(folder / "frames");
+  write_file(folder / "frames" / "notes.png", {'n'});
+  write_file(folder / "frames" / "000123.png", {'p'});
+  expect_refused(path + " -o " + (folder / "frames").string() + "/ --camera 0,9,9,0,0", 1, "000123.png");
+  EXPECT_FALSE(fs::exists(folder / "frames" / "000000.png"));
 }
 
 TEST_F(FilmProgram, its_recording_is_not_overwritten) {

@@ -1,4 +1,5 @@
-// scree-bot: carves by script and reports as JSON. Exit status: 0 fine, 1 failed, 2 wrong usage.
+// scree-bot: carves by script and reports as JSON. Exit status: 0 fine, 1 failed, 2 wrong usage, 3 every
+// carve was refused.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
@@ -11,11 +12,13 @@
 #include "client/connection/endpoint_options.h"
 #include "shared/base/limits.h"
 #include "shared/base/option_check.h"
+#include "shared/base/program_output.h"
 
 namespace {
 
 constexpr int exit_failed = 1;
 constexpr int exit_usage = 2;
+constexpr int exit_refused = 3;
 
 /// In place of a pattern's name: those that a bot takes in turn when it is told none.
 constexpr const char* both_patterns = "both";
@@ -145,12 +148,17 @@ int run(const Options& options) {
   spdlog::info("{} carves asked, {} accepted, {} refused, {} lost; {} pieces made, {} merged, {} alive",
                report.carves_asked, report.carves_accepted, report.carves_refused, report.carves_lost,
                report.seen.pieces_made, report.seen.pieces_merged, report.pieces_alive);
-  return report.failure.empty() && written ? 0 : exit_failed;
+  if (!report.failure.empty() || !written) return exit_failed;
+  const std::string refused = scree::all_refused(report);
+  if (refused.empty()) return 0;
+  spdlog::error(refused);
+  return exit_refused;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
   Options options;
   CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
   scree::EndpointOptions endpoint(app, options.bot);

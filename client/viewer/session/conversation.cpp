@@ -1,6 +1,7 @@
 #include "client/viewer/session/conversation.h"
 
 #include "client/viewer/base/limits.h"
+#include "proto/person_name.h"
 
 namespace scree {
 
@@ -15,10 +16,6 @@ std::vector<std::string> Conversation::lines(double now_s, bool all) const {
   for (const Line& line : lines_)
     if (all || now_s < line.at_s + limits::line_shown_s) shown.push_back(line.text);
   return shown;
-}
-
-std::string called(uint64_t session, const std::string& name) {
-  return name.empty() ? "client " + std::to_string(session) : name;
 }
 
 }  // namespace scree

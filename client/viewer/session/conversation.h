@@ -30,7 +30,4 @@ class Conversation {
   std::deque<Line> lines_;
 };
 
-/// As others are called who have no name.
-std::string called(uint64_t session, const std::string& name);
-
 }  // namespace scree

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "client/viewer/session/conversation.h"
+#include "proto/person_name.h"
 
 namespace scree {
 namespace {

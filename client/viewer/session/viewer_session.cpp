@@ -8,6 +8,7 @@
 
 #include "client/connection/come_again.h"
 #include "client/viewer/base/limits.h"
+#include "proto/person_name.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 

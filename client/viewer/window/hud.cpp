@@ -2,6 +2,8 @@
 
 #include <imgui/imgui.h>
 
+#include "proto/person_name.h"
+
 namespace scree {
 namespace {
 
