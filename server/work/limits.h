@@ -70,7 +70,7 @@ inline constexpr float polygons_later_us = 9000.0F;
 
 /// Load by bodies, as a share of the budget, above which requests wait until they fit; one every
 /// `request_rest_s` does not.
-inline constexpr float load_max = 0.4F;
+inline constexpr float load_max = 0.5F;
 inline constexpr float request_rest_s = 0.5F;
 
 /// Share of the budget that merges of pieces at rest may keep from requests: they take load away for good.
