@@ -69,7 +69,8 @@ HttpResponse NetHost::answer(const HttpConnection& from, const HttpRequest& requ
   if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");
   if (config_.access.tls_required && !from.encrypted()) {
     HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server is reached by https alone");
-    elsewhere.fields.emplace_back("Location", "https://" + request.host + request.path);
+    if (!request.host.empty())
+      elsewhere.fields.emplace_back("Location", "https://" + request.host + request.path);
     return elsewhere;
   }
   if (request.path == "/status.json" && request.method != HttpMethod::other)

@@ -28,8 +28,11 @@ namespace scree {
 /// Bytes to and from a server.
 class WebPipe {
  public:
-  explicit WebPipe(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr)
+  explicit WebPipe(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
+                   int receive_buffer_bytes = 0)
       : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    if (receive_buffer_bytes != 0)
+      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
@@ -124,8 +127,9 @@ struct HttpAnswer {
 
 class HttpClient {
  public:
-  explicit HttpClient(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr)
-      : pipe_(port, tls), host_("localhost:" + std::to_string(port)) {}
+  explicit HttpClient(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
+                      int receive_buffer_bytes = 0)
+      : pipe_(port, tls, receive_buffer_bytes), host_("localhost:" + std::to_string(port)) {}
 
   WebPipe& pipe() { return pipe_; }
   const std::string& host() const { return host_; }
@@ -178,8 +182,9 @@ inline const std::string websocket_fields =
 class WebSocketClient {
  public:
   explicit WebSocketClient(uint16_t port, const std::string& fields = "",
-                           const std::shared_ptr<const TlsClientContext>& tls = nullptr)
-      : http_(port, tls), handshake_(http_.get("/session", websocket_fields + fields)) {
+                           const std::shared_ptr<const TlsClientContext>& tls = nullptr,
+                           int receive_buffer_bytes = 0)
+      : http_(port, tls, receive_buffer_bytes), handshake_(http_.get("/session", websocket_fields + fields)) {
     arrived(http_.rest());
   }
 

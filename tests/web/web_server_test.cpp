@@ -134,6 +134,32 @@ TEST_F(WebServerTest, carries_a_whole_session_by_websocket) {
   expect_witness_unmoved();
 }
 
+TEST_F(WebServerTest, brings_who_paused_up_to_date_in_order) {
+  const auto tls = open_with_tls();
+  for (const auto& context : {std::shared_ptr<const TlsClientContext>(), tls}) {
+    WebSocketClient client(server->port(), "", context, 4096);
+    ASSERT_TRUE(client.send(hello()));
+    const auto welcome = client.receive_as<WelcomeMessage>();
+    ASSERT_TRUE(welcome);
+    Mirror mirror(*welcome);
+    for (int i = 0; i < 60; ++i)
+      tick({source.carve(
+          {static_cast<float>(i % 8) * 4.0F - 16.0F, 0.0F, static_cast<float>(i / 8) * 4.0F - 16.0F}, 1.5F,
+          24)});
+    const auto is_up_to_date = [&] { return mirror.field().hash() == source.field().hash(); };
+    for (const Within within(60.0); !is_up_to_date() && !within.over();) {
+      tick();
+      while (mirror.tick() < source.tick()) {
+        const auto message = client.receive();
+        ASSERT_TRUE(message);
+        ASSERT_TRUE(mirror.apply(*message));
+      }
+    }
+    EXPECT_TRUE(is_up_to_date());
+    EXPECT_EQ(client.close_code(), 0);
+  }
+}
+
 TEST_F(WebServerTest, carries_messages_cut_into_fragments_anyhow) {
   open();
   WebSocketClient client(server->port());
