@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "client/mirror/mirror.h"
 #include "tests/support/attack_fixture.h"
 #include "tests/support/web_client.h"
 #include "tests/support/web_folder.h"
@@ -157,6 +158,70 @@ TEST_F(WebAttackTest, a_thousand_connections) {
   }
   EXPECT_LE(server->stats().web.connections, limits::outsiders_max);
   EXPECT_GT(server->stats().web.connections, limits::outsiders_max / 3);
+}
+
+/// Somebody by a WebSocket, with a copy of the world.
+class Person {
+ public:
+  explicit Person(uint16_t port) : client_(port) {
+    if (!client_.send(hello())) return;
+    if (const auto welcome = client_.receive_as<WelcomeMessage>()) mirror_.emplace(*welcome);
+  }
+  bool joined() const { return mirror_.has_value(); }
+  std::optional<uint64_t> hash_at(Tick tick) {
+    while (mirror_->tick() < tick) {
+      const auto message = client_.receive();
+      if (!message || !mirror_->apply(*message)) return std::nullopt;
+    }
+    return mirror_->field().hash();
+  }
+
+ private:
+  WebSocketClient client_;
+  std::optional<Mirror> mirror_;
+};
+
+TEST_F(WebAttackTest, all_at_once_beside_ten_by_websocket_and_ten_by_tcp) {
+  open_web();
+  std::vector<std::unique_ptr<Person>> people;
+  std::vector<std::unique_ptr<HonestClient>> viewers;
+  for (int i = 0; i < 10; ++i) {
+    people.push_back(std::make_unique<Person>(server->port()));
+    viewers.push_back(std::make_unique<HonestClient>(server->port()));
+    ASSERT_TRUE(people.back()->joined() && viewers.back()->joined());
+  }
+  const std::string upgrade = "GET /session HTTP/1.1\r\nHost: a\r\n" + websocket_fields + "\r\n";
+  const auto frame = [](const FrameShape& shape) {
+    const auto bytes = websocket_frame(std::vector<uint8_t>{1, 2, 3}, shape);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  const std::vector<std::string> attacks = {
+      "GET / HTTP/1.1\r\nX-Slow: ",
+      "GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x'),
+      "GET /session HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n",
+      "GET /session HTTP/1.1\r\nHost: a\r\nOrigin: http://b\r\n" + websocket_fields + "\r\n",
+      "GET /../../etc/passwd HTTP/1.1\r\nHost: a\r\n\r\n",
+      "BAD\r\n\r\n",
+      upgrade + frame({.masked = false}),
+      upgrade + frame({.opcode = 0}),
+      upgrade + frame({.says_bytes = uint64_t{1} << 40U}),
+      upgrade + frame({.opcode = 1}),
+      upgrade + std::string(5000, '\xff')};
+  std::vector<std::unique_ptr<WebPipe>> attackers;
+  for (int round = 0; round < 8; ++round) {
+    for (const std::string& attack : attacks) {
+      attackers.push_back(std::make_unique<WebPipe>(server->port()));
+      EXPECT_TRUE(attackers.back()->send(attack));
+      if (round % 2 == 1) attackers.back()->finish_sending();
+    }
+    tick({source.carve({static_cast<float>(round) * 2.0F, 0.0F, 8.0F}, 1.0F, 4)});
+    tick();
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_EQ(people[i]->hash_at(source.tick()), source.field().hash()) << i;
+      EXPECT_EQ(viewers[i]->hash_at(source.tick()), source.field().hash()) << i;
+    }
+  }
+  expect_all_served();
 }
 
 TEST_F(WebAttackTest, more_requests_a_second_than_an_address_may) {
