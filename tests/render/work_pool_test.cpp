@@ -13,9 +13,11 @@ TEST(WorkPool, without_threads_its_owner_runs_the_jobs_urgent_ones_first) {
   for (int i = 0; i < 3; ++i) pool.submit(WorkPool::Urgency::load, [&, i] { done.push_back(i); });
   pool.submit(WorkPool::Urgency::edit, [&] { done.push_back(9); });
   EXPECT_TRUE(done.empty());
-  pool.run_for(1e-9);
+  EXPECT_TRUE(pool.run_for(0.0));
+  EXPECT_TRUE(done.empty());
+  EXPECT_TRUE(pool.run_for(1e-9));
   EXPECT_EQ(done, std::vector{9}) << "one job at least, and no more than there is time for";
-  pool.run_for(60.0);
+  EXPECT_FALSE(pool.run_for(60.0));
   EXPECT_EQ(done, (std::vector{9, 0, 1, 2}));
   pool.run_for(60.0);
   EXPECT_EQ(done.size(), 4U);

@@ -52,20 +52,22 @@ std::function<void()> WorkPool::take() {
   return job;
 }
 
-void WorkPool::run_for(double seconds) {
-  if (!threads_.empty()) return;
+bool WorkPool::run_for(double seconds) {
+  if (!threads_.empty()) return false;
   const double begun_s = steady_now_s();
   for (double last_s = begun_s; last_s - begun_s < seconds;) {
     std::function<void()> job;
     {
       const std::lock_guard lock(mutex_);
-      if (queues_[0].empty() && queues_[1].empty()) return;
+      if (queues_[0].empty() && queues_[1].empty()) return false;
       job = take();
     }
     job();
     const double now_s = steady_now_s();
     worst_ms_ = std::max(worst_ms_, (now_s - std::exchange(last_s, now_s)) * 1000.0);
   }
+  const std::lock_guard lock(mutex_);
+  return !queues_[0].empty() || !queues_[1].empty();
 }
 
 unsigned default_worker_threads() {

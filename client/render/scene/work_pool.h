@@ -28,8 +28,8 @@ class WorkPool {
   void submit(Urgency urgency, std::function<void()> job);
 
   /// Without threads: runs jobs on the caller's, one after another, until so much time is over; one at least,
-  /// if any waits. With threads: does nothing.
-  void run_for(double seconds);
+  /// if any waits and there is any time. True: others wait. With threads: does nothing, and is false.
+  bool run_for(double seconds);
   /// The longest job that run_for() ran, milliseconds.
   double worst_ms() const { return worst_ms_; }
 

@@ -19,8 +19,9 @@ class View {
   /// Takes in a step of the session.
   Result<void> follow(const SessionStep& step, ViewerSession& session, const Camera& camera, double now_s);
 
-  /// Where the program has no threads: does work of drawing for so many seconds (WorkPool::run_for()).
-  void work_for(double seconds) { pool_.run_for(seconds); }
+  /// Where the program has no threads: does work of drawing for so many seconds (WorkPool::run_for()). True:
+  /// there is more.
+  bool work_for(double seconds) { return pool_.run_for(seconds); }
   double work_worst_ms() const { return pool_.worst_ms(); }
 
   /// Draws so finely, and so far.
