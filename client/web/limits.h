@@ -6,18 +6,19 @@
 namespace scree::limits {
 
 /// Seconds of a frame in which messages are applied; one is applied as a whole. Above: what is due waits for
-/// the next frame. With the next two, a third of the 50 ms after which a browser calls a task long.
+/// the next frame. With the next, a quarter of the 50 ms after which a browser calls a task long.
 inline constexpr double page_apply_s = 0.008;
 
 /// Seconds of a frame in which received bytes become messages. Above: the same.
 inline constexpr double page_decode_s = 0.004;
 
-/// Seconds of a frame in which terrain and pieces are generated and meshed; a job runs as a whole.
-inline constexpr double page_work_s = 0.006;
+/// Seconds in which terrain and pieces are generated and meshed, between two frames or more often; a job runs
+/// as a whole.
+inline constexpr double page_work_s = 0.008;
 
 /// The same while the world within view is not drawn yet: nothing moves smoothly then, and it is there the
 /// sooner.
-inline constexpr double page_load_s = 0.03;
+inline constexpr double page_load_s = 0.024;
 
 /// Seconds that an attempt to join may take, the browser's handshakes among them. Above: it failed.
 inline constexpr double page_join_s = 10.0;

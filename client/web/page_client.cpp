@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <emscripten/html5.h>
 #include <glm/trigonometric.hpp>
 
 #include "client/web/limits.h"
@@ -98,17 +99,31 @@ Result<void> PageClient::frame() {
   visit_.session.predict(predicts);
   Stopwatch watch;
   if (Result<void> stepped = visit_.step(now_s); !stepped) return stepped;
-  visit_.view->work_for(visit_.view->methods().loaded() ? limits::page_work_s : limits::page_load_s);
   const double update_ms = watch.lap_ms();
   if (width_ > 0 && height_ > 0)
     visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
                                  visit_.lines(tool, overlay, whereabouts_.eye().person(), now_s));
   note(elapsed_s * 1000.0, update_ms, watch.lap_ms());
+  if (visit_.view->work_for(0.0)) work_later();
   if (visit_.session.timeline().is_known() && visit_.session.timeline().marks() != marks_) {
     marks_ = visit_.session.timeline().marks();
     ++marks_told_;
   }
   return {};
+}
+
+/// Between frames, as long as there is work: a browser that draws slowly has time for it.
+void PageClient::work_later() {
+  if (std::exchange(works_, true)) return;
+  emscripten_set_timeout(
+      [](void* client) {
+        auto* self = static_cast<PageClient*>(client);
+        View& view = *self->visit_.view;
+        self->works_ = false;
+        if (view.work_for(view.methods().loaded() ? limits::page_work_s : limits::page_load_s))
+          self->work_later();
+      },
+      0.0, this);
 }
 
 void PageClient::note(double elapsed_ms, double update_ms, double draw_ms) {

@@ -1,6 +1,6 @@
 // The client of one page: a visit by the page's socket, drawn into its canvas, under its person's hand.
-// bridge.h says what the page asks for; this is what it gets. The socket outlives it. Needs the WebGL
-// context current.
+// bridge.h says what the page asks for; this is what it gets. Lives as long as the page. The socket outlives
+// it. Needs the WebGL context current.
 #pragma once
 
 #include <deque>
@@ -23,7 +23,7 @@ struct FrameTimes {
   double last = 0.0;  ///< from one frame to the next
   double median = 0.0;
   double worst = 0.0;
-  double update = 0.0;  ///< of the last frame: messages, and the work of drawing
+  double update = 0.0;  ///< of the last frame: messages, and what has changed
   double draw = 0.0;    ///< the commands alone
 };
 
@@ -59,6 +59,7 @@ class PageClient {
  private:
   PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector);
   void act(Action action, double now_s);
+  void work_later();
   void note(double elapsed_ms, double update_ms, double draw_ms);
 
   SocketConnector* connector_;  ///< the session's
@@ -71,6 +72,7 @@ class PageClient {
   int width_ = 0;
   int height_ = 0;
   std::optional<double> last_s_;
+  bool works_ = false;  ///< a timer will
   std::deque<float> frames_ms_;
   FrameTimes times_;
 };
