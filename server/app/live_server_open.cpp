@@ -9,22 +9,6 @@
 
 namespace scree {
 
-namespace {
-
-/// Its terrain comes chunk by chunk: it may be larger than memory.
-RecordingStart start_of(World& world) {
-  const auto read = [&world](ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
-    try {
-      return world.chunk(chunk);
-    } catch (const ChunkUnreadable& unreadable) {
-      return fail(unreadable.what());
-    }
-  };
-  return {world.moment(), world.outline(), read};
-}
-
-}  // namespace
-
 Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;  // those of a recording are not this server's
   const Digest given = config.world.ground;
@@ -117,8 +101,11 @@ Result<void> LiveServer::State::open_recorder() {
   std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
   const bool goes_on =
       world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
-  auto recording = goes_on ? Recorder::create(config.record_path, header, start_of(world), config.record_ring)
-                           : Recorder::create(config.record_path, header, config.record_ring);
+  // Its terrain comes chunk by chunk: it may be larger than memory.
+  auto recording =
+      goes_on ? Recorder::create(config.record_path, header,
+                                 {world.moment(), world.outline(), reader_of(world)}, config.record_ring)
+              : Recorder::create(config.record_path, header, config.record_ring);
   if (!recording) return tl::unexpected(recording.error());
   recorder = std::move(*recording);
   report.record_path = config.record_path;

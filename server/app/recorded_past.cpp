@@ -4,7 +4,7 @@
 
 #include "crypto/signing_key.h"
 #include "server/replay/recorded_world.h"
-#include "server/store/world_file.h"
+#include "server/store/stored_field.h"
 #include "server/store/world_lock.h"
 
 namespace scree {
@@ -28,11 +28,9 @@ Result<void> check_recording(const WorldRows& rows, const std::string& path, Rec
 }
 
 Result<void> write_world(const std::string& path, WorldHeader header, World& world) {
-  const WorldSnapshot value = world.snapshot();
-  header.config = value.moment.config;
+  header.config = world.moment().config;
   header.config.program = "scree-world " SCREE_VERSION;
-  const auto made = WorldFile::create(path, header, value);
-  return made ? Result<void>() : tl::unexpected(made.error());
+  return create_world(path, header, world);
 }
 
 /// The old file gets a second name before the new one takes its first: at any moment one of both has it.
@@ -53,7 +51,8 @@ Result<PastWorld> world_of_recording(const std::string& path, const std::string&
   if (!lock) return tl::unexpected(lock.error());
   const auto reader = RecordingReader::open(recording);
   if (!reader) return tl::unexpected(reader.error());
-  const auto world = simulated_to(**reader, tick.value_or((*reader)->last_tick()), ground);
+  RecordedTerrain terrain(**reader);
+  const auto world = simulated_to(**reader, tick.value_or((*reader)->last_tick()), terrain, ground);
   if (!world) return tl::unexpected(world.error());
   const WorldHeader header{.world = std::max<uint64_t>(1, random_number()), .config = {}};
   if (auto written = write_world(path, header, **world); !written) return tl::unexpected(written.error());
@@ -78,7 +77,8 @@ Result<PastWorld> roll_back(const std::string& path, const std::string& recordin
     if (auto fits = check_recording(*rows, path, **reader); !fits) return tl::unexpected(fits.error());
     header = rows->header;
   }
-  const auto world = simulated_to(**reader, tick, ground);
+  RecordedTerrain terrain(**reader);
+  const auto world = simulated_to(**reader, tick, terrain, ground);
   if (!world) return tl::unexpected(world.error());
   fs::remove(made, error);
   if (auto written = write_world(made, header, **world); !written) return tl::unexpected(written.error());

@@ -12,12 +12,8 @@ namespace scree {
 Result<ReadChunk> chunk_reader(const std::string& path) {
   auto opened = WorldFile::open(path);
   if (!opened) return tl::unexpected(opened.error());
-  return [file = std::shared_ptr<WorldFile>(std::move(*opened))](
-             ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
-    auto read = file->read_chunk(chunk);
-    if (!read) return tl::unexpected(read.error());
-    if (!read->has_value()) return fail(file->path() + " does not have a chunk any more");
-    return std::move((*read)->bricks);
+  return [file = std::shared_ptr<WorldFile>(std::move(*opened))](ChunkCoord chunk) {
+    return file->read_bricks(chunk);
   };
 }
 

@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "proto/world_codec.h"
-
 namespace scree {
 
 std::string hashes_differ(const char* what, uint64_t simulated, uint64_t recorded) {
@@ -21,46 +19,51 @@ std::string difference_of(const TickDelta& simulated, const RecordedFrame& recor
   return {};
 }
 
-Result<std::unique_ptr<World>> restored_from(std::span<const uint8_t> state, Tick tick,
+Result<std::unique_ptr<World>> restored_from(RecordedState state, Tick tick, RecordedTerrain& terrain,
                                              const GroundGiver& ground) {
-  auto value = decode_world(state);
-  if (!value) return tl::unexpected(value.error());
-  if (value->moment.tick != tick)
+  WorldMoment& moment = state.value.moment;
+  if (moment.tick != tick)
     return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
-                std::to_string(value->moment.tick));
-  RecordedHeader& config = value->moment.config;
-  if (auto given = give_ground(config.ground, config.terrain, ground); !given)
+                std::to_string(moment.tick));
+  if (auto given = give_ground(moment.config.ground, moment.config.terrain, ground); !given)
     return tl::unexpected(given.error());
-  return World::restore(*value);
+  return terrain.restore(state);
 }
 
-Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, const GroundGiver& ground) {
-  const auto state = recording.state(tick);
+Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
+                                        const GroundGiver& ground) {
+  auto state = recording.state(tick);
   if (!state) return tl::unexpected(state.error());
-  if (state->has_value()) return restored_from(**state, tick, ground);
+  if (state->has_value()) return restored_from(std::move(**state), tick, terrain, ground);
   if (tick != 0) return fail("tick " + std::to_string(tick) + " has no state");
   WorldConfig config = recording.header().world;
   if (auto given = give_ground(config.ground, config.terrain, ground); !given)
     return tl::unexpected(given.error());
-  return World::create(config);
+  auto world = World::create(config);
+  if (world) terrain.adopt(**world);
+  return world;
 }
 
-Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tick, const GroundGiver& ground,
-                                            const std::function<void(Tick, Tick)>& progress,
-                                            const LookAtTick& look) {
+namespace {
+
+Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
+                                        const GroundGiver& ground,
+                                        const std::function<void(Tick, Tick)>& progress,
+                                        const LookAtTick& look) {
   const Tick first = recording.first_tick() - 1, last = recording.last_tick();
   if (tick < first || tick > last)
     return fail(recording.path() + " has the ticks " + std::to_string(first) + " to " + std::to_string(last) +
                 ", not " + std::to_string(tick) + " (--to)");
   const auto start = recording.state_before(tick);
   if (!start) return tl::unexpected(start.error());
-  auto world = world_at(recording, *start, ground);
+  auto world = world_at(recording, *start, terrain, ground);
   if (!world) return fail(recording.path() + ": " + world.error().message);
   while ((*world)->tick() < tick) {
     const Tick next = (*world)->tick() + 1;
     const auto commands = recording.commands(next);
     if (!commands) return tl::unexpected(commands.error());
     const auto delta = (*world)->step(*commands);
+    terrain.make_room(**world);
     if (next > first) {
       const auto frame = recording.frame(next);
       if (!frame) return tl::unexpected(frame.error());
@@ -71,6 +74,15 @@ Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tic
     if (progress && (next % progress_ticks == 0 || next == tick)) progress(next - *start, tick - *start);
   }
   return world;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
+                                            const GroundGiver& ground,
+                                            const std::function<void(Tick, Tick)>& progress,
+                                            const LookAtTick& look) {
+  return with_terrain([&] { return simulate(recording, tick, terrain, ground, progress, look); });
 }
 
 }  // namespace scree

@@ -82,7 +82,8 @@ class Cutting {
       if (may_begin_quiet && due && delta.pieces.empty() && is_quiet(delta, world.moment()))
         quiet = world.snapshot();
     };
-    auto world = simulated_to(recording_, first_ - 1, ground_, show(0.0, 0.4), look);
+    RecordedTerrain terrain(recording_);
+    auto world = simulated_to(recording_, first_ - 1, terrain, ground_, show(0.0, 0.4), look);
     if (!world) return tl::unexpected(world.error());
     state_ = quiet ? quiet->moment.tick : *from;
     auto writer = begin(path, quiet);
@@ -93,8 +94,8 @@ class Cutting {
       if (auto added = (*writer)->add_unseen(tick, *commands); !added) return added;
     }
     if (first_ > 1)
-      if (auto begun = (*writer)->begin_at((*world)->keyframe()); !begun) return begun;
-    if (auto written = write_ticks(**writer, *world); !written) return written;
+      if (auto begun = (*writer)->begin_at((*world)->outline(), reader_of(**world)); !begun) return begun;
+    if (auto written = write_ticks(**writer, *world, terrain); !written) return written;
     return (*writer)->finish();
   }
 
@@ -122,14 +123,16 @@ class Cutting {
                                                  const std::optional<WorldSnapshot>& quiet) {
     const RecordingHeader header{recording_.header().program, recording_.header().world};
     if (first_ == 1) return RecordingWriter::create(path, header);
-    Result<std::unique_ptr<World>> world =
-        quiet ? restored_from(encode(*quiet), state_, ground_) : world_at(recording_, state_, ground_);
+    RecordedTerrain terrain(recording_);
+    Result<std::unique_ptr<World>> world = quiet ? restored_from({*quiet, false}, state_, terrain, ground_)
+                                                 : world_at(recording_, state_, terrain, ground_);
     if (!world) return fail(recording_.path() + ": " + world.error().message);
-    return RecordingWriter::create(path, header, {(*world)->moment(), (*world)->keyframe()});
+    return RecordingWriter::create(path, header,
+                                   {(*world)->moment(), (*world)->outline(), reader_of(**world)});
   }
 
   /// As they were recorded: the simulation goes on from the states that they went on from.
-  Result<void> write_ticks(RecordingWriter& writer, std::unique_ptr<World>& world) {
+  Result<void> write_ticks(RecordingWriter& writer, std::unique_ptr<World>& world, RecordedTerrain& terrain) {
     MachineRows machine(recording_);
     const auto shown = show(0.4, 0.7);
     for (Tick tick = first_; tick <= last_; ++tick) {
@@ -142,11 +145,13 @@ class Cutting {
         return fail(recording_.path() + ": at tick " + std::to_string(tick) + ", " + differs);
       const auto noted = machine.at(tick, delta.times);
       if (!noted) return tl::unexpected(noted.error());
-      const auto state = recording_.state(tick);
+      terrain.make_room(*world);
+      auto state = recording_.state(tick);
       if (!state) return tl::unexpected(state.error());
       std::optional<WorldMoment> part;
       if (state->has_value()) {
-        auto restored = restored_from(**state, tick, ground_);
+        world.reset();  // there is room for one
+        auto restored = restored_from(std::move(**state), tick, terrain, ground_);
         if (!restored) return fail(recording_.path() + ": " + restored.error().message);
         world = std::move(*restored);
         part = world->moment();
@@ -179,12 +184,15 @@ Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick fi
   const std::string unfinished = to + ".unfinished";
   remove_recording(unfinished);
   Cutting cutting(recording, ground, first, last, progress);
-  auto done = cutting.write(unfinished, true);
+  const auto write = [&](bool may_begin_quiet) {
+    return with_terrain([&] { return cutting.write(unfinished, may_begin_quiet); });
+  };
+  auto done = write(true);
   if (done) {
     done = cutting.verify_written(unfinished);
     if (!done && cutting.state() != recording.state_before(first - 1).value_or(0)) {
       remove_recording(unfinished);
-      done = cutting.write(unfinished, false);
+      done = write(false);
       if (done) done = cutting.verify_written(unfinished);
     }
   }

@@ -15,16 +15,21 @@ namespace {
 
 /// Where the recording goes on from a state of this tick: compares it with the world's own, and goes on from
 /// it. Whether it did.
-Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, VerifyReport& report,
-                     const GroundGiver& ground) {
-  const auto state = recording.state(world->tick());
+Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, RecordedTerrain& terrain,
+                     VerifyReport& report, const GroundGiver& ground) {
+  auto state = recording.state(world->tick());
   if (!state) return tl::unexpected(state.error());
   if (!state->has_value() || !report.difference.empty()) return false;
-  const std::vector<uint8_t> own = encode(world->snapshot());
-  if (own != **state)
+  // Of terrain that comes chunk by chunk, the value has the hash.
+  const std::vector<uint8_t> own =
+      encode((*state)->has_chunks ? WorldSnapshot{world->moment(), {}} : world->snapshot());
+  const std::vector<uint8_t> said = encode((*state)->value);
+  if (own != said)
     report.difference = hashes_differ("the whole state", XXH3_64bits(own.data(), own.size()),
-                                      XXH3_64bits((*state)->data(), (*state)->size()));
-  auto restored = restored_from(**state, world->tick(), ground);
+                                      XXH3_64bits(said.data(), said.size()));
+  const Tick tick = world->tick();
+  world.reset();  // there is room for one
+  auto restored = restored_from(std::move(**state), tick, terrain, ground);
   if (!restored) return fail(recording.path() + ": " + restored.error().message);
   world = std::move(*restored);
   ++report.restarts;
@@ -49,16 +54,15 @@ Result<void> compare_events(RecordingReader& recording, const std::vector<Event>
   return {};
 }
 
-}  // namespace
-
-Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress,
-                            const GroundGiver& ground) {
+Result<VerifyReport> verify_ticks(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress,
+                                  const GroundGiver& ground, size_t bricks_max) {
   Stopwatch watch;
   VerifyReport report;
   const Tick start = recording.first_tick() - 1;
-  auto world = simulated_to(recording, start, ground);
+  RecordedTerrain terrain(recording, bricks_max);
+  auto world = simulated_to(recording, start, terrain, ground);
   if (!world) return tl::unexpected(world.error());
-  if (auto restarted = restart(recording, *world, report, ground); !restarted)
+  if (auto restarted = restart(recording, *world, terrain, report, ground); !restarted)
     return tl::unexpected(restarted.error());
   EventDeriver deriver = deriver_of(recording, **world);
   for (Tick tick = start + 1; tick <= recording.last_tick() && report.agrees(); ++tick) {
@@ -67,6 +71,7 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
     const auto commands = recording.commands(tick);
     if (!commands) return tl::unexpected(commands.error());
     const auto delta = (*world)->step(*commands);
+    terrain.make_room(**world);
     CHECK_EQ(delta->tick, tick);
     report.ticks = tick - start;
     report.commands += commands->size();
@@ -75,7 +80,7 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
     report.difference = difference_of(*delta, *frame);
     if (auto compared = compare_events(recording, deriver.events_of(*delta), tick, report); !compared)
       return tl::unexpected(compared.error());
-    const auto restarted = restart(recording, *world, report, ground);
+    const auto restarted = restart(recording, *world, terrain, report, ground);
     if (!restarted) return tl::unexpected(restarted.error());
     if (*restarted) deriver = deriver_of(recording, **world);
     if (!report.difference.empty()) report.first_difference = tick;
@@ -84,6 +89,13 @@ Result<VerifyReport> verify(RecordingReader& recording, const std::function<void
   }
   report.seconds = watch.lap_ms() / 1000.0;
   return report;
+}
+
+}  // namespace
+
+Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress,
+                            const GroundGiver& ground, size_t bricks_max) {
+  return with_terrain([&] { return verify_ticks(recording, progress, ground, bricks_max); });
 }
 
 }  // namespace scree

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "server/store/limits.h"
 #include "server/store/recording_reader.h"
 
 namespace scree {
@@ -27,8 +28,9 @@ struct VerifyReport {
 };
 
 /// Ends at the first tick that differs. Calls `progress(done, all)` every 32 ticks. A recording that cannot
-/// be read is an error, and so is one whose ground `ground` does not give.
+/// be read is an error, and so is one whose ground `ground` does not give. Has about `bricks_max` edited
+/// bricks in memory, however large the world is, where its terrain is recorded chunk by chunk.
 Result<VerifyReport> verify(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress = {},
-                            const GroundGiver& ground = {});
+                            const GroundGiver& ground = {}, size_t bricks_max = limits::simulated_bricks_max);
 
 }  // namespace scree

@@ -20,13 +20,16 @@ int64_t checksum_of(std::span<const uint8_t> data) {
   return static_cast<int64_t>(XXH3_64bits(data.data(), data.size()));
 }
 
+constexpr std::string_view refusal_words = ", the system refused: ";
+constexpr std::string_view full_words = "database or disk is full";  // SQLite's own
+
 /// What the system said to the call that failed last, if it is one of the reasons that somebody can act on:
 /// SQLite's own words do not say. 0: another.
 int refused_by_system(sqlite3* database) {
   const int now = errno;  // SQLite keeps it for some calls alone
   if ((sqlite3_errcode(database) & 0xFF) != SQLITE_IOERR) return 0;
   for (const int refused : {sqlite3_system_errno(database), now})
-    if (refused == EFBIG || refused == EDQUOT || refused == EROFS || refused == EIO) return refused;
+    if (refused == ENOSPC || refused == EFBIG || refused == EDQUOT || refused == EROFS) return refused;
   return 0;
 }
 
@@ -42,7 +45,7 @@ void StatementCloser::operator()(sqlite3_stmt* statement) const {
 tl::unexpected<Error> Database::failure(const std::string& what) const {
   const int refused = refused_by_system(database_.get());
   return fail(path_ + ": " + what + ": " + sqlite3_errmsg(database_.get()) +
-              (refused != 0 ? " (" + std::string(std::strerror(refused)) + ")" : std::string()));
+              (refused != 0 ? std::string(refusal_words) + std::strerror(refused) : std::string()));
 }
 
 Result<Database> Database::create(const std::string& path) {
@@ -201,7 +204,12 @@ Result<void> Database::copy_to(const std::string& path) {
 
 bool Database::is_full() const {
   const int refused = refused_by_system(database_.get());  // EFBIG: ulimit -f
-  return sqlite3_errcode(database_.get()) == SQLITE_FULL || refused == EFBIG || refused == EDQUOT;
+  return sqlite3_errcode(database_.get()) == SQLITE_FULL || refused == ENOSPC || refused == EFBIG ||
+         refused == EDQUOT;
+}
+
+bool Database::is_refusal(const Error& error) {
+  return error.message.find(refusal_words) != std::string::npos || error.message.ends_with(full_words);
 }
 
 bool Database::has_moved() const {

@@ -63,6 +63,8 @@ class Database {
   bool is_full() const;
   /// Whether the last call failed because another program has the file open.
   bool is_busy() const;
+  /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.
+  static bool is_refusal(const Error& error);
   /// Whether the file is not there any more under its name.
   bool has_moved() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its

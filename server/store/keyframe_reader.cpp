@@ -77,24 +77,62 @@ void KeyframeReader::forget_before(Tick tick) {
   }
 }
 
+const KeyframeReader::Row* KeyframeReader::latest(const std::vector<Row>& rows, Tick tick) {
+  const auto after = std::ranges::upper_bound(rows, tick, {}, &Row::tick);
+  return after == rows.begin() ? nullptr : &*std::prev(after);
+}
+
+Result<std::vector<BrickPatch>> KeyframeReader::read_chunk(const Row& row, ChunkCoord chunk) {
+  const auto data = database_->get(select_chunk_, static_cast<uint64_t>(row.id));
+  if (!data) return tl::unexpected(data.error());
+  if (!data->has_value()) return damaged("a chunk's row was dropped", row.tick);
+  auto bricks = decode_bricks(**data);
+  if (!bricks) return damaged(bricks.error().message, row.tick);
+  for (const BrickPatch& patch : *bricks)
+    if (chunk_of(patch.coord) != chunk) return damaged("a brick is in another chunk's row", row.tick);
+  return bricks;
+}
+
+Result<void> KeyframeReader::each_chunk(Tick tick, const TakeChunk& take) {
+  if (auto indexed = index(); !indexed) return indexed;
+  for (const auto& [key, rows] : chunks_) {
+    const Row* const row = latest(rows, tick);
+    if (row == nullptr) continue;
+    const ChunkCoord chunk = world_schema::chunk_of_key(key);
+    const auto bricks = read_chunk(*row, chunk);
+    if (!bricks) return tl::unexpected(bricks.error());
+    if (auto taken = take(chunk, *bricks); !taken) return taken;
+  }
+  return {};
+}
+
+Result<bool> KeyframeReader::has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick) {
+  if (auto indexed = index(); !indexed) return tl::unexpected(indexed.error());
+  const auto rows = chunks_.find(world_schema::chunk_key(chunk));
+  const Row* const row = rows == chunks_.end() ? nullptr : latest(rows->second, tick);
+  return row != nullptr && row->hash == hash;
+}
+
+Result<std::vector<BrickPatch>> KeyframeReader::chunk(ChunkCoord chunk, uint64_t hash) {
+  const auto rows = chunks_.find(world_schema::chunk_key(chunk));
+  if (rows != chunks_.end())
+    for (const Row& row : rows->second)
+      if (row.hash == hash) return read_chunk(row, chunk);
+  return fail(database_->path() + " does not have a chunk any more");
+}
+
 Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known) {
   if (auto indexed = index(); !indexed) return indexed;
   for (const auto& [key, rows] : chunks_) {
-    const auto after = std::ranges::upper_bound(rows, tick, {}, &Row::tick);
-    if (after == rows.begin()) continue;
-    const Row& row = *std::prev(after);
+    const Row* const row = latest(rows, tick);
+    if (row == nullptr) continue;
     const ChunkCoord chunk = world_schema::chunk_of_key(key);
-    if (known.has_chunk(chunk, row.hash)) {
+    if (known.has_chunk(chunk, row->hash)) {
       parts.known_chunks.push_back(chunk);
       continue;
     }
-    const auto data = database_->get(select_chunk_, static_cast<uint64_t>(row.id));
-    if (!data) return tl::unexpected(data.error());
-    if (!data->has_value()) return damaged("a chunk's row was dropped", tick);
-    const auto bricks = decode_bricks(**data);
-    if (!bricks) return damaged(bricks.error().message, tick);
-    for (const BrickPatch& patch : *bricks)
-      if (chunk_of(patch.coord) != chunk) return damaged("a brick is in another chunk's row", tick);
+    const auto bricks = read_chunk(*row, chunk);
+    if (!bricks) return tl::unexpected(bricks.error());
     parts.keyframe.bricks.insert(parts.keyframe.bricks.end(), bricks->begin(), bricks->end());
   }
   std::ranges::sort(parts.keyframe.bricks, {}, &BrickPatch::coord);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -37,6 +38,14 @@ class KeyframeReader {
   /// That of a tick that has one.
   Result<KeyframeParts> read(Tick tick, const KnownParts& known);
   Result<uint64_t> count();
+
+  /// The terrain of the keyframe of a tick that has one, chunk by chunk, in no order; ends at the first
+  /// error, also one of `take`.
+  using TakeChunk = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
+  Result<void> each_chunk(Tick tick, const TakeChunk& take);
+  /// Whether a row has the chunk with that hash, up to a tick; and its bricks.
+  Result<bool> has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick);
+  Result<std::vector<BrickPatch>> chunk(ChunkCoord chunk, uint64_t hash);
   /// Forgets rows that a keyframe of that tick, or a later one, does not need: a ring drops them.
   void forget_before(Tick tick);
 
@@ -51,6 +60,9 @@ class KeyframeReader {
   /// Takes up rows that came since the last call.
   Result<void> index();
   Result<void> read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known);
+  Result<std::vector<BrickPatch>> read_chunk(const Row& row, ChunkCoord chunk);
+  /// Of a chunk, the latest row up to the tick; null when there is none.
+  static const Row* latest(const std::vector<Row>& rows, Tick tick);
   Result<void> read_pieces(KeyframeParts& parts, const KnownParts& known);
   tl::unexpected<Error> damaged(const std::string& what, Tick tick) const;
 

@@ -21,6 +21,13 @@ inline constexpr uint64_t unseen_ticks_max = 5'184'000;
 /// anyway. Above: chunks that did not change for longest are read from the recording when they change again.
 inline constexpr size_t recorded_bricks_max = size_t{1} << 18;
 
+/// The same of a world that is simulated from a recording. Above: chunks that the recording has as they are
+/// go out, and are read when they are needed.
+inline constexpr size_t simulated_bricks_max = size_t{1} << 18;
+
+/// Ticks between two looks whether there are more: as many as between two keyframes, which have what changed.
+inline constexpr uint64_t ticks_per_make_room = ticks_per_keyframe;
+
 /// Seconds of frames in one transaction: a crash loses at most that much of a recording.
 inline constexpr double seconds_per_commit = 0.5;
 

@@ -24,7 +24,7 @@ struct RecordingReader::State {
   Result<void> read_extent(WithoutTicks without_ticks);
   Result<void> read_later_tables();
   Result<std::optional<Tick>> state_up_to(Tick tick);
-  Result<std::optional<std::vector<uint8_t>>> state_of_moment(Tick tick);
+  Result<std::optional<RecordedState>> state_of_moment(Tick tick);
   Result<void> read_end();
   tl::unexpected<Error> missing(Tick tick);
   template <typename T>
@@ -233,28 +233,43 @@ uint64_t RecordingReader::bytes() const {
   return state_->bytes;
 }
 
-/// The moment with the terrain of its tick's keyframe.
-Result<std::optional<std::vector<uint8_t>>> RecordingReader::State::state_of_moment(Tick tick) {
-  using Bytes = std::optional<std::vector<uint8_t>>;
+/// The terrain is that of its tick's keyframe.
+Result<std::optional<RecordedState>> RecordingReader::State::state_of_moment(Tick tick) {
   const auto row = database.get(select_moment, tick);
-  if (!row || !row->has_value()) return row;
+  if (!row) return tl::unexpected(row.error());
+  if (!row->has_value()) return std::optional<RecordedState>();
   auto value = decoded(decode_world(**row), tick);
   if (!value) return tl::unexpected(value.error());
   const auto at = keyframe_rows->tick_before(tick);
   if (!at) return tl::unexpected(at.error());
   if (*at != tick)
     return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has no terrain");
-  const KnownParts no_pieces{.has_piece = [](PieceId) { return true; }};
-  auto parts = keyframe_rows->read(tick, no_pieces);
-  if (!parts) return tl::unexpected(parts.error());
-  value->bricks = std::move(parts->keyframe.bricks);
-  return Bytes(encode(*value));
+  if (!value->bricks.empty())
+    return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has bricks");
+  return std::optional(RecordedState{std::move(*value), true});
 }
 
-Result<std::optional<std::vector<uint8_t>>> RecordingReader::state(Tick tick) {
-  auto whole = state_->database.get(state_->select_state, tick);
-  if (!whole || whole->has_value() || !state_->select_moment) return whole;
-  return state_->state_of_moment(tick);
+Result<std::optional<RecordedState>> RecordingReader::state(Tick tick) {
+  const auto whole = state_->database.get(state_->select_state, tick);
+  if (!whole) return tl::unexpected(whole.error());
+  if (whole->has_value()) {
+    auto value = state_->decoded(decode_world(**whole), tick);
+    if (!value) return tl::unexpected(value.error());
+    return std::optional(RecordedState{std::move(*value), false});
+  }
+  return state_->select_moment ? state_->state_of_moment(tick) : std::optional<RecordedState>();
+}
+
+Result<void> RecordingReader::each_chunk(Tick tick, const KeyframeReader::TakeChunk& take) {
+  return state_->keyframe_rows->each_chunk(tick, take);
+}
+
+Result<bool> RecordingReader::has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick) {
+  return state_->keyframe_rows->has_chunk(chunk, hash, tick);
+}
+
+Result<std::vector<BrickPatch>> RecordingReader::chunk(ChunkCoord chunk, uint64_t hash) {
+  return state_->keyframe_rows->chunk(chunk, hash);
 }
 
 Result<std::optional<Tick>> RecordingReader::State::state_up_to(Tick tick) {

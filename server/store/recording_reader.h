@@ -15,6 +15,12 @@
 
 namespace scree {
 
+/// A world from which a simulation begins.
+struct RecordedState {
+  WorldSnapshot value;
+  bool has_chunks = false;  ///< the value has no bricks: the terrain comes chunk by chunk
+};
+
 /// What a recording without any tick is: damaged, or one whose first tick will come.
 enum class WithoutTicks : uint8_t { refused, awaited };
 
@@ -48,9 +54,12 @@ class RecordingReader {
   /// Until look_again() what is read is of no one moment; a ring may drop ticks that it had.
   void let_go();
 
-  /// The world after the tick, encoded (proto/world_codec.h), where the simulation of the next one began with
-  /// it; most ticks have none.
-  Result<std::optional<std::vector<uint8_t>>> state(Tick tick);
+  /// The world after the tick, where the simulation of the next one began with it; most ticks have none.
+  Result<std::optional<RecordedState>> state(Tick tick);
+  /// The terrain of a state that has chunks: KeyframeReader's functions.
+  Result<void> each_chunk(Tick tick, const KeyframeReader::TakeChunk& take);
+  Result<bool> has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick);
+  Result<std::vector<BrickPatch>> chunk(ChunkCoord chunk, uint64_t hash);
   /// The latest tick up to `tick` whose state() there is; 0 when there is none: then a world begins
   /// untouched.
   Result<Tick> state_before(Tick tick);

@@ -314,10 +314,10 @@ Result<void> RecordingWriter::add_unseen(Tick tick, std::span<const Command> com
   return state_->put_commands(tick, commands);
 }
 
-Result<void> RecordingWriter::begin_at(const TickDelta& keyframe) {
+Result<void> RecordingWriter::begin_at(const TickDelta& keyframe, ReadChunk read) {
   State& state = *state_;
   if (auto begun = state.begin(); !begun) return begun;
-  state.keyframes->begin(keyframe, state.published);
+  state.keyframes->begin(keyframe, state.published, std::move(read));
   state.begin_events(keyframe.settings);
   return state.keyframes->put(state.published);
 }

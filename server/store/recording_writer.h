@@ -39,8 +39,8 @@ class RecordingWriter {
   /// Of a recording that has no tick yet, but a start: the commands of the next tick, which is recorded by
   /// them alone. After the last such tick begin_at() takes the state.
   Result<void> add_unseen(Tick tick, std::span<const Command> commands);
-  /// `keyframe`: World::keyframe(); the next tick follows it.
-  Result<void> begin_at(const TickDelta& keyframe);
+  /// `keyframe` and `read`: as RecordingStart has them; the next tick follows.
+  Result<void> begin_at(const TickDelta& keyframe, ReadChunk read = {});
 
   /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. Its
   /// events are derived; `noted`: those of the machine. `state`: the world after the tick, where the next one

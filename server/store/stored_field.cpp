@@ -3,6 +3,8 @@
 #include <deque>
 #include <utility>
 
+#include "server/store/ground_mass.h"
+
 namespace scree {
 
 namespace {
@@ -18,11 +20,9 @@ class Shelf {
       field_.page_out(read_.front());
       read_.pop_front();
     }
-    auto row = file_->read_chunk(chunk);
-    if (!row) return tl::unexpected(row.error());
-    if (!row->has_value()) return fail(file_->path() + " does not have a chunk any more");
-    read_.push_back(chunk);
-    return std::move((*row)->bricks);
+    auto bricks = file_->read_bricks(chunk);
+    if (bricks) read_.push_back(chunk);
+    return bricks;
   }
 
  private:
@@ -43,6 +43,22 @@ PagedTerrain terrain_of(WorldFile& file, ReadChunk read, GroundMasses& ground, s
     return bytes ? Result<void>() : tl::unexpected(bytes.error());
   };
   return {each, std::move(read), bricks_max};
+}
+
+Result<void> create_world(const std::string& path, const WorldHeader& header, World& world) {
+  const ReadChunk read = reader_of(world);
+  const auto each = [&](const WorldFile::PutChunk& put) -> Result<void> {
+    for (const ChunkCoord chunk : world.field().edited_chunks()) {
+      auto bricks = read(chunk);
+      if (!bricks) return tl::unexpected(bricks.error());
+      const MassUnits ground = measured_ground(world.field().source(), *bricks).at(chunk);
+      const WorldChunk row{chunk, world.tick(), world.field().chunk_hash(chunk), std::move(*bricks), ground};
+      if (auto done = put(row); !done) return done;
+    }
+    return {};
+  };
+  const auto made = WorldFile::create(path, header, world.moment(), each);
+  return made ? Result<void>() : tl::unexpected(made.error());
 }
 
 Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, const TerrainSource& source,

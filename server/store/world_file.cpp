@@ -66,7 +66,8 @@ struct WorldFile::State {
   explicit State(Database d) : database(std::move(d)) {}
   Result<void> prepare();
   Result<void> begin_to_save();
-  Result<void> write(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
+  Result<void> write(const WorldChunk& chunk);  ///< the rows alone, within a transaction
+  Result<void> write(const WorldMoment& moment);
   Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
 
   Database database;
@@ -101,10 +102,12 @@ Result<void> WorldFile::State::put(const Statement& statement, uint64_t key,
   return database.put(statement, key, data);
 }
 
-/// The rows alone, within a transaction.
-Result<void> WorldFile::State::write(const WorldMoment& moment, const std::vector<WorldChunk>& changed) {
-  for (const WorldChunk& chunk : changed)
-    if (auto done = put(put_chunk, world_schema::chunk_key(chunk.chunk), encode(chunk)); !done) return done;
+Result<void> WorldFile::State::write(const WorldChunk& chunk) {
+  return put(put_chunk, world_schema::chunk_key(chunk.chunk), encode(chunk));
+}
+
+/// With the pieces.
+Result<void> WorldFile::State::write(const WorldMoment& moment) {
   std::set<PieceId> alive;
   for (const KeptPiece& piece : moment.pieces) {
     alive.insert(piece.id);
@@ -117,11 +120,26 @@ Result<void> WorldFile::State::write(const WorldMoment& moment, const std::vecto
   return put(put_moment, 0, encode(moment));
 }
 
+bool refused_by_system(const Error& error) {
+  return Database::is_refusal(error);
+}
+
 WorldFile::WorldFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
 WorldFile::~WorldFile() = default;
 
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
                                                      const WorldSnapshot& world, bool durable) {
+  const auto each = [&](const PutChunk& put) -> Result<void> {
+    for (const WorldChunk& chunk : chunks_of(world))
+      if (auto done = put(chunk); !done) return done;
+    return {};
+  };
+  return create(path, header, world.moment, each, durable);
+}
+
+Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
+                                                     const WorldMoment& moment, const EachChunk& each,
+                                                     bool durable) {
   if (auto free = check_free(path); !free) return tl::unexpected(free.error());
   std::error_code error;
   const std::string unfinished = path + "-new";
@@ -137,7 +155,8 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
       return done;
     if (auto done = state.prepare(); !done) return done;
     if (auto done = state.put(state.put_header, 0, encode(header)); !done) return done;
-    if (auto done = state.write(world.moment, chunks_of(world)); !done) return done;
+    if (auto done = each([&](const WorldChunk& chunk) { return state.write(chunk); }); !done) return done;
+    if (auto done = state.write(moment); !done) return done;
     return file.execute("COMMIT");
   }();
   if (!made) {
@@ -182,14 +201,18 @@ Result<void> WorldFile::hold_moment() {
   return mode && *mode == "wal" ? state_->database.execute("BEGIN") : Result<void>();
 }
 
-Result<WorldRows> WorldFile::read_moment() {
+Result<WorldRows> WorldFile::read_moment(LostRows* lost) {
   Database& file = state_->database;
-  if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
-  return WorldReading(file, nullptr).run(false);
+  if (auto whole = check_pages(file); !whole) {
+    if (lost == nullptr) return tl::unexpected(whole.error());
+    lost->reasons.push_back(whole.error().message);
+  }
+  return WorldReading(file, lost).run(false);
 }
 
-Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take) {
-  WorldReading reading(state_->database, nullptr);
+Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take,
+                                       LostRows* lost) {
+  WorldReading reading(state_->database, lost);
   if (auto read = reading.chunks(take); !read) return tl::unexpected(read.error());
   return reading.bytes();
 }
@@ -212,6 +235,13 @@ Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {
   return std::optional(std::move(*decoded));
 }
 
+Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
+  auto row = read_chunk(chunk);
+  if (!row) return tl::unexpected(row.error());
+  if (!row->has_value()) return fail(path() + " does not have a chunk any more");
+  return std::move((*row)->bricks);
+}
+
 /// The log, the statements, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
@@ -230,7 +260,9 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
   Database& file = state_->database;
   auto saved = state_->begin_to_save();
   if (saved) saved = file.execute("BEGIN IMMEDIATE");
-  if (saved) saved = state_->write(moment, changed);
+  for (const WorldChunk& chunk : changed)
+    if (saved) saved = state_->write(chunk);
+  if (saved) saved = state_->write(moment);
   if (saved) saved = file.execute("COMMIT");
   state_->is_full = !saved && file.is_full();
   if (!saved) {

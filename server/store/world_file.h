@@ -30,6 +30,10 @@ struct LostRows {
   std::vector<std::string> reasons;
 };
 
+/// Whether a file could not be read for the system's reasons, as on a full disk, where SQLite lacks what it
+/// keeps beside the file: the error says nothing of the file itself.
+bool refused_by_system(const Error& error);
+
 class WorldFile {
  public:
   /// Makes a file of a world, whose ground is there; an error if the file exists. It appears under its name
@@ -37,6 +41,13 @@ class WorldFile {
   /// machine may leave anything.
   static Result<std::unique_ptr<WorldFile>> create(const std::string& path, const WorldHeader& header,
                                                    const WorldSnapshot& world, bool durable = true);
+  /// The same of a world whose terrain comes chunk by chunk: `each` puts every edited chunk once, its ground
+  /// weighed.
+  using PutChunk = std::function<Result<void>(const WorldChunk&)>;
+  using EachChunk = std::function<Result<void>(const PutChunk& put)>;
+  static Result<std::unique_ptr<WorldFile>> create(const std::string& path, const WorldHeader& header,
+                                                   const WorldMoment& moment, const EachChunk& each,
+                                                   bool durable = true);
   /// Refuses what is no world, and one of another release, by name.
   static Result<std::unique_ptr<WorldFile>> open(const std::string& path);
   ~WorldFile();
@@ -50,12 +61,16 @@ class WorldFile {
   /// yet; the log beside the file grows until this object is gone. Not for who saves.
   Result<void> hold_moment();
   /// As read(), but of the terrain nothing: the header, and the world's moment; the bytes are theirs.
-  Result<WorldRows> read_moment();
+  Result<WorldRows> read_moment(LostRows* lost = nullptr);
   /// Calls `take` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of
   /// `take`, or a damaged row. Returns the bytes of the rows.
-  Result<uint64_t> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take);
+  /// Rows that are lost are told to `lost` instead, if it is not null.
+  Result<uint64_t> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take,
+                              LostRows* lost = nullptr);
   /// One chunk as it was saved last; nothing when it has no row. From any thread, if no other uses this file.
   Result<std::optional<WorldChunk>> read_chunk(ChunkCoord chunk);
+  /// Its bricks; without a row it is an error.
+  Result<std::vector<BrickPatch>> read_bricks(ChunkCoord chunk);
 
   /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
   /// returns. After an error the file is as it was.

@@ -53,6 +53,9 @@ class World {
   /// The same of what is left of a damaged value: masses and hashes are taken as measured, what is missing is
   /// booked as poured or as dust, and bodies without a piece, or pieces without a body, are left out.
   static Result<std::unique_ptr<World>> salvage(WorldSnapshot value);
+  /// The same of a value without bricks, whose terrain is `terrain`.
+  static Result<std::unique_ptr<World>> salvage(WorldSnapshot value, const PagedTerrain& terrain,
+                                                const GroundMasses& ground);
   /// Of a configuration that validate() takes: it is checked.
   explicit World(const WorldConfig& config, size_t threads = 1);
   ~World();
@@ -93,8 +96,14 @@ class World {
  private:
   struct Made {};
   World(Made, std::unique_ptr<State> state);
+  /// `terrain`: null where the value has it.
+  static Result<std::unique_ptr<World>> salvaged(WorldSnapshot value, const PagedTerrain* terrain,
+                                                 const GroundMasses& ground);
 
   std::unique_ptr<State> state_;
 };
+
+/// World::chunk() of that world, which must outlive the result.
+ReadChunk reader_of(World& world);
 
 }  // namespace scree

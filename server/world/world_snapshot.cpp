@@ -163,7 +163,7 @@ class Restoring {
   /// What is there, with its dust; what is missing was poured, or became dust.
   Ledger measured() {
     Ledger ledger = from_recorded(m_.ledger);
-    ledger.terrain = s_.measure_terrain();
+    ledger.terrain = s_.measure_terrain(ground_);
     ledger.pieces = s_.mass_of_pieces();
     ledger.poured += ledger.error();
     if (ledger.poured >= 0) return ledger;
@@ -253,6 +253,17 @@ Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, const 
 }
 
 Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
+  return salvaged(std::move(value), nullptr, {});
+}
+
+Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value, const PagedTerrain& terrain,
+                                              const GroundMasses& ground) {
+  CHECK(value.bricks.empty());
+  return salvaged(std::move(value), &terrain, ground);
+}
+
+Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedTerrain* terrain,
+                                               const GroundMasses& ground) {
   WorldMoment& moment = value.moment;
   std::vector<KeptPiece> pieces;
   std::vector<BodyMotion> bodies;
@@ -264,7 +275,7 @@ Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
   }
   moment.pieces = std::move(pieces);
   moment.motion.bodies = std::move(bodies);
-  auto state = state_of(value, 1, {}, nullptr, true);
+  auto state = state_of(value, 1, ground, terrain, true);
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
 }
@@ -324,6 +335,16 @@ std::vector<BrickPatch> World::chunk(ChunkCoord chunk) {
     bricks.push_back({coord, field.brick(coord), field.painted(coord)});
   if (was_out) field.page_out(chunk);
   return bricks;
+}
+
+ReadChunk reader_of(World& world) {
+  return [&world](ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
+    try {
+      return world.chunk(chunk);
+    } catch (const ChunkUnreadable& unreadable) {
+      return fail(unreadable.what());
+    }
+  };
 }
 
 TickDelta World::keyframe() {

@@ -15,10 +15,12 @@
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
+#include "server/replay/recorded_world.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/database.h"
 #include "server/store/recorder.h"
+#include "server/store/stored_field.h"
 #include "server/world/limits.h"
 #include "server/world/world_snapshot.h"
 #include "tests/support/flat_world.h"
@@ -159,6 +161,19 @@ TEST_F(PagerTest, a_recording_begins_with_terrain_that_is_out_and_verifies) {
   EXPECT_TRUE(report->agrees()) << report->difference;
   EXPECT_EQ(report->ticks, 70U);
   EXPECT_EQ(report->state_hash, hashes.back());
+  const auto within = verify(**reader, {}, {}, 20);
+  ASSERT_TRUE(within.has_value()) << within.error().message;
+  EXPECT_TRUE(within->agrees()) << within->difference;
+  RecordedTerrain terrain(**reader, 20);
+  const auto simulated = simulated_to(**reader, world->tick(), terrain, {});
+  ASSERT_TRUE(simulated.has_value()) << simulated.error().message;
+  EXPECT_GT((*simulated)->field().chunks_out(), 0U) << "whoever simulates has the same bound";
+  EXPECT_EQ(encode((*simulated)->snapshot()), encode(world->snapshot()));
+  const std::string made = folder / "made";
+  ASSERT_TRUE(create_world(made, {.world = 1, .config = world->moment().config}, **simulated).has_value());
+  const auto file = WorldFile::open(made);
+  ASSERT_TRUE(file.has_value()) << file.error().message;
+  EXPECT_EQ(encode((*file)->read().value().world), encode(world->snapshot()));
   auto source = ReplaySource::open(recording);
   ASSERT_TRUE(source.has_value()) << source.error().message;
   const auto first = (*source)->next();

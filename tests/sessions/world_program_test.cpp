@@ -219,6 +219,16 @@ TEST_F(WorldProgramTest, what_cannot_be_printed_is_an_error) {
   }
 }
 
+TEST_F(WorldProgramTest, a_world_that_cannot_be_read_for_want_of_room_is_not_called_damaged) {
+  // SQLite keeps 32 KiB beside a file that it opens.
+  const auto [code, said] =
+      run_program("sh -c 'ulimit -f 8; " SCREE_WORLD_PROGRAM " check " + world + " --json'");
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("File too large"), std::string::npos) << said;
+  EXPECT_EQ(said.find("whole"), std::string::npos) << said;
+  expect_whole(world);
+}
+
 TEST_F(WorldProgramTest, an_empty_argument_is_wrong_usage) {
   const std::string cut =
       std::string(SCREE_REPLAY_PROGRAM) + " cut " + recording + " " + (folder / "cut.scree");

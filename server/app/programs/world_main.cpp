@@ -154,17 +154,14 @@ Result<void> check_file(const Options& options) {
   if (!rows) return tl::unexpected(rows.error());
   if (auto found = find_ground_of(*rows, options); !found) return found;
   GroundMasses ground;
-  const auto read = [&](ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
-    auto row = file.read_chunk(chunk);
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::move((*row)->bricks) : std::vector<BrickPatch>();
-  };
-  PagedTerrain terrain = terrain_of(file, read, ground, checked_bricks_max);
+  PagedTerrain terrain = terrain_of(
+      file, [&](ChunkCoord chunk) { return file.read_bricks(chunk); }, ground, checked_bricks_max);
   Result<void> weighed;
   terrain.each = [&, each = terrain.each](const PagedTerrain::Take& take) {
     return each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
+      if (auto taken = take(chunk, bricks); !taken) return taken;  // it lies in the world
       if (weighed) weighed = weigh_ground(rows->world.moment.config.terrain, chunk, bricks, ground);
-      return take(chunk, bricks);
+      return {};
     });
   };
   const auto world = World::restore(rows->world, terrain, 1, ground);
@@ -175,6 +172,7 @@ Result<void> check_file(const Options& options) {
 
 int check(const Options& options) {
   const auto checked = check_file(options);
+  if (!checked && refused_by_system(checked.error())) return complain(checked.error());
   Json json{{"file", options.path}, {"whole", checked.has_value()}};
   if (!checked) json["damage"] = checked.error().message;
   print(json, options.json);
@@ -195,45 +193,76 @@ std::string told_of(std::string text, const std::string& copy, const std::string
   return text;
 }
 
-/// Read from a copy, for reading a file may change it.
-Result<WorldRows> salvaged_rows(const Options& options, LostRows& lost) {
-  const std::string copy = options.to + "-copy";
-  const auto copied = copy_for_reading(options.path, copy);
-  Result<WorldRows> rows = [&]() -> Result<WorldRows> {
-    const auto file = copied ? WorldFile::open(copy) : tl::unexpected(copied.error());
-    if (!file) return tl::unexpected(file.error());
-    return (*file)->read(&lost);
-  }();
-  std::error_code ignored;
-  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(copy + end, ignored);
-  for (std::string& reason : lost.reasons) reason = told_of(std::move(reason), copy, options.path);
-  if (copied && !rows) return fail(told_of(rows.error().message, copy, options.path));
-  return rows;
+/// What repairing a world has kept, and what not.
+struct Repaired {
+  LostRows lost;
+  uint64_t chunks_kept = 0;
+  WorldMoment before, after;
+};
+
+/// A new file of what is whole in a copy, chunk by chunk.
+Result<void> repair_copy(const std::string& copy, const Options& options, Repaired& repaired) {
+  const auto opened = WorldFile::open(copy);
+  if (!opened) return tl::unexpected(opened.error());
+  WorldFile& file = **opened;
+  auto rows = file.read_moment(&repaired.lost);
+  if (!rows) return tl::unexpected(rows.error());
+  if (auto found = find_ground_of(*rows, options); !found) return found;
+  WorldMoment& moment = rows->world.moment;
+  if (moment.tick == 0) {  // lost, perhaps: ticks that were given away are not given again
+    LostRows told_later;
+    const auto newest = [&](const WorldChunk& chunk) {
+      moment.tick = std::max(moment.tick, chunk.version);
+      return Result<void>();
+    };
+    if (const auto read = file.each_chunk(newest, &told_later); !read) return tl::unexpected(read.error());
+  }
+  repaired.before = moment;
+  GroundMasses ground;
+  PagedTerrain terrain;
+  terrain.bricks_max = checked_bricks_max;
+  terrain.read = [&](ChunkCoord chunk) { return file.read_bricks(chunk); };
+  terrain.each = [&](const PagedTerrain::Take& take) -> Result<void> {
+    const auto bytes = file.each_chunk(
+        [&](const WorldChunk& chunk) -> Result<void> {
+          if (auto taken = take(chunk.chunk, chunk.bricks); !taken) return taken;  // it lies in the world
+          ground[chunk.chunk] = measured_ground(moment.config.terrain, chunk.bricks).at(chunk.chunk);
+          ++repaired.chunks_kept;
+          return {};
+        },
+        &repaired.lost);
+    return bytes ? Result<void>() : tl::unexpected(bytes.error());
+  };
+  const auto world = World::salvage(rows->world, terrain, ground);
+  if (!world) return tl::unexpected(world.error());
+  repaired.after = (*world)->moment();
+  return create_world(options.to, rows->header, **world);
 }
 
-/// Keeps what is whole in a new file; the damaged one stays as it is.
+/// Keeps what is whole in a new file; the damaged one stays as it is, for it is read from a copy: reading a
+/// file may change it.
 int repair(const Options& options) {
   const auto lock = WorldLock::take(options.path);
   if (!lock) return complain(lock.error());
-  LostRows lost;
-  auto rows = salvaged_rows(options, lost);
-  if (!rows) return complain(rows.error());
-  if (const auto found = find_ground_of(*rows, options); !found) return complain(found.error());
-  auto world = World::salvage(rows->world);
-  if (!world) return complain(world.error());
-  const WorldSnapshot value = (*world)->snapshot();
-  const auto made = WorldFile::create(options.to, rows->header, value);
-  if (!made) return complain(made.error());
-  const WorldMoment& before = rows->world.moment;
-  if (lost.reasons.empty() && value.moment.field_hash != before.field_hash)
-    lost.reasons.emplace_back("its chunks are whole, but are not all that were saved");
+  const std::string copy = options.to + "-copy";
+  Repaired repaired;
+  const auto copied = copy_for_reading(options.path, copy);
+  const auto done = copied ? repair_copy(copy, options, repaired) : copied;
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(copy + end, ignored);
+  std::vector<std::string>& lost = repaired.lost.reasons;
+  for (std::string& reason : lost) reason = told_of(std::move(reason), copy, options.path);
+  if (!done) return complain({told_of(done.error().message, copy, options.path)});
+  const WorldMoment &before = repaired.before, &after = repaired.after;
+  if (lost.empty() && after.field_hash != before.field_hash)
+    lost.emplace_back("its chunks are whole, but are not all that were saved");
   print({{"file", options.path},
          {"repaired", options.to},
-         {"lost", lost.reasons},
-         {"chunks_kept", rows->chunks.size()},
-         {"pieces_kept", value.moment.pieces.size()},
-         {"pieces_lost", before.motion.bodies.size() - value.moment.pieces.size()},
-         {"terrain_lost_units", before.ledger.terrain - value.moment.ledger.terrain}},
+         {"lost", lost},
+         {"chunks_kept", repaired.chunks_kept},
+         {"pieces_kept", after.pieces.size()},
+         {"pieces_lost", before.motion.bodies.size() - after.pieces.size()},
+         {"terrain_lost_units", before.ledger.terrain - after.ledger.terrain}},
         options.json);
   return 0;
 }
