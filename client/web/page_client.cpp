@@ -98,7 +98,8 @@ Result<void> PageClient::frame() {
   visit_.show_particles(particles);
   visit_.session.predict(predicts);
   Stopwatch watch;
-  if (Result<void> stepped = visit_.step(now_s); !stepped) return stepped;
+  if (stepped_) stepped_ = visit_.step(now_s);
+  if (!stepped_) return stepped_;
   const double update_ms = watch.lap_ms();
   if (width_ > 0 && height_ > 0)
     visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
@@ -112,18 +113,18 @@ Result<void> PageClient::frame() {
   return {};
 }
 
-/// Between frames, as long as there is work: a browser that draws slowly has time for it.
 void PageClient::work_later() {
   if (std::exchange(works_, true)) return;
-  emscripten_set_timeout(
-      [](void* client) {
-        auto* self = static_cast<PageClient*>(client);
-        View& view = *self->visit_.view;
-        self->works_ = false;
-        if (view.work_for(view.methods().loaded() ? limits::page_work_s : limits::page_load_s))
-          self->work_later();
-      },
-      0.0, this);
+  emscripten_set_timeout([](void* client) { static_cast<PageClient*>(client)->work(); }, 0.0, this);
+}
+
+/// Between frames, as long as there is work, for a browser that draws slowly has time for it: also to begin
+/// what comes next, while the world is not there yet.
+void PageClient::work() {
+  works_ = false;
+  const bool loaded = visit_.view->methods().loaded();
+  if (!loaded && stepped_) stepped_ = visit_.step(steady_now_s());
+  if (visit_.view->work_for(loaded ? limits::page_work_s : limits::page_load_s)) work_later();
 }
 
 void PageClient::note(double elapsed_ms, double update_ms, double draw_ms) {

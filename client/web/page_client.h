@@ -60,6 +60,7 @@ class PageClient {
   PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector);
   void act(Action action, double now_s);
   void work_later();
+  void work();
   void note(double elapsed_ms, double update_ms, double draw_ms);
 
   SocketConnector* connector_;  ///< the session's
@@ -72,7 +73,8 @@ class PageClient {
   int width_ = 0;
   int height_ = 0;
   std::optional<double> last_s_;
-  bool works_ = false;  ///< a timer will
+  Result<void> stepped_;  ///< the first error of a step: it cannot go on
+  bool works_ = false;    ///< a timer will
   std::deque<float> frames_ms_;
   FrameTimes times_;
 };
