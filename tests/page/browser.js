@@ -1,12 +1,9 @@
 // Debian's Chromium without a display, with OpenGL by software; and pages that note whatever they complain about.
-import { existsSync } from 'node:fs';
 import puppeteer from 'puppeteer-core';
 
-export const CHROMIUM = process.env.SCREE_CHROMIUM ?? '/usr/bin/chromium';
+const CHROMIUM = '/usr/bin/chromium';
 /** Milliseconds until anything that is waited for counts as missed; a browser on two busy cores is slow. */
 export const WAIT_MS = 120000;
-
-export const has_browser = () => existsSync(CHROMIUM);
 
 export function launch() {
   return puppeteer.launch({

@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
 # run.sh FOLDER PROGRAM ARGUMENTS…: runs a program of this folder with the modules that `./scree test` installed in FOLDER,
-# and with the page's own beside it in page/. Exits with 77, which ctest counts as skipped, without Chromium.
+# and with the page's own beside it in page/. Exits with 77, which ctest counts as skipped, where these or the built page are not there.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 folder=$1 program=$2
 shift 2
 if ! cmp -s "$here/package-lock.json" "$folder/node_modules/.installed"; then
   echo "The modules of the page's tests are not installed in $folder: ./scree setup --web, then ./scree test, installs them." >&2
+  exit 77
+fi
+if [[ $program == session_test.js && ! -e ${SCREE_DIST:-}/index.html ]]; then
+  echo "There is no page in ${SCREE_DIST:-SCREE_DIST}: ./scree web builds it." >&2
   exit 77
 fi
 # Node looks for modules beside and above a program, so the programs lie beside them.
