@@ -11,7 +11,7 @@ namespace scree::limits {
 /// Percent of a tick's length that its work may take by the model, at most and at least: the rest is for work
 /// outside the model, and for other threads. Above: requests wait, pieces merge sooner, fewer break. At
 /// least: what bodies at rest and their merges need.
-inline constexpr uint32_t work_percent_max = 70;
+inline constexpr uint32_t work_percent_max = 65;
 inline constexpr uint32_t work_percent_min = 15;
 
 /// Share of that budget above which the bodies alone count as a crowd: half of the rest time is enough.

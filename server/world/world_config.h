@@ -23,7 +23,7 @@ struct WorldConfig {
   uint32_t merges_per_tick_max = 1000;
   /// Percent of a tick's length that its work may take by the model (server/work/work.h). A live server
   /// lowers it while its ticks are late, and raises it again (server/app/load_governor.h).
-  uint32_t work_percent = 70;
+  uint32_t work_percent = 65;
   Methods methods;
   ServiceLimits service;  ///< for the network; the simulation does not read it
   Digest ground{};        ///< names the file that terrain.heights is from; zeros: of no file

@@ -27,18 +27,18 @@ std::vector<uint32_t> wanted_after(LoadGovernor& governor, uint32_t looks, doubl
 
 TEST(LoadGovernor, work_is_reduced_look_by_look_while_ticks_are_late_and_never_below_the_least) {
   LoadGovernor governor(60);
-  EXPECT_EQ(wanted_after(governor, 10, 1.2, 70), (std::vector<uint32_t>{56, 44, 35, 28, 22, 17, 15}));
+  EXPECT_EQ(wanted_after(governor, 10, 1.2, 65), (std::vector<uint32_t>{52, 41, 32, 25, 20, 16, 15}));
 }
 
 TEST(LoadGovernor, a_lost_tick_counts_as_late_whatever_the_others_were) {
   LoadGovernor governor(60);
-  EXPECT_EQ(wanted_after(governor, 2, 0.3, 70, 1), (std::vector<uint32_t>{56, 44}));
+  EXPECT_EQ(wanted_after(governor, 2, 0.3, 65, 1), (std::vector<uint32_t>{52, 41}));
 }
 
 TEST(LoadGovernor, work_comes_back_in_small_steps_while_no_tick_is_late) {
   LoadGovernor governor(60);
   EXPECT_EQ(wanted_after(governor, limits::governor_calm_looks * 4, 0.9, 58),
-            (std::vector<uint32_t>{63, 68, 70}));
+            (std::vector<uint32_t>{63, 65}));
 }
 
 TEST(LoadGovernor, few_late_ticks_change_nothing) {
@@ -49,8 +49,8 @@ TEST(LoadGovernor, few_late_ticks_change_nothing) {
 
 TEST(LoadGovernor, slow_ticks_are_looked_at_two_at_a_time) {
   LoadGovernor governor(1);
-  EXPECT_FALSE(governor.tick_ended(2.0, 0, 70));
-  EXPECT_EQ(governor.tick_ended(2.0, 0, 70), 56U);
+  EXPECT_FALSE(governor.tick_ended(2.0, 0, 65));
+  EXPECT_EQ(governor.tick_ended(2.0, 0, 65), 52U);
 }
 
 }  // namespace
