@@ -55,6 +55,7 @@ PieceVolumes::PieceVolumes() {
   upload_entries(0, static_cast<uint32_t>(entries_.size()));
 
   glBindVertexArray(array_.name());
+  if (instances_.empty()) return;  // in a browser, a buffer of nothing waits for the GPU
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.name());
   const auto attribute = [](GLuint at, GLint count, size_t offset) {
     glEnableVertexAttribArray(at);
