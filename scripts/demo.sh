@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The demo: a server on the canyon, a viewer, and a bot that carves. `./scree demo` builds the programs first.
 # With a display a window opens, to play in until it is closed. Without one the viewer draws offscreen and
-# leaves before.png, blast.png and settled.png. Either way a summary of the session follows.
+# leaves before.png, blast.png and settled.png, and browser.png where Chromium can draw the page. Either way a summary of the session follows.
 set -euo pipefail
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
@@ -139,6 +139,14 @@ draw_pictures() {
   done
 }
 
+# The page as a browser shows it, where ./scree web has built it and ./scree test has installed the modules that drive Chromium.
+draw_page() {
+  [[ -e $root/build/web/dist/index.html && -e $root/build/page/node_modules/.installed ]] && command -v chromium >/dev/null || return 0
+  say "drawing browser.png in Chromium"
+  "$root/tests/page/run.sh" "$root/build/page" draw.js "$page#camera=$camera&quality=low" "$out/browser.png" "$size" >"$out/browser.log" 2>&1 ||
+    say "Chromium drew nothing: $out/browser.log says why"
+}
+
 stop_server() {
   kill -TERM "$server_pid"
   wait_for_exit "$start_s_max" "$server_pid" "the server" "$out/server.log"
@@ -163,7 +171,7 @@ summary() {
       ["hashes equal", "\(if $b.hash.equal then "yes" else "NO" end), \($b.checks) checks, \($b.mismatches) mismatches"]
     ] | .[] | @tsv' | while IFS=$'\t' read -r name value; do printf '  %-20s %s\n' "$name" "$value"; done
   printf '\n'
-  if [[ -e $out/settled.png ]]; then say "pictures: $out/before.png blast.png settled.png"; fi
+  if [[ -e $out/settled.png ]]; then say "pictures: $out/before.png blast.png settled.png$([[ ! -e $out/browser.png ]] || echo ' browser.png')"; fi
   say "reports: $out/server.json bot.json"
 }
 
@@ -171,10 +179,15 @@ main() {
   parse "$@"
   mkdir -p "$out"
   out=$(cd "$out" && pwd)
-  rm -f "$out"/{server,bot}.{json,out,log} "$out"/viewer.log "$out"/{before,blast,settled}.png
+  rm -f "$out"/{server,bot}.{json,out,log} "$out"/{viewer,browser}.log "$out"/{before,blast,settled,browser}.png
   trap cleanup EXIT
   start_server
-  if [[ $offscreen == auto && -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then play_in_window; else draw_pictures; fi
+  if [[ $offscreen == auto && -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+    play_in_window
+  else
+    draw_pictures
+    draw_page
+  fi
   bot_pid=''
   stop_server
   summary

@@ -3,7 +3,7 @@ import puppeteer from 'puppeteer-core';
 
 const CHROMIUM = '/usr/bin/chromium';
 /** Milliseconds until anything that is waited for counts as missed; a browser on two busy cores is slow. */
-export const WAIT_MS = 120000;
+export const WAIT_MS = 240000;
 
 export function launch() {
   return puppeteer.launch({

@@ -1,17 +1,17 @@
 // Whole sessions: the built page in Chromium, by the real server. All tests look at one page, one after the other.
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import { launch, open_page, until } from './browser.js';
 import { agreement, silhouette } from './pictures.js';
-import { host, run } from './server.js';
+import { DIST, host, run } from './server.js';
 
 const CAMERA = '30,9,19,63,-7', WIDTH = 640, HEIGHT = 360, VIEW_M = 32;
 const VIEW = `#camera=${CAMERA}&quality=low&view=${VIEW_M}`;
-const PAGE_BYTES_MAX = 600 * 1024;
+const CODE_BYTES_MAX = 600 * 1024;
 const FIELDS_AGREE = 0.98;
 
 let folder, browser, server, page, complaints, loaded_bytes = 0;
@@ -26,7 +26,9 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-const options = () => ['--terrain', 'canyon', '--world', join(folder, 'world.scree'), '--record', join(folder, 'session.scree')];
+function options() {
+  return ['--terrain', 'canyon', '--world', join(folder, 'world.scree'), '--record', join(folder, 'session.scree')];
+}
 const state = () => page.evaluate(() => globalThis.scree.state());
 const all_in_view = () => until(page, 'all within view is drawn', () => globalThis.scree?.state().complete);
 const hide = (hidden) => page.evaluate((bare) => document.body.classList.toggle('bare', bare), hidden);
@@ -38,12 +40,26 @@ async function picture() {
   return png;
 }
 
-/** No check failed, OpenGL met no error, and the browser complains of nothing but a lost server. */
+/** The server's hash of the field, once it has been the same for some seconds. */
+const last_hash = () => page.evaluate(async () => {
+  let hash, since = 0;
+  while (performance.now() - since < 3000) {
+    const now = globalThis.scree.state().status?.field_hash;
+    if (now !== hash) [hash, since] = [now, performance.now()];
+    await new Promise((resolve) => { setTimeout(resolve, 200); });
+  }
+  return hash;
+});
+
+/** What a browser says of a server that is gone, and of how a driver works. */
+const EXPECTED = /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED|GL Driver Message \(OpenGL, Performance/;
+
+/** No check failed, OpenGL met no error, and the browser complains of nothing else. */
 async function assert_well() {
   const { draw, mirror } = await state();
   assert.equal(draw.gl_errors, 0, draw.first_gl_error);
   assert.equal(mirror.mismatches, 0);
-  assert.deepEqual(complaints.filter((one) => !/WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/.test(one)), []);
+  assert.deepEqual(complaints.filter((one) => !EXPECTED.test(one)), []);
 }
 
 test('the page opens, joins, and draws all within view', async (t) => {
@@ -61,9 +77,10 @@ test('the page opens, joins, and draws all within view', async (t) => {
   await assert_well();
 });
 
-test('its files are small', async (t) => {
-  t.diagnostic(`${loaded_bytes} bytes were loaded`);
-  assert.ok(loaded_bytes > 50000 && loaded_bytes <= PAGE_BYTES_MAX, `${loaded_bytes} bytes`);
+test('its code is small', async (t) => {
+  const code = readdirSync(DIST).filter((name) => /\.(js|wasm)\.gz$/.test(name)).reduce((sum, name) => sum + statSync(join(DIST, name)).size, 0);
+  t.diagnostic(`${code} bytes of code, compressed; ${loaded_bytes} were loaded, with all else and the answers' heads`);
+  assert.ok(loaded_bytes > code / 2 && code <= CODE_BYTES_MAX, `${code} bytes`);
 });
 
 test('mesh and raymarch draw what the native viewer draws', async (t) => {
@@ -107,6 +124,8 @@ test('a blast of 64 pieces arrives', async (t) => {
   });
   await page.click('#panel header button');
   await page.evaluate((camera) => globalThis.scree.camera(camera), '24,8,16,50,-12');
+  await page.evaluate(() => new Promise((resolve) => { setTimeout(resolve, 1000); }));
+  await all_in_view();
   await page.mouse.click(WIDTH / 2, HEIGHT / 2);
   await until(page, 'the mouse is taken', () => document.pointerLockElement !== null);
   const before_ms = await page.evaluate(() => { const ms = globalThis.longest_ms; globalThis.longest_ms = 0; return ms; });
@@ -119,12 +138,14 @@ test('a blast of 64 pieces arrives', async (t) => {
 });
 
 test('after a restart of the server the page comes back to the same world', async () => {
-  const { status, camera } = await state();
+  const { camera } = await state();
+  const hash = await last_hash();
   await server.stop();
   await until(page, 'the page says that the connection is lost', () => /connection is lost/.test(document.querySelector('#notice').textContent));
   server = await host(options(), server.port);
   await until(page, 'it is connected again', () => globalThis.scree.state().connection.phase === 'connected');
-  await until(page, 'it knows the world again', (hash) => globalThis.scree.state().status?.field_hash === hash, status.field_hash);
+  await until(page, 'it knows the world again', () => globalThis.scree.state().status !== null);
+  assert.equal(await last_hash(), hash);
   assert.equal((await state()).camera, camera);
   await all_in_view();
   await assert_well();
@@ -137,6 +158,7 @@ test('a replay has its timeline, which is dragged', async () => {
   complaints.length = 0;
   await page.goto(server.url + VIEW);
   await until(page, 'the timeline is there', () => globalThis.scree?.state().playback && document.querySelector('#timeline').checkVisibility());
+  await until(page, 'the card is gone', () => getComputedStyle(document.querySelector('#gate')).visibility === 'hidden');
   await until(page, 'it has marks', () => document.querySelectorAll('#timeline .legend span').length > 0);
   const box = await (await page.$('#timeline .track')).boundingBox();
   const { first, last } = (await state()).playback;
