@@ -55,7 +55,6 @@ PieceVolumes::PieceVolumes() {
   upload_entries(0, static_cast<uint32_t>(entries_.size()));
 
   glBindVertexArray(array_.name());
-  if (instances_.empty()) return;  // in a browser, a buffer of nothing waits for the GPU
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.name());
   const auto attribute = [](GLuint at, GLint count, size_t offset) {
     glEnableVertexAttribArray(at);
@@ -176,6 +175,7 @@ void PieceVolumes::upload_instances(const ScenePieces& pieces) {
     instance.rotation = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
     instances_.push_back(instance);
   }
+  if (instances_.empty()) return;  // WebGL takes a length of nothing for all memory that there is
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)),
                instances_.data(), GL_STREAM_DRAW);
