@@ -61,8 +61,8 @@ const until = async (what, condition) => {
     await new Promise((resolve) => setTimeout(resolve, 4));
   }
 };
-const quiet = (report) =>
-  report.predictions === 0 && report.pieces === 0 && report.server_pieces === 0 && report.pieces_made === report.pieces_merged;
+// Some pieces break on their way, so that fewer merge than were made.
+const quiet = (report) => report.predictions === 0 && report.pieces === 0 && report.server_pieces === 0;
 
 session._session_begin(0, 6, 0, 60, 1);
 await until('the world', (report) => report.joined);
@@ -75,7 +75,7 @@ for (let i = 0; i < CARVES; ++i) {
   const next = Date.now() + 60;
   await until('time', () => Date.now() >= next);
 }
-const end = await until('rest', (report) => quiet(report) && report.pieces_made > CARVES && report.field_hash === report.server_hash);
+const end = await until('rest', (report) => quiet(report) && report.pieces_merged > CARVES && report.field_hash === report.server_hash);
 if (end.mismatches !== 0) fail(`${end.mismatches} checks failed: ${JSON.stringify(end)}`);
 if (end.checks === 0 || predicted === 0) fail(`nothing was checked, or foreseen: ${JSON.stringify(end)}`);
 if (end.field_hash === '0000000000000000') fail('nothing was carved');
