@@ -12,7 +12,7 @@ const backoff = new Backoff();
 const curves = new Map();
 
 function show_heads(status) {
-  for (const { name, value, beside, curve, bad } of heads(status)) {
+  for (const { name, value, beside, curve, by_change, bad } of heads(status)) {
     let head = curves.get(name);
     if (!head) {
       head = { spark: new Spark(name), value: make('span'), beside: make('small') };
@@ -23,7 +23,8 @@ function show_heads(status) {
     write(head.value, value);
     write(head.beside, beside);
     head.element.toggleAttribute('data-bad', bad);
-    head.spark.add(curve);
+    head.spark.add(by_change ? Math.max(curve - (head.before ?? curve), 0) : curve);
+    head.before = curve;
     head.spark.draw();
   }
 }

@@ -1,16 +1,16 @@
 // What the status page says of /status.json (docs/web.md), as texts and parts. Without elements.
 import { bytes, ms, span, whole } from './words.js';
 
-/** The large figures, each with a curve: name, value, what it is beside, the curve's number, and whether it is bad. */
+/** The large figures, each with a curve: name, value, what it is beside, the curve's number (`by_change`: how it grows), and whether it is bad. */
 export function heads({ now, report, tick_rate_hz }) {
   const tick_ms = 1000 / tick_rate_hz;
   return [
     { name: 'Tick, median', value: ms(now.tick_median_ms), beside: `worst ${ms(now.tick_worst_ms)}`, curve: now.tick_median_ms,
       bad: now.tick_median_ms > tick_ms },
-    { name: 'Late ticks', value: whole(report.late_ticks ?? 0), beside: `of ${whole(report.ticks)}`, curve: now.tick_worst_ms, bad: false },
+    { name: 'Late ticks', value: whole(report.late_ticks ?? 0), beside: `of ${whole(report.ticks)}`, curve: report.late_ticks ?? 0, by_change: true, bad: false },
     { name: 'Pieces', value: whole(now.pieces), beside: `${whole(report.pieces_made)} made, ${whole(report.pieces_merged)} merged`, curve: now.pieces, bad: false },
     { name: 'Sessions', value: whole(now.clients), beside: `${whole(report.sessions.joined)} joined`, curve: now.clients, bad: false },
-    { name: 'Memory', value: `${whole(report.resident_mb)} MB`, beside: '', curve: report.resident_mb, bad: false },
+    { name: 'Memory', value: `${whole(report.resident_mb)} MB`, beside: 'of the process', curve: report.resident_mb, bad: false },
     { name: 'Ledger error', value: whole(report.ledger.error), beside: 'units', curve: report.ledger.error, bad: report.ledger.error !== 0 },
   ];
 }
@@ -54,7 +54,7 @@ export function lists({ now, report }) {
 export function budget_text({ now, tick_rate_hz }) {
   const length = `A tick has ${ms(1000 / tick_rate_hz)}.`;
   if (!now.work?.budget_us) return length;
-  return `${length} Work in the last second: ${ms(now.work.worst_us / 1000)} of ${ms(now.work.budget_us / 1000)} by the server’s model.`;
+  return `${length} Work in the last second: ${ms(now.work.worst_us / 1000)} of ${ms(now.work.budget_us / 1000)} by the server’s model. Bars: means of the last second; white: the worst since the start.`;
 }
 
 export function server_text({ version, report, replay, now }) {

@@ -10,7 +10,7 @@ export function bytes(count) {
 
 export const whole = (count) => Math.round(count).toLocaleString('en').replaceAll(',', '\u00a0');
 
-export const ms = (value) => `${value < 10 ? value.toFixed(2) : value.toFixed(1)} ms`;
+export const ms = (value) => `${value.toFixed(value < 10 ? 2 : value < 100 ? 1 : 0)} ms`;
 
 export const metres = (value) => `${value.toFixed(value < 10 ? 1 : 0)} m`;
 
