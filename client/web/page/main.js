@@ -157,7 +157,7 @@ class Page {
 
   #hint() {
     const touch = document.body.dataset.touch !== undefined;
-    const text = touch ? '' : this.#mouse.taken ? '' : 'Click to take the mouse · W A S D moves · H lists all keys';
+    const text = touch ? '' : this.#mouse.taken ? '' : 'Click to take the mouse · H for help';
     this.#notices.hint(this.#panel.open || this.#pad ? '' : text);
   }
 
