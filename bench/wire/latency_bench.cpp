@@ -5,6 +5,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/wire/askers.h"
+#include "client/cache/join_server.h"
 #include "client/viewer/session/viewer_session.h"
 #include "server/app/live_server.h"
 #include "shared/base/random.h"
@@ -25,7 +26,7 @@ class Watcher {
   explicit Watcher(uint16_t port) {
     ServerEndpoint server;
     server.port = port;
-    session_.emplace(server, 48.0F, "", CacheConfig{});
+    session_.emplace(std::make_unique<ServerConnector>(server), SessionChoice{.interest_radius_m = 48.0F});
   }
 
   /// Frames for so long. `strikes`: one every half a second; counts frames until it is in the field that is

@@ -63,13 +63,17 @@ inline constexpr double beyond_relief = 1.0 / 16.0;
 inline constexpr int heap_arenas = 4;
 inline constexpr int heap_block_bytes = 4 * 1024 * 1024;
 
-/// Seconds of ticks between two looks at how many were late; share of late ticks above which, or of lost ones
-/// with which, the simulation may take so many percent of what it took; looks in a row without a late tick
-/// after which it may take so much more of a tick's length, percent.
+/// Seconds of ticks between two looks of the governor; in so many looks, ticks must be lost so many times
+/// before the simulation may take only so many percent of what it took. Once may be anything.
 inline constexpr double governor_look_s = 0.5;
-inline constexpr double governor_late_share = 0.2;
+inline constexpr size_t governor_looks = 8;
+inline constexpr uint32_t governor_losses_min = 2;
 inline constexpr uint32_t governor_lower_percent = 80;
+
+/// Looks in a row without a lost tick, and with no greater share of late ones, after which it may take so
+/// much more of a tick's length, percent.
 inline constexpr uint32_t governor_calm_looks = 4;
+inline constexpr double governor_late_share = 0.2;
 inline constexpr uint32_t governor_raise_percent = 5;
 
 /// Milliseconds between two looks at what the process has in RAM.

@@ -1,8 +1,8 @@
 #include "server/app/load_governor.h"
 
 #include <algorithm>
+#include <numeric>
 
-#include "server/app/limits.h"
 #include "server/work/limits.h"
 #include "shared/base/check.h"
 
@@ -15,15 +15,16 @@ std::optional<uint32_t> LoadGovernor::tick_ended(double length, uint64_t lost, u
   CHECK(percent >= limits::work_percent_min && percent <= limits::work_percent_max);
   ++ticks_;
   late_ += length > 1.0 ? 1 : 0;
-  lost_ += lost;
+  losses_.back() += lost > 0 ? 1 : 0;
   if (ticks_ < ticks_a_look_) return std::nullopt;
-  const double late_share = static_cast<double>(late_) / ticks_;
-  const bool behind = lost_ > 0 || late_share > limits::governor_late_share;
-  calm_looks_ = late_ == 0 && lost_ == 0 ? calm_looks_ + 1 : 0;
-  ticks_ = late_ = 0;
-  lost_ = 0;
+  const bool calm = losses_.back() == 0 && late_ <= limits::governor_late_share * ticks_;
+  calm_looks_ = calm ? calm_looks_ + 1 : 0;
+  const bool behind = std::accumulate(losses_.begin(), losses_.end(), 0U) >= limits::governor_losses_min;
+  std::ranges::rotate(losses_, losses_.begin() + 1);
+  losses_.back() = ticks_ = late_ = 0;
   uint32_t wanted = percent;
   if (behind) {
+    losses_.fill(0);
     wanted = std::max(limits::work_percent_min, percent * limits::governor_lower_percent / 100);
   } else if (calm_looks_ >= limits::governor_calm_looks) {
     calm_looks_ = 0;

@@ -1,5 +1,5 @@
-// Lowers the share of a tick that the simulation's work may take while its ticks are late, and raises it
-// again.
+// Lowers the share of a tick that the simulation's work may take while ticks are lost, and raises it again. A
+// late tick that the next ones catch up with costs nobody anything: it is left alone.
 //
 // The model of that work (server/work/work.h) knows no clock, so that the same commands give the same hashes
 // on every machine. A machine that is slower than the model's, or busy with other things, would run late for
@@ -7,8 +7,11 @@
 // like all. Not thread-safe.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+
+#include "server/app/limits.h"
 
 namespace scree {
 
@@ -25,7 +28,8 @@ class LoadGovernor {
   uint32_t ticks_a_look_;
   uint32_t ticks_ = 0;  ///< since the last look
   uint32_t late_ = 0;   ///< of these
-  uint64_t lost_ = 0;
+  std::array<uint32_t, limits::governor_looks>
+      losses_{};             ///< times that ticks were lost, by look; this one last
   uint32_t calm_looks_ = 0;  ///< in a row
 };
 

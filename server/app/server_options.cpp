@@ -101,7 +101,7 @@ void add_world(CLI::App& app, Raw& raw) {
   add_threads(app, "--sim-threads", raw.options.live.sim_threads, "step the bodies");
   raw.options.live.governed = true;
   app.add_option("--govern", raw.options.live.governed,
-                 "lower work-percent while ticks are late, and raise it again: true or false")
+                 "lower work-percent while ticks are lost, and raise it again: true or false")
       ->capture_default_str();
 }
 
