@@ -8,6 +8,7 @@
 #include "client/viewer/base/camera_text.h"
 #include "client/viewer/base/limits.h"
 #include "proto/limits.h"
+#include "proto/person_name.h"
 #include "shared/base/timing.h"
 #include "shared/field/mass.h"
 
