@@ -20,7 +20,7 @@ std::optional<uint32_t> LoadGovernor::tick_ended(double length, uint64_t lost, u
   const bool calm = losses_.back() == 0 && late_ <= limits::governor_late_share * ticks_;
   calm_looks_ = calm ? calm_looks_ + 1 : 0;
   const bool behind = std::accumulate(losses_.begin(), losses_.end(), 0U) >= limits::governor_losses_min;
-  std::ranges::rotate(losses_, losses_.begin() + 1);
+  std::rotate(losses_.begin(), losses_.begin() + 1, losses_.end());
   losses_.back() = ticks_ = late_ = 0;
   uint32_t wanted = percent;
   if (behind) {
