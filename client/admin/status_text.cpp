@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/admin/admin.h"
+#include "proto/work_rows.h"
 
 namespace scree {
 
@@ -10,17 +11,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json_of(const WorkStatus& work) {
-  return {{"budget_us", work.budget_us},
-          {"worst_us", work.worst_us},
-          {"requests_waiting", work.requests_waiting},
-          {"merges_put_off", work.merges_put_off},
-          {"breaks_left_out", work.breaks_left_out},
-          {"dents_left_out", work.dents_left_out},
-          {"ticks_cut_short", work.ticks_cut_short},
-          {"ticks_merging_sooner", work.ticks_merging_sooner},
-          {"supports_put_off", work.supports_put_off},
-          {"islands_put_off", work.islands_put_off},
-          {"islands_too_large", work.islands_too_large}};
+  Json json = Json::object();
+  for (const WorkRow& row : work_rows) json[std::string(row.name)] = work.*row.count;
+  return json;
 }
 
 Json json_of(const LatencyStatus& latency) {

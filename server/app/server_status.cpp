@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "proto/work_rows.h"
+
 namespace scree {
 
 namespace {
@@ -18,17 +20,9 @@ StatusJson latency_json(const LatencyStatus& latency) {
 }
 
 StatusJson work_json(const WorkStatus& work) {
-  return {{"budget_us", work.budget_us},
-          {"worst_us", work.worst_us},
-          {"requests_waiting", work.requests_waiting},
-          {"merges_put_off", work.merges_put_off},
-          {"breaks_left_out", work.breaks_left_out},
-          {"dents_left_out", work.dents_left_out},
-          {"ticks_cut_short", work.ticks_cut_short},
-          {"ticks_merging_sooner", work.ticks_merging_sooner},
-          {"supports_put_off", work.supports_put_off},
-          {"islands_put_off", work.islands_put_off},
-          {"islands_too_large", work.islands_too_large}};
+  StatusJson json = StatusJson::object();
+  for (const WorkRow& row : work_rows) json[std::string(row.name)] = work.*row.count;
+  return json;
 }
 
 StatusJson now_json(const StatusMessage& status) {

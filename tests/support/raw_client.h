@@ -2,49 +2,36 @@
 // Every wait has a deadline.
 #pragma once
 
-#include <arpa/inet.h>
 #include <chrono>
-#include <netinet/in.h>
 #include <optional>
 #include <poll.h>
 #include <span>
 #include <sys/socket.h>
-#include <unistd.h>
 #include <vector>
 
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
+#include "tests/support/loopback_socket.h"
 
 namespace scree {
 
 class RawClient {
  public:
-  explicit RawClient(uint16_t port, int receive_buffer_bytes = 0)
-      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_buffer_bytes != 0)
-      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    connected_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  }
-  ~RawClient() { ::close(socket_); }
-  RawClient(const RawClient&) = delete;
-  RawClient& operator=(const RawClient&) = delete;
+  explicit RawClient(uint16_t port, int receive_buffer_bytes = 0) : socket_(port, receive_buffer_bytes) {}
 
-  bool connected() const { return connected_; }
+  bool connected() const { return socket_.connected(); }
 
   bool send_bytes(std::span<const uint8_t> bytes) {
-    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+    return ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(bytes.size());
   }
   bool send(const ClientMessage& message) { return send_bytes(encode(message)); }
   /// Ends the connection out of order, as a lost link does, when it is closed.
   void reset() {
     const linger at_once{1, 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+    ::setsockopt(socket_.number(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
   }
-  void finish_sending() { ::shutdown(socket_, SHUT_WR); }
+  void finish_sending() { socket_.finish_sending(); }
 
   /// The next message; nothing at the end of the stream or after the deadline.
   std::optional<ServerMessage> receive(std::chrono::milliseconds within = std::chrono::seconds(10)) {
@@ -89,10 +76,10 @@ class RawClient {
   bool fill(std::chrono::steady_clock::time_point deadline) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-    pollfd waiting{socket_, POLLIN, 0};
+    pollfd waiting{socket_.number(), POLLIN, 0};
     if (left.count() <= 0 || ::poll(&waiting, 1, static_cast<int>(left.count())) <= 0) return false;
     std::vector<uint8_t> bytes(65536);
-    const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    const ssize_t count = ::recv(socket_.number(), bytes.data(), bytes.size(), 0);
     if (count <= 0) {
       ended_ = true;
       return false;
@@ -101,8 +88,7 @@ class RawClient {
     return true;
   }
 
-  int socket_;
-  bool connected_ = false;
+  LoopbackSocket socket_;
   bool ended_ = false;
   FrameReader reader_;
 };

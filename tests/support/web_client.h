@@ -3,23 +3,21 @@
 #pragma once
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <charconv>
 #include <chrono>
 #include <gtest/gtest.h>
 #include <map>
-#include <netinet/in.h>
 #include <optional>
 #include <poll.h>
 #include <span>
 #include <string>
 #include <sys/socket.h>
-#include <unistd.h>
 #include <vector>
 
 #include "crypto/tls_engine.h"
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
+#include "tests/support/loopback_socket.h"
 #include "tests/support/patience.h"
 #include "tests/support/websocket_frame.h"
 
@@ -30,20 +28,10 @@ class WebPipe {
  public:
   explicit WebPipe(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
                    int receive_buffer_bytes = 0)
-      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_buffer_bytes != 0)
-      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    connected_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+      : socket_(port, receive_buffer_bytes), connected_(socket_.connected()) {
     if (tls) tls_.emplace(tls, "localhost");
     while (tls_ && connected_ && !tls_->established()) connected_ = shake();
   }
-  ~WebPipe() { ::close(socket_); }
-  WebPipe(const WebPipe&) = delete;
-  WebPipe& operator=(const WebPipe&) = delete;
 
   bool connected() const { return connected_; }
   bool send(std::span<const uint8_t> bytes) {
@@ -53,7 +41,7 @@ class WebPipe {
   bool send(std::string_view text) {
     return send(std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
   }
-  void finish_sending() { ::shutdown(socket_, SHUT_WR); }
+  void finish_sending() { socket_.finish_sending(); }
   /// What arrives next; empty: nothing more comes.
   std::vector<uint8_t> receive() {
     for (;;) {
@@ -90,25 +78,25 @@ class WebPipe {
   }
   bool send_raw(std::span<const uint8_t> bytes) {
     while (!bytes.empty()) {
-      const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const ssize_t sent = ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
       if (sent <= 0) return false;
       bytes = bytes.subspan(static_cast<size_t>(sent));
     }
     return true;
   }
   std::vector<uint8_t> receive_raw() {
-    pollfd waiting{socket_, POLLIN, 0};
+    pollfd waiting{socket_.number(), POLLIN, 0};
     if (::poll(&waiting, 1, static_cast<int>(patience.count() * 1000)) <= 0) {
       late_ = true;
       return {};
     }
     std::vector<uint8_t> bytes(65536);
-    const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    const ssize_t count = ::recv(socket_.number(), bytes.data(), bytes.size(), 0);
     bytes.resize(count > 0 ? static_cast<size_t>(count) : 0);
     return bytes;
   }
 
-  int socket_;
+  LoopbackSocket socket_;
   bool connected_ = false;
   bool late_ = false;
   std::optional<TlsEngine> tls_;
