@@ -58,6 +58,7 @@ function(scree_program NAME MAIN)
   add_executable(${NAME} ${MAIN})
   target_link_libraries(${NAME} PRIVATE ${ARGN} CLI11::CLI11 nlohmann_json::nlohmann_json)
   target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
+  target_compile_definitions(${NAME} PRIVATE SCREE_VERSION="${PROJECT_VERSION}")  # for --version, which each has
   scree_optimise_little(${NAME} ${MAIN})
 endfunction()
 

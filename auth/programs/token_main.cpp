@@ -100,6 +100,7 @@ int show(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes keys and access tokens for servers, and shows what a token says.", "scree-token");
+  app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   const CLI::App* key = app.add_subcommand("key", "makes a pair of keys: FILE signs, FILE.pub verifies");
   app.get_subcommand("key")

@@ -88,6 +88,7 @@ CLI::App* add_all(CLI::App& app, AllRuns& runs) {
 
 int run(int argc, char** argv) {
   CLI::App app("Benchmarks and studies of Scree", "scree-bench");
+  app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   app.add_subcommand("list", "name every benchmark and study");
   BenchRuns benches;

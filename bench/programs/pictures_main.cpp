@@ -264,6 +264,7 @@ int main(int argc, char** argv) {
   std::string folder = "docs/images", only, recording, scene;
   bool scenes = false;
   CLI::App app("Draws the pictures of Scree's documentation.", "scree-pictures");
+  app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "where the PNGs go");
   app.add_option("--only", only, "one of blast, patterns, tower, arch, methods");

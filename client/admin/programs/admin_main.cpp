@@ -209,6 +209,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Shows how a running server stands, changes its settings, and manages its sessions.",
                "scree-admin");
+  app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
   scree::bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers"),

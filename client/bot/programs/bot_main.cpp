@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
   scree::fail_at_file_limit();
   Options options;
   CLI::App app("A Scree client without a window: carves by script and reports as JSON.", "scree-bot");
+  app.set_version_flag("--version", SCREE_VERSION);
   scree::EndpointOptions endpoint(app, options.bot);
   scree::CacheOptions cache(app, options.bot.cache, 0);
   add_interest(app, options);

@@ -244,6 +244,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   options.threshold = 0.01;
   Texts texts;
   CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
+  app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   EndpointOptions endpoint(app, options);
   CacheOptions cache(app, options.cache, limits::cache_mib_default);
