@@ -1,6 +1,6 @@
 // scree-bench: runs benchmarks and studies, and compares what they found. Tables for people, JSON for
 // programs. Exit status: 0 done, 1 something could not be done, 2 wrong usage, 3 a check was missed (with
-// --strict) or a comparison found something worse.
+// --strict) or a comparison found something worse (with --strict: or gone).
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -101,11 +101,13 @@ int run(int argc, char** argv) {
   CLI::App* compare = app.add_subcommand("compare",
                                          "what became better or worse from one result to another; exits "
                                          "with 3 when something is worse");
-  std::string before, after;
-  compare->add_option("before", before, "a result, or a folder of results")
+  ComparedFiles compared;
+  compare->add_option("before", compared.before, "a result, or a folder of results")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("after", after, "the other one")->required()->check(CLI::ExistingPath);
+  compare->add_option("after", compared.after, "the other one")->required()->check(CLI::ExistingPath);
+  compare->add_flag("--strict", compared.strict,
+                    "exit with 3 also when something is gone: a metric, a check, a result of a folder");
   for (CLI::App* command : app.get_subcommands({})) refuse_empty(*command);
   try {
     app.parse(argc, argv);
@@ -114,7 +116,7 @@ int run(int argc, char** argv) {
   }
   if (run_command->parsed()) return run_benches(benches);
   if (all_command->parsed()) return run_all(all);
-  if (compare->parsed()) return compare_files(before, after);
+  if (compare->parsed()) return compare_files(compared);
   for (size_t i = 0; i < study_commands.size(); ++i)
     if (study_commands[i]->parsed()) return run_study(all_studies()[i], study);
   return list();

@@ -26,28 +26,38 @@ Result<Results> results_at(const std::string& path, bool is_folder) {
   return Results{{result->name, std::move(*result)}};
 }
 
-/// What only one of two folders has.
-void name_lone_ones(const Results& results, const Results& others, const std::string& folder) {
-  for (const auto& [name, result] : results)
-    if (!others.contains(name)) std::printf("%s: only in %s\n", name.c_str(), folder.c_str());
+/// What only one of two folders has; returns how many.
+size_t name_lone_ones(const Results& results, const Results& others, const std::string& folder) {
+  size_t lone = 0;
+  for (const auto& [name, result] : results) {
+    if (others.contains(name)) continue;
+    ++lone;
+    std::printf("%s: only in %s\n", name.c_str(), folder.c_str());
+  }
+  return lone;
+}
+
+/// Prints it; whether it ends the program with exit_worse.
+bool tell(const ResultComparison& comparison, bool strict) {
+  std::fputs(text_of(comparison).c_str(), stdout);
+  return comparison.is_worse() || (strict && comparison.lacks_something());
 }
 
 }  // namespace
 
-int compare_files(const std::string& before, const std::string& after) {
-  const bool folders = std::filesystem::is_directory(before);
-  if (folders != std::filesystem::is_directory(after)) {
+int compare_files(const ComparedFiles& files) {
+  const bool folders = std::filesystem::is_directory(files.before);
+  if (folders != std::filesystem::is_directory(files.after)) {
     std::fprintf(stderr, "compare takes two files, or two folders\n");
     return exit_usage;
   }
-  const Result<Results> was = results_at(before, folders), is = results_at(after, folders);
+  const Result<Results> was = results_at(files.before, folders), is = results_at(files.after, folders);
   if (!was) return complain(was.error().message);
   if (!is) return complain(is.error().message);
   if (!folders) {
     const Result<ResultComparison> comparison = compare_results(was->begin()->second, is->begin()->second);
     if (!comparison) return complain(comparison.error().message);
-    std::fputs(text_of(*comparison).c_str(), stdout);
-    return comparison->is_worse() ? exit_worse : exit_done;
+    return tell(*comparison, files.strict) ? exit_worse : exit_done;
   }
   bool worse = false, refused = false, any = false;
   for (const auto& [name, result] : *was) {
@@ -60,11 +70,10 @@ int compare_files(const std::string& before, const std::string& after) {
       refused = true;
       continue;
     }
-    std::fputs(text_of(*comparison).c_str(), stdout);
-    worse = worse || comparison->is_worse();
+    worse = tell(*comparison, files.strict) || worse;
   }
-  name_lone_ones(*was, *is, before);
-  name_lone_ones(*is, *was, after);
+  worse = (name_lone_ones(*was, *is, files.before) > 0 && files.strict) || worse;
+  name_lone_ones(*is, *was, files.after);
   if (!any) return complain("the folders have no bench in common");
   if (refused) return exit_not_done;
   return worse ? exit_worse : exit_done;

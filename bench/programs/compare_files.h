@@ -5,8 +5,12 @@
 
 namespace scree {
 
-/// Both files, or both folders. Prints the comparison, and returns the exit status: exit_worse when something
-/// became worse.
-int compare_files(const std::string& before, const std::string& after);
+struct ComparedFiles {
+  std::string before, after;  ///< both files, or both folders
+  bool strict = false;        ///< what only `before` has counts as worse: metrics, checks, whole results
+};
+
+/// Prints the comparison, and returns the exit status: exit_worse when something became worse.
+int compare_files(const ComparedFiles& files);
 
 }  // namespace scree

@@ -71,6 +71,8 @@ struct ResultComparison {
 
   size_t count(Change change) const;  ///< of metrics and checks
   bool is_worse() const { return count(Change::worse) > 0; }
+  /// Something that was measured or checked before is not any more.
+  bool lacks_something() const { return count(Change::gone) > 0; }
 };
 
 /// An error when they are of different benches or of different work.

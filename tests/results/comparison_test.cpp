@@ -137,6 +137,10 @@ TEST(ComparisonTest, metrics_that_come_and_go_are_named) {
   EXPECT_EQ(comparison->metrics[0].change, Change::gone);
   EXPECT_EQ(comparison->metrics[1].change, Change::added);
   EXPECT_FALSE(comparison->is_worse());
+  EXPECT_TRUE(comparison->lacks_something());
+  const auto nothing_gone = compare_results(result_of({}), result_of({{"young_ms", {1.0, 1.0, 1.0}}}));
+  ASSERT_TRUE(nothing_gone);
+  EXPECT_FALSE(nothing_gone->lacks_something());
 }
 
 TEST(ComparisonTest, a_check_that_is_missed_now_is_worse) {
