@@ -8,7 +8,6 @@
 #include "bench/report/machine.h"
 #include "bench/support/heap.h"
 #include "bench/support/scratch.h"
-#include "bench/support/this_build.h"
 #include "client/connection/connection.h"
 #include "client/mirror/mirror.h"
 #include "server/app/live_server.h"
@@ -53,10 +52,8 @@ std::string name_of(const CarvedGround& ground) {
 
 Result<std::vector<std::string>> kept_worlds(const std::string& folder,
                                              const std::vector<CarvedGround>& grounds) {
-  const auto own = build_folder(folder, this_build());
-  if (!own) return tl::unexpected(own.error());
   std::vector<std::string> paths;
-  for (const CarvedGround& ground : grounds) paths.push_back((fs::path(*own) / name_of(ground)).string());
+  for (const CarvedGround& ground : grounds) paths.push_back((fs::path(folder) / name_of(ground)).string());
   std::vector<Result<void>> written(grounds.size());
   std::atomic<int> left = static_cast<int>(grounds.size());
   const auto work = [&] {

@@ -18,9 +18,8 @@ struct OpenedWorld {
   double heap_mib = 0.0;  ///< that this thread holds more than before
 };
 
-/// The paths of the grounds' files in this build's part of the folder, in their order. Those that are not
-/// there are written, the last one first, on as many threads as this process may use cores. Those of other
-/// builds, which may carve otherwise, are removed.
+/// The paths of the grounds' files in the folder, in their order. Those that are not there are written, the
+/// last one first, on as many threads as this process may use cores.
 Result<std::vector<std::string>> kept_worlds(const std::string& folder,
                                              const std::vector<CarvedGround>& grounds);
 

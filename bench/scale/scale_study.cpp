@@ -8,6 +8,7 @@
 #include "bench/scale/axes.h"
 #include "bench/scale/frame_set.h"
 #include "bench/support/studies.h"
+#include "bench/support/this_build.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -30,9 +31,9 @@ constexpr double machine_share = 0.18;
 /// Measures one part after the other, and puts the report together.
 class ScaleStudy {
  public:
-  explicit ScaleStudy(const StudyOptions& options) : options_(options) {
+  ScaleStudy(const StudyOptions& options, const std::string& worlds) : options_(options) {
     run_.quick = options.quick;
-    run_.worlds = (std::filesystem::path(options.folder) / "scale-worlds").string();
+    run_.worlds = worlds;
     auto stage = Stage::create(frame_view_radius_m);
     if (!stage) {
       drawing_ = "Nothing is drawn: " + stage.error().message + ".";
@@ -167,10 +168,14 @@ void ScaleStudy::tell() {
 }  // namespace
 
 Result<StudyResult> run_scale_study(const StudyOptions& options) {
+  // Other builds may carve otherwise, so that their worlds are others.
+  const auto worlds =
+      BuildFolder::take((std::filesystem::path(options.folder) / "scale-worlds").string(), this_build());
+  if (!worlds) return tl::unexpected(worlds.error());
   // Servers that the study starts within this process would tell of each session.
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::err);
-  StudyResult result = ScaleStudy(options).measure();
+  StudyResult result = ScaleStudy(options, worlds->path()).measure();
   spdlog::set_level(level);
   return result;
 }
