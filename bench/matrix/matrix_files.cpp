@@ -1,11 +1,12 @@
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 
 #include "bench/matrix/matrix_report.h"
 #include "bench/report/machine.h"
+#include "bench/report/text_file.h"
 
 namespace scree {
 
@@ -49,10 +50,7 @@ Result<void> write_best(const MatrixResults& results, const std::vector<MatrixSc
     if (number < scores.size()) json[who] = as_json(results, scores, number);
   for (const auto& [preset, figures] : results.profiles)
     json["presets"][std::string(name_of(preset))] = as_json(figures);
-  std::ofstream file(path);
-  file << json.dump(2) << '\n';
-  if (!file.flush()) return fail("cannot write " + path);
-  return {};
+  return write_text_file(path, json.dump(2) + '\n');
 }
 
 Result<void> write_ranking(const MatrixResults& results, const std::vector<MatrixScore>& scores,
@@ -63,7 +61,7 @@ Result<void> write_ranking(const MatrixResults& results, const std::vector<Matri
   std::ranges::sort(order, {}, [&](size_t i) {
     return std::tuple(std::ranges::max(ranks[i]), std::accumulate(ranks[i].begin(), ranks[i].end(), 0.0), i);
   });
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "drawing,cutter,simplifier,collider,recombine,pattern";
   for (const Criterion& criterion : matrix_criteria) file << ',' << criterion.name;
   file << ",worst_rank\n";
@@ -74,8 +72,7 @@ Result<void> write_ranking(const MatrixResults& results, const std::vector<Matri
     for (const double value : scores[i]) file << ',' << value;
     file << ',' << std::ranges::max(ranks[i]) << '\n';
   }
-  if (!file.flush()) return fail("cannot write " + path);
-  return {};
+  return write_text_file(path, file.str());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "bench/peers/luanti_game.h"
+#include "bench/report/text_file.h"
 #include "bench/support/watched_process.h"
 #include "shared/base/timing.h"
 
@@ -131,7 +132,7 @@ Result<std::unique_ptr<Luanti>> Luanti::start(const std::string& folder, int vie
     return tl::unexpected(made.error());
   for (const auto& [path, text] : {std::pair(home + "/server.conf", server_settings()),
                                    std::pair(state->world() + "/orders", std::string())})
-    if (auto written = write_text(path, text); !written) return tl::unexpected(written.error());
+    if (auto written = write_text_file(path, text); !written) return tl::unexpected(written.error());
   state->server =
       start_at_home(home, server_path,
                     {"--config", home + "/server.conf", "--world", state->world(), "--gameid", luanti_game_id,
@@ -154,7 +155,7 @@ Luanti::~Luanti() = default;
 Result<void> Luanti::add_client() {
   const std::string name = "viewer" + std::to_string(state_->clients.size());
   const std::string home = state_->folder + "/" + name;
-  if (auto written = write_text(home + "/client.conf", client_settings(state_->view_nodes)); !written)
+  if (auto written = write_text_file(home + "/client.conf", client_settings(state_->view_nodes)); !written)
     return written;
   state_->clients.push_back(
       start_at_home(home, client_path,

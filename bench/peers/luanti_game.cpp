@@ -1,7 +1,6 @@
 #include "bench/peers/luanti_game.h"
 
-#include <filesystem>
-#include <fstream>
+#include "bench/report/text_file.h"
 
 namespace scree::peers {
 
@@ -94,19 +93,12 @@ end)
 
 }  // namespace
 
-Result<void> write_text(const std::string& path, const std::string& text) {
-  std::error_code ignored;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) return fail("cannot write " + path);
-  return {};
-}
-
 Result<void> write_luanti_game(const std::string& folder) {
-  if (auto written = write_text(folder + "/game.conf", "title = Scree's peer\n"); !written) return written;
-  if (auto written = write_text(folder + "/mods/rock/mod.conf", "name = rock\n"); !written) return written;
-  return write_text(folder + "/mods/rock/init.lua", script);
+  if (auto written = write_text_file(folder + "/game.conf", "title = Scree's peer\n"); !written)
+    return written;
+  if (auto written = write_text_file(folder + "/mods/rock/mod.conf", "name = rock\n"); !written)
+    return written;
+  return write_text_file(folder + "/mods/rock/init.lua", script);
 }
 
 }  // namespace scree::peers

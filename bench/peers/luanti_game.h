@@ -11,7 +11,5 @@ inline constexpr const char* luanti_game_id = "scree_peer";
 
 /// Writes the game into that folder, which is made.
 Result<void> write_luanti_game(const std::string& folder);
-/// Writes a text to a file, whose folder is made.
-Result<void> write_text(const std::string& path, const std::string& text);
 
 }  // namespace scree::peers

@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 
+#include "bench/report/axis_ticks.h"
 #include "bench/report/event_look.h"
 #include "bench/report/inline_text.h"
 #include "film/process/child_process.h"
@@ -71,6 +72,31 @@ bool has_bars(const Plot& plot) {
   return std::ranges::any_of(plot.series, [](const PlotSeries& s) { return s.style == SeriesStyle::bars; });
 }
 
+std::string ticks_script(char axis, const std::vector<double>& places) {
+  std::string list;
+  for (const double at : places)
+    list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", at);  // a float's last digits are none
+  return fmt::format("set {}tics ({})\n", axis, list);
+}
+
+/// An axis of logarithms gets round ends, and its own labels: in a range of less than two powers of ten
+/// gnuplot names one or none.
+std::string range_of_y(const Plot& plot) {
+  Range y;
+  for (const PlotSeries& series : plot.series)
+    for (size_t i = 0; i < series.points.size(); ++i) {
+      const double spread = i < series.spread.size() ? series.spread[i] : 0.0;
+      for (const double value : {series.points[i].second - spread, series.points[i].second + spread})
+        if (!plot.log_y || value > 0.0) y.take(value);
+    }
+  if (plot.log_y && !plot.y_range && !y.empty()) {
+    const auto [lo, hi] = round_log_range(y.lo, y.hi);
+    return fmt::format("set yrange [{}:{}]\n", lo, hi) + ticks_script('y', log_ticks(lo, hi));
+  }
+  if (plot.y_range) return fmt::format("set yrange [{}:{}]\n", plot.y_range->first, plot.y_range->second);
+  return !plot.log_y && y.lo >= 0.0 ? "set yrange [0:*]\n" : "";
+}
+
 std::string head(const Plot& plot, const std::string& svg_file, const Range& x) {
   std::string id = plot.name;
   std::ranges::replace(id, '-', '_');
@@ -86,31 +112,26 @@ std::string head(const Plot& plot, const std::string& svg_file, const Range& x) 
   if (plot.log_x) script += "set logscale x\n";
   if (plot.log_y) script += "set logscale y\n";
   script += fmt::format("set xrange [{}:{}] noextend\n", x.lo, x.hi);
-  Range y;
-  for (const PlotSeries& series : plot.series)
-    for (const auto& [at, value] : series.points) y.take(value);
-  if (plot.y_range)
-    script += fmt::format("set yrange [{}:{}]\n", plot.y_range->first, plot.y_range->second);
-  else if (!plot.log_y && y.lo >= 0.0)
-    script += "set yrange [0:*]\n";
-  return script;
+  return script + range_of_y(plot);
 }
 
-/// On an axis of logarithms, the places that were measured, where their labels have room; else gnuplot's own.
+/// On an axis of logarithms, the places that were measured, where they are enough and their labels have room;
+/// else round numbers.
 std::string measured_places(const Plot& plot, const Range& x) {
   constexpr double least_part = 0.06;  // of the axis, between two labels
   std::set<double> places;
   for (const PlotSeries& series : plot.series)
     for (const auto& [at, value] : series.points)
       if (at > 0.0) places.insert(at);
-  std::string tics;
+  if (places.empty()) return {};
   double last = 0.0;
   for (const double at : places) {
-    if (last > 0.0 && std::log(at / last) < least_part * std::log(x.hi / x.lo)) return {};
-    tics += fmt::format("{}{:.6g}", tics.empty() ? "" : ", ", at);  // a float's last digits are none
+    if (last > 0.0 && std::log(at / last) < least_part * std::log(x.hi / x.lo))
+      return ticks_script('x', log_ticks(x.lo, x.hi));
     last = at;
   }
-  return fmt::format("set xtics ({})\n", tics);
+  if (places.size() < ticks_least) return ticks_script('x', log_ticks(x.lo, x.hi));
+  return ticks_script('x', {places.begin(), places.end()});
 }
 
 std::string names_on_x(const Plot& plot, const Range& x) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "bench/report/formats.h"
@@ -36,6 +37,59 @@ std::string cells(const std::vector<std::string>& texts, std::string_view elemen
   std::string row = "<tr>";
   for (const std::string& text : texts) row += fmt::format("<{0}>{1}</{0}>", element, inline_html(text));
   return row + "</tr>\n";
+}
+
+/// The page's width without its margins (the style's 62rem), and what a letter takes in a table, and a cell
+/// beside its letters: in DejaVu Sans, which is a wide font.
+constexpr size_t page_px = 952, letter_px = 9, cell_px = 13;
+
+/// Of the longest word, which a browser does not break.
+size_t longest_word(const std::string& text) {
+  size_t longest = 0, letters = 0;
+  for (const char c : text) {
+    const bool goes_on = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // of a letter of several bytes
+    if (!goes_on) ++letters;
+    if (c == ' ') letters = 0;
+    longest = std::max(longest, letters);
+    if (c == '-') letters = 0;
+  }
+  return longest;
+}
+
+size_t least_px(const ReportTable& table, size_t column) {
+  size_t letters = longest_word(table.header[column]);
+  for (const auto& row : table.rows) letters = std::max(letters, longest_word(row[column]));
+  return letters * letter_px + cell_px;
+}
+
+/// The table itself where it fits the page; else its columns in as many tables as it takes, each with the
+/// first column.
+std::vector<ReportTable> fitting(const ReportTable& table) {
+  std::vector<std::vector<size_t>> parts(1);
+  size_t width = 0;
+  for (size_t column = 0; column < table.header.size(); ++column) {
+    const size_t more = least_px(table, column);
+    if (width + more > page_px && parts.back().size() > 1) {
+      parts.push_back({0});
+      width = least_px(table, 0);
+    }
+    width += more;
+    parts.back().push_back(column);
+  }
+  if (parts.size() == 1) return {table};
+  std::vector<ReportTable> tables;
+  for (const std::vector<size_t>& columns : parts) {
+    ReportTable& part = tables.emplace_back();
+    part.caption = tables.size() == 1 ? table.caption : table.caption + ", continued";
+    const auto of = [&](const std::vector<std::string>& cells) {
+      std::vector<std::string> some;
+      for (const size_t column : columns) some.push_back(cells[column]);
+      return some;
+    };
+    part.header = of(table.header);
+    for (const auto& row : table.rows) part.rows.push_back(of(row));
+  }
+  return tables;
 }
 
 std::string table_html(const ReportTable& table) {
@@ -83,7 +137,8 @@ std::string report_html(const StudyReport& report, const Machine& machine,
     const ReportSection& section = report.sections[i];
     html += fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", i + 1, inline_html(section.title));
     html += paragraphs_html(section.text);
-    for (const ReportTable& table : section.tables) html += table_html(table);
+    for (const ReportTable& table : section.tables)
+      for (const ReportTable& part : fitting(table)) html += table_html(part);
     for (const Plot& plot : section.plots)
       html += "<figure role=\"img\" aria-label=\"" + html_escaped(one_line(plot.title)) + "\">\n" +
               inlined(svgs.at(drawn++)) + "</figure>\n";

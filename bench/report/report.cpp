@@ -10,6 +10,7 @@
 
 #include "bench/report/formats.h"
 #include "bench/report/gnuplot.h"
+#include "bench/report/text_file.h"
 
 namespace scree {
 namespace {
@@ -57,13 +58,6 @@ Result<void> check_report(const StudyReport& report) {
   return {};
 }
 
-Result<void> write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  if (!out.flush()) return fail("cannot write " + path.string());
-  return {};
-}
-
 Result<std::string> draw_svg(const Plot& plot, const std::filesystem::path& path) {
   std::error_code none;
   std::filesystem::remove(path, none);  // an old one is not to be taken for what gnuplot drew
@@ -107,15 +101,17 @@ Result<void> write_report(const StudyReport& report, const std::string& folder) 
   std::vector<std::string> svgs;
   for (const ReportSection& section : report.sections)
     for (const Plot& plot : section.plots) {
-      if (auto written = write_text(plots / (plot.name + ".csv"), plot_csv(plot)); !written) return written;
+      if (auto written = write_text_file(plots / (plot.name + ".csv"), plot_csv(plot)); !written)
+        return written;
       Result<std::string> svg = draw_svg(plot, plots / (plot.name + ".svg"));
       if (!svg) return tl::unexpected(svg.error());
       svgs.push_back(std::move(*svg));
     }
   const Machine machine = this_machine();
   const std::string base = (fs::path(folder) / report.name).string();
-  if (auto written = write_text(base + ".md", report_markdown(report, machine)); !written) return written;
-  return write_text(base + ".html", report_html(report, machine, svgs));
+  if (auto written = write_text_file(base + ".md", report_markdown(report, machine)); !written)
+    return written;
+  return write_text_file(base + ".html", report_html(report, machine, svgs));
 }
 
 }  // namespace scree

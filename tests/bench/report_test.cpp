@@ -1,5 +1,6 @@
 // Reports of studies: numbers, text from outside in each format, and what is refused. Only what gnuplot draws
 // needs gnuplot.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "bench/report/axis_ticks.h"
 #include "bench/report/formats.h"
 #include "bench/report/gnuplot.h"
 #include "bench/report/inline_text.h"
@@ -164,7 +166,32 @@ TEST(GnuplotScript, an_axis_of_logarithms_names_the_places_that_were_measured) {
   plot.series.front().points = {{64.0, 1.0}, {256.0, 1.0}, {4096.0, 1.0}};
   EXPECT_TRUE(has(gnuplot_script(plot, "p.svg"), "set xtics (64, 256, 4096)\n"));
   plot.series.front().points.emplace_back(65.0, 1.0);  // no room beside 64
-  EXPECT_FALSE(has(gnuplot_script(plot, "p.svg"), "set xtics ("));
+  EXPECT_TRUE(has(gnuplot_script(plot, "p.svg"), "set xtics (100, 200, 500, 1000, 2000)\n"));
+}
+
+TEST(GnuplotScript, every_axis_of_logarithms_has_three_labels_at_least) {
+  Plot plot = plain_plot("p");
+  plot.log_x = plot.log_y = true;
+  plot.series.front().points.clear();
+  for (double x = 22.0; x < 35.0; x += 0.1) plot.series.front().points.emplace_back(x, 0.1 * x);
+  const std::string script = gnuplot_script(plot, "p.svg");
+  EXPECT_TRUE(has(script, "set xtics (25, 30, 35)\n")) << script.substr(0, 1500);
+  EXPECT_TRUE(has(script, "set yrange [2:5]\nset ytics (2, 3, 4, 5)\n")) << script.substr(0, 1500);
+}
+
+TEST(AxisTicks, are_round_few_and_within_the_range) {
+  for (double lo : {1e-7, 0.013, 0.99, 1.0, 7.3, 5000.0})
+    for (double ratio : {1.001, 1.02, 1.3, 2.0, 9.0, 50.0, 1e4, 1e12}) {
+      const std::vector<double> ticks = log_ticks(lo, lo * ratio);
+      EXPECT_GE(ticks.size(), ticks_least) << lo << " to " << lo * ratio;
+      EXPECT_LE(ticks.size(), 12U) << lo << " to " << lo * ratio;
+      EXPECT_TRUE(std::ranges::is_sorted(ticks));
+      EXPECT_GE(ticks.front(), lo * 0.999999);
+      EXPECT_LE(ticks.back(), lo * ratio * 1.000001);
+      const auto [below, above] = round_log_range(lo, lo * ratio);
+      EXPECT_TRUE(below <= lo * 1.000001 && above >= lo * ratio * 0.999999 && below < above);
+    }
+  EXPECT_EQ(round_log_range(2.0, 2.0), (std::pair{1.0, 5.0}));
 }
 
 TEST(Report, what_cannot_be_drawn_is_refused_before_anything_is_written) {
@@ -215,6 +242,29 @@ TEST(Report, without_plots_it_needs_no_gnuplot) {
   EXPECT_TRUE(has(html, "<h2>First</h2>"));
   EXPECT_TRUE(has(html, this_machine().compiler));
   EXPECT_FALSE(has(html, "<b>"));
+}
+
+TEST(Report, a_table_wider_than_the_page_is_split_in_it) {
+  ReportTable wide{"Presets", {"preset"}, {{"laptop"}, {"desktop"}}};
+  for (int i = 0; i < 15; ++i) {
+    wide.header.push_back("memory" + std::to_string(i) + ", MB");
+    for (auto& row : wide.rows) row.push_back(std::to_string(i) + ".5");
+  }
+  StudyReport report = report_of({});
+  report.sections.front().tables = {wide};
+  const std::string html = report_html(report, this_machine(), {});
+  const auto count = [&](const std::string& part) {
+    size_t found = 0;
+    for (size_t at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<th>preset</th>"), 2U);
+  EXPECT_EQ(count("<td>desktop</td>"), 2U);
+  EXPECT_EQ(count("<caption>Presets, continued</caption>"), 1U);
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(count("<th>memory" + std::to_string(i) + ", MB</th>"), 1U) << i;
+  report.sections.front().tables.front().header.resize(6);
+  for (auto& row : report.sections.front().tables.front().rows) row.resize(6);
+  EXPECT_EQ(report_html(report, this_machine(), {}).find("continued"), std::string::npos);
 }
 
 TEST(Report, a_folder_that_cannot_be_made_is_told) {
