@@ -6,8 +6,10 @@
 #include "bench/scale/axes.h"
 #include "bench/support/heap.h"
 #include "bench/support/scenes.h"
-#include "bench/wire/paced_world.h"
 #include "proto/world_value.h"
+#include "server/publish/publisher.h"
+#include "server/world/world.h"
+#include "server/world/world_snapshot.h"
 #include "shared/base/quantile.h"
 #include "shared/base/timing.h"
 
@@ -22,8 +24,9 @@ constexpr uint32_t blows_at_once = 4;
 constexpr Tick build_ticks_max = 600;
 constexpr Tick warm_ticks = 10;
 constexpr Tick measured_ticks = 60;  ///< bodies fall asleep two seconds after their last movement, no sooner
-constexpr size_t onlookers = 4;
-constexpr float onlookers_interest_m = 64.0F;
+constexpr float onlooker_interest_m = 64.0F;
+constexpr uint64_t onlooker = 1;       ///< its session
+constexpr Tick join_ticks_max = 7200;  ///< 40 MB of pieces
 
 struct Heaps {
   uint32_t blows_a_side;
@@ -90,32 +93,70 @@ Result<HeapTicks> step_heaps(const WorldSnapshot& value, size_t threads) {
   return ticks;
 }
 
-/// Bits that a viewer of all pieces gets, kbit/s.
-Result<double> show_heaps(const WorldSnapshot& value) {
+/// A viewer of all pieces, without sockets and clocks: the server's publisher, and a link that takes all it
+/// is offered.
+class Onlooker {
+ public:
+  explicit Onlooker(const WorldConfig& config)
+      : publisher_({.terrain = config.terrain, .tick_rate_hz = config.tick_rate_hz}, workers_),
+        eye_m_(0.0F, ground_height_m(config.terrain, 0.0F, 0.0F), 0.0F) {}
+
+  /// Shows a tick, as the one that follows the last shown.
+  void show(TickDelta delta) {
+    delta.tick = next_++;
+    publisher_.publish(delta, [](uint64_t) { return Backlog(); });
+  }
+  /// Streams the edits and the pieces of a world that stands still, as a keyframe has it. False when that
+  /// does not end.
+  bool join(const TickDelta& keyframe) {
+    show(keyframe);
+    publisher_.join(onlooker, eye_m_, onlooker_interest_m, true);
+    TickDelta still;
+    still.pieces = keyframe.pieces;
+    still.ledger = keyframe.ledger;
+    still.field_hash = keyframe.field_hash;
+    const ClientView& view = *publisher_.view(onlooker);
+    const auto has_all = [&] {
+      return view.chunks_waiting() == 0 && view.known_pieces() == keyframe.pieces.size();
+    };
+    while (ticks() < join_ticks_max && !has_all()) show(still);
+    return has_all();
+  }
+
+  const PublisherStats& stats() const { return publisher_.stats(); }
+  Tick ticks() const { return next_ - 1; }  ///< shown
+
+ private:
+  Workers workers_{1};
+  Publisher publisher_;
+  glm::vec3 eye_m_;
+  Tick next_ = 1;
+};
+
+/// What a viewer of all pieces is sent.
+struct Shown {
+  double kbit_s = 0.0;        ///< in the timed ticks, to a viewer that has all edits and pieces
+  double join_mib = 0.0;      ///< until it has them
+  double join_s = 0.0;        ///< until then
+  uint64_t volume_bytes = 0;  ///< of edits and pieces, in the timed ticks
+};
+
+Result<Shown> show_heaps(const WorldSnapshot& value) {
   auto world = World::restore(value);
   if (!world) return tl::unexpected(world.error());
-  const TerrainSource& terrain = (*world)->config().terrain;
-  CommandQueue commands;
-  NetConfig net;
-  net.terrain = terrain;
-  const auto server = NetServer::listen(net, commands);
-  if (!server) return tl::unexpected(server.error());
-  const auto times = std::make_unique<TickTimes>();
-  const glm::vec3 eye_m(0.0F, ground_height_m(terrain, 0.0F, 0.0F), 0.0F);
-  const std::vector<HelloMessage> hellos(onlookers,
-                                         {protocol_version, "onlooker", eye_m, onlookers_interest_m});
-  // The world's first tick is told first: it has the pieces that a later one assumes.
-  (*server)->publish(std::make_shared<TickDelta>((*world)->keyframe()));
-  const auto drains = Drains::connect((*server)->port(), hellos, *times);
-  if (!drains) return tl::unexpected(drains.error());
-  (*drains)->start();
-  run_paced(**world, **server, commands, *times, 1.0);
-  (*drains)->count(true);
-  const PacedTicks ticks = run_paced(**world, **server, commands, *times, 1.0);
-  (*drains)->count(false);
-  (*drains)->stop();
-  const double ticks_s = static_cast<double>(ticks.run) / measured_at_hz;
-  return static_cast<double>((*drains)->bytes()) * 8e-3 / ticks_s / onlookers;
+  Onlooker viewer((*world)->config());
+  if (!viewer.join((*world)->keyframe())) return fail("a viewer does not get all pieces");
+  const auto volume_bytes = [&] { return viewer.stats().chunk_bytes + viewer.stats().piece_bytes; };
+  Shown shown;
+  shown.join_mib = static_cast<double>(viewer.stats().sent_bytes) / 1048576.0;
+  shown.join_s = static_cast<double>(viewer.ticks()) / measured_at_hz;
+  for (Tick tick = 0; tick < warm_ticks; ++tick) viewer.show(*(*world)->step({}));
+  const uint64_t sent_before = viewer.stats().sent_bytes, volumes_before = volume_bytes();
+  for (Tick tick = 0; tick < measured_ticks; ++tick) viewer.show(*(*world)->step({}));
+  const double seconds = static_cast<double>(measured_ticks) / measured_at_hz;
+  shown.kbit_s = static_cast<double>(viewer.stats().sent_bytes - sent_before) * 8e-3 / seconds;
+  shown.volume_bytes = volume_bytes() - volumes_before;
+  return shown;
 }
 
 struct Built {
@@ -140,6 +181,22 @@ Result<void> step_all(Axis& axis, const ScaleRun& run, std::vector<Built>& sizes
   return {};
 }
 
+Result<void> show_all(Axis& axis, const std::vector<Built>& sizes) {
+  uint64_t volume_bytes = 0;
+  for (const Built& built : sizes) {
+    const auto shown = show_heaps(built.value);
+    if (!shown) return tl::unexpected(shown.error());
+    axis.curve("sent to a viewer", "kbit/s").add(built.pieces, shown->kbit_s);
+    axis.curve("bytes of a join", measure::size_mib).add(built.pieces, shown->join_mib);
+    axis.curve("join", "time of a join, s").add(built.pieces, shown->join_s);
+    volume_bytes += shown->volume_bytes;
+  }
+  axis.checks.push_back(
+      {"pieces_sent_by_motions_alone", volume_bytes == 0,
+       fmt::format("{} bytes of volumes within the stream of one who has them all", volume_bytes)});
+  return {};
+}
+
 }  // namespace
 
 Result<Axis> measure_pieces_axis(const ScaleRun& run) {
@@ -158,15 +215,9 @@ Result<Axis> measure_pieces_axis(const ScaleRun& run) {
     run.progress(0.3 * static_cast<double>(sizes.size()) / static_cast<double>(plan.size()));
   }
   if (auto done = step_all(axis, run, sizes); !done) return tl::unexpected(done.error());
-  bool same = true;
-  for (const Built& built : sizes) {
-    same = same && built.same_hashes;
-    const auto kbit_s = show_heaps(built.value);
-    if (!kbit_s) return tl::unexpected(kbit_s.error());
-    axis.curve("sent to a viewer", "kbit/s").add(built.pieces, *kbit_s);
-  }
-  axis.checks.push_back(
-      {"pieces_same_on_all_cores", same, "hashes after the last tick on one thread and on all"});
+  if (auto done = show_all(axis, sizes); !done) return tl::unexpected(done.error());
+  axis.checks.push_back({"pieces_same_on_all_cores", std::ranges::all_of(sizes, &Built::same_hashes),
+                         "hashes after the last tick on one thread and on all"});
   axis.curve("tick on one core", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");
   axis.curve("tick on all cores", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");
   axis.curve("sent to a viewer", "kbit/s").limit(20000.0, "a link of 20 Mbit/s");
@@ -175,9 +226,14 @@ Result<Axis> measure_pieces_axis(const ScaleRun& run) {
       "merges, and none of them sleeps yet. A tick on one core is its processor time; one on all cores is "
       "by the clock. Both are medians of {} ticks, and of rounds over all sizes.",
       heaps_apart_m, measured_ticks));
-  axis.text.push_back(
-      fmt::format("A viewer's stream is that of all the pieces within {:.0f} m, with 60 ticks a second.",
-                  onlookers_interest_m));
+  axis.text.push_back(fmt::format(
+      "The stream to a viewer is that of the same ticks, to one who has all the pieces, within {:.0f} m, "
+      "when they begin: motions and a status. Before, a viewer that joins is sent the edits and the volumes "
+      "of the pieces, at most {} KiB of volumes after each of {} frames with poses a second; the world "
+      "stands still while these join. Many blows take longer than few: most of their pieces lie still by "
+      "the end, though none sleeps, and take fewer bits each.",
+      onlooker_interest_m, limits::outbox_soft_bytes / 1024,
+      measured_at_hz / PublisherConfig().ticks_per_transform));
   return axis;
 }
 
