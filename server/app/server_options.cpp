@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "proto/messages.h"
+#include "server/app/config_entries.h"
 #include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
@@ -335,6 +336,7 @@ std::string fault_of(const CLI::ConfigItem& item) {
   declare(app, raw);
   const std::string flag = "--" + item.fullname();
   if (app.get_option_no_throw(flag) == nullptr) return "there is no option '" + item.fullname() + "'";
+  if (item.inputs.empty()) return flag + ": there is no value";
   std::vector<std::string> arguments;  // the last comes first
   for (const std::string& input : item.inputs) arguments.push_back(flag + "=" + input);
   std::reverse(arguments.begin(), arguments.end());
@@ -351,14 +353,14 @@ std::string fault_of(const CLI::ConfigItem& item) {
 /// itself.
 std::string fault_in_file(const std::string& path) {
   std::ifstream file(path);
-  size_t number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    std::istringstream entry(line);
-    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(entry)) {
+  for (const ConfigEntry& entry : config_entries(file)) {
+    const std::string place = path + ":" + std::to_string(entry.line) + ": ";
+    if (!entry.closed) return place + "a list that does not end";
+    std::istringstream text(entry.text);
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text)) {
       const bool section = item.name == "++" || item.name == "--";
       const std::string fault = section ? "options stand in no section" : fault_of(item);
-      if (!fault.empty()) return path + ":" + std::to_string(number) + ": " + fault;
+      if (!fault.empty()) return place + fault;
     }
   }
   return {};
