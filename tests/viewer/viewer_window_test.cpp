@@ -79,6 +79,18 @@ TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
   EXPECT_LT(app_->settings().hand.field_of_view_degrees, before.field_of_view_degrees);
 }
 
+TEST_F(ViewerHand, a_window_that_comes_back_strikes_nothing_by_the_click_that_takes_the_mouse_again) {
+  join(320, 200);
+  take_mouse();
+  hand("search --maxdepth 0 --name '.*' windowfocus");
+  run_until([&] { return !window_->holds_mouse(); }, "the mouse's freedom");
+  hand("search --name Scree windowfocus --sync click 1 key f");
+  run_until([&] { return window_->holds_mouse() && app_->settings().tool.use == ToolUse::fill; },
+            "the mouse");
+  EXPECT_EQ(viewing_->session.predictions(), 0U);
+  EXPECT_FALSE(viewing_->session.carved());
+}
+
 TEST_F(ViewerHand, fills_and_paints) {
   join(320, 200);
   take_mouse();

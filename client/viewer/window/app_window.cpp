@@ -57,6 +57,10 @@ struct AppWindowEvents {
       of(window).hold_mouse(true);
     }
   }
+  /// Else the click that brings the window back would strike.
+  static void on_focus(GLFWwindow* window, int focused) {
+    if (focused == GLFW_FALSE && of(window).holds_mouse_) of(window).hold_mouse(false);
+  }
   static void on_scroll(GLFWwindow* window, double, double notches) {
     of(window).wheel_ += static_cast<float>(notches);
   }
@@ -85,6 +89,7 @@ AppWindow::AppWindow(GLFWwindow* window) : window_(window) {
   glfwSetCharCallback(window_, AppWindowEvents::on_char);
   glfwSetMouseButtonCallback(window_, AppWindowEvents::on_button);
   glfwSetScrollCallback(window_, AppWindowEvents::on_scroll);
+  glfwSetWindowFocusCallback(window_, AppWindowEvents::on_focus);
   last_s_ = glfwGetTime();
 }
 
