@@ -115,21 +115,33 @@ void WindowApp::record_path(double now_s) {
 void WindowApp::end_path(double now_s) {
   const std::string file = new_file("scree-path", ".json");
   const Result<void> written = write_text(file, recorder_->text());
-  say(written ? "wrote " + file + ": scree view --path " + file + " flies it" : written.error().message,
+  say(written ? "wrote " + file + ": the viewer's --path " + file + " flies it" : written.error().message,
       now_s);
   recorder_.reset();
+}
+
+/// Says what changed: with the panel hidden, nothing else does.
+void WindowApp::change_hand(Action action, double now_s) {
+  const Tool tool = tool_;
+  change(tool_, action);
+  if (tool != tool_ && !viewing_.session.is_replay()) say(describe(tool_), now_s);
+  const HandChoice hand = hand_;
+  change(hand_, action);
+  if (hand != hand_) say(describe(hand_, action), now_s);
 }
 
 Result<void> WindowApp::act(const AppInput& input, double now_s) {
   const MethodSwitch& methods = viewing_.view->methods();
   for (const Action action : input.actions) {
-    change(tool_, action);
-    change(hand_, action);
+    change_hand(action, now_s);
     act_on_view(action);
     viewing_.session.timeline().act(action);
     if (action == Action::next_eye && !whereabouts_.look_through_next(viewing_.session, now_s))
       say("there is nobody here through whose eye to look", now_s);
-    if (action == Action::walk) whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
+    if (action == Action::walk) {
+      whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
+      say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
+    }
     if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
     if (action == Action::next_method)
       if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
@@ -140,11 +152,10 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
   return {};
 }
 
+/// The last ones are those that are shown in any case.
 std::vector<std::string> WindowApp::messages(double now_s) const {
   if (window_.asks_to_end()) return {"End? Escape or Enter: yes. Any other key or button: no."};
   std::vector<std::string> lines = viewing_.session.conversation().lines(now_s, window_.writes().has_value());
-  if (const auto& line = window_.writes()) lines.push_back("say: " + line->text() + "_");
-  if (now_s < said_until_s_) lines.push_back(said_);
   if (const DrawMethod* shown = viewing_.view->methods().shown();
       shown != nullptr && shown->reach_m() < viewing_.view_radius_m())
     lines.push_back(
@@ -156,12 +167,14 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
     lines.emplace_back(viewing_.session.is_replay()
                            ? "click into the picture to take the mouse: then it looks; Tab frees it"
                            : "click into the picture to take the mouse: then it looks, and a click strikes");
+  if (now_s < said_until_s_) lines.push_back(said_);
+  if (const auto& line = window_.writes()) lines.push_back("say: " + line->text() + "_");
   return lines;
 }
 
 Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   const HudFacts facts = facts_.find(viewing_, now_s);
-  screen_.begin(!window_.holds_mouse(), hand_.text_scale * hud_.fit());
+  screen_.begin(!window_.holds_mouse(), hud_.text_px(hand_.text_scale));
   hud_.begin(!window_.holds_mouse());
   hud_.note(facts, parts);
   const MethodEntry* picked = nullptr;

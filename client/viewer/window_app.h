@@ -33,6 +33,7 @@ class WindowApp {
   void follow_path(double now_s);
   Result<void> act(const AppInput& input, double now_s);
   Result<void> choose(const MethodEntry& method);
+  void change_hand(Action action, double now_s);
   void act_on_view(Action action);
   Result<void> act_on_files(Action action, double now_s);
   void record_path(double now_s);

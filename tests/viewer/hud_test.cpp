@@ -115,7 +115,7 @@ class WholeHud {
   explicit WholeHud(glm::vec2 size) : screen_(size) {}
 
   void frame(const HudFacts& facts, float text_scale, bool all) {
-    screen_.begin(true, text_scale * hud_.fit());
+    screen_.begin(true, hud_.text_px(text_scale));
     hud_.begin(true);
     hud_.note(facts, {16.0F, 2.0F, 3.0F});
     hud_.crosshair();
@@ -166,6 +166,46 @@ TEST(Hud, what_a_newcomer_sees_fits_a_small_window) {
     for (const PanelPlace place :
          {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right, PanelPlace::bottom})
       EXPECT_FALSE(hud.panels().scrolls(place)) << static_cast<int>(place) << " at " << size.x;
+  }
+}
+
+TEST(Hud, text_is_as_large_as_asked_for_where_panels_leave_it_room_and_never_goes_to_and_fro) {
+  for (const glm::vec2 size :
+       {glm::vec2(640.0F, 360.0F), glm::vec2(960.0F, 540.0F), glm::vec2(1920.0F, 1080.0F)})
+    for (float text_scale = 1.0F; text_scale <= text_scale_max; text_scale *= 1.25F) {
+      SCOPED_TRACE(testing::Message() << size.x << ", text x " << text_scale);
+      WholeHud hud(size);
+      for (int i = 0; i < 12; ++i) hud.frame({}, text_scale, false);
+      const PanelRectangles rested = hud.panels().rectangles();
+      for (const PanelPlace place :
+           {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right, PanelPlace::bottom})
+        EXPECT_TRUE(!hud.panels().clips(place) || HudScreen::shown_px() == HudPanels::text_px_min)
+            << static_cast<int>(place);
+      for (int i = 0; i < 6; ++i) {
+        hud.frame({}, text_scale, false);
+        EXPECT_EQ(hud.panels().rectangles(), rested);
+        EXPECT_EQ(HudScreen::made_px(), HudScreen::shown_px()) << "or dots of letters get lost";
+      }
+      if (size.x > 1900.0F && text_scale < 1.5F) {
+        EXPECT_EQ(HudScreen::shown_px(), std::round(13.0F * text_scale));
+      }
+    }
+}
+
+TEST(Hud, of_more_lines_than_there_is_room_for_the_last_ones_are_shown) {
+  std::vector<std::string> lines(8, std::string(200, 'a'));
+  lines.emplace_back("say: what is being written_");
+  for (const float text_scale : {1.0F, 2.5F}) {
+    HudScreen screen({640.0F, 360.0F});
+    Hud hud;
+    for (int i = 0; i < 6; ++i) {
+      screen.begin(true, hud.text_px(text_scale));
+      hud.begin(true);
+      hud.messages({}, lines);
+      screen.end();
+    }
+    EXPECT_FALSE(hud.panels().scrolls(PanelPlace::bottom)) << text_scale;
+    EXPECT_GT(hud.panels().rectangles()[index_of(PanelPlace::bottom)].size.y, 13.0F);
   }
 }
 

@@ -195,6 +195,17 @@ TEST(Tool, actions_stay_within_the_ranges) {
   EXPECT_EQ(tool.kind, ToolKind::sphere);
 }
 
+TEST(Tool, is_told_with_what_it_does_and_units) {
+  Tool tool;
+  EXPECT_EQ(describe(tool), "carve: crater, radius 2.00 m, blast 6 m/s, radial, about 20 pieces");
+  tool.use = ToolUse::fill;
+  tool.kind = ToolKind::box;
+  EXPECT_EQ(describe(tool), "fill: box, radius 2.00 m");
+  tool.use = ToolUse::paint;
+  tool.material = Material::ice;
+  EXPECT_EQ(describe(tool), "paint: box, radius 2.00 m, ice");
+}
+
 TEST(Tool, patterns_and_tools_go_round_and_none_is_offered_that_needs_points) {
   Tool tool;
   std::set<SeedPattern> patterns;

@@ -1,8 +1,30 @@
 #include "client/viewer/input/hand_choice.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace scree {
+
+std::string describe(const HandChoice& choice, Action action) {
+  const auto told = [](const char* format, float value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, static_cast<double>(value));
+    return std::string(text);
+  };
+  switch (action) {
+    case Action::narrower_view:
+    case Action::wider_view:
+      return told("field of view %.0f degrees", choice.field_of_view_degrees);
+    case Action::slower_mouse:
+    case Action::faster_mouse:
+      return told("mouse x %.2f", choice.mouse_speed);
+    case Action::smaller_text:
+    case Action::larger_text:
+      return told("text x %.2f, as far as the panels leave it room", choice.text_scale);
+    default:
+      return {};
+  }
+}
 
 void change(HandChoice& choice, Action action) {
   constexpr float degrees = 5.0F, step = 1.25F;

@@ -1,6 +1,8 @@
 // How a person looks and reads.
 #pragma once
 
+#include <string>
+
 #include "client/viewer/input/actions.h"
 
 namespace scree {
@@ -20,6 +22,8 @@ struct HandChoice {
   bool operator==(const HandChoice&) const = default;
 };
 
+/// What the action changes of it, as it is now: "field of view 65 degrees". Empty for other actions.
+std::string describe(const HandChoice& choice, Action action);
 /// Changes the choice, if the action concerns it.
 void change(HandChoice& choice, Action action);
 

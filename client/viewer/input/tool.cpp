@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -79,6 +80,18 @@ Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint3
 
 void grow(Tool& tool, float notches) {
   tool.radius_m = std::clamp(tool.radius_m * std::pow(growth, notches), tool_radius_min_m, tool_radius_max_m);
+}
+
+std::string describe(const Tool& tool) {
+  char numbers[64];
+  const auto radius_m = static_cast<double>(tool.radius_m);
+  std::snprintf(numbers, sizeof numbers, ", radius %.2f m", radius_m);
+  std::string text = std::string(name_of(tool.use)) + ": " + std::string(name_of(tool.kind)) + numbers;
+  if (tool.use == ToolUse::paint) text += ", " + std::string(name_of(tool.material));
+  if (tool.use != ToolUse::carve) return text;
+  std::snprintf(numbers, sizeof numbers, ", blast %.0f m/s, ", static_cast<double>(tool.blast_speed_m_s));
+  return text + numbers + std::string(name_of(tool.pattern)) + ", about " + std::to_string(seeds_of(tool)) +
+         " pieces";
 }
 
 void change(Tool& tool, Action action) {

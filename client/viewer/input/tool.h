@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string>
 #include <string_view>
 
 #include "client/viewer/input/actions.h"
@@ -89,6 +90,8 @@ Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint3
 
 /// Larger by that many notches of the wheel.
 void grow(Tool& tool, float notches);
+/// "carve: crater, radius 2.00 m, blast 6 m/s, radial, about 20 pieces".
+std::string describe(const Tool& tool);
 /// Changes the tool, if the action concerns it.
 void change(Tool& tool, Action action);
 

@@ -1,6 +1,9 @@
 #include "client/viewer/window/hud.h"
 
+#include <algorithm>
+#include <cmath>
 #include <imgui/imgui.h>
+#include <span>
 
 #include "proto/person_name.h"
 
@@ -15,17 +18,45 @@ glm::vec2 screen_size() {
   return {size.x, size.y};
 }
 
+/// Width of a line of the middle's strips.
+float line_width() {
+  const float width = screen_size().x - 2.0F * (panel_margin + ImGui::GetStyle().WindowPadding.x);
+  return std::max(width, 1.0F);
+}
+
+/// How high it is, with the gap to the next one.
+float height_of(const std::string& line) {
+  return ImGui::CalcTextSize(line.c_str(), nullptr, false, line_width()).y + ImGui::GetStyle().ItemSpacing.y;
+}
+
+/// The last ones that there is room for in a strip, beside something of height `taken`; the last in any case.
+std::span<const std::string> last_lines(const std::vector<std::string>& lines, float taken) {
+  float room = (screen_size().y - 2.0F * panel_margin) * strip_share_max + ImGui::GetStyle().ItemSpacing.y -
+               2.0F * ImGui::GetStyle().WindowPadding.y - taken;
+  size_t first = lines.size();
+  while (first > 0) {
+    room -= height_of(lines[first - 1]);
+    if (room < 0.0F && first < lines.size()) break;
+    --first;
+  }
+  return std::span(lines).subspan(first);
+}
+
 /// A line of the middle's strips, broken where the window ends.
 void say(const std::string& text, const ImVec4& colour) {
-  const float wrap = screen_size().x - 2.0F * (panel_margin + ImGui::GetStyle().WindowPadding.x);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(std::max(wrap, 1.0F));
+  ImGui::PushTextWrapPos(ImGui::GetStyle().WindowPadding.x + line_width());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }
 
 }  // namespace
+
+int Hud::text_px(float text_scale) {
+  constexpr float unscaled_px = 13.0F;
+  return panels_.text_px(static_cast<int>(std::lround(unscaled_px * text_scale)));
+}
 
 void Hud::begin(bool mouse_is_free) {
   panels_.begin_frame(screen_size(), mouse_is_free);
@@ -57,7 +88,9 @@ void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines)
                        text.c_str());
   }
   if (!facts.notice.empty()) say(facts.notice, warning_colour);
-  for (const std::string& line : lines) say(line, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  const float taken = (facts.preparing ? ImGui::GetFrameHeightWithSpacing() : 0.0F) +
+                      (facts.notice.empty() ? 0.0F : height_of(facts.notice));
+  for (const std::string& line : last_lines(lines, taken)) say(line, ImGui::GetStyleColorVec4(ImGuiCol_Text));
   panels_.end();
 }
 

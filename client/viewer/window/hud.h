@@ -46,8 +46,8 @@ class Hud {
   void help(Telling telling, bool gamepad, ControlsOf of);
   /// Above everything: what must not be overlooked.
   void banner(const std::string& text);
-  /// Below everything: a method that is being made ready, and what there is to say now, a line each. Nothing
-  /// when there is nothing.
+  /// Below everything: a method that is being made ready, and what there is to say now, a line each; where
+  /// there is no room for all lines, the last ones. Nothing when there is nothing.
   void messages(const HudFacts& facts, const std::vector<std::string>& lines);
   /// Of a replay, below everything else: its events, where it stands, and by what to move it. Nothing before
   /// it is known.
@@ -58,8 +58,8 @@ class Hud {
   void crosshair();
 
   const HudPanels& panels() const { return panels_; }
-  /// By how much text should be smaller, so that the columns fit beside each other: 1 or less.
-  float fit() const { return panels_.fit(); }
+  /// Height of the next frame's text, pixels, at the person's scale, or less where panels need it.
+  int text_px(float text_scale);
 
  private:
   void graphs(const HudFacts& facts);

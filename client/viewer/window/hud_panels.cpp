@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <imgui/imgui.h>
+#include <utility>
 
 #include "shared/base/check.h"
 
@@ -19,9 +20,28 @@ void HudPanels::begin_frame(glm::vec2 screen, bool mouse_is_free) {
   measured_ = {};
   seen_ = {};
   placed_ = lay_out(screen, wanted_);
-  const float wanted = columns_width(wanted_), fit_now = fit_;
-  fit_ = std::clamp(measured_fit_ * screen.x / wanted, fit_min, 1.0F);
-  measured_fit_ = fit_now;
+  fit_text(screen);
+}
+
+int HudPanels::text_px(int asked) {
+  if (std::exchange(asked_px_, asked) != asked) fitting_px_ = asked;
+  return std::clamp(fitting_px_, std::min(asked, text_px_min), asked);
+}
+
+/// Text becomes only smaller while the same panels are shown, so that it never goes to and fro.
+void HudPanels::fit_text(glm::vec2 screen) {
+  unsigned places = 0;
+  for (size_t i = 0; i < panel_places; ++i)
+    if (wanted_[i].x > 0.0F) places |= 1U << i;
+  const bool same_screen = std::exchange(screen_, screen) == screen;
+  const bool same_places = std::exchange(shown_places_, places) == places;
+  const float wanted = columns_width(wanted_);
+  if (!same_screen || !same_places) {
+    fitting_px_ = asked_px_;
+  } else if (wanted > screen.x) {
+    fitting_px_ = std::min(fitting_px_, static_cast<int>(measured_px_ * screen.x / wanted));
+  }
+  measured_px_ = ImGui::GetFontSize();
 }
 
 void HudPanels::begin(PanelPlace place) {
@@ -55,6 +75,11 @@ void HudPanels::end() {
 bool HudPanels::scrolls(PanelPlace place) const {
   const size_t i = index_of(place);
   return placed_[i].size.y > 0.0F && placed_[i].size.y < wanted_[i].y;
+}
+
+bool HudPanels::clips(PanelPlace place) const {
+  const size_t i = index_of(place);
+  return placed_[i].size.x > 0.0F && placed_[i].size.x < wanted_[i].x;
 }
 
 }  // namespace scree

@@ -8,8 +8,11 @@ namespace scree {
 
 class HudPanels {
  public:
-  static constexpr float fit_min = 0.7F;  ///< nine pixels, the least that can be read
+  static constexpr int text_px_min = 9;  ///< the least height that can be read
 
+  /// Height of the text of the next frame, pixels: as asked for, or less, so that both columns fit beside
+  /// each other; not below text_px_min, unless that is asked for.
+  int text_px(int asked);
   /// Begins a frame of that size, pixels. Panels may be used by the mouse, if it is free.
   void begin_frame(glm::vec2 screen, bool mouse_is_free);
   /// What follows, up to end(), is in the panel; one panel a frame in each place.
@@ -18,18 +21,23 @@ class HudPanels {
 
   /// Of the panels begun in this frame; empty where there is none, or none seen yet.
   const PanelRectangles& rectangles() const { return seen_; }
-  /// By how much the text should be smaller, so that both columns fit beside each other: from fit_min to 1.
-  float fit() const { return fit_; }
-  /// Whether the panel there had less room than it wants, in this frame.
+  /// Whether the panel there had less height than it wants, in this frame; or less width, which hides the
+  /// ends of its lines.
   bool scrolls(PanelPlace place) const;
+  bool clips(PanelPlace place) const;
 
  private:
+  void fit_text(glm::vec2 screen);
+
   PanelSizes wanted_{};       ///< by the panels of the last frame
   PanelSizes measured_{};     ///< in this frame
   PanelRectangles placed_{};  ///< in this frame
   PanelRectangles seen_{};
-  float fit_ = 1.0F;           ///< for the next frame
-  float measured_fit_ = 1.0F;  ///< of the text in `measured_`
+  int asked_px_ = 0;
+  int fitting_px_ = 0;         ///< height of text that fits; as asked for, when something else is shown
+  float measured_px_ = 0.0F;   ///< of the text in `measured_`
+  glm::vec2 screen_{0.0F};     ///< of the last frame
+  unsigned shown_places_ = 0;  ///< in it, a bit for each
   PanelPlace open_ = PanelPlace::top;
   bool mouse_is_free_ = false;
 };

@@ -18,12 +18,19 @@ class HudScreen {
   HudScreen(const HudScreen&) = delete;
   HudScreen& operator=(const HudScreen&) = delete;
 
-  /// `mouse_is_free`: it may be used on panels. `text_scale`: 1 is 13 pixels.
-  void begin(bool mouse_is_free, float text_scale);
+  /// `mouse_is_free`: it may be used on panels. `text_px`: height of the text.
+  void begin(bool mouse_is_free, int text_px);
   void end();
 
+  /// Height of the text in this frame, pixels: as it is shown, and as its letters were made.
+  static float shown_px();
+  static float made_px();
+
  private:
+  void make_font(int text_px);
+
   bool has_window_;
+  int text_px_ = 0;  ///< of the letters that are made
 };
 
 }  // namespace scree

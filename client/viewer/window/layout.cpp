@@ -6,9 +6,6 @@
 namespace scree {
 namespace {
 
-/// Part of the window's height that a strip takes at most.
-constexpr float strip_share_max = 0.25F;
-
 /// `room` shared by two that want so much: who wants less than half gets it all.
 std::pair<float, float> share(float room, float a, float b) {
   room = std::max(room, 0.0F);

@@ -32,6 +32,9 @@ using PanelRectangles = std::array<Rectangle, panel_places>;
 
 inline constexpr float panel_margin = 8.0F;  ///< around each panel
 
+/// Part of the window's height, without margins, that a strip takes at most.
+inline constexpr float strip_share_max = 0.25F;
+
 /// A rectangle for each panel, of the size that it wants as far as there is room: strips first, then what
 /// remains is shared by the columns, and a column's height by its two panels, so that one that wants less
 /// than its half leaves the rest to the other. A panel that wants nothing gets nothing. Where a panel gets
