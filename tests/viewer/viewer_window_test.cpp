@@ -91,6 +91,20 @@ TEST_F(ViewerHand, a_window_that_comes_back_strikes_nothing_by_the_click_that_ta
   EXPECT_FALSE(viewing_->session.carved());
 }
 
+TEST_F(ViewerHand, full_screen_and_back_turn_no_view) {
+  options_.quality = Quality::low;
+  join(320, 200);
+  take_mouse();
+  const Camera before = viewing_->camera;
+  for (const int width : {1920, 320}) {
+    hand("key F11");
+    run_until([&] { return window_->width() == width; }, "the other size");
+    frames(8);
+    EXPECT_EQ(viewing_->camera.yaw, before.yaw) << width;
+    EXPECT_EQ(viewing_->camera.pitch, before.pitch) << width;
+  }
+}
+
 TEST_F(ViewerHand, fills_and_paints) {
   join(320, 200);
   take_mouse();

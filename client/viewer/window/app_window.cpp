@@ -12,6 +12,8 @@ namespace scree {
 namespace {
 
 constexpr double minimised_pause_s = 0.02;  ///< about a tick: the world goes on
+/// Polls until the system has put the pointer into the middle of a window of another size.
+constexpr int pointer_settles_polls = 4;
 
 std::string last_error() {
   const char* text = nullptr;
@@ -167,7 +169,9 @@ void AppWindow::act(Action action) {
 
 AppInput AppWindow::poll() {
   glfwPollEvents();
+  const int width = width_, height = height_;
   glfwGetFramebufferSize(window_, &width_, &height_);
+  if (width != width_ || height != height_) pointer_settles_ = pointer_settles_polls;
   AppInput input;
   const double now_s = glfwGetTime();
   input.elapsed_s = static_cast<float>(now_s - std::exchange(last_s_, now_s));
@@ -192,7 +196,12 @@ void AppWindow::poll_keys(AppInput& input) {
   if (!holds_mouse_) return;
   glm::dvec2 mouse;
   glfwGetCursorPos(window_, &mouse.x, &mouse.y);
-  input.fly.look = glm::vec2(mouse - std::exchange(mouse_, mouse));
+  const glm::vec2 moved(mouse - std::exchange(mouse_, mouse));
+  if (pointer_settles_ == 0) {
+    input.fly.look = moved;
+  } else {
+    --pointer_settles_;
+  }
 }
 
 /// The first gamepad that GLFW knows a mapping for.

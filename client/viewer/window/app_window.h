@@ -76,6 +76,7 @@ class AppWindow {
   double last_s_ = 0.0;
   glm::dvec2 mouse_{0.0};
   bool holds_mouse_ = false;
+  int pointer_settles_ = 0;  ///< polls in which the pointer's way is not the person's
   bool has_gamepad_ = false;
   bool asks_to_end_ = false;
   std::optional<TextLine> writes_;
