@@ -12,6 +12,7 @@
 #include "bench/wire/askers.h"
 #include "bench/wire/drains.h"
 #include "client/connection/connection.h"
+#include "server/app/live_server.h"
 #include "server/doors/descriptors.h"
 #include "server/world/world_config.h"
 #include "shared/base/timing.h"
@@ -29,9 +30,11 @@ void wait_s(double seconds) {
 
 /// Counts of a server and its clients at a moment.
 struct Moment {
-  double server_s, clients_s;
+  double server_s, simulation_s, clients_s;
   explicit Moment(const ServerProcess& server)
-      : server_s(server.cpu_s()), clients_s(cpu_s(CLOCK_PROCESS_CPUTIME_ID)) {}
+      : server_s(server.cpu_s()),
+        simulation_s(server.thread_cpu_s(simulation_thread_name)),
+        clients_s(cpu_s(CLOCK_PROCESS_CPUTIME_ID)) {}
 };
 
 /// Ticks a second of the server, by its statuses, of which one comes a second.
@@ -122,6 +125,7 @@ Result<ServedLoad> serve_load(const ServerLoad& load) {
   ServedLoad served;
   served.ticks_per_s = ticks_per_s;
   served.server_ms_s = (after.server_s - before.server_s) * 1e3 / load.seconds;
+  served.simulation_ms_s = (after.simulation_s - before.simulation_s) * 1e3 / load.seconds;
   served.clients_ms_s = (after.clients_s - before.clients_s) * 1e3 / load.seconds;
   served.resident_mib = server->memory_mib("VmRSS");
   served.kbit_s_viewer = static_cast<double>((*viewers)->bytes()) * 8e-3 / load.seconds /

@@ -1,22 +1,22 @@
-// What one machine of some cores holds: bots and viewers on the server's program on one core give the costs;
-// what two cores hold is computed from them, and measured.
+// What one machine of some cores holds: a simulation alone, and bots and viewers on the server's program on
+// one core, give the costs; what two cores hold is computed from them, and measured.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 #include "bench/report/machine.h"
 #include "bench/scale/axes.h"
-#include "bench/scale/bot_costs.h"
 #include "bench/scale/loaded_server.h"
 #include "bench/scale/machine_model.h"
+#include "bench/scale/most_held.h"
+#include "bench/scale/simulated_bots.h"
 
 namespace scree {
 
 namespace {
 
 constexpr double agrees_within = 0.25;
-constexpr unsigned timed_bots = 6;
-constexpr double pieces_max_set = 20000.0;  ///< what `pieces-max` can be at most
+constexpr double search_below = 0.7;  ///< of what the model foretells: a search begins there
 
 struct LoadRow {
   ServerLoad load;
@@ -33,7 +33,10 @@ class MachineMeasure {
  private:
   Result<const LoadRow*> serve(size_t bots, size_t viewers, unsigned cores);
   Result<void> fit();
-  Result<size_t> most_bots(double expected, unsigned cores);
+  Result<void> fit_costs(const std::vector<const LoadRow*>& rows);
+  void fit_sizes();
+  Result<MostHeld> most_bots(double expected, unsigned cores);
+  Result<void> check_one_core();
   Result<void> check_two_cores();
   MachineModel with_clients() const;
   MachineLimits limits(double cores) const;
@@ -41,6 +44,8 @@ class MachineMeasure {
   ReportTable loads_table() const;
   ReportTable cores_table() const;
   ReportTable costs_table() const;
+  ReportTable simulation_table() const;
+  std::vector<std::string> terms_text() const;
   std::string left_out_text() const;
   void tell();
 
@@ -53,6 +58,7 @@ class MachineMeasure {
   double fit_error_ = 0.0;
   std::vector<std::string> left_out_;  ///< of the fit
   double usable_ = 1.0;
+  size_t on_one_core_ = 0;  ///< bots that were measured to hold
   MachineStudy study_;
 };
 
@@ -60,7 +66,7 @@ Result<const LoadRow*> MachineMeasure::serve(size_t bots, size_t viewers, unsign
   const ServerLoad load{bots, viewers, cores, run_.quick ? 1.0 : 2.5, seconds_};
   const auto served = serve_load(load);
   if (!served) return tl::unexpected(served.error());
-  run_.progress(std::min(0.98, 0.05 + 0.05 * static_cast<double>(++served_)));
+  run_.progress(std::min(0.98, 0.05 + 0.03 * static_cast<double>(++served_)));
   return &rows_.emplace_back(LoadRow{load, *served});
 }
 
@@ -70,31 +76,55 @@ Result<void> MachineMeasure::fit() {
       run_.quick ? std::vector<MachineLoad>{{0, 1}, {2, 0}, {0, 100}, {2, 100}}
                  : std::vector<MachineLoad>{{0, 1},   {2, 0},   {5, 0},   {9, 0},   {0, 300},
                                             {0, 900}, {2, 300}, {5, 300}, {9, 100}, {2, 900}};
-  std::vector<MeasuredLoad> server, clients;
+  std::vector<const LoadRow*> carried_out;
   for (const MachineLoad& load : loads) {
     const auto row = serve(static_cast<size_t>(load.bots), static_cast<size_t>(load.viewers), 1);
     if (!row) return tl::unexpected(row.error());
-    const ServedLoad& served = (*row)->served;
-    if (!served.carried_out()) {
+    if ((*row)->served.carried_out())
+      carried_out.push_back(*row);
+    else
       left_out_.push_back(fmt::format("{:.0f} bots with {:.0f} viewers", load.bots, load.viewers));
-      continue;
-    }
-    server.push_back({load, served.server_ms_s});
-    clients.push_back({load, served.clients_ms_s});
-    if (load.bots > 0.0 && load.viewers > 0.0)
-      model_.sizes.kbit_s_shown = std::max(model_.sizes.kbit_s_shown, served.kbit_s_viewer / load.bots);
   }
-  const auto costs = fit_load_costs(server), clients_costs = fit_load_costs(clients);
-  if (!costs || !clients_costs)
-    return fail(fmt::format("too few loads were carried out on one core to fit their costs: {} of {}",
-                            server.size(), loads.size()));
-  model_.costs = *costs;
+  if (auto fitted = fit_costs(carried_out); !fitted) return fitted;
+  fit_sizes();
+  return {};
+}
+
+/// The simulation's thread against the simulation alone, and all other threads by bots and onlookers.
+Result<void> MachineMeasure::fit_costs(const std::vector<const LoadRow*>& rows) {
+  std::vector<MeasuredLoad> server, others, clients;
+  double in_server_ms_s = 0.0, alone_ms_s = 0.0;
+  SimulationCosts& simulation = model_.simulation;
+  for (const LoadRow* row : rows)
+    if (row->load.bots == 0 && row->load.viewers == 1) simulation.idle_ms_s = row->served.simulation_ms_s;
+  for (const LoadRow* row : rows) {
+    const ServedLoad& served = row->served;
+    server.push_back({row->size(), served.server_ms_s});
+    others.push_back({row->size(), served.server_ms_s - served.simulation_ms_s});
+    clients.push_back({row->size(), served.clients_ms_s});
+    if (row->load.bots == 0) continue;
+    in_server_ms_s += served.simulation_ms_s - simulation.idle_ms_s;
+    alone_ms_s += simulation.at(row->size().bots).ms_s();
+  }
+  const auto costs = fit_load_costs(others), clients_costs = fit_load_costs(clients);
+  if (!costs || !clients_costs || alone_ms_s <= 0.0 || in_server_ms_s <= 0.0)
+    return fail(
+        fmt::format("too few loads were carried out on one core to fit their costs: {}", rows.size()));
+  model_.others = *costs;
   clients_ = *clients_costs;
-  fit_error_ = relative_error(*costs, server);
+  simulation.in_server = in_server_ms_s / alone_ms_s;
+  fit_error_ = relative_error(server, [this](const MachineLoad& load) { return model_.ms_s(load); });
+  return {};
+}
+
+void MachineMeasure::fit_sizes() {
+  for (const auto& [load, served] : rows_)
+    if (load.bots > 0 && load.viewers > 0)
+      model_.sizes.kbit_s_shown =
+          std::max(model_.sizes.kbit_s_shown, served.kbit_s_viewer / static_cast<double>(load.bots));
   model_.sizes.mib = memory_of(1);
   const double crowd = run_.quick ? 100.0 : 900.0;
   model_.sizes.mib_onlooker = std::max(0.0, memory_of(static_cast<size_t>(crowd)) - model_.sizes.mib) / crowd;
-  return {};
 }
 
 /// What the server has in RAM with so many viewers and no bots.
@@ -111,120 +141,154 @@ MachineLimits MachineMeasure::limits(double cores) const {
 /// The model of a server whose clients share its processors.
 MachineModel MachineMeasure::with_clients() const {
   MachineModel both = model_;
-  both.costs.idle += clients_.idle;
-  both.costs.bot += clients_.bot;
-  both.costs.onlooker += clients_.onlooker;
-  both.costs.shown += clients_.shown;
+  both.others.idle += clients_.idle;
+  both.others.bot += clients_.bot;
+  both.others.onlooker += clients_.onlooker;
+  both.others.shown += clients_.shown;
   return both;
 }
 
-/// The largest of some numbers around the expected one that holds, all below it holding as well; 0 when none
-/// does.
-Result<size_t> MachineMeasure::most_bots(double expected, unsigned cores) {
-  size_t most = 0;
-  const std::vector<double> shares =
-      run_.quick ? std::vector<double>{0.7} : std::vector<double>{0.65, 0.8, 0.9, 1.0, 1.1, 1.25, 1.45};
-  for (const double share : shares) {
-    const auto bots = std::max(most + 1, static_cast<size_t>(std::lround(share * expected)));
+/// Searched from below what is expected until a load fails, so that what is found does not depend on that.
+Result<MostHeld> MachineMeasure::most_bots(double expected, unsigned cores) {
+  const auto holds = [&](size_t bots) -> Result<bool> {
     const auto row = serve(bots, 0, cores);
     if (!row) return tl::unexpected(row.error());
-    if (!(*row)->served.holds()) break;
-    most = bots;
-  }
-  return most;
+    return (*row)->served.holds();
+  };
+  const auto start = static_cast<size_t>(std::max(1L, std::lround(search_below * expected)));
+  return most_held(run_.quick ? HeldSearch{.start = start, .most = start} : HeldSearch{.start = start},
+                   holds);
+}
+
+/// How much of a core can be used: as much as the server takes with the most bots that one holds.
+Result<void> MachineMeasure::check_one_core() {
+  const auto most = most_bots(model_.bots_held(0.0, limits(1.0)).most, 1);
+  if (!most) return tl::unexpected(most.error());
+  on_one_core_ = most->holds;
+  for (const auto& [load, served] : rows_)
+    if (load.cores == 1 && load.bots == on_one_core_ && load.viewers == 0 && served.holds())
+      usable_ = std::min(1.0, served.server_ms_s / 1000.0);
+  study_.figures.metric("machine_bots_on_one_core", static_cast<double>(on_one_core_));
+  return {};
 }
 
 Result<void> MachineMeasure::check_two_cores() {
-  const auto on_one = most_bots(model_.bots_held(0.0, limits(1.0)).most, 1);
-  if (!on_one) return tl::unexpected(on_one.error());
-  if (*on_one > 0) usable_ = std::min(1.0, model_.costs.of({static_cast<double>(*on_one), 0.0}) / 1000.0);
-  study_.figures.metric("machine_bots_on_one_core", static_cast<double>(*on_one));
   if (usable_cores() < 2) {
     study_.section.text.push_back("This process may use one core, so that nothing is compared with two.");
     return {};
   }
-  const MachineModel both = with_clients();
-  const Held expected = both.bots_held(0.0, limits(2.0));
+  const Held expected = with_clients().bots_held(0.0, limits(2.0));
   const auto on_two = most_bots(expected.most, 2);
   if (!on_two) return tl::unexpected(on_two.error());
   const auto shown = serve(4, run_.quick ? 100 : 600, 2);
   if (!shown) return tl::unexpected(shown.error());
-  const double measured_ms = (*shown)->served.server_ms_s, model_ms = model_.costs.of((*shown)->size());
-  study_.figures.metric("machine_bots_on_two_cores", static_cast<double>(*on_two));
+  const double measured_ms = (*shown)->served.server_ms_s, model_ms = model_.ms_s((*shown)->size());
+  const auto bots = static_cast<double>(on_two->holds);
+  study_.figures.metric("machine_bots_on_two_cores", bots);
   study_.figures.metric("machine_bots_on_two_cores_expected", expected.most);
   const auto within = [](double measured, double model) {
     return std::abs(measured / model - 1.0) <= agrees_within;
   };
   if (!run_.quick) {  // a second or two tell too little
     study_.figures.check(
-        "machine_bots_on_two_cores", within(static_cast<double>(*on_two), expected.most),
-        fmt::format("{} bots, {:.1f} by the model of one core, wanted within 25 %", *on_two, expected.most));
+        "machine_bots_on_two_cores", within(bots, expected.most),
+        fmt::format("{} bots, {:.1f} by the model of one core, wanted within 25 %", bots, expected.most));
     study_.figures.check(
         "machine_load_on_two_cores", within(measured_ms, model_ms),
         fmt::format("{:.0f} ms a second, {:.0f} by the model, wanted within 25 %", measured_ms, model_ms));
   }
-  study_.section.text.push_back(
-      fmt::format("On one core {} bots hold. By that and the costs above two cores hold {:.1f} bots whose "
-                  "clients share them, and the "
-                  "first limit is {}; measured are **{}**. A load of 4 bots and {} viewers takes {:.0f} ms a "
-                  "second of two cores, by "
-                  "the model {:.0f} ms.",
-                  *on_one, expected.most, name_of(expected.limit), *on_two, (*shown)->load.viewers,
-                  measured_ms, model_ms));
+  const std::string fails =
+      on_two->fails ? fmt::format("{} do not hold", *on_two->fails) : std::string("more were not tried");
+  study_.section.text.push_back(fmt::format(
+      "On one core {} bots hold. By that and the costs below two cores hold {:.1f} bots whose clients share "
+      "them, and the first limit is {}; measured are **{}**, and {}. A load of 4 bots and {} viewers takes "
+      "{:.0f} ms a second of two cores, by the model {:.0f} ms.",
+      on_one_core_, expected.most, name_of(expected.limit), on_two->holds, fails, (*shown)->load.viewers,
+      measured_ms, model_ms));
   return {};
 }
 
 ReportTable MachineMeasure::loads_table() const {
-  ReportTable table{"Loads",
-                    {"cores", "bots", "viewers", "server, ms/s", "by the model, ms/s", "clients, ms/s",
-                     "bots' turns a second", "carves a second", "reply, 99th percentile, ms",
-                     "ticks a second", "to a viewer, kbit/s", "in RAM, MiB", "holds"},
-                    {}};
+  ReportTable table{
+      "Loads",
+      {"cores", "bots", "viewers", "server, ms/s", "by the model, ms/s", "simulation's thread, ms/s",
+       "clients, ms/s", "bots' turns a second", "carves a second", "reply, 99th percentile, ms",
+       "ticks a second", "to a viewer, kbit/s", "in RAM, MiB", "holds"},
+      {}};
   for (const auto& [load, served] : rows_) {
     const MachineLoad size{static_cast<double>(load.bots), static_cast<double>(load.viewers)};
     table.rows.push_back(
         {fmt::format("{}", load.cores), fmt::format("{}", load.bots), fmt::format("{}", load.viewers),
-         figure(served.server_ms_s), figure(model_.costs.of(size)), figure(served.clients_ms_s),
-         figure(served.turns_per_s), figure(served.carves_per_s), figure(served.reply_p99_ms),
-         figure(served.ticks_per_s), figure(served.kbit_s_viewer), figure(served.resident_mib),
-         served.holds() ? "yes" : "no"});
+         figure(served.server_ms_s), figure(model_.ms_s(size)), figure(served.simulation_ms_s),
+         figure(served.clients_ms_s), figure(served.turns_per_s), figure(served.carves_per_s),
+         figure(served.reply_p99_ms), figure(served.ticks_per_s), figure(served.kbit_s_viewer),
+         figure(served.resident_mib), served.holds() ? "yes" : "no"});
   }
   return table;
 }
 
 ReportTable MachineMeasure::costs_table() const {
-  const auto& [idle, bot, onlooker, shown] = model_.costs;
+  const auto& [idle, bot, onlooker, shown] = model_.others;
   const SimulationCosts& sim = model_.simulation;
   return {"Costs on one core",
-          {"what", "of the server", "of the clients"},
-          {{"nobody there, ms/s", figure(idle), figure(clients_.idle)},
-           {"a bot, ms/s", figure(bot), figure(clients_.bot)},
-           {"an onlooker, ms/s", figure(onlooker), figure(clients_.onlooker)},
-           {"a bot's doing shown to an onlooker, ms/s", figure(shown), figure(clients_.shown)},
-           {"of a bot: the simulation's thread alone, ms/s", figure(sim.serial), "–"},
-           {"of a bot: bodies, which threads share, ms/s", figure(sim.shared), "–"},
-           {"of a bot: price by the model of a tick's work, ms/s", figure(sim.priced), "–"},
-           {"of a bot: pieces alive", figure(sim.pieces_alive), "–"},
-           {"memory of an onlooker, MiB", figure(model_.sizes.mib_onlooker), "–"},
-           {"sent to an onlooker for a bot, kbit/s", figure(model_.sizes.kbit_s_shown), "–"}}};
+          {"what", "the simulation's thread", "the server's other threads", "the clients"},
+          {{"nobody there, ms/s", figure(sim.idle_ms_s), figure(idle), figure(clients_.idle)},
+           {"a bot, ms/s", "by the curve below", figure(bot), figure(clients_.bot)},
+           {"an onlooker, ms/s", "–", figure(onlooker), figure(clients_.onlooker)},
+           {"a bot's doing shown to an onlooker, ms/s", "–", figure(shown), figure(clients_.shown)},
+           {"memory of an onlooker, MiB", "–", figure(model_.sizes.mib_onlooker), "–"},
+           {"sent to an onlooker for a bot, kbit/s", "–", figure(model_.sizes.kbit_s_shown), "–"}}};
+}
+
+ReportTable MachineMeasure::simulation_table() const {
+  ReportTable table{"The simulation alone, on one thread",
+                    {"bots", "all but bodies, ms/s", "bodies, ms/s", "pieces alive",
+                     "its thread in a server of one core, ms/s", "of two cores, ms/s"},
+                    {}};
+  for (const SimulatedLoad& load : model_.simulation.loads)
+    table.rows.push_back({fmt::format("{:.0f}", load.bots), figure(load.serial_ms_s),
+                          figure(load.shared_ms_s), figure(load.pieces_alive),
+                          figure(model_.simulation_thread_ms_s(load.bots, 1.0)),
+                          figure(model_.simulation_thread_ms_s(load.bots, 2.0))});
+  return table;
 }
 
 ReportTable MachineMeasure::cores_table() const {
   ReportTable table{"What a machine holds by the model, its clients elsewhere",
-                    {"cores", "bots", "first limit", "bots, `pieces-max` 20,000", "first limit",
-                     "viewers beside 5 bots", "first limit"},
+                    {"cores", "bots", "first limit", "viewers beside 5 bots", "first limit"},
                     {}};
   for (const double cores : {1.0, 2.0, 4.0, 8.0, 16.0}) {
-    MachineLimits of = limits(cores);
+    const MachineLimits of = limits(cores);
     const Held bots = model_.bots_held(0.0, of), viewers = model_.viewers_held(5.0, of);
-    of.pieces_max = pieces_max_set;
-    const Held most = model_.bots_held(0.0, of);
     const auto count = [](const Held& held) { return fmt::format("{:.0f}", std::floor(held.most)); };
     table.rows.push_back({fmt::format("{:.0f}", cores), count(bots), std::string(name_of(bots.limit)),
-                          count(most), std::string(name_of(most.limit)), count(viewers),
-                          std::string(name_of(viewers.limit))});
+                          count(viewers), std::string(name_of(viewers.limit))});
   }
   return table;
+}
+
+/// What the model says, and from where each of its terms is known.
+std::vector<std::string> MachineMeasure::terms_text() const {
+  const SimulationCosts& sim = model_.simulation;
+  return {
+      fmt::format(
+          "The model has five limits, and the first that a load meets counts. (1) **The tick's budget**: the "
+          "simulation itself carries out the turns of {:.0f} bots in time, by the same measure, and of no "
+          "more, on any machine: its budget counts work and no time. That is found by simulating bots "
+          "without a server. Below it the budget is no wall: carves get fewer pieces and these merge sooner, "
+          "so that a bot costs less the more there are. (2) **The processors' time**: what all threads take "
+          "is at most {:.0f} % of all cores. So much a server took of one core with the most bots that this "
+          "held. (3) **The simulation's thread**: what it does alone, and its part of the bodies, which all "
+          "cores share, is at most the same share of one core. (4) **Memory** of 4 GiB and (5) **bandwidth** "
+          "of 1 Gbit/s.",
+          sim.bots_most, 100.0 * usable_),
+      fmt::format(
+          "The simulation's thread takes {:.2f} times in a server what the simulation takes alone, by the "
+          "thread's processor time over all light loads: it also saves and hands over the ticks, and shares "
+          "its core's caches. The other threads' costs are fitted to the light loads on one core, first in "
+          "the "
+          "table of loads; with the simulation's, the model is off by {:.0f} % there (root mean square). {}",
+          sim.in_server, 100.0 * fit_error_, left_out_text())};
 }
 
 std::string MachineMeasure::left_out_text() const {
@@ -255,28 +319,26 @@ void MachineMeasure::tell() {
                   "measured ones counts as answered after {:.0f} s. Processor times are "
                   "milliseconds a second, over {:.1f} s.",
                   bot_radius_m, bot_seeds, bots_apart_m, bot_interest_m, 1e-3 * unanswered_ms, seconds_));
-  section.text.insert(
-      section.text.begin() + 1,
-      fmt::format(
-          "The costs are fitted to the light loads on one core, first in the table, with a relative error of "
-          "{:.0f} % (root "
-          "mean "
-          "square). Of a core {:.0f} % can be used, as far as it was tried. The simulation's parts are timed "
-          "without a network, with {} bots on one thread. {}",
-          100.0 * fit_error_, 100.0 * usable_, timed_bots, left_out_text()));
-  section.tables = {costs_table(), cores_table(), loads_table()};
+  const std::vector<std::string> terms = terms_text();
+  section.text.insert(section.text.begin() + 1, terms.begin(), terms.end());
+  section.tables = {cores_table(), costs_table(), simulation_table(), loads_table()};
 }
 
 Result<MachineStudy> MachineMeasure::measure() {
-  model_.simulation = measure_bot_costs(timed_bots, run_.quick ? 4.0 : 15.0);
-  if (auto done = fit(); !done) return tl::unexpected(done.error());
-  if (auto done = check_two_cores(); !done) return tl::unexpected(done.error());
+  Result<SimulationCosts> simulation = measure_simulation(run_.quick);
+  if (!simulation) return tl::unexpected(simulation.error());
+  model_.simulation = std::move(*simulation);
+  for (const auto step :
+       {&MachineMeasure::fit, &MachineMeasure::check_one_core, &MachineMeasure::check_two_cores})
+    if (auto done = (this->*step)(); !done) return tl::unexpected(done.error());
   tell();
-  const auto& [idle, bot, onlooker, shown] = model_.costs;
-  study_.figures.metric("machine_idle_ms_s", idle);
-  study_.figures.metric("machine_bot_ms_s", bot);
-  study_.figures.metric("machine_onlooker_ms_s", onlooker);
-  study_.figures.metric("machine_shown_ms_s", shown);
+  const LoadCosts& others = model_.others;
+  study_.figures.metric("machine_bots_simulated", model_.simulation.bots_most);
+  study_.figures.metric("machine_simulation_in_server_ratio", model_.simulation.in_server);
+  study_.figures.metric("machine_idle_ms_s", others.idle + model_.simulation.idle_ms_s);
+  study_.figures.metric("machine_bot_ms_s", model_.ms_s({1.0, 0.0}) - model_.ms_s({0.0, 0.0}));
+  study_.figures.metric("machine_onlooker_ms_s", others.onlooker);
+  study_.figures.metric("machine_shown_ms_s", others.shown);
   study_.figures.metric("machine_usable_percent", 100.0 * usable_);
   study_.figures.metric("machine_fit_error_percent", 100.0 * fit_error_);
   return std::move(study_);

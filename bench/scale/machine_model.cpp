@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 namespace scree {
 
@@ -64,8 +63,7 @@ double largest(const std::function<double(double)>& share) {
 }
 
 constexpr std::array all_limits = {MachineLimit::processors, MachineLimit::simulation_thread,
-                                   MachineLimit::work,       MachineLimit::pieces,
-                                   MachineLimit::memory,     MachineLimit::bandwidth};
+                                   MachineLimit::work, MachineLimit::memory, MachineLimit::bandwidth};
 
 Held least(const std::function<double(MachineLimit, double)>& share) {
   Held held{most_ever, MachineLimit::processors};
@@ -85,9 +83,7 @@ std::string_view name_of(MachineLimit limit) {
     case MachineLimit::simulation_thread:
       return "the simulation's thread";
     case MachineLimit::work:
-      return "`work-percent` of a tick, by the model of its work";
-    case MachineLimit::pieces:
-      return "`pieces-max`";
+      return "the tick's budget, `work-percent`";
     case MachineLimit::memory:
       return "memory";
     case MachineLimit::bandwidth:
@@ -116,25 +112,51 @@ std::optional<LoadCosts> fit_load_costs(std::span<const MeasuredLoad> measured) 
   }
 }
 
-double relative_error(const LoadCosts& costs, std::span<const MeasuredLoad> measured) {
+double relative_error(std::span<const MeasuredLoad> measured,
+                      const std::function<double(const MachineLoad&)>& fitted) {
   double squares = 0.0;
   for (const MeasuredLoad& one : measured) {
-    const double off = one.ms_per_s / costs.of(one.load) - 1.0;
+    const double off = one.ms_per_s / fitted(one.load) - 1.0;
     squares += off * off;
   }
   return std::sqrt(squares / static_cast<double>(std::max<size_t>(1, measured.size())));
 }
 
+SimulatedLoad SimulationCosts::at(double bots) const {
+  SimulatedLoad before;
+  for (SimulatedLoad next : loads) {
+    // Measured by a clock: more bots do not take less.
+    next.serial_ms_s = std::max(before.serial_ms_s, next.serial_ms_s);
+    next.shared_ms_s = std::max(before.shared_ms_s, next.shared_ms_s);
+    if (bots < next.bots) {
+      const double part = (bots - before.bots) / (next.bots - before.bots);
+      const auto between = [part](double from, double to) { return from + part * (to - from); };
+      return {bots, between(before.serial_ms_s, next.serial_ms_s),
+              between(before.shared_ms_s, next.shared_ms_s), between(before.pieces_alive, next.pieces_alive)};
+    }
+    before = next;
+  }
+  before.bots = bots;
+  return before;
+}
+
+double MachineModel::simulation_thread_ms_s(double bots, double cores) const {
+  const SimulatedLoad alone = simulation.at(bots);
+  return simulation.idle_ms_s + simulation.in_server * (alone.serial_ms_s + alone.shared_ms_s / cores);
+}
+
+double MachineModel::ms_s(const MachineLoad& load) const {
+  return simulation_thread_ms_s(load.bots, 1.0) + others.of(load);
+}
+
 double MachineModel::share(MachineLimit limit, const MachineLoad& load, const MachineLimits& limits) const {
   switch (limit) {
     case MachineLimit::processors:
-      return costs.of(load) / (limits.cores * limits.usable * ms_per_s);
+      return ms_s(load) / (limits.cores * limits.usable * ms_per_s);
     case MachineLimit::simulation_thread:
-      return load.bots * (simulation.serial + simulation.shared / limits.cores) / (limits.usable * ms_per_s);
+      return simulation_thread_ms_s(load.bots, limits.cores) / (limits.usable * ms_per_s);
     case MachineLimit::work:
-      return load.bots * simulation.priced / (limits.work_share * ms_per_s);
-    case MachineLimit::pieces:
-      return load.bots * simulation.pieces_alive / limits.pieces_max;
+      return load.bots / simulation.bots_most;
     case MachineLimit::memory:
       return (sizes.mib + sizes.mib_onlooker * load.onlookers()) / limits.memory_mib;
     case MachineLimit::bandwidth:

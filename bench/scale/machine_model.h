@@ -1,13 +1,19 @@
-// What a machine of some cores holds: processor time by load, fitted to measurements on one core, and the
+// What a machine of some cores holds: processor time by load and by thread, measured on one core, and the
 // limits that a load meets. Pure functions.
 //
 // A load is a number of bots, of which each carves at a steady rate and looks on, and of viewers that only
-// look on. A server's processor time is taken as idle + a·bots + b·onlookers + c·bots·onlookers, where bots
-// and viewers look on: what the server does for nobody, what a bot's carves and pieces take, what an onlooker
-// takes whatever happens, and what it takes to show him a bot's doing.
+// look on. A server's processor time has two parts:
+// - The simulation's thread. What it takes by number of bots is a curve, not a line: when bodies fill the
+//   budget of a tick (server/work/work.h), carves get fewer pieces and these merge sooner, so that more bots
+//   take little more. The curve is that of a simulation alone, times a factor for what the thread takes more
+//   within a server. Of it the bodies' step is shared by all cores, the rest is one thread's.
+// - All other threads, which share any number of cores: idle + a·bots + b·onlookers + c·bots·onlookers, where
+//   bots and viewers look on: what the server does for nobody, what a bot's carves take to store and to
+//   encode, what an onlooker takes whatever happens, and what it takes to show him a bot's doing.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -44,25 +50,38 @@ struct MeasuredLoad {
 std::optional<LoadCosts> fit_load_costs(std::span<const MeasuredLoad> measured);
 
 /// Root of the mean square of measured / fitted - 1.
-double relative_error(const LoadCosts& costs, std::span<const MeasuredLoad> measured);
+double relative_error(std::span<const MeasuredLoad> measured,
+                      const std::function<double(const MachineLoad&)>& fitted);
 
-/// What the simulation does for a bot, in milliseconds a second on one thread, and its limits that do not
-/// depend on the machine.
-struct SimulationCosts {
-  double serial = 0.0;        ///< on the simulation's thread alone
-  double shared = 0.0;        ///< that is shared among threads: the bodies' step
-  double priced = 0.0;        ///< by the model of a tick's work (server/work/work.h)
+/// What the simulation alone takes for so many bots, in milliseconds a second on one thread.
+struct SimulatedLoad {
+  double bots = 0.0;
+  double serial_ms_s = 0.0;   ///< by the simulation's thread alone
+  double shared_ms_s = 0.0;   ///< that threads share: the bodies' step
   double pieces_alive = 0.0;  ///< on average
+
+  double ms_s() const { return serial_ms_s + shared_ms_s; }
+};
+
+struct SimulationCosts {
+  std::vector<SimulatedLoad> loads;  ///< with rising bots, more than none; at least one
+  double in_server = 1.0;            ///< what its thread takes in a server, over what it takes alone
+  double idle_ms_s = 0.0;            ///< of that thread, with nobody there
+  /// That the simulation itself carries out in time, on any machine: more than that, and `work-percent` and
+  /// `pieces-max` make requests wait or be refused.
+  double bots_most = 1e7;
+
+  /// Alone: on the line between the measured loads beside it, from nothing for none; above the largest as
+  /// that.
+  SimulatedLoad at(double bots) const;
 };
 
 /// Limits of a server and of its machine.
 struct MachineLimits {
   double cores = 1.0;
-  double usable = 1.0;         ///< share of the processors' time that may be taken, so that ticks are in time
-  double work_share = 0.65;    ///< of a tick by the model of its work: the setting work-percent
-  double pieces_max = 2000.0;  ///< the setting of that name
-  double memory_mib = 1e9;     ///< for the server
-  double mbit_s = 1e9;         ///< that it may send
+  double usable = 1.0;      ///< share of the processors' time that may be taken, so that ticks are in time
+  double memory_mib = 1e9;  ///< for the server
+  double mbit_s = 1e9;      ///< that it may send
 };
 
 /// What else a load takes.
@@ -72,7 +91,7 @@ struct LoadSizes {
   double kbit_s_shown = 0.0;  ///< sent to an onlooker, for each bot
 };
 
-enum class MachineLimit { processors, simulation_thread, work, pieces, memory, bandwidth };
+enum class MachineLimit { processors, simulation_thread, work, memory, bandwidth };
 std::string_view name_of(MachineLimit limit);
 
 struct Held {
@@ -80,11 +99,16 @@ struct Held {
   MachineLimit limit = MachineLimit::processors;
 };
 
-/// All that is known of a server, in which clients' costs are added where they share its processors.
+/// All that is known of a server, in which clients' costs are added to the others where they share its
+/// processors.
 struct MachineModel {
-  LoadCosts costs;
   SimulationCosts simulation;
+  LoadCosts others;  ///< of all threads but the simulation's
   LoadSizes sizes;
+
+  /// Processor time of all threads, and of the simulation's where it has so many cores to share its bodies.
+  double ms_s(const MachineLoad& load) const;
+  double simulation_thread_ms_s(double bots, double cores) const;
 
   /// Share of the limit that the load takes; more than 1: it does not hold.
   double share(MachineLimit limit, const MachineLoad& load, const MachineLimits& limits) const;

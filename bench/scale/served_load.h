@@ -8,12 +8,13 @@ namespace scree {
 
 /// Of the seconds that count.
 struct ServedLoad {
-  double server_ms_s = 0.0;   ///< processor time of the server's process, milliseconds a second
-  double clients_ms_s = 0.0;  ///< of this process, which is bots and viewers
-  double turns_per_s = 0.0;   ///< times at which a bot was to carve, whether it still waited or not
-  double carves_per_s = 0.0;  ///< that were carried out
-  double refused = 0.0;       ///< share of the answers
-  double reply_p99_ms = 0.0;  ///< a request without an answer counts as unanswered_ms
+  double server_ms_s = 0.0;      ///< processor time of the server's process, milliseconds a second
+  double simulation_ms_s = 0.0;  ///< of it the simulation's thread; its helpers are not in this
+  double clients_ms_s = 0.0;     ///< of this process, which is bots and viewers
+  double turns_per_s = 0.0;      ///< times at which a bot was to carve, whether it still waited or not
+  double carves_per_s = 0.0;     ///< that were carried out
+  double refused = 0.0;          ///< share of the answers
+  double reply_p99_ms = 0.0;     ///< a request without an answer counts as unanswered_ms
   double ticks_per_s = 0.0;
   double kbit_s_viewer = 0.0;
   double resident_mib = 0.0;

@@ -38,6 +38,7 @@ class ServerProcess {
   /// As WatchedProcess says of these.
   double memory_mib(const std::string& name) const { return process_ ? process_->memory_mib(name) : 0.0; }
   double cpu_s() const { return process_ ? process_->cpu_s() : 0.0; }
+  double thread_cpu_s(const std::string& name) const { return process_ ? process_->thread_cpu_s(name) : 0.0; }
   int end(int signal, double patience_s = 0.0) { return process_ ? process_->end(signal, patience_s) : -1; }
 
  private:

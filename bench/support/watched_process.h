@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <sys/prctl.h>
@@ -52,6 +53,19 @@ class WatchedProcess {
     if (process_ <= 0 || ::clock_getcpuclockid(process_, &clock) != 0) return 0.0;
     if (::clock_gettime(clock, &taken) != 0) return 0.0;
     return static_cast<double>(taken.tv_sec) + static_cast<double>(taken.tv_nsec) * 1e-9;
+  }
+  /// The same of its threads of that name, as Linux's scheduler counts it.
+  double thread_cpu_s(const std::string& name) const {
+    double taken_s = 0.0;
+    std::error_code none;  // threads come and go
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(process_) + "/task", none)) {
+      std::ifstream names(thread.path() / "comm"), times(thread.path() / "schedstat");
+      std::string its_name;
+      double taken_ns = 0.0;
+      if (std::getline(names, its_name) && its_name == name && times >> taken_ns) taken_s += taken_ns * 1e-9;
+    }
+    return taken_s;
   }
   /// Sends the signal, once, and waits; the exit status, or -1 when a signal ended it. Kills what has not
   /// ended after so many seconds; 0: waits as long as it takes.

@@ -1,6 +1,7 @@
 #include "server/app/live_server.h"
 
 #include <algorithm>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include "server/app/limits.h"
@@ -199,6 +200,7 @@ void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
 }
 
 void LiveServer::State::run() {
+  ::pthread_setname_np(::pthread_self(), simulation_thread_name);
   if (!wait_for_clients()) return end("");
   TickSchedule schedule(Clock::now(), period);
   while (sleep_until(schedule.due())) {

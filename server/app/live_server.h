@@ -43,6 +43,9 @@ struct LiveConfig {
   uint32_t wait_clients = 0;  ///< the first tick waits until so many clients have joined
 };
 
+/// As Linux lists the threads of a process; the bodies' helpers and the network have other threads.
+inline constexpr const char* simulation_thread_name = "simulation";
+
 class LiveServer {
  public:
   /// Listens, opens the recordings, and starts to tick.

@@ -23,7 +23,8 @@ TEST(LoadCosts, costs_are_found_again_exactly) {
   EXPECT_NEAR(found->bot, costs.bot, 1e-9);
   EXPECT_NEAR(found->onlooker, costs.onlooker, 1e-9);
   EXPECT_NEAR(found->shown, costs.shown, 1e-9);
-  EXPECT_NEAR(relative_error(*found, made(costs)), 0.0, 1e-9);
+  EXPECT_NEAR(relative_error(made(costs), [&](const MachineLoad& load) { return found->of(load); }), 0.0,
+              1e-9);
 }
 
 TEST(LoadCosts, no_cost_is_negative) {
@@ -34,7 +35,7 @@ TEST(LoadCosts, no_cost_is_negative) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->shown, 0.0);
   EXPECT_GT(found->onlooker, 0.1);
-  EXPECT_GT(relative_error(*found, measured), 0.01);
+  EXPECT_GT(relative_error(measured, [&](const MachineLoad& load) { return found->of(load); }), 0.01);
 }
 
 TEST(LoadCosts, loads_that_are_all_alike_tell_nothing) {
@@ -42,37 +43,61 @@ TEST(LoadCosts, loads_that_are_all_alike_tell_nothing) {
   EXPECT_FALSE(fit_load_costs(alike));
 }
 
+/// A simulation whose bots cost less the more there are, as carves get fewer pieces.
 MachineModel model() {
   MachineModel model;
-  model.costs = {.idle = 10.0, .bot = 40.0, .onlooker = 0.5, .shown = 0.01};
-  model.simulation = {.serial = 5.0, .shared = 20.0, .priced = 15.0, .pieces_alive = 60.0};
+  model.simulation.loads = {{.bots = 10.0, .serial_ms_s = 40.0, .shared_ms_s = 160.0},
+                            {.bots = 50.0, .serial_ms_s = 200.0, .shared_ms_s = 400.0}};
+  model.simulation.idle_ms_s = 4.0;
+  model.simulation.in_server = 1.5;
+  model.simulation.bots_most = 80.0;
+  model.others = {.idle = 6.0, .bot = 5.0, .onlooker = 0.5, .shown = 0.01};
   model.sizes = {.mib = 100.0, .mib_onlooker = 0.05, .kbit_s_shown = 30.0};
   return model;
+}
+
+TEST(MachineModel, the_simulations_cost_lies_between_what_was_measured) {
+  const SimulationCosts& costs = model().simulation;
+  EXPECT_NEAR(costs.at(0.0).ms_s(), 0.0, 1e-9);
+  EXPECT_NEAR(costs.at(5.0).ms_s(), 100.0, 1e-9);
+  EXPECT_NEAR(costs.at(30.0).serial_ms_s, 120.0, 1e-9);
+  EXPECT_NEAR(costs.at(30.0).shared_ms_s, 280.0, 1e-9);
+  EXPECT_NEAR(costs.at(70.0).ms_s(), 600.0, 1e-9) << "the budget is full";
+}
+
+TEST(MachineModel, by_noise_more_bots_do_not_take_less) {
+  SimulationCosts costs = model().simulation;
+  costs.loads.push_back({.bots = 60.0, .serial_ms_s = 150.0, .shared_ms_s = 390.0});
+  EXPECT_NEAR(costs.at(55.0).ms_s(), 600.0, 1e-9);
+  EXPECT_NEAR(costs.at(60.0).ms_s(), 600.0, 1e-9);
 }
 
 TEST(MachineModel, the_processors_are_the_first_limit_of_one_core) {
   const Held held = model().bots_held(0.0, {.cores = 1.0, .usable = 0.9});
   EXPECT_EQ(held.limit, MachineLimit::processors);
-  EXPECT_NEAR(model().costs.of({held.most, 0.0}), 900.0, 1e-2);
-  EXPECT_NEAR(10.0 + 40.5 * held.most + 0.01 * held.most * held.most, 900.0, 1e-2);
+  EXPECT_NEAR(model().ms_s({held.most, 0.0}), 900.0, 1e-2);
+  EXPECT_NEAR(model().ms_s({30.0, 0.0}), 4.0 + 1.5 * 400.0 + 6.0 + 30.0 * 5.5 + 0.01 * 900.0, 1e-9);
 }
 
-TEST(MachineModel, of_more_cores_the_pieces_and_the_tick_are) {
-  EXPECT_EQ(model().bots_held(0.0, {.cores = 4.0}).limit, MachineLimit::pieces);
-  const Held held = model().bots_held(0.0, {.cores = 4.0, .pieces_max = 20000.0});
+TEST(MachineModel, of_more_cores_the_simulation_itself_is) {
+  const Held held = model().bots_held(0.0, {.cores = 4.0, .usable = 0.9});
   EXPECT_EQ(held.limit, MachineLimit::work);
-  EXPECT_NEAR(held.most, 650.0 / 15.0, 1e-3);
-  const Held thread = model().bots_held(0.0, {.cores = 2.0, .work_share = 10.0, .pieces_max = 20000.0});
-  EXPECT_EQ(thread.limit, MachineLimit::processors);
-  EXPECT_NEAR(model().costs.of({thread.most, 0.0}), 2000.0, 1e-2);
-  EXPECT_EQ(model().bots_held(0.0, {.cores = 8.0, .work_share = 10.0, .pieces_max = 20000.0}).limit,
-            MachineLimit::simulation_thread);
+  EXPECT_NEAR(held.most, 80.0, 1e-3);
+}
+
+TEST(MachineModel, a_thread_that_shares_only_its_bodies_can_be_the_limit) {
+  MachineModel serial = model();
+  serial.simulation.in_server = 4.0;
+  EXPECT_NEAR(serial.simulation_thread_ms_s(50.0, 8.0), 4.0 + 4.0 * (200.0 + 50.0), 1e-9);
+  const Held held = serial.bots_held(0.0, {.cores = 8.0, .usable = 0.9});
+  EXPECT_EQ(held.limit, MachineLimit::simulation_thread);
+  EXPECT_NEAR(serial.simulation_thread_ms_s(held.most, 8.0), 900.0, 1e-2);
 }
 
 TEST(MachineModel, bots_and_viewers_cost_what_they_cost_together) {
   const Held held = model().viewers_held(10.0, {.cores = 2.0});
   EXPECT_EQ(held.limit, MachineLimit::processors);
-  EXPECT_NEAR(held.most, (2000.0 - 10.0 - 400.0) / (0.5 + 0.1) - 10.0, 1e-2);
+  EXPECT_NEAR(held.most, (2000.0 - 10.0 - 300.0 - 50.0) / (0.5 + 0.1) - 10.0, 1e-2);
   EXPECT_EQ(model().viewers_held(10.0, {.cores = 64.0, .mbit_s = 100.0}).limit, MachineLimit::bandwidth);
   EXPECT_EQ(model().viewers_held(10.0, {.cores = 64.0, .memory_mib = 200.0}).limit, MachineLimit::memory);
 }
