@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "shared/base/check.h"
 #include "shared/field/brick.h"
 
@@ -19,10 +23,24 @@ inline uint64_t eight_signs(const Code* codes) {
   return ((word & 0x8080808080808080ULL) * 0x0002040810204081ULL) >> 56U;
 }
 
+#ifdef __SSE2__
+/// The same of sixteen, by one instruction of every x86-64.
+inline uint64_t sixteen_signs(const Code* codes) {
+  const __m128i word = _mm_loadu_si128(reinterpret_cast<const __m128i*>(codes));
+  return static_cast<uint32_t>(_mm_movemask_epi8(word));
+}
+#endif
+
 /// Bit i: codes[i] is rock. 8 <= count <= 64.
 inline uint64_t sign_bits(const Code* codes, int count) {
   CHECK_DEBUG(count >= 8 && count <= 64);
   uint64_t bits = 0;
+#ifdef __SSE2__
+  if (count >= 16) {
+    for (int i = 0; i + 16 < count; i += 16) bits |= sixteen_signs(codes + i) << i;
+    return bits | (sixteen_signs(codes + count - 16) << (count - 16));
+  }
+#endif
   for (int i = 0; i + 8 < count; i += 8) bits |= eight_signs(codes + i) << i;
   return bits | (eight_signs(codes + count - 8) << (count - 8));
 }

@@ -69,9 +69,9 @@ class NetsBuilder {
   /// A stretch along z of all rows.
   struct Segment {
     int z;
-    int count;                   ///< cells
-    std::vector<uint64_t> rows;  ///< signs of the voxel rows, y fastest
-    bool crossed;                ///< both signs occur
+    int count;                         ///< cells
+    std::unique_ptr<uint64_t[]> rows;  ///< signs of the voxel rows, y fastest
+    bool crossed;                      ///< both signs occur
 
     uint64_t mask() const { return (uint64_t{1} << count) - 1; }
     /// Bits of the cells whose lowest voxels are owned.
@@ -81,12 +81,13 @@ class NetsBuilder {
   Segment read_signs(int z) const {
     const int count = std::min(segment_cells, cells_.z - z);
     const int rows_y = cells_.y + 1;
-    Segment segment{z, count, std::vector<uint64_t>(static_cast<size_t>((cells_.x + 1) * rows_y)), false};
+    const auto rows = static_cast<size_t>(cells_.x + 1) * static_cast<size_t>(rows_y);
+    Segment segment{z, count, std::make_unique_for_overwrite<uint64_t[]>(rows), false};
     uint64_t any = 0;
     uint64_t all = ~uint64_t{0};
     // Short rows are read together with codes before them: sign_bits needs eight codes.
     const int early = std::max(0, 8 - (count + 1));
-    uint64_t* to = segment.rows.data();
+    uint64_t* to = segment.rows.get();
     for (int x = 0; x <= cells_.x; ++x) {
       const Code* codes = window_.codes.data() + cell_index(x, 0, z) - early;
       for (int y = 0; y < rows_y; ++y, codes += stride_y_) {
@@ -193,33 +194,44 @@ class NetsBuilder {
     return many.first_vertex + many.sheets->sheet_of_edge[corner.edge];
   }
 
+  /// Calls quad(z, whether the voxel is rock) for each bit.
+  template <typename Quad>
+  static void each_end(uint64_t ends, uint64_t rock, Quad&& quad) {
+    for (; ends != 0; ends &= ends - 1) {
+      const int z = std::countr_zero(ends);
+      quad(z, ((rock >> z) & 1U) != 0);
+    }
+  }
+
   /// A quad for each crossed edge that leaves an owned voxel along one of the axes: four cells surround it.
   void add_quads(const Segment& segment) {
+    const uint64_t owned = segment.owned_mask();
     for (int x = 1; x < cells_.x; ++x) {
       for (int y = 1; y < cells_.y; ++y) {
         const SignRows rows = signs_at(segment, x, y);
-        const uint32_t* s00 = slots_of(x - 1, y - 1) + segment.z;
-        const uint32_t* s01 = slots_of(x - 1, y) + segment.z;
-        const uint32_t* s10 = slots_of(x, y - 1) + segment.z;
+        uint64_t along_x = (rows.r00 ^ rows.r10) & owned, along_y = (rows.r00 ^ rows.r01) & owned,
+                 along_z = (rows.r00 ^ (rows.r00 >> 1U)) & owned;
+        if ((along_x | along_y | along_z) == 0) continue;
+        if (mask_ != nullptr) {
+          const uint64_t c00 = counted(x - 1, y - 1), c01 = counted(x - 1, y);
+          const uint64_t c10 = counted(x, y - 1), c11 = counted(x, y);
+          // Bit 0 of a first segment is not owned; the cell before it, of a later one, is never masked.
+          const auto and_before = [](uint64_t cells) { return cells & ((cells << 1U) | 1U); };
+          along_x &= and_before(c10 & c11);
+          along_y &= and_before(c01 & c11);
+          along_z &= c00 & c01 & c10 & c11;
+        }
         const uint32_t* s11 = slots_of(x, y) + segment.z;
-        const uint64_t c00 = counted(x - 1, y - 1), c01 = counted(x - 1, y);
-        const uint64_t c10 = counted(x, y - 1), c11 = counted(x, y);
-        // Bit 0 of a first segment is not owned; the cell before it, of a later one, is never masked.
-        const auto and_before = [](uint64_t cells) { return cells & ((cells << 1U) | 1U); };
-        const auto each = [&](uint64_t ends, uint64_t cells, auto&& quad) {
-          for (uint64_t left = (rows.r00 ^ ends) & segment.owned_mask() & cells; left != 0;
-               left &= left - 1) {
-            const int z = std::countr_zero(left);
-            quad(z, ((rows.r00 >> z) & 1U) != 0);
-          }
-        };
-        each(rows.r10, and_before(c10 & c11), [&](int z, bool rock) {
+        const uint32_t* s10 = s11 - cells_.z;
+        const uint32_t* s01 = slots_of(x - 1, y) + segment.z;
+        const uint32_t* s00 = s01 - cells_.z;
+        each_end(along_x, rows.r00, [&](int z, bool rock) {
           add_quad({s10[z - 1], 3}, {s11[z - 1], 1}, {s11[z], 0}, {s10[z], 2}, rock);
         });
-        each(rows.r01, and_before(c01 & c11), [&](int z, bool rock) {
+        each_end(along_y, rows.r00, [&](int z, bool rock) {
           add_quad({s01[z - 1], 7}, {s01[z], 6}, {s11[z], 4}, {s11[z - 1], 5}, rock);
         });
-        each(rows.r00 >> 1U, c00 & c01 & c10 & c11, [&](int z, bool rock) {
+        each_end(along_z, rows.r00, [&](int z, bool rock) {
           add_quad({s00[z], 11}, {s10[z], 9}, {s11[z], 8}, {s01[z], 10}, rock);
         });
       }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
@@ -81,26 +82,41 @@ SCREE_INLINE void trilinear(const Ints& low, const Ints& high, const Vector3& f,
   value = c[0] + f.z * (c[1] - c[0]);
 }
 
+/// What is summed up of the crossings.
+struct Crossings {
+  Lanes c[cell_corners];  ///< codes
+  Lanes sums[3];
+  Lanes count;
+};
+
+/// The crossing of edge e. A template, because which corners and sums it is about is known to the compiler
+/// then, and these stay in registers.
+template <int e>
+SCREE_INLINE void add_crossing(const Ints& edges, Crossings& all) {
+  constexpr int axis = e / 4;
+  constexpr int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  constexpr int from = ((e & 2) != 0 ? 4 >> u : 0) | ((e & 1) != 0 ? 4 >> v : 0);
+  constexpr int to = from | (4 >> axis);
+  const Ints bit = (edges >> e) & 1;
+  const Lanes one = __builtin_convertvector(bit, Lanes);
+  const Lanes t = all.c[from] / (all.c[from] - all.c[to]);
+  all.sums[axis] += bit != 0 ? t : Lanes{};
+  if constexpr ((e & 2) != 0) all.sums[u] += one;
+  if constexpr ((e & 1) != 0) all.sums[v] += one;
+  all.count += one;
+}
+
+template <int... e>
+SCREE_INLINE void add_crossings(std::integer_sequence<int, e...>, const Ints& edges, Crossings& all) {
+  (add_crossing<e>(edges, all), ...);
+}
+
 /// The mean of the crossings.
 SCREE_INLINE void mean_crossing(const Rows& rows, const Ints& edges, Vector3& f) {
-  Lanes c[cell_corners];
-  for (int i = 0; i < cell_corners; ++i) code_of(rows.inner[i >> 2][(i >> 1) & 1], 1 + (i & 1), c[i]);
-  Lanes sums[3]{};
-  Lanes count{};
-  for (int e = 0; e < cell_edges; ++e) {
-    const int axis = e / 4;
-    const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-    const int from = ((e & 2) != 0 ? 4 >> u : 0) | ((e & 1) != 0 ? 4 >> v : 0);
-    const int to = from | (4 >> axis);
-    const Ints bit = (edges >> e) & 1;
-    const Lanes one = __builtin_convertvector(bit, Lanes);
-    const Lanes t = c[from] / (c[from] - c[to]);
-    sums[axis] += bit != 0 ? t : Lanes{};
-    if ((e & 2) != 0) sums[u] += one;
-    if ((e & 1) != 0) sums[v] += one;
-    count += one;
-  }
-  f = {sums[0] / count, sums[1] / count, sums[2] / count};
+  Crossings all{};
+  for (int i = 0; i < cell_corners; ++i) code_of(rows.inner[i >> 2][(i >> 1) & 1], 1 + (i & 1), all.c[i]);
+  add_crossings(std::make_integer_sequence<int, cell_edges>(), edges, all);
+  f = {all.sums[0] / all.count, all.sums[1] / all.count, all.sums[2] / all.count};
 }
 
 /// Central differences at the corners, interpolated: twice the step that a cell's own differences would have,

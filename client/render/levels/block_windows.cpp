@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "shared/base/vector_clones.h"
 #include "shared/field/material.h"
 #include "shared/surface/marching_cubes.h"
 
@@ -21,8 +22,8 @@ constexpr int turned_begins = 44;
 /// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
 constexpr float probe_voxels = 2.75F;
 
-/// The cell around a point, or else the nearest that the window holds.
-VoxelCoord cell_at(const VoxelBox& box, glm::vec3 p) {
+/// The cell around a point, or else the nearest that the window holds. Inlined: it is asked for each vertex.
+SCREE_INLINE VoxelCoord cell_at(const VoxelBox& box, glm::vec3 p) {
   const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
   return {along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y), along(p.z, box.lo.z, box.hi.z)};
 }
@@ -32,8 +33,13 @@ bool are_same(const Window& a, const Window& b, VoxelCoord c) {
   const size_t first = a.index(c.x, c.y, c.z);
   const auto stride_y = static_cast<size_t>(a.box.size().z);
   const size_t stride_x = stride_y * static_cast<size_t>(a.box.size().y);
+  const auto two = [](const Window& window, size_t at) {
+    uint16_t codes;
+    std::memcpy(&codes, &window.codes[at], sizeof codes);
+    return codes;
+  };
   for (const size_t at : {first, first + stride_y, first + stride_x, first + stride_x + stride_y})
-    if (a.codes[at] != b.codes[at] || a.codes[at + 1] != b.codes[at + 1]) return false;
+    if (two(a, at) != two(b, at)) return false;
   return true;
 }
 
@@ -93,26 +99,33 @@ Survey survey(Field& field, const VoxelBox& box) {
   return seen;
 }
 
+/// Rows of `count` codes. The compiler sees which number the callers give, and copies them by a register: a
+/// call of memcpy takes longer than a row does.
+SCREE_INLINE void copy_rows(const Code* from, Code* to, size_t stride, int rows, size_t count) {
+  for (int y = 0; y < rows; ++y, from += brick_size, to += stride) std::memcpy(to, from, count);
+}
+
 /// The brick's part of the window.
 void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
+  constexpr size_t whole = brick_size, apron = surface_nets_apron;
   const VoxelBox& box = window.box;
   const VoxelCoord first = first_voxel(coord);
   const VoxelCoord lo{std::max(first.x, box.lo.x), std::max(first.y, box.lo.y), std::max(first.z, box.lo.z)};
   const VoxelCoord hi{std::min(first.x + brick_size, box.hi.x), std::min(first.y + brick_size, box.hi.y),
                       std::min(first.z + brick_size, box.hi.z)};
   const auto count = static_cast<size_t>(hi.z - lo.z);
-  const auto stride = static_cast<size_t>(box.size().z);
-  for (int x = lo.x; x < hi.x; ++x) {
-    const Code* from =
-        &brick.codes[static_cast<size_t>(Brick::index(x - first.x, lo.y - first.y, lo.z - first.z))];
-    Code* to = &window.at(x, lo.y, lo.z);
-    for (int y = lo.y; y < hi.y; ++y, from += brick_size, to += stride) {
-      if (count == brick_size) {
-        std::memcpy(to, from, brick_size);
-      } else {
-        std::memcpy(to, from, count);
-      }
-    }
+  const auto stride_y = static_cast<size_t>(box.size().z);
+  const size_t stride_x = stride_y * static_cast<size_t>(box.size().y);
+  const Code* from =
+      &brick.codes[static_cast<size_t>(Brick::index(lo.x - first.x, lo.y - first.y, lo.z - first.z))];
+  Code* to = &window.at(lo.x, lo.y, lo.z);
+  for (int x = lo.x; x < hi.x; ++x, from += whole * whole, to += stride_x) {
+    if (count == whole)
+      copy_rows(from, to, stride_y, hi.y - lo.y, whole);
+    else if (count == apron)
+      copy_rows(from, to, stride_y, hi.y - lo.y, apron);
+    else
+      copy_rows(from, to, stride_y, hi.y - lo.y, count);
   }
 }
 
