@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 #include <ostream>
 #include <streambuf>
 #include <string>
 
 #include "ground/whole_file.h"
+#include "import/vdb/vdb_grids.h"
 #include "import/vdb/vdb_names.h"
 #include "shared/field/heights.h"
 

@@ -1,10 +1,9 @@
 // A solid of an OpenVDB grid, read through its transform. Internal to import/vdb.
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include "import/placement.h"
 #include "import/solid.h"
+#include "import/vdb/vdb_grids.h"
 
 namespace scree {
 
