@@ -66,7 +66,7 @@ CheckChange check_change(const std::string& check, const KeptResult& before, con
   return {check, change, is->detail};
 }
 
-std::string text_of(const std::map<std::string, std::string>& options) {
+std::string options_text(const std::map<std::string, std::string>& options) {
   std::string text;
   for (const auto& [name, value] : options) text += (text.empty() ? "" : ", ") + name + " " + value;
   return text.empty() ? "no options" : text;
@@ -127,7 +127,7 @@ Result<ResultComparison> compare_results(const KeptResult& before, const KeptRes
                             name_of(after.kind), after.name));
   if (before.options != after.options)
     return fail(fmt::format("{} was run with different options: {}; and {}", before.name,
-                            text_of(before.options), text_of(after.options)));
+                            options_text(before.options), options_text(after.options)));
   ResultComparison comparison{.name = before.name, .notes = notes_of(before, after)};
   for (const std::string& metric : names_in(before.metrics, after.metrics))
     comparison.metrics.push_back(metric_change(metric, before, after));
