@@ -75,7 +75,7 @@ void emit(vec3 from_eye, vec3 normal, Home home) {
   v_rock = v_world;
   v_normal = normal;
   v_rock_normal = normal;
-  v_openness = openness_at(from_eye, normal, home.level, band);
+  v_openness = cleft_openness_at(from_eye, normal, home.level, band);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
   EmitVertex();
 }

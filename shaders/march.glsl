@@ -105,15 +105,20 @@ float sun_at(vec3 from, vec3 sun, int level) {
   return light * light * (3.0 - 2.0 * light);
 }
 
-// 1 under the open sky, less in a crevice, from the distances above the surface: over open ground they grow as fast as
-// one climbs. At the height that meshes ask for, where something else may be as near as `other`, then farther on
-// coarser levels.
-float openness_at(vec3 from_eye, vec3 normal, int level, float other) {
-  float open = 1.0;
-  float weight = 1.0;
-  for (int i = 0; i < 3 && level + i < u_levels; ++i) {
+// 1 where the ground is even or juts out, less in a cleft, from the distance above the surface: over open ground it grows
+// as fast as one climbs. At the height that meshes ask for, where something else may be as near as `other`.
+float cleft_openness_at(vec3 from_eye, vec3 normal, int level, float other) {
+  if (level >= u_levels) return 1.0;
+  float found = field_at(from_eye + normal * (probe_height / u_voxels_per_m[level]), level);
+  return clamp(min(found, other) / probe_height, 0.0, 1.0);
+}
+
+// 1 under the open sky, less in a crevice: that, and the same farther away, on coarser levels.
+float openness_at(vec3 from_eye, vec3 normal, int level, float in_cleft) {
+  float open = in_cleft;
+  float weight = 0.6;
+  for (int i = 1; i < 3 && level + i < u_levels; ++i) {
     float found = field_at(from_eye + normal * (probe_height / u_voxels_per_m[level + i]), level + i);
-    if (i == 0) found = min(found, other);
     open *= mix(1.0, clamp(found / probe_height, 0.0, 1.0), weight);
     weight *= 0.6;
   }

@@ -20,17 +20,14 @@ void main() {
   float there = worn_at(from_eye, normal, 0, generated_at(from_eye, 0), above);
   int paint = paint_of(hit.entry);
   float layer_m = paint >= paint_in_cuts ? 0.3 * (1.0 - v_dust) : 0.0;
+  int level = level_of(from_eye, 0);
+  float in_cleft = cleft_openness_at(from_eye, normal, level, above);
   Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, mix(abs(before), there, v_dust), layer_m,
-                      paint < paint_in_cuts ? paint_colour(paint) : vec4(0.0), away);
+                      paint < paint_in_cuts ? paint_colour(paint) : vec4(0.0), in_cleft, away);
   vec3 albedo = rock.albedo * (1.0 + 0.22 * (v_tint - 0.4) * (1.0 - v_dust));
   vec3 bent = normalize(rotated(v_rotation, rock.normal));
-  int level = level_of(from_eye, 0);
-  float open = 1.0;
   float sunlight = max(dot(bent, u_sun), 0.0);
-  if (level < u_levels) {
-    open = openness_at(from_eye, normal, level, above);
-    if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel_m), u_sun, level);
-  }
+  if (level < u_levels && sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel_m), u_sun, level);
   if (sunlight > 0.0) sunlight *= lit(hit.world, normal);
-  o_colour = vec4(tone(in_fog(lit_rock(albedo, bent, open * rock.open, sunlight), hit.world, away)), 1.0);
+  o_colour = vec4(tone(in_fog(lit_rock(albedo, bent, openness_at(from_eye, normal, level, in_cleft) * rock.open, sunlight), hit.world, away)), 1.0);
 }

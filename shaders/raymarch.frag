@@ -34,8 +34,9 @@ void main() {
     layer_m = layer_at(from_eye, world.y, hit.level, before);
     paint = paint_colour(paint_of(hit.there.entry));
   }
-  Rock rock = rock_at(world, normal, worn, layer_m, paint, hit.along);
-  float open = openness_at(from_eye, normal, hit.level, band);
+  float in_cleft = cleft_openness_at(from_eye, normal, hit.level, band);
+  float open = openness_at(from_eye, normal, hit.level, in_cleft);
+  Rock rock = rock_at(world, normal, worn, layer_m, paint, in_cleft, hit.along);
   float sunlight = max(dot(rock.normal, u_sun), 0.0);
   float voxel = 1.0 / u_voxels_per_m[hit.level];
   if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel), u_sun, hit.level);

@@ -37,6 +37,9 @@ float bare_of(float worn, float fine) { return smoothstep(0.08, 0.22, worn * (0.
 // Turned, so that no face lies along the voxels, and flattened: rock splits along its beds.
 const mat3 along_beds = mat3(0.82, 0.51, -0.31, -0.48, 1.32, 0.36, 0.37, -0.26, 0.88);
 
+// What the dirt in a cleft leaves of the colour of broken rock.
+const vec3 cleft_tint = vec3(0.46, 0.38, 0.33);
+
 // One face of broken rock: which way it is bent, and how far its edge is, in cells of the lattice. Cells of a
 // body-centred lattice have 14 faces and no direction of their own; `bend` makes them uneven.
 vec4 facet(vec3 p, vec3 bend) {
@@ -62,8 +65,9 @@ vec3 layered(vec3 albedo, float height_m, float layer_m, float bare) {
 }
 
 // At p in the frame of the rock, whose patterns stay with a piece that moves. `layer_m`: within the ground's layer;
-// `paint`: colour of the painted part, and how much is painted; `away`: metres from the eye.
-Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, float away) {
+// `paint`: colour of the painted part, and how much is painted; `in_cleft`: 1 on an open face, less where other rock is near
+// above it; `away`: metres from the eye.
+Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, float in_cleft, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
@@ -87,13 +91,15 @@ Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, f
     vec3 bed = mix(vec3(0.43, 0.20, 0.09), vec3(0.56, 0.335, 0.18), noise_1d(0.75 * p.y + 1.95 * (coarse.x - 0.5), 3));
     // Dust lies on what is flat.
     vec3 broken = mix(bed, vec3(0.50, 0.33, 0.20), smoothstep(0.25, 0.85, shape_normal.y)) * (0.52 + 1.05 * fine);
+    // Dirt in the clefts: where stones touch, their outlines are dark in the sun, too.
+    broken *= mix(cleft_tint, vec3(1.0), smoothstep(0.2, 0.95, in_cleft));
     // It breaks along faces: large ones with cracks between them, and chips on these.
     float seen = bare * (1.0 - smoothstep(30.0, 70.0, away));
     if (seen > 0.0) {
       vec3 q = along_beds * p;
       vec4 large = facet(q * 1.25, middle.yzw * 0.30 + coarse.yzw * 0.3);
       vec4 chip = facet(q * 3.7 + 0.4, small.yzw * 0.22 + middle.yzw * 0.5);
-      bump += (large.xyz * 0.90 + chip.xyz * 0.70 * grain) * seen;
+      bump += (large.xyz * 1.30 + chip.xyz * 0.65 * grain) * seen;
       float width = 0.02 + 0.004 * away;
       float crack = (1.0 - smoothstep(0.0, width, large.w)) * smoothstep(0.60, 0.74, 0.45 * coarse.x + 0.45 * middle.x + 0.35 * small.x);
       crack *= seen * min(1.0, 0.04 / width);

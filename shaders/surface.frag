@@ -15,7 +15,7 @@ out vec4 o_colour;
 
 void main() {
   float away = length(v_world - u_eye);
-  Rock rock = rock_at(v_rock, normalize(v_rock_normal), v_worn, v_layer, v_paint, away);
+  Rock rock = rock_at(v_rock, normalize(v_rock_normal), v_worn, v_layer, v_paint, v_openness, away);
   vec3 albedo = rock.albedo * (1.0 + u_loose * 0.22 * (u_tint - 0.4));
   vec3 normal = normalize(rotated(u_rotation, rock.normal));
   float sunlight = max(dot(normal, u_sun), 0.0);
