@@ -8,6 +8,7 @@
 #include "server/work/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 
@@ -46,9 +47,9 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
   const auto& [world, pager, ahead, room_will_come] = ground;
   const WorldConfig& config = world.config();
   const Shape* const shape = shape_of(held.command.body);
-  if (shape == nullptr || !validate(*shape)) return Verdict::admit;  // the simulation refuses what is invalid
+  // Only a shape that an operation may have has a bounded box. The simulation refuses the others.
+  if (shape == nullptr || !validate_edit(*shape)) return Verdict::admit;
   const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
-  if (Window::count(box) > limits::admitted_voxels_max) return Verdict::admit;  // likewise
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
   const double waited_s = now_s - held.since_s;
   const bool waited_long = waited_s > limits::held_seconds_max;

@@ -85,7 +85,4 @@ inline constexpr double held_seconds_max = 5.0;
 /// Terrain around an edit's box that must be in memory, too, voxels: what hangs loose is searched there.
 inline constexpr int admitted_margin_voxels = 16;
 
-/// Voxels of an edit's box for which anything is read; a larger one is beyond the simulation's own limits.
-inline constexpr size_t admitted_voxels_max = size_t{1} << 24;
-
 }  // namespace scree::limits

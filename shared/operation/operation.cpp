@@ -25,20 +25,6 @@ bool in_world(glm::vec3 p) {
          std::abs(p.y) <= limits::world_half_height_m;
 }
 
-Result<void> validate_place(const Shape& shape) {
-  if (Result<void> valid = validate(shape); !valid) return valid;
-  const float reach = reach_of(shape);
-  if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
-    return fail("reach " + std::to_string(reach) + " m is over the limit of " +
-                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
-  if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
-    return fail("reach " + std::to_string(reach) + " m is under the limit of " +
-                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
-  if (!in_world(centre_of(shape)))
-    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
-  return {};
-}
-
 /// The cut's pieces go into the table, from that id on.
 template <typename MaterialOf>
 void enter(Cut cut, PieceId id, MaterialOf&& material_of, PieceTable& pieces, Applied& applied) {
@@ -269,17 +255,17 @@ struct Validator {
   float voxel_size_m;
 
   Result<void> operator()(const CarveOperation& op) const {
-    if (Result<void> valid = validate_place(op.shape); !valid) return valid;
+    if (Result<void> valid = validate_edit(op.shape); !valid) return valid;
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
     if (Result<void> valid = validate_carve_pattern(op.pattern); !valid) return valid;
     if (Result<void> valid = validate_authored(op); !valid) return valid;
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
-  Result<void> operator()(const FillOperation& op) const { return validate_place(op.shape); }
+  Result<void> operator()(const FillOperation& op) const { return validate_edit(op.shape); }
   Result<void> operator()(const PaintOperation& op) const {
     if (Result<void> valid = validate_kind(op.material, "material"); !valid) return valid;
-    return validate_place(op.shape);
+    return validate_edit(op.shape);
   }
   Result<void> operator()(const StampOperation& op) const {
     if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
@@ -314,6 +300,20 @@ struct Validator {
 };
 
 }  // namespace
+
+Result<void> validate_edit(const Shape& shape) {
+  if (Result<void> valid = validate(shape); !valid) return valid;
+  const float reach = reach_of(shape);
+  if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
+    return fail("reach " + std::to_string(reach) + " m is over the limit of " +
+                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
+  if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
+    return fail("reach " + std::to_string(reach) + " m is under the limit of " +
+                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
+  if (!in_world(centre_of(shape)))
+    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
+  return {};
+}
 
 bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
   CHECK(!group.empty());

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <limits>
 #include <thread>
 
 #include "proto/world_codec.h"
@@ -23,6 +24,7 @@
 #include "server/store/stored_field.h"
 #include "server/world/limits.h"
 #include "server/world/world_snapshot.h"
+#include "shared/operation/operation.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/test_folder.h"
 
@@ -251,6 +253,30 @@ TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will
   admission.answered(std::exchange(answered, {}));
   ask({}, true);
   EXPECT_EQ(answered.size(), 1U);
+}
+
+TEST_F(PagerTest, shapes_that_no_operation_may_have_are_refused_by_the_simulation_and_have_no_box) {
+  open(0);
+  constexpr float most = std::numeric_limits<float>::max();
+  for (const float far_m : {4200.0F, 1e9F, 1e30F, most}) {
+    for (const glm::vec3 far :
+         {glm::vec3(far_m, 0.0F, 0.0F), glm::vec3(0.0F, -far_m, 0.0F), glm::vec3(-far_m)}) {
+      const Shape shapes[] = {capsule(glm::vec3(0.0F), 4.0F * far, 1.0F), capsule(-far, far, 1.0F),
+                              box(glm::vec3(0.0F), glm::abs(far) + 1.0F), sphere(200.0F * far, 1.0F),
+                              crater(glm::vec3(0.0F), far_m)};
+      for (const Shape& shape : shapes) {
+        ASSERT_FALSE(validate_edit(shape)) << far_m;
+        const Command commands[] = {{1, ++asked, CarveRequest{.shape = shape}},
+                                    {1, ++asked, FillRequest{shape}},
+                                    {1, ++asked, PaintRequest{shape, Material::ice}}};
+        for (const Command& command : commands) {
+          const Admitted admitted = admission.admit({command}, {*world, *pager, nullptr, true});
+          ASSERT_EQ(admitted.commands.size(), 1U) << far_m;
+          EXPECT_NE(world->step(admitted.commands)->replies.front().refusal, "") << far_m;
+        }
+      }
+    }
+  }
 }
 
 TEST_F(PagerTest, terrain_gives_way_to_what_the_model_does_not_know_of_and_takes_its_room_back) {
