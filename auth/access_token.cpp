@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 
 #include "auth/base64url.h"
@@ -117,6 +118,10 @@ Result<uint64_t> read_id(std::string_view text) {
 }
 
 Result<std::vector<uint64_t>> read_revoked(const std::string& path) {
+  // It is read again while the server runs, which must not wait for a pipe's other end.
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    return fail("the list of revoked tokens " + path + " is not a file");
   std::ifstream file(path);
   if (!file) return fail("the list of revoked tokens " + path + " cannot be read");
   std::vector<uint64_t> ids;

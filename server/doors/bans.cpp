@@ -57,6 +57,8 @@ Result<Bans> Bans::open(const std::string& path) {
   std::error_code error;
   const bool there = !path.empty() && std::filesystem::exists(path, error);
   if (!there && !error) return bans;
+  // Writing takes the place of what is there, so it has to be a file.
+  if (!error && !std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file (--bans)");
   std::ifstream file(path);
   if (error || !file) return fail("the file of bans " + path + " cannot be read (--bans)");
   size_t number = 0;

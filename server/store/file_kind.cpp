@@ -42,7 +42,9 @@ Result<void> check_file(const std::string& path, const FileKind& kind) {
 }
 
 bool lacks_log(const std::string& path, const FileKind& kind) {
-  constexpr size_t header_bytes = 100, id_at = 68;  // SQLite file format, 1.3
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // a pipe would be waited for
+  constexpr size_t header_bytes = 100, id_at = 68;                   // SQLite file format, 1.3
   std::string start(header_bytes, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -51,7 +53,6 @@ bool lacks_log(const std::string& path, const FileKind& kind) {
     id = id * 256 + static_cast<int64_t>(static_cast<unsigned char>(start[id_at + i]));
   const bool another = id != 0 && id != kind.application_id;  // 0: it says so in its log yet
   constexpr char by_log = 2;                                  // SQLite file format, 1.3.3
-  std::error_code error;
   return file && !another && start[18] == by_log && start[19] == by_log &&
          !std::filesystem::exists(path + "-wal", error);
 }

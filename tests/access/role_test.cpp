@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <thread>
 
 #include "client/connection/connection.h"
@@ -284,6 +285,10 @@ TEST(BanList, keeps_time_and_its_limits) {
   EXPECT_TRUE(holds(Bans::open(folder / "bad").error().message, "bad, line 2"));
   std::filesystem::create_symlink(folder / "loop", folder / "loop");
   EXPECT_TRUE(holds(Bans::open(folder / "loop").error().message, "cannot be read")) << "it may hold some";
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const std::string& odd : {folder / "pipe", folder / "", std::string("/dev/zero")})
+    EXPECT_TRUE(holds(Bans::open(odd).error().message, "is not a file"))
+        << "it could not take the list: " << odd;
   const auto nowhere = Bans::open(folder / "no/such/folder");
   ASSERT_TRUE(nowhere);
   Bans unkept = *nowhere;

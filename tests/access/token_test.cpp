@@ -117,6 +117,9 @@ TEST(AccessTokens, a_list_of_revoked_ones_names_the_line_that_is_wrong) {
   std::ofstream(folder / "bad") << "0000000000000005\nfive\n";
   EXPECT_TRUE(holds(read_revoked(folder / "bad").error().message, "bad, line 2: 'five' is no token's id"));
   EXPECT_TRUE(holds(read_revoked(folder / "none").error().message, "cannot be read"));
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const std::string& odd : {folder / "pipe", folder / "", std::string("/dev/zero")})
+    EXPECT_TRUE(holds(read_revoked(odd).error().message, "is not a file")) << odd;
 }
 
 TEST(AccessTokens, lengths_of_time_have_a_unit) {

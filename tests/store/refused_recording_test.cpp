@@ -1,5 +1,6 @@
 // Files that are no recordings, or damaged ones, are refused in words.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
@@ -19,6 +20,11 @@ TEST_F(RecordingTest, file_that_is_not_there_is_refused) {
 
 TEST_F(RecordingTest, folder_is_refused) {
   path = folder.string();
+  expect_refused("not a file");
+}
+
+TEST_F(RecordingTest, pipe_is_refused_and_not_waited_for) {
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   expect_refused("not a file");
 }
 
