@@ -7,7 +7,8 @@ namespace scree::peers {
 namespace {
 
 /// Orders come as lines of a file in the world's folder, answers go to another one. Positions of clients do
-/// not change: without gravity they stay where they are put.
+/// not change: without gravity they stay where they are put. They look down from so high that all carves are
+/// in sight: the server sends a block that changed when it is in sight, and not before.
 constexpr const char* script = R"LUA(
 local orders = assert(io.open(minetest.get_worldpath() .. "/orders", "r"))
 local answers = assert(io.open(minetest.get_worldpath() .. "/answers", "w"))
@@ -26,7 +27,8 @@ local ground = 8
 
 minetest.register_on_joinplayer(function(player)
   player:set_physics_override({gravity = 0, speed = 0, jump = 0})
-  player:set_pos({x = 0, y = ground + 6, z = 0})
+  player:set_pos({x = 0, y = ground + 60, z = 0})
+  player:set_look_vertical(math.pi / 2)
   answer("joined", player:get_player_name())
 end)
 
