@@ -64,7 +64,7 @@ struct NumberModel {
   explicit NumberModel(uint32_t longer_in_64 = 32) { longer.fill(BitModel(longer_in_64)); }
 };
 
-/// 0 to 2^31 - 1; what a Reader returns may be larger.
+/// 0 to 2^31; what a Reader returns may be larger.
 template <typename Coder>
 uint32_t code(Coder& coder, NumberModel& model, uint32_t number) {
   const auto width = static_cast<uint32_t>(std::bit_width(number + 1U)) - 1U;
@@ -77,9 +77,10 @@ uint32_t code(Coder& coder, NumberModel& model, uint32_t number) {
   return ((2U | (high ? 1U : 0U)) << low) + coder.plain(number + 1U, low) - 1U;
 }
 
+/// The nearest number that there is: differences of places have all of them, -2^31 as well.
 int32_t with_sign(uint32_t size, bool negative) {
-  const auto n = static_cast<int32_t>(std::min(size, 0x7FFFFFFFU));
-  return negative ? -n : n;
+  return static_cast<int32_t>(negative ? -int64_t{std::min(size, 0x80000000U)}
+                                       : int64_t{std::min(size, 0x7FFFFFFFU)});
 }
 
 struct SignedModel {

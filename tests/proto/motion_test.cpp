@@ -261,6 +261,19 @@ TEST(MotionCodec, more_whole_motions_than_pieces_and_bytes_too_many_are_refused)
   EXPECT_FALSE(decode(2).has_value());
 }
 
+TEST(MotionCodec, places_come_back_however_far_they_are_apart) {
+  // 131 km between: in steps 2^31, which an int32_t has as a negative number only.
+  constexpr int32_t far = 1 << 26;
+  const WholeMotion wholes[] = {{1, resting_at({far, -far, 0, 0})},
+                                {2, resting_at({-far, far, 0, 0})},
+                                {3, resting_at({far, 0, far, 0})}};
+  const auto got =
+      decode_motions(encode_motions(wholes, {}), 3, [](auto) { return std::vector<MotionBefore>(); });
+  ASSERT_TRUE(got.has_value()) << got.error().message;
+  ASSERT_EQ(got->wholes.size(), 3U);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(got->wholes[i].motion.position, wholes[i].motion.position);
+}
+
 TEST(KnownMotions, a_motion_of_a_piece_that_is_not_there_is_refused) {
   Volume volume;
   volume.centre_voxels = {4.0F, 8.0F, -2.0F};
