@@ -238,7 +238,7 @@ Complaints check_layering(const SourceFile& file) {
 }
 
 Complaints check_library_homes(const SourceFile& file) {
-  static const std::regex known_to_shared(R"([a-z_0-9]+|glm/.*|tl/expected\.hpp|xxhash\.h)");
+  static const std::regex known_to_shared(R"([a-z_0-9]+|emmintrin\.h|glm/.*|tl/expected\.hpp|xxhash\.h)");
   Complaints complaints;
   for (const Include& include : includes_of(file)) {
     const Library* library = library_of(include.target);
@@ -248,7 +248,7 @@ Complaints check_library_homes(const SourceFile& file) {
     if (include.angled && file.path.starts_with("shared/") &&
         !std::regex_match(include.target, known_to_shared))
       complaints.push_back(file.path + ": includes <" + include.target +
-                           ">, but shared/ knows only GLM, xxHash and tl::expected");
+                           ">, but shared/ knows only GLM, xxHash, tl::expected and the compiler's SSE2");
   }
   return complaints;
 }
