@@ -160,14 +160,15 @@ Result<MostHeld> MachineMeasure::most_bots(double expected, unsigned cores) {
                    holds);
 }
 
-/// How much of a core can be used: as much as the server takes with the most bots that one holds.
+/// How much of a core can be used: the most that the server took of one with a load that held.
 Result<void> MachineMeasure::check_one_core() {
   const auto most = most_bots(model_.bots_held(0.0, limits(1.0)).most, 1);
   if (!most) return tl::unexpected(most.error());
   on_one_core_ = most->holds;
+  double used_ms_s = 0.0;
   for (const auto& [load, served] : rows_)
-    if (load.cores == 1 && load.bots == on_one_core_ && load.viewers == 0 && served.holds())
-      usable_ = std::min(1.0, served.server_ms_s / 1000.0);
+    if (load.cores == 1 && served.holds()) used_ms_s = std::max(used_ms_s, served.server_ms_s);
+  if (on_one_core_ > 0) usable_ = std::min(1.0, used_ms_s / 1000.0);
   study_.figures.metric("machine_bots_on_one_core", static_cast<double>(on_one_core_));
   return {};
 }
@@ -277,8 +278,8 @@ std::vector<std::string> MachineMeasure::terms_text() const {
           "more, on any machine: its budget counts work and no time. That is found by simulating bots "
           "without a server. Below it the budget is no wall: carves get fewer pieces and these merge sooner, "
           "so that a bot costs less the more there are. (2) **The processors' time**: what all threads take "
-          "is at most {:.0f} % of all cores. So much a server took of one core with the most bots that this "
-          "held. (3) **The simulation's thread**: what it does alone, and its part of the bodies, which all "
+          "is at most {:.0f} % of all cores. So much a server took at most of one core that held its "
+          "load. (3) **The simulation's thread**: what it does alone, and its part of the bodies, which all "
           "cores share, is at most the same share of one core. (4) **Memory** of 4 GiB and (5) **bandwidth** "
           "of 1 Gbit/s.",
           sim.bots_most, 100.0 * usable_),
