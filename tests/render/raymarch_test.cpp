@@ -96,22 +96,15 @@ class RaymarchPiece : public Raymarch {
   /// Largest difference of a colour's mean over the middle of the piece; its rim shows a crack until it
   /// merges.
   static int difference_amidst(const Image& a, const Image& b) {
-    int largest = 0;
-    for (size_t colour = 0; colour < 3; ++colour) {
-      int sum = 0;
-      int count = 0;
-      for (int y = height * 55 / 100; y < height * 80 / 100; ++y)
-        for (int x = width * 30 / 100; x < width * 50 / 100; ++x, ++count) {
-          const size_t at = static_cast<size_t>(y * width + x) * 3 + colour;
-          sum += a.rgb[at] - b.rgb[at];
-        }
-      largest = std::max(largest, std::abs(sum / count));
-    }
-    return largest;
+    return largest_mean(a, b, [](int difference) { return difference; });
   }
   /// Largest mean, over the same pixels, of a colour's difference at each: some of a hole's pixels are paler
   /// than the ground and some darker, which cancels out in the colour's mean.
   static int difference_of_pixels_amidst(const Image& a, const Image& b) {
+    return largest_mean(a, b, [](int difference) { return std::abs(difference); });
+  }
+  template <typename Counted>
+  static int largest_mean(const Image& a, const Image& b, Counted&& counted) {
     int largest = 0;
     for (size_t colour = 0; colour < 3; ++colour) {
       int sum = 0;
@@ -119,9 +112,9 @@ class RaymarchPiece : public Raymarch {
       for (int y = height * 55 / 100; y < height * 80 / 100; ++y)
         for (int x = width * 30 / 100; x < width * 50 / 100; ++x, ++count) {
           const size_t at = static_cast<size_t>(y * width + x) * 3 + colour;
-          sum += std::abs(a.rgb[at] - b.rgb[at]);
+          sum += counted(a.rgb[at] - b.rgb[at]);
         }
-      largest = std::max(largest, sum / count);
+      largest = std::max(largest, std::abs(sum / count));
     }
     return largest;
   }
