@@ -27,7 +27,7 @@ local ground = 8
 
 minetest.register_on_joinplayer(function(player)
   player:set_physics_override({gravity = 0, speed = 0, jump = 0})
-  player:set_pos({x = 0, y = ground + 60, z = 0})
+  player:set_pos({x = 0, y = ground + 75, z = 0})
   player:set_look_vertical(math.pi / 2)
   answer("joined", player:get_player_name())
 end)

@@ -27,18 +27,20 @@ constexpr int radius_voxels = 8;
 constexpr float voxel_m = 0.25F;
 constexpr float radius_m = radius_voxels * voxel_m;
 constexpr int view_voxels = 96;
-constexpr float eye_voxels = 60.0F;  ///< above the ground, as luanti_game.cpp has it
+constexpr float eye_voxels = 75.0F;  ///< above the ground, as luanti_game.cpp has it
 constexpr uint32_t carves_a_side = 4;
 constexpr int spacing_voxels = 18;
-constexpr double carve_every_s = 0.5;
+constexpr double carve_every_s = 2.0;  ///< Luanti has sent all of one before the next
 constexpr uint32_t seeds_a_carve = 64;
 constexpr size_t viewers_max = 64, viewers_a_batch = 16;
 constexpr double busy_max = 0.85;  ///< of all cores, at rest: more viewers do not fit
 constexpr double joined_within_s = 30.0;
 constexpr double settled_within_s = 40.0;
+constexpr double calm_within_s = 90.0;
 constexpr double ends_within_s = 30.0;
 /// A viewer that gets less than so many bytes in each of so many half seconds has all that it needs.
 constexpr uint64_t quiet_bytes = 3000;
+constexpr uint64_t calm_bytes = 100;  ///< the same, and nothing else is on the way either
 constexpr double look_every_s = 0.5;
 constexpr int quiet_looks = 5;
 
@@ -85,17 +87,17 @@ double busy_share(double seconds) {
   return 1.0 - (idle_after - idle_before) / std::max(all_after - all_before, 1.0);
 }
 
-/// Waits until `bytes`, of one viewer, hardly grow any more; seconds until the last look at which they did.
-/// Gives up after joined_within_s.
+/// Waits until `bytes`, of one viewer, grow by less than `least` from look to look; seconds until the last
+/// look at which they did not. Gives up after `within_s`.
 template <typename Bytes>
-double seconds_until_quiet(Bytes bytes) {
+double seconds_until_quiet(Bytes bytes, uint64_t least = quiet_bytes, double within_s = joined_within_s) {
   const double begin_s = steady_now_s();
   double last_s = begin_s;
   uint64_t before = bytes();
-  for (int looks = 0; looks < quiet_looks && steady_now_s() < begin_s + joined_within_s; ++looks) {
+  for (int looks = 0; looks < quiet_looks && steady_now_s() < begin_s + within_s; ++looks) {
     wait_s(look_every_s);
     const uint64_t now = bytes();
-    if (now - before >= quiet_bytes) {
+    if (now - before >= least) {
       looks = -1;
       last_s = steady_now_s();
     }
@@ -148,28 +150,40 @@ std::vector<glm::ivec3> places(int ground, size_t count) {
   return all;
 }
 
-/// Both kinds of server, with what the phases have in common: rest, carves, and the time until all is over.
+/// What a server took within some time.
+struct Taken {
+  double seconds = 0.0, cpu_s = 0.0, bytes = 0.0;
+};
+
+/// Both kinds of server, with what the phases have in common: rest, carves and the time until all is over,
+/// and rest again. What is taken at rest is no carve's.
 template <typename Cpu, typename Bytes, typename Carve, typename Settle>
 void rest_and_carve(Session& session, size_t viewers, const std::vector<glm::ivec3>& at, double rest_s,
                     Cpu cpu_s, Bytes bytes, Carve carve, Settle settle) {
-  const double idle_before_s = cpu_s(), idle_begin_s = steady_now_s();
-  const uint64_t quiet_before = bytes();
-  wait_s(rest_s);
-  const double idle_s = steady_now_s() - idle_begin_s;
-  session.idle_cpu = (cpu_s() - idle_before_s) / idle_s;
-  const double quiet_rate = static_cast<double>(bytes() - quiet_before) / idle_s;
-  const double before_s = cpu_s(), begin_s = steady_now_s();
-  const uint64_t bytes_before = bytes();
-  for (const glm::ivec3& place : at) {
-    carve(place);
-    wait_s(carve_every_s);
-  }
-  settle();
-  const double taken_s = steady_now_s() - begin_s;
+  const auto during = [&](auto phase) {
+    const double begin_s = steady_now_s(), cpu_before_s = cpu_s();
+    const uint64_t bytes_before = bytes();
+    phase();
+    return Taken{steady_now_s() - begin_s, cpu_s() - cpu_before_s,
+                 static_cast<double>(bytes() - bytes_before)};
+  };
+  const auto rest = [&] { wait_s(rest_s); };
+  const Taken before = during(rest);
+  const Taken carving = during([&] {
+    for (const glm::ivec3& place : at) {
+      carve(place);
+      wait_s(carve_every_s);
+    }
+    settle();
+  });
+  const Taken after = during(rest);
+  const double rests_s = before.seconds + after.seconds;
+  session.idle_cpu = (before.cpu_s + after.cpu_s) / rests_s;
+  const double idle_bytes_s = (before.bytes + after.bytes) / rests_s;
   const auto carves = static_cast<double>(at.size());
-  session.carve_cpu_ms = 1e3 * (cpu_s() - before_s - session.idle_cpu * taken_s) / carves;
-  session.carve_bytes = (static_cast<double>(bytes() - bytes_before) - quiet_rate * taken_s) / carves /
-                        static_cast<double>(viewers);
+  session.carve_cpu_ms = 1e3 * (carving.cpu_s - session.idle_cpu * carving.seconds) / carves;
+  session.carve_bytes =
+      (carving.bytes - idle_bytes_s * carving.seconds) / carves / static_cast<double>(viewers);
 }
 
 Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, size_t& nodes) {
@@ -184,12 +198,15 @@ Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, si
   viewers = luanti.clients();
   session.viewer_mib =
       (luanti.server_memory_mib() - one_mib) / static_cast<double>(std::max<size_t>(viewers - 1, 1));
+  // Clients make meshes of all that came for a while, and the server is held up by them.
+  const auto bytes_of_one = [&] { return sum_of(to_clients(luanti)) / viewers; };
+  seconds_until_quiet(bytes_of_one, calm_bytes, calm_within_s);
   luanti.start_steps();
   rest_and_carve(
       session, viewers, places(peers::Luanti::ground, carves), rest_s, [&] { return luanti.server_cpu_s(); },
       [&] { return sum_of(to_clients(luanti)); },
       [&](glm::ivec3 place) { luanti.carve(place, radius_voxels); },
-      [&] { seconds_until_quiet([&] { return sum_of(to_clients(luanti)) / viewers; }); });
+      [&] { seconds_until_quiet(bytes_of_one); });
   const peers::LuantiTold told = luanti.told();
   if (told.carve_ms.size() < carves || told.steps_ms.empty())
     return fail(fmt::format("Luanti's server tells of {} of {} carves and of {} steps", told.carve_ms.size(),
@@ -332,19 +349,17 @@ void say_conditions(size_t viewers, size_t carves, size_t nodes, PeerFindings& f
           "Debian's `minetestserver` and {} of its own clients (`minetest` with `video_driver = null`: no "
           "pictures, 10 frames a second, all else as usual), as many as this machine has room for with "
           "less than {:.0f} % of its cores busy at rest, at most {}; against `scree-server` and as many "
-          "viewers, whose mirrors apply everything and check every hash. All on loopback, on the same "
-          "cores.",
+          "viewers, whose mirrors apply everything and check every hash. All on loopback and these cores.",
           viewers, 100.0 * busy_max, viewers_max),
       fmt::format(
-          "Both worlds are flat. {} balls with a radius of {} voxels are taken out, two a second; all look "
-          "down from {:.0f} voxels above, with every ball in sight, for Luanti's server sends no block that "
-          "is "
-          "out of sight; all see {} voxels far. A node of Luanti is a voxel here, whatever its size is "
-          "called. "
-          "Its carve is Lua's fast way, a voxel manipulator with light: {} nodes go, and nothing else "
-          "happens. Scree's makes {} pieces that fly, fall and become terrain again; its figures have all "
-          "of that.",
-          carves, radius_voxels, eye_voxels, view_voxels, nodes, seeds_a_carve),
+          "Both worlds are flat. When all viewers have all and nothing has been on its way for a while, "
+          "{} balls with a radius of {} voxels are taken out, one each {:.0f} s; all look down from "
+          "{:.0f} voxels above, with every ball in sight, for Luanti's server sends no block that is out "
+          "of sight; all see {} voxels far. A node of Luanti is a voxel here, whatever its size is "
+          "called. Its carve is Lua's fast way, a voxel manipulator with light: {} nodes go, and nothing "
+          "else happens. Scree's makes {} pieces that fly, fall and become terrain again; its figures "
+          "have all of that.",
+          carves, radius_voxels, carve_every_s, eye_voxels, view_voxels, nodes, seeds_a_carve),
       "Settings that cost time are Luanti's defaults: a step of 90 ms (Scree: 16.7 ms), its own limits of "
       "blocks on the way. Bytes are those of datagrams and of streams, without their headers; Luanti's "
       "were counted by a relay between server and clients. Processor time is that of the server's process. "
@@ -364,7 +379,7 @@ PeerFindings beside_luanti(const PeerOptions& options) {
   }
   findings.peer = "Luanti (" + peers::Luanti::version() + ")";
   const size_t carves = options.quick ? 4 : size_t{carves_a_side} * carves_a_side;
-  const double rest_s = options.quick ? 1.0 : 4.0;
+  const double rest_s = options.quick ? 1.0 : 6.0;
   size_t viewers = options.quick ? 2 : 0;  // 0: to be found
   size_t nodes = 0;
   for (int run = 0; run < options.runs; ++run) {
