@@ -75,7 +75,7 @@ set_options() {
 }
 
 fuzz() {
-  local name=$1 minutes=$2 log="$built/log/$1.log" started seconds TIMEFORMAT=%U
+  local name=$1 minutes=$2 log="$built/log/$1.log" started seconds TIMEFORMAT='%U %S'
   mkdir -p "$built/found/$name" "$built/failed/$name" "$built/log"
   started=$(mktemp)
   local dictionary="$root/tests/fuzz/dictionaries/$name.dict"
@@ -84,7 +84,7 @@ fuzz() {
     -max_total_time="$(awk -v m="$minutes" 'BEGIN { printf "%d", m * 60 }')")
   { time { "$built/bin/fuzz_$name" "${options[@]}" "$built/found/$name" "$corpora/$name" 2>&1 | tee "$log" |
     grep -a --line-buffered -E 'INITED|pulse|ERROR|CHECK' >&3 || true; }; } 3>&1 2>"$started.seconds"
-  seconds=$(<"$started.seconds")
+  seconds=$(awk '{ print $1 + $2 }' "$started.seconds")
   local status=0
   report "$name" "$log" "$started" "$seconds" || status=1
   rm -f "$started" "$started.seconds"
