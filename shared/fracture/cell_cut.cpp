@@ -1,6 +1,8 @@
 #include "shared/fracture/cell_cut.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -37,7 +39,7 @@ static_assert(sizeof(Lanes) == lanes * sizeof(float));
 /// Far inside every plane, voxels.
 constexpr float deep_inside = -2.0F * band_voxels;
 
-/// encode() of each.
+/// encode() of each, not yet as bytes.
 SCREE_INLINE void encode_row(const Lanes& distances, IntLanes& codes) {
   const Lanes scaled = distances * codes_per_voxel;
   const Lanes low = scaled > -127.0F ? scaled : Lanes{} - 127.0F;
@@ -53,22 +55,36 @@ struct alignas(SCREE_CLONES_ALIGNMENT) PlaneSlope {
 /// Rows that are cut together: a plane is loaded once for them, and none waits for another.
 constexpr size_t rows_together = 4;
 
+/// A value of each voxel of such rows. Arrays of bytes are told apart from the vectors that hold them, or
+/// loops over them would be none of vectors.
+using Codes = std::array<Code, rows_together * lanes>;
+using Shares = std::array<uint8_t, rows_together * lanes>;
+
+SCREE_INLINE void narrow_all(const int* __restrict from, Code* __restrict codes) {
+  for (size_t i = 0; i < Codes().size(); ++i) codes[i] = static_cast<Code>(from[i]);
+}
+
+SCREE_INLINE void occupancies_of(const Code* __restrict codes, uint8_t* __restrict units) {
+  for (size_t i = 0; i < Codes().size(); ++i) units[i] = occupancy_byte(codes[i]);
+}
+
 /// The planes of a part, and the rows of one slice of its window across x, each cut_width voxels long.
 /// Distances from a plane grow evenly along a row: those at the first voxels are told once for all rows.
 class PlaneRows {
  public:
-  PlaneRows(const VoxelBox& box, const std::vector<glm::vec3>& own, const std::vector<glm::vec3>& neighbours)
-      : own_(own.size()),
-        rows_(static_cast<size_t>(box.size().y) * ((static_cast<size_t>(box.size().z) + lanes - 1) / lanes)),
-        padded_((rows_ + lanes - 1) / lanes * lanes),
-        y_(padded_),
-        z_(padded_) {
-    planes_.reserve(own.size() * neighbours.size());
-    for (const glm::vec3& other : neighbours)
-      for (const glm::vec3& seed : own) planes_.emplace_back(seed, other);
+  void set(const CellBounds& part) {
+    const VoxelBox& box = part.box;
+    own_ = part.own.size();
+    rows_ = static_cast<size_t>(box.size().y) * ((static_cast<size_t>(box.size().z) + lanes - 1) / lanes);
+    padded_ = (rows_ + lanes - 1) / lanes * lanes;
+    planes_.clear();
+    for (const glm::vec3& other : part.neighbours)
+      for (const glm::vec3& seed : part.own) planes_.emplace_back(seed, other);
     const Lanes steps = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
-    slopes_.reserve(planes_.size());
+    slopes_.clear();
     for (const Bisector& plane : planes_) slopes_.push_back({plane.normal.z * steps});
+    y_.assign(padded_, 0.0F);
+    z_.assign(padded_, 0.0F);
     size_t row = 0;
     for (int y = box.lo.y; y < box.hi.y; ++y)
       for (int z = box.lo.z; z < box.hi.z; z += cut_width, ++row) {
@@ -97,7 +113,7 @@ class PlaneRows {
 
   /// Codes of the distances beyond the farthest of the bisectors, the nearest over the own seeds of each
   /// neighbour, of the voxels of some rows: rows_together of them.
-  SCREE_INLINE void cut(const uint32_t* rows, int* codes) const {
+  SCREE_INLINE void cut(const uint32_t* rows, Codes& codes) const {
     if (own_ == 1)
       cut_by<true>(rows, codes);
     else
@@ -106,7 +122,7 @@ class PlaneRows {
 
  private:
   template <bool one_seed>
-  SCREE_INLINE void cut_by(const uint32_t* rows, int* codes) const {
+  SCREE_INLINE void cut_by(const uint32_t* rows, Codes& codes) const {
     Lanes farthest[rows_together];
     for (Lanes& row : farthest) row = Lanes{} + deep_inside;
     const float* base = bases_.data();
@@ -122,29 +138,23 @@ class PlaneRows {
         }
       for (size_t i = 0; i < rows_together; ++i) farthest[i] = near[i] > farthest[i] ? near[i] : farthest[i];
     }
+    std::array<int, Codes().size()> whole;
     for (size_t i = 0; i < rows_together; ++i) {
-      IntLanes whole;
-      encode_row(farthest[i], whole);
-      std::memcpy(codes + i * lanes, &whole, sizeof(whole));
+      IntLanes row;
+      encode_row(farthest[i], row);
+      std::memcpy(&whole[i * lanes], &row, sizeof(row));
     }
+    narrow_all(whole.data(), codes.data());
   }
 
-  size_t own_;                    ///< seeds
-  size_t rows_;                   ///< of a slice, along z one behind the other
-  size_t padded_;                 ///< rows, filled up to whole vectors
+  size_t own_ = 0;                ///< seeds
+  size_t rows_ = 0;               ///< of a slice, along z one behind the other
+  size_t padded_ = 0;             ///< rows, filled up to whole vectors
   std::vector<float> y_, z_;      ///< each row's first voxel
   std::vector<Bisector> planes_;  ///< own · neighbours, those of one neighbour together
   std::vector<PlaneSlope> slopes_;
   std::vector<float> bases_;  ///< of each plane and row, at its first voxel
 };
-
-template <typename Vector>
-SCREE_INLINE bool is_zero(const Vector& bytes) {
-  uint64_t word;
-  static_assert(sizeof(word) == sizeof(bytes));
-  std::memcpy(&word, &bytes, sizeof(word));
-  return word == 0;
-}
 
 /// Moves as many codes as there are, at most cut_width. A count that is known makes one move of it.
 template <typename From, typename To>
@@ -155,41 +165,26 @@ SCREE_INLINE void move_row(const From* from, To* to, ptrdiff_t there) {
     std::memcpy(to, from, static_cast<size_t>(there));
 }
 
-SCREE_INLINE void leave_out_from(int count, CodeLanes& codes) {
-  const CodeLanes numbers = {0, 1, 2, 3, 4, 5, 6, 7};
-  codes = numbers < static_cast<Code>(count) ? codes : CodeLanes{} + code_air;
-}
-
-// Arrays of bytes are told apart from the vectors that hold them, or loops over them would be none of
-// vectors.
-SCREE_INLINE void narrow_all(const int* __restrict from, size_t count, Code* __restrict codes) {
-  for (size_t i = 0; i < count; ++i) codes[i] = static_cast<Code>(from[i]);
-}
-
-SCREE_INLINE void occupancies_of(const Code* __restrict codes, size_t count, uint8_t* __restrict units) {
-  for (size_t i = 0; i < count; ++i) units[i] = occupancy_byte(codes[i]);
-}
+/// A byte of a word for each voxel of a row, the first the lowest.
+static_assert(std::endian::native == std::endian::little);
+constexpr uint64_t row_of_air = 0x0101010101010101U * code_air;
 
 /// The rows of a slice of the volume that are not only air: no part has a share in those.
 struct RockRows {
   struct Row {
-    CodeLanes codes;   ///< of the volume
-    int count;         ///< of voxels within the box
-    ptrdiff_t voxels;  ///< of the slice before it
+    uint64_t codes;   ///< of the volume
+    uint64_t within;  ///< 255 for each voxel within the box
+    int y, z;         ///< of its first voxel, from the box's low corner
   };
   std::vector<Row> rows;
   std::vector<uint32_t> numbers;  ///< of the rows in the slice; more than there are
-  std::vector<int> whole;         ///< codes of the distances from the planes
-  std::vector<Code> cut;          ///< the same
-  std::vector<uint8_t> shares;    ///< occupancy() of each
   size_t count = 0;
 
-  explicit RockRows(size_t all)
-      : rows(all + 1),
-        numbers(all + rows_together),
-        whole(numbers.size() * lanes),
-        cut(whole.size()),
-        shares(whole.size()) {}
+  /// Makes room for so many rows a slice.
+  void set(size_t all) {
+    rows.resize(all + 1);
+    numbers.resize(all + rows_together);
+  }
 
   SCREE_INLINE void read(const Window& volume, const VoxelBox& box, int x) {
     const Code* const end = volume.codes.data() + volume.codes.size();
@@ -201,15 +196,14 @@ struct RockRows {
     uint32_t number = 0;
     for (int y = 0; y < size.y; ++y, from += step_y)
       for (int z = 0; z < size.z; z += cut_width, ++number) {
-        CodeLanes codes{};
+        uint64_t codes = 0;
         move_row(from + z, &codes, end - (from + z));
-        const int there = std::min(size.z - z, cut_width);
-        leave_out_from(there, codes);
-        row->codes = codes;
-        row->count = there;
-        row->voxels = static_cast<ptrdiff_t>(y) * size.z + z;
+        row->within = ~uint64_t{0} >> (8 * std::max(z + cut_width - size.z, 0));
+        row->codes = (codes & row->within) | (row_of_air & ~row->within);
+        row->y = y;
+        row->z = z;
         *to = number;
-        if (is_zero(codes ^ code_air)) continue;
+        if (row->codes == row_of_air) continue;
         ++row;
         ++to;
       }
@@ -217,51 +211,68 @@ struct RockRows {
     // Rows that are cut together with the last ones.
     for (size_t i = 0; i < rows_together; ++i) to[i] = 0;
   }
-
-  SCREE_INLINE void cut_by(const PlaneRows& planes) {
-    for (size_t i = 0; i < count; i += rows_together) planes.cut(&numbers[i], &whole[i * lanes]);
-    narrow_all(whole.data(), count * lanes, cut.data());
-    for (size_t i = 0; i < count; ++i) {
-      if (rows[i].count == cut_width) continue;
-      CodeLanes codes;
-      std::memcpy(&codes, &cut[i * lanes], sizeof(codes));
-      leave_out_from(rows[i].count, codes);
-      std::memcpy(&cut[i * lanes], &codes, sizeof(codes));
-    }
-    occupancies_of(cut.data(), count * lanes, shares.data());
-  }
 };
 
-}  // namespace
+/// Scratch memory of a part after the other.
+struct PartScratch {
+  PlaneRows planes;
+  RockRows rock;
+  std::vector<SharedRow> shares;
+};
 
-SCREE_VECTOR_CLONES CellPart cut_part(const Window& volume, const VoxelBox& box,
-                                      const std::vector<glm::vec3>& own,
-                                      const std::vector<glm::vec3>& neighbours) {
-  CHECK(volume.box.covers(box) && !own.empty());
-  PlaneRows planes(box, own, neighbours);
-  RockRows rock(planes.rows());
+SCREE_VECTOR_CLONES void cut_part(const Window& volume, const CellBounds& bounds, PartScratch& scratch,
+                                  CellPart& part) {
+  const VoxelBox& box = bounds.box;
+  auto& [planes, rock, shares] = scratch;
+  planes.set(bounds);
+  rock.set(planes.rows());
+  shares.clear();
   const auto slice = static_cast<size_t>(box.size().y) * static_cast<size_t>(box.size().z);
-  const size_t slice_shares = planes.rows() * lanes;
-  CellPart part{Window(box), std::vector<uint8_t>(static_cast<size_t>(box.size().x) * slice_shares)};
   Code* to = part.window.codes.data();
   const Code* const end = to + part.window.codes.size();
-  uint8_t* within = part.within.data();
-  for (int x = box.lo.x; x < box.hi.x; ++x, to += slice, within += slice_shares) {
+  for (int x = box.lo.x; x < box.hi.x; ++x, to += slice) {
     rock.read(volume, box, x);
     if (rock.count == 0) continue;
     planes.turn_to(static_cast<float>(x));
-    rock.cut_by(planes);
-    for (size_t i = 0; i < rock.count; ++i) {
-      const RockRows::Row& row = rock.rows[i];
-      std::memcpy(within + rock.numbers[i] * lanes, &rock.shares[i * lanes], lanes);
-      CodeLanes cut;
-      std::memcpy(&cut, &rock.cut[i * lanes], sizeof(cut));
-      // What goes beyond the row is overwritten by the next one's, or is air.
-      const CodeLanes codes = row.codes > cut ? row.codes : cut;
-      move_row(&codes, to + row.voxels, end - (to + row.voxels));
+    for (size_t first = 0; first < rock.count; first += rows_together) {
+      const size_t together = std::min(rows_together, rock.count - first);
+      Codes codes;
+      Shares units;
+      planes.cut(&rock.numbers[first], codes);
+      occupancies_of(codes.data(), units.data());
+      for (size_t i = 0; i < together; ++i) {
+        const RockRows::Row& row = rock.rows[first + i];
+        SharedRow shared{{x, box.lo.y + row.y, box.lo.z + row.z}, {}};
+        uint64_t within;
+        std::memcpy(&within, &units[i * lanes], sizeof(within));
+        within &= row.within;
+        std::memcpy(shared.within.data(), &within, sizeof(within));
+        if (within != 0) shares.push_back(shared);
+        CodeLanes cut, whole;
+        std::memcpy(&cut, &codes[i * lanes], sizeof(cut));
+        std::memcpy(&whole, &row.codes, sizeof(whole));
+        cut = whole > cut ? whole : cut;
+        // What goes beyond the row is overwritten by the next one's, or is air.
+        Code* const at = to + static_cast<ptrdiff_t>(row.y) * box.size().z + row.z;
+        move_row(&cut, at, end - at);
+      }
     }
   }
-  return part;
+  part.shares = shares;
+}
+
+}  // namespace
+
+std::vector<CellPart> cut_parts(const Window& volume, const std::vector<CellBounds>& bounds) {
+  std::vector<CellPart> parts;
+  parts.reserve(bounds.size());
+  PartScratch scratch;
+  for (const CellBounds& one : bounds) {
+    CHECK(volume.box.covers(one.box) && !one.own.empty());
+    parts.push_back({Window(one.box), {}});
+    cut_part(volume, one, scratch, parts.back());
+  }
+  return parts;
 }
 
 }  // namespace scree

@@ -8,6 +8,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/vector_clones.h"
+#include "shared/field/eight_bytes.h"
 
 namespace scree {
 
@@ -21,33 +22,26 @@ using ShareClaims = uint16_t __attribute__((vector_size(16)));
 constexpr size_t share_lanes = cut_width;
 static_assert(sizeof(ShareFloats) == share_lanes * sizeof(float));
 
-SCREE_INLINE bool none_of_eight(const ShareBytes& bytes) {
-  uint64_t word;
-  std::memcpy(&word, &bytes, sizeof(word));
-  return word == 0;
-}
-
 // The moments of a slice fit an int.
 static_assert(int64_t{limits::window_side_max} * limits::window_side_max * limits::window_side_max *
                   UINT8_MAX <=
               INT_MAX);
 
-/// A part's rows along z within the whole.
-struct PartRows {
-  VoxelCoord low;  ///< from the whole's low corner
-  VoxelCoord size;
-  size_t step_x, step_y;  ///< in the whole
+/// Where rows along z lie in the whole.
+struct RowPlaces {
+  VoxelCoord low;  ///< the whole's low corner
+  size_t step_x, step_y;
 
-  PartRows(const VoxelBox& whole, const VoxelBox& part)
-      : low(part.lo - whole.lo),
-        size(part.size()),
+  explicit RowPlaces(const VoxelBox& whole)
+      : low(whole.lo),
         step_x(static_cast<size_t>(whole.size().y) * static_cast<size_t>(whole.size().z)),
         step_y(static_cast<size_t>(whole.size().z)) {}
 
-  /// The first voxel of a row, in the whole.
-  size_t first(int x, int y) const {
-    return static_cast<size_t>(low.x + x) * step_x + static_cast<size_t>(low.y + y) * step_y +
-           static_cast<size_t>(low.z);
+  /// Of a row's first voxel.
+  size_t index(VoxelCoord first) const {
+    const VoxelCoord off = first - low;
+    return static_cast<size_t>(off.x) * step_x + static_cast<size_t>(off.y) * step_y +
+           static_cast<size_t>(off.z);
   }
 };
 
@@ -63,22 +57,17 @@ struct SharedMass {
   }
 };
 
-SCREE_VECTOR_CLONES void claim(const PartRows& rows, const CellPart& part, SharedMass& shared) {
-  const uint8_t* within = part.within.data();
-  for (int x = 0; x < rows.size.x; ++x)
-    for (int y = 0; y < rows.size.y; ++y) {
-      uint16_t* to = shared.claims.data() + rows.first(x, y);
-      for (int z = 0; z < rows.size.z; z += cut_width, to += share_lanes, within += share_lanes) {
-        ShareBytes own;
-        ShareClaims sum;
-        std::memcpy(&own, within, sizeof(own));
-        if (none_of_eight(own)) continue;
-        std::memcpy(&sum, to, sizeof(sum));
-        sum += __builtin_convertvector(own, ShareClaims);
-        for (size_t lane = 0; lane < share_lanes; ++lane) CHECK_DEBUG(sum[lane] >= own[lane]);
-        std::memcpy(to, &sum, sizeof(sum));
-      }
-    }
+void claim(const RowPlaces& places, const CellPart& part, SharedMass& shared) {
+  for (const SharedRow& row : part.shares) {
+    uint16_t* const to = shared.claims.data() + places.index(row.first);
+    ShareBytes own;
+    ShareClaims sum;
+    std::memcpy(&own, row.within.data(), sizeof(own));
+    std::memcpy(&sum, to, sizeof(sum));
+    sum += __builtin_convertvector(own, ShareClaims);
+    for (size_t lane = 0; lane < share_lanes; ++lane) CHECK_DEBUG(sum[lane] >= own[lane]);
+    std::memcpy(to, &sum, sizeof(sum));
+  }
 }
 
 /// ⌊lost · own / claims⌋, 0 where nothing is claimed. In floats: the product is exact, and of quotients that
@@ -99,73 +88,75 @@ int64_t sum_of(const ShareInts& each) {
 }
 
 /// Gives the part its share of the voxels that it claimed.
-SCREE_VECTOR_CLONES void take_share(const PartRows& rows, const CellPart& part, SharedMass& shared,
+SCREE_VECTOR_CLONES void take_share(const RowPlaces& places, const CellPart& part, SharedMass& shared,
                                     PartMass& mass) {
   const ShareInts numbers = {0, 1, 2, 3, 4, 5, 6, 7};
-  const uint8_t* within = part.within.data();
-  for (int x = 0; x < rows.size.x; ++x) {
-    ShareInts units{}, by_y{}, by_z{};
-    for (int y = 0; y < rows.size.y; ++y) {
-      size_t at = rows.first(x, y);
-      for (int z = 0; z < rows.size.z; z += cut_width, at += share_lanes, within += share_lanes) {
-        ShareBytes own, lost, left;
-        std::memcpy(&own, within, sizeof(own));
-        std::memcpy(&lost, &shared.lost[at], sizeof(lost));
-        if (none_of_eight(own) || none_of_eight(lost)) continue;
-        std::memcpy(&left, &shared.left[at], sizeof(left));
-        ShareClaims claims;
-        std::memcpy(&claims, &shared.claims[at], sizeof(claims));
-        ShareInts share;
-        share_of(lost, own, claims, share);
-        for (size_t lane = 0; lane < share_lanes; ++lane) CHECK_DEBUG(share[lane] <= left[lane]);
-        left -= __builtin_convertvector(share, ShareBytes);
-        std::memcpy(&shared.left[at], &left, sizeof(left));
-        units += share;
-        by_y += share * (rows.low.y + y);
-        by_z += share * (numbers + (rows.low.z + z));
-      }
+  const auto end = part.shares.end();
+  for (auto row = part.shares.begin(); row != end;) {
+    ShareInts units{}, by_y{}, by_z{};  // of a slice
+    const int x = row->first.x;
+    for (; row != end && row->first.x == x; ++row) {
+      const size_t at = places.index(row->first);
+      ShareBytes own, lost, left;
+      std::memcpy(&own, row->within.data(), sizeof(own));
+      if (all_zero(&shared.lost[at])) continue;
+      std::memcpy(&lost, &shared.lost[at], sizeof(lost));
+      std::memcpy(&left, &shared.left[at], sizeof(left));
+      ShareClaims claims;
+      std::memcpy(&claims, &shared.claims[at], sizeof(claims));
+      ShareInts share;
+      share_of(lost, own, claims, share);
+      for (size_t lane = 0; lane < share_lanes; ++lane) CHECK_DEBUG(share[lane] <= left[lane]);
+      left -= __builtin_convertvector(share, ShareBytes);
+      std::memcpy(&shared.left[at], &left, sizeof(left));
+      units += share;
+      by_y += share * (row->first.y - places.low.y);
+      by_z += share * (numbers + (row->first.z - places.low.z));
     }
     const int64_t all = sum_of(units);
     mass.mass += all;
-    mass.x += all * (rows.low.x + x);
+    mass.x += all * (x - places.low.x);
     mass.y += sum_of(by_y);
     mass.z += sum_of(by_z);
   }
 }
 
 /// Mass that nobody claimed, or that rounding left over, goes to the nearest part.
-void give_rest(const VoxelCoord& size, const std::vector<uint16_t>& nearest, const std::vector<uint8_t>& left,
+void give_rest(const VoxelCoord& size, const NearestParts& nearest, const std::vector<uint8_t>& left,
                std::vector<PartMass>& masses) {
-  size_t at = 0;
+  size_t row = 0;
   for (int x = 0; x < size.x; ++x)
-    for (int y = 0; y < size.y; ++y)
-      for (int z = 0; z < size.z; ++z, ++at) {
-        if (left[at] == 0 || nearest[at] >= masses.size()) continue;
-        const MassUnits units = left[at];
-        PartMass& part = masses[nearest[at]];
-        part.mass += units;
-        part.x += units * x;
-        part.y += units * y;
-        part.z += units * z;
+    for (int y = 0; y < size.y; ++y, row += static_cast<size_t>(size.z))
+      for (int from = 0; from < size.z; from += cut_width) {
+        if (all_zero(&left[row + static_cast<size_t>(from)])) continue;
+        for (int z = from; z < std::min(from + cut_width, size.z); ++z) {
+          const size_t at = row + static_cast<size_t>(z);
+          const MassUnits units = left[at];
+          PartMass& part = masses[nearest.parts[nearest.cells[at]]];
+          part.mass += units;
+          part.x += units * x;
+          part.y += units * y;
+          part.z += units * z;
+        }
       }
 }
 
 }  // namespace
 
 std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
-                                const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts) {
+                                const NearestParts& nearest, const std::vector<CellPart>& parts) {
   const VoxelCoord size = box.size();
   CHECK_EQ(lost.size(), Window::count(box));
-  CHECK_EQ(nearest.size(), lost.size());
+  CHECK_EQ(nearest.cells.size(), lost.size());
   CHECK(std::max({size.x, size.y, size.z}) <= limits::window_side_max);
   SharedMass shared(lost);
+  const RowPlaces places(box);
   for (const CellPart& part : parts) {
     CHECK(box.covers(part.window.box));
-    claim(PartRows(box, part.window.box), part, shared);
+    claim(places, part, shared);
   }
   std::vector<PartMass> masses(parts.size());
-  for (size_t i = 0; i < parts.size(); ++i)
-    take_share(PartRows(box, parts[i].window.box), parts[i], shared, masses[i]);
+  for (size_t i = 0; i < parts.size(); ++i) take_share(places, parts[i], shared, masses[i]);
   give_rest(size, nearest, shared.left, masses);
   return masses;
 }

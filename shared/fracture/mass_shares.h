@@ -6,6 +6,7 @@
 
 #include "shared/field/mass.h"
 #include "shared/fracture/cell_cut.h"
+#include "shared/fracture/cell_groups.h"
 
 namespace scree {
 
@@ -17,11 +18,16 @@ struct PartMass {
   MassUnits z = 0;
 };
 
+/// The part nearest to each voxel: that of the voxel's cell.
+struct NearestParts {
+  const std::vector<CellLabel>& cells;  ///< of each voxel
+  const std::vector<CellLabel>& parts;  ///< of each cell: an index of parts
+};
+
 /// Shares the mass of each voxel in `lost` (units) out among the parts, by the shares of the voxel within
-/// their planes. Mass that no part claims goes to the part in `nearest` (an index a voxel). The sum is
-/// exactly that of `lost`. `lost` and `nearest` have a value for each voxel of `box`, which holds all the
-/// parts' windows.
+/// their planes. Mass that no part claims goes to the nearest part. The sum is exactly that of `lost`. `lost`
+/// and `nearest.cells` have a value for each voxel of `box`, which holds all the parts' windows.
 std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
-                                const std::vector<uint16_t>& nearest, const std::vector<CellPart>& parts);
+                                const NearestParts& nearest, const std::vector<CellPart>& parts);
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/vector_clones.h"
+#include "shared/field/eight_bytes.h"
 #include "shared/field/occupancy_byte.h"
 #include "shared/fracture/cell_cut.h"
 #include "shared/fracture/cell_groups.h"
@@ -34,12 +35,18 @@ std::vector<uint8_t> lost_units(const Window& before, const Window& after) {
   return lost;
 }
 
+/// Voxels that are looked at one by one only if there is something in one of them.
+constexpr size_t stretch = 8;
+
 /// Mass lost nearest to each seed: exact enough to tell which cells are too light.
 std::vector<MassUnits> rough_masses(const std::vector<uint8_t>& lost, const std::vector<Label>& labels,
                                     size_t cells) {
   std::vector<MassUnits> masses(cells);
-  for (size_t i = 0; i < lost.size(); ++i)
-    if (lost[i] != 0) masses[labels[i]] += lost[i];
+  for (size_t from = 0; from < lost.size(); from += stretch) {
+    const size_t to = std::min(from + stretch, lost.size());
+    if (to - from == stretch && all_zero(&lost[from])) continue;
+    for (size_t i = from; i < to; ++i) masses[labels[i]] += lost[i];
+  }
   return masses;
 }
 
@@ -52,19 +59,28 @@ std::vector<Extremes> cell_extremes(const Window& volume, const std::vector<Labe
   const VoxelCoord size = volume.box.size();
   CHECK(std::max({size.x, size.y, size.z}) <= INT16_MAX);
   std::vector<Extremes> found(cells, Extremes{} + int16_t{INT16_MIN});
-  const Extremes step = {0, 0, -1, 0, 0, 1, 0, 0};
-  const Code* code = volume.codes.data();
-  const Label* label = labels.data();
+  const auto count = static_cast<size_t>(size.z);
+  size_t row = 0;
   for (int x = 0; x < size.x; ++x)
-    for (int y = 0; y < size.y; ++y) {
-      const auto sx = static_cast<int16_t>(x), sy = static_cast<int16_t>(y);
-      Extremes at = {static_cast<int16_t>(-x), static_cast<int16_t>(-y), 0, sx, sy, 0, 0, 0};
-      for (int z = 0; z < size.z; ++z, ++code, ++label, at += step) {
-        if (*code >= near_surface) continue;
-        Extremes& most = found[*label];
-        most = at > most ? at : most;
+    for (int y = 0; y < size.y; ++y, row += count)
+      for (size_t from = 0; from < count; from += stretch) {
+        const size_t to = std::min(from + stretch, count);
+        if (to - from == stretch && !any_below(&volume.codes[row + from], near_surface)) continue;
+        for (size_t k = from; k < to; ++k) {
+          if (volume.codes[row + k] >= near_surface) continue;
+          const auto sx = static_cast<int16_t>(x), sy = static_cast<int16_t>(y), sz = static_cast<int16_t>(k);
+          const Extremes at = {static_cast<int16_t>(-sx),
+                               static_cast<int16_t>(-sy),
+                               static_cast<int16_t>(-sz),
+                               sx,
+                               sy,
+                               sz,
+                               0,
+                               0};
+          Extremes& most = found[labels[row + k]];
+          most = at > most ? at : most;
+        }
       }
-    }
   return found;
 }
 
@@ -90,6 +106,9 @@ std::vector<VoxelBox> piece_boxes(const Window& volume, const std::vector<Label>
   return boxes;
 }
 
+/// Few pieces touch more cells.
+constexpr size_t neighbours_usual = 24;
+
 glm::vec3 centre_of_mass(const PartMass& sum, VoxelCoord origin) {
   CHECK(sum.mass >= limits::piece_mass_min);
   const auto mass = static_cast<double>(sum.mass);
@@ -101,11 +120,11 @@ glm::vec3 centre_of_mass(const PartMass& sum, VoxelCoord origin) {
 /// The masses of the parts. If one is lighter than a piece may be, every voxel counts wholly for its nearest
 /// part instead.
 std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>& lost,
-                                const std::vector<Label>& nearest, std::vector<CellPart>& parts) {
+                                const NearestParts& nearest, std::vector<CellPart>& parts) {
   std::vector<PartMass> masses = share_out(box, lost, nearest, parts);
   const auto light = [](const PartMass& part) { return part.mass < limits::piece_mass_min; };
   if (std::ranges::none_of(masses, light)) return masses;
-  for (CellPart& part : parts) std::ranges::fill(part.within, uint8_t{0});
+  for (CellPart& part : parts) part.shares.clear();
   return share_out(box, lost, nearest, parts);
 }
 
@@ -122,37 +141,34 @@ Cut cut_cells(const Window& volume, const Window& before, const Window& after,
     return cut;
   }
   const size_t cells = seeds_voxels.size();
-  std::vector<Label> labels = label_voxels(volume, seeds_voxels);
+  const std::vector<Label> labels = label_voxels(volume, seeds_voxels);
   const auto touching = touching_cells(volume, labels, cells);
   const CellGroups groups(rough_masses(lost, labels, cells), touching);
   const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
 
-  std::vector<std::vector<glm::vec3>> own(cells), neighbours(cells);
+  std::vector<CellBounds> bounds;
+  bounds.reserve(cells);
   std::vector<Label> piece_of(cells);  // a root's piece, then every cell's
   for (size_t i = 0; i < cells; ++i) {
     const Label root = groups.root(static_cast<Label>(i));
     if (root == i) {
       piece_of[i] = static_cast<Label>(cut.pieces.size());
       cut.pieces.emplace_back();
+      bounds.push_back({.box = boxes[root], .own = {}, .neighbours = {}});
+      bounds.back().neighbours.reserve(neighbours_usual);
     }
     piece_of[i] = piece_of[root];
     cut.pieces[piece_of[i]].seeds.push_back(static_cast<uint32_t>(i));
-    own[root].push_back(seeds_voxels[i]);
+    bounds[piece_of[i]].own.push_back(seeds_voxels[i]);
   }
   for (const auto& [a, b] : touching) {
-    const Label ra = groups.root(a), rb = groups.root(b);
-    if (ra == rb) continue;
-    neighbours[ra].push_back(seeds_voxels[b]);
-    neighbours[rb].push_back(seeds_voxels[a]);
+    const Label pa = piece_of[a], pb = piece_of[b];
+    if (pa == pb) continue;
+    bounds[pa].neighbours.push_back(seeds_voxels[b]);
+    bounds[pb].neighbours.push_back(seeds_voxels[a]);
   }
-  std::vector<CellPart> parts;
-  parts.reserve(cut.pieces.size());
-  for (const CutPiece& piece : cut.pieces) {
-    const uint32_t root = piece.seeds.front();
-    parts.push_back(cut_part(volume, boxes[root], own[root], neighbours[root]));
-  }
-  for (Label& label : labels) label = piece_of[label];
-  const std::vector<PartMass> masses = masses_of(before.box, lost, labels, parts);
+  std::vector<CellPart> parts = cut_parts(volume, bounds);
+  const std::vector<PartMass> masses = masses_of(before.box, lost, {labels, piece_of}, parts);
   for (size_t i = 0; i < parts.size(); ++i) {
     Volume& piece = cut.pieces[i].volume;
     piece.window = std::move(parts[i].window);
