@@ -1,11 +1,10 @@
 #include <algorithm>
-#include <cstring>
 #include <glm/geometric.hpp>
-#include <unordered_map>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
+#include "shared/field/eight_bytes.h"
 #include "shared/field/voxel_vector.h"
 #include "shared/fracture/voronoi.h"
 
@@ -17,20 +16,27 @@ namespace {
 constexpr uint32_t tries_per_seed = 32;
 constexpr float spacing_voxels = 1.0F;
 
-/// Seeds by unit cell, so that a seed's neighbours are found in constant time.
+/// Seeds by unit cell, so that a seed's neighbours are found in constant time. They lie in voxels of a box.
 class SpacedSeeds {
  public:
+  explicit SpacedSeeds(const VoxelBox& voxels)
+      : low_(voxels.lo - VoxelCoord{2, 2, 2}),  // a voxel's lowest corner, and a neighbour of that cell
+        size_(voxels.size() + VoxelCoord{4, 4, 4}),
+        numbers_(Window::count({{}, size_})) {}
+
   bool add(glm::vec3 p) {
-    const VoxelCoord home = cell(p);
+    const VoxelCoord home = cell(p) - low_;
     for (int i = 0; i < 27; ++i) {
-      const auto found = cells_.find(home + VoxelCoord{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1});
-      if (found == cells_.end()) continue;
-      const glm::vec3 off = found->second - p;
+      const uint16_t number = numbers_[index(home + VoxelCoord{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1})];
+      if (number == 0) continue;
+      const glm::vec3 off = seeds[number - 1U] - p;
       if (glm::dot(off, off) < spacing_voxels * spacing_voxels) return false;
     }
     // Two seeds of one cell can be a voxel apart; keeping only one of them makes the look-up simple.
-    if (!cells_.try_emplace(home, p).second) return false;
+    uint16_t& own = numbers_[index(home)];
+    if (own != 0) return false;
     seeds.push_back(p);
+    own = static_cast<uint16_t>(seeds.size());
     return true;
   }
 
@@ -38,16 +44,16 @@ class SpacedSeeds {
 
  private:
   static VoxelCoord cell(glm::vec3 p) { return {floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)}; }
-  std::unordered_map<VoxelCoord, glm::vec3, CoordHash> cells_;
-};
+  size_t index(VoxelCoord at) const {
+    return (static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
+               static_cast<size_t>(size_.z) +
+           static_cast<size_t>(at.z);
+  }
 
-/// Whether one of the eight codes is negative.
-bool any_solid(const Code* eight) {
-  constexpr uint64_t signs = 0x8080808080808080U;
-  uint64_t word;
-  std::memcpy(&word, eight, sizeof(word));
-  return (word & signs) != 0;
-}
+  VoxelCoord low_, size_;
+  std::vector<uint16_t> numbers_;  ///< of each cell's seed, from 1 on; 0: none
+};
+static_assert(limits::seeds_max <= UINT16_MAX);
 
 std::vector<VoxelCoord> solid_voxels(const Window& volume) {
   std::vector<VoxelCoord> out;
@@ -135,7 +141,7 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   if (solid.empty()) return {};
   Random random(random_seed);
   const Density density(places_of(pattern, count, impact_voxels, solid, random), solid);
-  SpacedSeeds out;
+  SpacedSeeds out(volume.box);
   const uint64_t tries_max = static_cast<uint64_t>(count) * tries_per_seed;
   for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
     const VoxelCoord voxel = solid[random.below(static_cast<uint32_t>(solid.size()))];
@@ -151,7 +157,7 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
 
 std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,
                                       uint32_t random_seed) {
-  SpacedSeeds out;
+  SpacedSeeds out(volume.box);
   for (const glm::vec3& p : points_voxels) {
     const VoxelCoord voxel{rounded(p.x), rounded(p.y), rounded(p.z)};
     if (volume.box.holds(voxel) && volume.at(voxel.x, voxel.y, voxel.z) < 0) out.add(p);
