@@ -97,6 +97,7 @@ std::vector<std::vector<glm::vec3>> convex_parts(const Volume& volume, float vox
 std::vector<PieceHull> make_hulls(const Applied& applied, const PieceTable& pieces, float voxel_size_m,
                                   Simplifier simplifier) {
   std::vector<PieceHull> hulls;
+  hulls.reserve(applied.created.size());
   for (const CreatedPiece& created : applied.created) {
     const auto found = pieces.find(created.id);
     CHECK(found != pieces.end());

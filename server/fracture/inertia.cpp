@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "shared/base/check.h"
+#include "shared/field/eight_bytes.h"
 #include "shared/field/mass.h"
 
 namespace scree {
@@ -40,8 +41,19 @@ constexpr std::array<uint8_t, 256> make_occupancies() {
 }
 constexpr std::array<uint8_t, 256> occupancies = make_occupancies();
 
+/// Whether a row has no mass, as most rows of a piece's window have none; may miss it of short rows.
+bool is_empty(const Code* codes, int count) {
+  constexpr Code outside = 22;  // the least code of no occupancy
+  static_assert(occupancy(outside) == 0 && occupancy(outside - 1) > 0);
+  if (count < 8) return false;
+  bool mass = any_below(codes + count - 8, outside);
+  for (int from = 0; from + 8 < count; from += 8) mass |= any_below(codes + from, outside);
+  return !mass;
+}
+
 RowSums sums_of_row(const Code* codes, int count) {
   RowSums sums;
+  if (is_empty(codes, count)) return sums;
   for (int from = 0; from < count; from += stretch) {
     uint64_t all = 0;
     const int to = std::min(count - from, stretch);

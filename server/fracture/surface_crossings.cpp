@@ -1,8 +1,12 @@
 #include "server/fracture/surface_crossings.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cstring>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "shared/base/check.h"
 
@@ -12,21 +16,30 @@ namespace {
 
 constexpr int word_bits = 64;
 
-/// Bit k: whether codes[k] is inside or on the surface, of `count` codes, at most 64. `room`: how many may be
-/// read.
+/// Bit k: whether the code is inside or on the surface, of sixteen codes.
+uint64_t inside_bits(const Code* sixteen) {
+#ifdef __SSE2__
+  const __m128i codes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(sixteen));
+  return static_cast<uint16_t>(~_mm_movemask_epi8(_mm_cmpgt_epi8(codes, _mm_setzero_si128())));
+#else
+  uint64_t bits = 0;
+  for (int k = 0; k < 16; ++k) bits |= static_cast<uint64_t>(sixteen[k] <= 0 ? 1 : 0) << k;
+  return bits;
+#endif
+}
+
+/// The same of `count` codes, at most 64. `room`: how many may be read.
 uint64_t inside_bits(const Code* codes, int count, ptrdiff_t room) {
   CHECK_DEBUG(count > 0 && count <= word_bits && count <= room);
-  constexpr uint64_t signs = 0x8080808080808080U, rest = ~signs;
   uint64_t bits = 0;
-  for (int from = 0; from < count; from += 8) {
-    uint64_t eight = rest;
-    if (room - from >= 8)  // one load, where a number of bytes that is not known is a call
-      std::memcpy(&eight, codes + from, sizeof(eight));
-    else
-      std::memcpy(&eight, codes + from, static_cast<size_t>(count - from));
-    const uint64_t outside = ((eight & rest) + rest) & ~eight & signs;
-    const uint64_t inside = (outside ^ signs) >> 7;
-    bits |= ((inside * 0x0102040810204080U) >> 56) << from;
+  for (int from = 0; from < count; from += 16) {
+    if (room - from >= 16) {
+      bits |= inside_bits(codes + from) << from;
+      continue;
+    }
+    std::array<Code, 16> last{};
+    std::copy_n(codes + from, count - from, last.begin());
+    bits |= inside_bits(last.data()) << from;
   }
   return count == word_bits ? bits : bits & ((uint64_t{1} << count) - 1);
 }
@@ -49,15 +62,18 @@ class Crossings {
     const Code* row = window_.codes.data();
     for (int x = b.lo.x; x < b.hi.x; ++x)
       for (int y = b.lo.y; y < b.hi.y; ++y)
-        for (int left = size.z; left > 0; left -= word_bits, ++word) {
-          const glm::vec3 at(static_cast<float>(x), static_cast<float>(y), static_cast<float>(b.hi.z - left));
-          if (x + 1 < b.hi.x) cross<0>(row, nyz, *word ^ word[static_cast<size_t>(size.y) * words], at);
-          if (y + 1 < b.hi.y) cross<1>(row, nz, *word ^ word[words], at);
+        for (int left = size.z; left > 0; row += std::min(word_bits, left), left -= word_bits, ++word) {
+          const uint64_t along_x = x + 1 < b.hi.x ? *word ^ word[static_cast<size_t>(size.y) * words] : 0;
+          const uint64_t along_y = y + 1 < b.hi.y ? *word ^ word[words] : 0;
           const int next = std::min(word_bits, left - 1);
           const uint64_t known = next == word_bits ? ~uint64_t{0} : (uint64_t{1} << next) - 1;
           const uint64_t beyond = next == word_bits ? word[1] << (word_bits - 1) : 0;
-          cross<2>(row, 1, (*word ^ (*word >> 1 | beyond)) & known, at);
-          row += std::min(word_bits, left);
+          const uint64_t along_z = (*word ^ (*word >> 1 | beyond)) & known;
+          if ((along_x | along_y | along_z) == 0) continue;
+          const glm::vec3 at(static_cast<float>(x), static_cast<float>(y), static_cast<float>(b.hi.z - left));
+          cross<0>(row, nyz, along_x, at);
+          cross<1>(row, nz, along_y, at);
+          cross<2>(row, 1, along_z, at);
         }
     return std::move(points_);
   }
