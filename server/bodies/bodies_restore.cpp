@@ -32,8 +32,8 @@ std::vector<glm::vec3> turned(std::vector<glm::vec3> points, glm::quat rotation)
 BodyShape in_axes(const BodyShape& shape, glm::quat axes) {
   const glm::quat back = glm::conjugate(axes);
   BodyShape result = shape;
-  result.hull_m = turned(shape.hull_m, back);
-  result.surface_m = turned(shape.surface_m, back);
+  result.hull_m = turned(std::move(result.hull_m), back);
+  result.surface_m = turned(std::move(result.surface_m), back);
   for (std::vector<glm::vec3>& part : result.parts_m) part = turned(std::move(part), back);
   return result;
 }

@@ -66,15 +66,14 @@ class TightHull final : public btConvexHullShape {
  public:
   explicit TightHull(const std::vector<glm::vec3>& corners) {
     const size_t padded = (corners.size() + 3) / 4 * 4;
-    for (std::vector<float>* const coordinates : {&x_, &y_, &z_}) coordinates->reserve(padded);
+    coordinates_.resize(3 * padded);
+    for (size_t i = 0; i < padded; ++i) {
+      const glm::vec3& p = corners[i < corners.size() ? i : 0];
+      for (int axis = 0; axis < 3; ++axis)
+        coordinates_[i / 4 * 12 + static_cast<size_t>(axis) * 4 + i % 4] = p[axis];
+    }
     m_unscaledPoints.reserve(static_cast<int>(corners.size()));
     for (const glm::vec3& p : corners) addPoint(to_bullet(p), false);
-    for (size_t i = 0; i < corners.size() || i % 4 != 0; ++i) {
-      const glm::vec3& p = corners[i < corners.size() ? i : 0];
-      x_.push_back(p.x);
-      y_.push_back(p.y);
-      z_.push_back(p.z);
-    }
   }
 
   void getAabb(const btTransform& at, btVector3& lo, btVector3& hi) const override {
@@ -90,8 +89,9 @@ class TightHull final : public btConvexHullShape {
   std::pair<float, float> extent(const btVector3& along) const {
     const Floats ax = all(along.x()), ay = all(along.y()), az = all(along.z());
     Floats least = all(1e30F), most = all(-1e30F);
-    for (size_t i = 0; i < x_.size(); i += 4) {
-      const Floats r = load(&x_[i]) * ax + load(&y_[i]) * ay + load(&z_[i]) * az;
+    for (size_t i = 0; i < coordinates_.size(); i += 12) {
+      const float* const x = &coordinates_[i];
+      const Floats r = load(x) * ax + load(x + 4) * ay + load(x + 8) * az;
       least = r < least ? r : least;
       most = r > most ? r : most;
     }
@@ -99,7 +99,8 @@ class TightHull final : public btConvexHullShape {
             std::max({most[0], most[1], most[2], most[3]})};
   }
 
-  std::vector<float> x_, y_, z_;  ///< the corners, padded with copies to a multiple of four
+  /// Four x, y and z of the corners behind each other; copies pad the corners to a multiple of four.
+  std::vector<float> coordinates_;
 };
 
 bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance) {

@@ -170,22 +170,25 @@ HullDistance found(const Simplex& s, const HullCorners& b, glm::vec3 v) {
 
 }  // namespace
 
-HullCorners::HullCorners(std::vector<glm::vec3> corners) : own_(std::move(corners)) {
-  CHECK(!own_.empty() && own_.size() < 65536);
-  while (own_.size() % 4 != 0) own_.push_back(own_[0]);
-  x_.resize(own_.size());
-  y_.resize(own_.size());
-  z_.resize(own_.size());
+HullCorners::HullCorners(const std::vector<glm::vec3>& corners) {
+  CHECK(!corners.empty() && corners.size() < 65536);
+  const size_t padded = (corners.size() + 3) / 4 * 4;
+  own_.reserve(padded);
+  own_ = corners;
+  own_.resize(padded, corners[0]);
+  turned_.resize(3 * padded);
   turn(glm::mat3(1.0F));
 }
 
 void HullCorners::turn(const glm::mat3& rotation) {
-  for (size_t i = 0; i < own_.size(); ++i) {
-    const glm::vec3 p = rotation * own_[i];
-    x_[i] = p.x;
-    y_[i] = p.y;
-    z_[i] = p.z;
-  }
+  float* x = turned_.data();
+  for (size_t i = 0; i < own_.size(); i += 4, x += 12)
+    for (size_t k = 0; k < 4; ++k) {
+      const glm::vec3 p = rotation * own_[i + k];
+      x[k] = p.x;
+      x[k + 4] = p.y;
+      x[k + 8] = p.z;
+    }
 }
 
 uint16_t HullCorners::support(glm::vec3 along) const {
@@ -193,8 +196,9 @@ uint16_t HullCorners::support(glm::vec3 along) const {
   Floats best = all(-1e30F);
   Ints best_at = {0, 1, 2, 3};
   Ints at = {0, 1, 2, 3};
-  for (size_t i = 0; i < x_.size(); i += 4, at += 4) {
-    const Floats r = load(&x_[i]) * ax + load(&y_[i]) * ay + load(&z_[i]) * az;
+  const float* const end = turned_.data() + turned_.size();
+  for (const float* x = turned_.data(); x < end; x += 12, at += 4) {
+    const Floats r = load(x) * ax + load(x + 4) * ay + load(x + 8) * az;
     const Ints farther = r > best;
     best = farther ? r : best;
     best_at = farther ? at : best_at;

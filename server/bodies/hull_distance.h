@@ -13,25 +13,27 @@
 
 namespace scree {
 
-/// Corners of a hull, turned to the world's axes, relative to its body's centre. Each coordinate has an array
-/// of its own, padded with copies to a multiple of four, so that vector instructions can search it.
+/// Corners of a hull, turned to the world's axes, relative to its body's centre. Four x, four y and four z
+/// lie behind each other, and copies pad the corners to a multiple of four, so that vector instructions can
+/// search them.
 class HullCorners {
  public:
   /// At least one corner, at most 65,535.
-  explicit HullCorners(std::vector<glm::vec3> corners);
+  explicit HullCorners(const std::vector<glm::vec3>& corners);
 
   /// `rotation`: from the body's axes to the world's.
   void turn(const glm::mat3& rotation);
   /// The number of the corner farthest along a direction; the lowest of several.
   uint16_t support(glm::vec3 along) const;
   glm::vec3 corner(uint16_t number) const {
-    CHECK_DEBUG(number < x_.size());
-    return {x_[number], y_[number], z_[number]};
+    CHECK_DEBUG(number < own_.size());
+    const float* const x = &turned_[number / 4 * 12 + number % 4];
+    return {x[0], x[4], x[8]};
   }
 
  private:
   std::vector<glm::vec3> own_;  ///< in the body's own axes
-  std::vector<float> x_, y_, z_;
+  std::vector<float> turned_;
 };
 
 /// The corners at which the last search of a pair ended; the next one starts there. Corner numbers must be
