@@ -26,24 +26,6 @@ inline void copy_row(Code* to, const Code* from, size_t count) {
   }
 }
 
-template <typename Word>
-inline Word word_at(const Code* codes) {
-  Word word;
-  std::memcpy(&word, codes, sizeof(word));
-  return word;
-}
-
-/// Zero where the rows are the same.
-inline uint64_t row_difference(const Code* a, const Code* b, size_t count) {
-  if (count == brick_size) return word_at<uint64_t>(a) ^ word_at<uint64_t>(b);
-  if (count >= 4)
-    return (word_at<uint32_t>(a) ^ word_at<uint32_t>(b)) |
-           (word_at<uint32_t>(a + count - 4) ^ word_at<uint32_t>(b + count - 4));
-  uint64_t difference = 0;
-  for (size_t i = 0; i < count; ++i) difference |= static_cast<uint8_t>(a[i] ^ b[i]);
-  return difference;
-}
-
 /// The part of a brick that lies in a box, as ranges relative to the brick.
 struct Overlap {
   VoxelCoord lo;
@@ -328,15 +310,11 @@ std::vector<BrickCoord> scatter(Field& field, const Window& window) {
   CHECK_EQ(window.codes.size(), Window::count(window.box));
   for_each_brick(window.box, [&](BrickCoord coord) {
     const Brick& old = field.brick(coord);
-    uint64_t difference = 0;
-    for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
-      difference |= row_difference(old.codes.data() + to, window.codes.data() + from, count);
-    });
-    if (difference == 0) return;
     Brick brick = old;
     for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
       copy_row(brick.codes.data() + to, window.codes.data() + from, count);
     });
+    if (brick == old) return;
     field.set_brick(coord, brick);
     changed.push_back(coord);
   });
