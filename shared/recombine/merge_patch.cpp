@@ -33,6 +33,14 @@ constexpr int near_surface = 64;
 constexpr int ramp_end = 21;
 constexpr int ramp_end_reach = 30;
 
+/// The longest vectors of a clone. Loops take whole ones: the rest would be done voxel by voxel, and a window
+/// is some fifty vectors.
+constexpr size_t vector_bytes = 32;
+
+constexpr size_t whole_vectors(size_t bytes) {
+  return (bytes + vector_bytes - 1) / vector_bytes * vector_bytes;
+}
+
 uint64_t eight_marks(const uint8_t* marks) {
   uint64_t eight = 0;
   std::memcpy(&eight, marks, sizeof(eight));
@@ -223,16 +231,18 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
       edges_(edges),
       step_x_(static_cast<ptrdiff_t>(box_.size().y) * box_.size().z),
       step_y_(box_.size().z),
-      all_(terrain.codes.size()),
+      voxels_(terrain.codes.size()),
+      all_(whole_vectors(voxels_ + vector_bytes - 1)),
       first_(static_cast<size_t>(step_x_ + step_y_ + 1)),
-      count_(all_ - 2 * first_),
-      terrain_(terrain.codes.data()),
-      code_room_(3 * all_, code_air),
-      byte_room_(4 * all_ + sizeof(uint64_t)),  // marks are read eight at a time
+      count_(whole_vectors(voxels_ - 2 * first_)),
+      code_room_(5 * all_, code_air),
+      byte_room_(4 * all_),
       bend_room_(2 * all_),
-      piece_(code_room_.data()),
+      terrain_(code_room_.data()),
+      piece_(terrain_ + all_),
       united_(piece_ + all_),
       shaped_(united_ + all_),
+      codes_(shaped_ + all_),
       touched_(byte_room_.data()),
       inner_(touched_ + all_),
       core_(inner_ + all_),
@@ -240,7 +250,8 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
       convex_(bend_room_.data()),
       concave_(convex_ + all_) {
   CHECK(box_ == piece.box.grown(margin) && !piece.box.empty());
-  CHECK(all_ <= size_t{1} << 23U);  // sums of 254 units a voxel fit an int
+  CHECK(voxels_ <= size_t{1} << 23U);  // sums of 254 units a voxel fit an int
+  std::ranges::copy(terrain.codes, terrain_);
   mark_inner(box_.size(), 1, inner_);
   mark_inner(box_.size(), 2, core_);
   before_ = inner_sum(all_, terrain_, inner_);
@@ -256,7 +267,7 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
   fill_gaps(count, step_x_, step_y_, shaped_ + first_, touched_ + first_, united_ + first_);
   find_bends(count, step_x_, step_y_, piece_ + first_, united_ + first_, touched_ + first_, convex_ + first_,
              concave_ + first_);
-  codes_.assign(united_, united_ + all_);
+  std::memcpy(codes_, united_, all_);
   mark_surface();
   single_codes_ = MassUnits{3} * count_marks(all_, marks_);
 }
@@ -273,12 +284,12 @@ MassUnits MergePatch::shape(int roundness) {
   else
     shrink(all_, by, united_, terrain_, convex_, touched_, shaped_);
   const auto count = static_cast<ptrdiff_t>(count_);
-  fill_pits(count, step_x_, step_y_, shaped_ + first_, core_ + first_, codes_.data() + first_);
-  return settled_sum(count, step_x_, step_y_, codes_.data() + first_, inner_ + first_) - before_;
+  fill_pits(count, step_x_, step_y_, shaped_ + first_, core_ + first_, codes_ + first_);
+  return settled_sum(count, step_x_, step_y_, codes_ + first_, inner_ + first_) - before_;
 }
 
 void MergePatch::mark_surface() {
-  find_surface(static_cast<ptrdiff_t>(count_), step_x_, step_y_, codes_.data() + first_, piece_ + first_,
+  find_surface(static_cast<ptrdiff_t>(count_), step_x_, step_y_, codes_ + first_, piece_ + first_,
                core_ + first_, marks_ + first_);
 }
 
@@ -302,7 +313,7 @@ void MergePatch::list_movable(int direction, Tier tier) {
   movable_.clear();
   for (const uint32_t i : surface_) {
     if (piece_[i] >= near) continue;
-    if (tier == Tier::bent && bend(codes_.data() + i, step_x_, step_y_) * direction > -bent_min) continue;
+    if (tier == Tier::bent && bend(codes_ + i, step_x_, step_y_) * direction > -bent_min) continue;
     movable_.push_back(i);
   }
 }

@@ -19,10 +19,9 @@ class MergePatch {
   /// Voxels by which the terrain's window is larger than the posed piece's, on every side.
   static constexpr int margin = 2;
 
-  /// Unites the two and closes the gaps between them. `terrain` has the piece's box grown by the margin, and
-  /// must outlive the patch; `piece` has at least one layer around the voxels that may become rock.
+  /// Unites the two and closes the gaps between them. `terrain` has the piece's box grown by the margin;
+  /// `piece` has at least one layer around the voxels that may become rock.
   MergePatch(const Window& terrain, const Window& piece, Edges edges);
-  MergePatch(Window&& terrain, const Window& piece, Edges edges) = delete;
   MergePatch(const MergePatch&) = delete;
   MergePatch& operator=(const MergePatch&) = delete;
 
@@ -38,7 +37,7 @@ class MergePatch {
   MassUnits place(MassUnits units);
 
   /// The terrain united with the piece, as shape() and place() left it, not redistanced.
-  const std::vector<Code>& codes() const { return codes_; }
+  std::vector<Code> codes() const { return {codes_, codes_ + voxels_}; }
 
  private:
   /// The surface voxels that move: those in a cleft or at an edge; all that the piece reaches; all.
@@ -54,23 +53,24 @@ class MergePatch {
   Edges edges_;
   ptrdiff_t step_x_;
   ptrdiff_t step_y_;
-  size_t all_;
+  size_t voxels_;
+  size_t all_;    ///< of each array: the voxels, and air for vectors and their neighbours that reach beyond
   size_t first_;  ///< of the voxels that have all six neighbours in the box, and those between them in memory
-  size_t count_;
-  const Code* terrain_;
+  size_t count_;  ///< of those, in whole vectors
   std::vector<Code> code_room_;  ///< one allocation for each type: they were a tenth of a merge's time
   std::vector<uint8_t> byte_room_;
   std::vector<int16_t> bend_room_;
+  Code* terrain_;
   Code* piece_;
   Code* united_;
   Code* shaped_;
+  Code* codes_;
   uint8_t* touched_;  ///< all ones where the piece changed the terrain
   uint8_t* inner_;    ///< all ones where the voxel's mass counts: all but the outermost layer
   uint8_t* core_;     ///< all ones where changes count in all their neighbours: two layers in
   uint8_t* marks_;    ///< all ones at the surface near the piece, as mark_surface last found it
   int16_t* convex_;   ///< how far rounding raises the piece here
   int16_t* concave_;  ///< how far filling lowers the union here
-  std::vector<Code> codes_;
   std::vector<uint32_t> surface_;
   std::vector<uint32_t> movable_;
   MassUnits before_ = 0;
