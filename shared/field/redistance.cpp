@@ -71,6 +71,9 @@ class Solver {
     rows = {std::min(rows.first, y), std::max(rows.last, y)};
   }
 
+  /// All rows hold some.
+  void add_all_sources() { everywhere_ = true; }
+
   void solve(int passes) {
     std::vector<float> other = magnitudes_;
     for (int pass = 1; pass <= passes; ++pass) {
@@ -97,6 +100,12 @@ class Solver {
   }
 
   void relax(std::vector<float>& to, int steps) const {
+    if (everywhere_) {  // rows of the outermost layer between planes are fixed, and stay
+      const ptrdiff_t first = step_x_ + step_y_;
+      relax_rows(static_cast<ptrdiff_t>(to.size()) - 2 * first, step_x_, step_y_, magnitudes_.data() + first,
+                 floors_.data() + first, to.data() + first);
+      return;
+    }
     for (int x = 1; x + 1 < size_.x; ++x) {
       const Rows rows = reached(x, steps);
       if (rows.first > rows.last) continue;
@@ -113,6 +122,7 @@ class Solver {
   std::vector<float> magnitudes_;
   std::vector<float> floors_;
   std::vector<Rows> sources_;
+  bool everywhere_ = false;
 };
 
 /// Distance to the zero set from the voxel at `index`, by the crossings along the axes: the start of fast
@@ -203,11 +213,11 @@ void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* mag
 /// Marks the rows with voxels that others measure from.
 void find_sources(const VoxelCoord& size, Solver& solver) {
   constexpr int rows_few = 1024;  // too few for skipping any to pay
-  const bool all = size.x * size.y <= rows_few;
+  if (size.x * size.y <= rows_few) return solver.add_all_sources();
   const float* row = solver.magnitudes();
   for (int x = 0; x < size.x; ++x)
     for (int y = 0; y < size.y; ++y, row += size.z)
-      if (all || *std::min_element(row, row + size.z) < band_voxels) solver.add_source(x, y);
+      if (*std::min_element(row, row + size.z) < band_voxels) solver.add_source(x, y);
 }
 
 }  // namespace
