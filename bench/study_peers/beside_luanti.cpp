@@ -11,6 +11,7 @@
 
 #include "bench/peers/luanti.h"
 #include "bench/study_peers/beside.h"
+#include "bench/study_peers/server_phases.h"
 #include "bench/study_peers/viewers.h"
 #include "bench/support/scenes.h"
 #include "bench/support/scratch.h"
@@ -30,46 +31,13 @@ constexpr int view_voxels = 96;
 constexpr float eye_voxels = 75.0F;  ///< above the ground, as luanti_game.cpp has it
 constexpr uint32_t carves_a_side = 4;
 constexpr int spacing_voxels = 18;
-constexpr double carve_every_s = 2.0;  ///< Luanti has sent all of one before the next
 constexpr uint32_t seeds_a_carve = 64;
 constexpr size_t viewers_max = 64, viewers_a_batch = 16;
 constexpr double busy_max = 0.85;  ///< of all cores, at rest: more viewers do not fit
-constexpr double joined_within_s = 30.0;
 constexpr double settled_within_s = 40.0;
 constexpr double calm_within_s = 90.0;
 constexpr double ends_within_s = 30.0;
-/// A viewer that gets less than so many bytes in each of so many half seconds has all that it needs.
-constexpr uint64_t quiet_bytes = 3000;
-constexpr uint64_t calm_bytes = 100;  ///< the same, and nothing else is on the way either
-constexpr double look_every_s = 0.5;
-constexpr int quiet_looks = 5;
-
-struct Session {
-  double idle_cpu = 0.0;         ///< of a core, at rest, all viewers there
-  double carve_cpu_ms = 0.0;     ///< of all that follows a carve, less that at rest
-  double carve_blocks_ms = 0.0;  ///< that a carve holds a step up; median
-  double carve_bytes = 0.0;      ///< to each viewer, of all that follows
-  double late_step_ms = 0.0;     ///< the same, of which one in a hundred is longer; 0: not told
-  double step_ms = 0.0;          ///< from step to step; mean while carving
-  double join_bytes = 0.0;       ///< of one who comes after the carves
-  double join_s = 0.0;
-  double viewer_mib = 0.0;  ///< of the server, for one viewer more
-};
-
-void wait_s(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-/// Waits until that holds; false: it did not within so many seconds.
-template <typename Condition>
-bool holds_within(double seconds, Condition condition) {
-  const double until_s = steady_now_s() + seconds;
-  while (!condition()) {
-    if (steady_now_s() > until_s) return false;
-    wait_s(0.02);
-  }
-  return true;
-}
+constexpr uint64_t calm_bytes = 100;  ///< fewer in a half second: nothing is on the way
 
 /// Share of the time of all cores that is not idle, over so many seconds.
 double busy_share(double seconds) {
@@ -85,25 +53,6 @@ double busy_share(double seconds) {
   wait_s(seconds);
   const auto [all_after, idle_after] = read();
   return 1.0 - (idle_after - idle_before) / std::max(all_after - all_before, 1.0);
-}
-
-/// Waits until `bytes`, of one viewer, grow by less than `least` from look to look; seconds until the last
-/// look at which they did not. Gives up after `within_s`.
-template <typename Bytes>
-double seconds_until_quiet(Bytes bytes, uint64_t least = quiet_bytes, double within_s = joined_within_s) {
-  const double begin_s = steady_now_s();
-  double last_s = begin_s;
-  uint64_t before = bytes();
-  for (int looks = 0; looks < quiet_looks && steady_now_s() < begin_s + within_s; ++looks) {
-    wait_s(look_every_s);
-    const uint64_t now = bytes();
-    if (now - before >= least) {
-      looks = -1;
-      last_s = steady_now_s();
-    }
-    before = now;
-  }
-  return last_s - begin_s;
 }
 
 uint64_t sum_of(const std::vector<uint64_t>& values) {
@@ -150,42 +99,6 @@ std::vector<glm::ivec3> places(int ground, size_t count) {
   return all;
 }
 
-/// What a server took within some time.
-struct Taken {
-  double seconds = 0.0, cpu_s = 0.0, bytes = 0.0;
-};
-
-/// Both kinds of server, with what the phases have in common: rest, carves and the time until all is over,
-/// and rest again. What is taken at rest is no carve's.
-template <typename Cpu, typename Bytes, typename Carve, typename Settle>
-void rest_and_carve(Session& session, size_t viewers, const std::vector<glm::ivec3>& at, double rest_s,
-                    Cpu cpu_s, Bytes bytes, Carve carve, Settle settle) {
-  const auto during = [&](auto phase) {
-    const double begin_s = steady_now_s(), cpu_before_s = cpu_s();
-    const uint64_t bytes_before = bytes();
-    phase();
-    return Taken{steady_now_s() - begin_s, cpu_s() - cpu_before_s,
-                 static_cast<double>(bytes() - bytes_before)};
-  };
-  const auto rest = [&] { wait_s(rest_s); };
-  const Taken before = during(rest);
-  const Taken carving = during([&] {
-    for (const glm::ivec3& place : at) {
-      carve(place);
-      wait_s(carve_every_s);
-    }
-    settle();
-  });
-  const Taken after = during(rest);
-  const double rests_s = before.seconds + after.seconds;
-  session.idle_cpu = (before.cpu_s + after.cpu_s) / rests_s;
-  const double idle_bytes_s = (before.bytes + after.bytes) / rests_s;
-  const auto carves = static_cast<double>(at.size());
-  session.carve_cpu_ms = 1e3 * (carving.cpu_s - session.idle_cpu * carving.seconds) / carves;
-  session.carve_bytes =
-      (carving.bytes - idle_bytes_s * carving.seconds) / carves / static_cast<double>(viewers);
-}
-
 Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, size_t& nodes) {
   const ScratchFolder folder("luanti");
   auto started = peers::Luanti::start(folder / "", view_voxels);
@@ -216,12 +129,15 @@ Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, si
                     static_cast<double>(told.steps_ms.size());
   session.late_step_ms = quantile(told.steps_ms, 0.99);
   nodes = told.carved_nodes / told.carve_ms.size();
-  const size_t known = to_clients(luanti).size();
-  if (auto added = luanti.add_client(); !added) return fail(added.error().message);
-  if (!holds_within(joined_within_s, [&] { return to_clients(luanti).size() > known; }))
-    return fail(fmt::format("one more Luanti client sends nothing within {:.0f} s", joined_within_s));
-  session.join_s = seconds_until_quiet([&] { return to_clients(luanti).back(); });
-  session.join_bytes = static_cast<double>(to_clients(luanti).back());
+  const auto add = [&]() -> Result<void> {
+    const size_t known = to_clients(luanti).size();
+    if (auto added = luanti.add_client(); !added) return added;
+    if (!holds_within(joined_within_s, [&] { return to_clients(luanti).size() > known; }))
+      return fail(fmt::format("one more Luanti client sends nothing within {:.0f} s", joined_within_s));
+    return {};
+  };
+  const auto joined = measure_joins(session, add, [&] { return to_clients(luanti).back(); });
+  if (!joined) return fail(joined.error().message);
   return session;
 }
 
@@ -297,9 +213,9 @@ Result<Session> scree_session(size_t viewers, size_t carves, double rest_s, Peer
         eyes.carve(blow_at(terrain, x_m, z_m, radius_m, seeds_a_carve, ++number));
       },
       settled);
-  if (auto added = eyes.add(); !added) return fail(added.error().message);
-  session.join_s = seconds_until_quiet([&] { return eyes.received_bytes().back(); });
-  session.join_bytes = static_cast<double>(eyes.received_bytes().back());
+  const auto joined = measure_joins(
+      session, [&] { return eyes.add(); }, [&] { return eyes.received_bytes().back(); });
+  if (!joined) return fail(joined.error().message);
   findings.check("scree_carves", eyes.refused() == 0 && eyes.pieces() == 0,
                  fmt::format("{} carves refused, {} pieces left", eyes.refused(), eyes.pieces()));
   findings.check(
@@ -327,7 +243,8 @@ constexpr SessionRow rows[] = {
      &Session::carve_bytes, 25.0},
     {"step_ms", "", "from one step of the server to the next, ms", &Session::step_ms, 10.0},
     {"idle_cpu_cores", "", "the server at rest with all viewers, cores", &Session::idle_cpu, 40.0},
-    {"join_bytes", "join, bytes", "to one who joins after the carves, bytes", &Session::join_bytes, 15.0},
+    {"join_bytes", "join, bytes", "to one who joins after the carves, bytes (median of three)",
+     &Session::join_bytes, 15.0},
     {"join_s", "", "until that one has all, s (in steps of 0.5)", &Session::join_s, 60.0},
     {"viewer_mib", "MiB a viewer", "the server's memory for one viewer more, MiB", &Session::viewer_mib,
      80.0}};

@@ -75,8 +75,9 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   request.takes_gzip = takes_gzip(head);
   request.relayed = is_relayed(head);
   request.keep_alive = head.keep_alive();
-  request.wants_websocket =
-      parser.upgrade() && http::token_list(head[http::field::upgrade]).exists("websocket");
+  // HTTP/1.0 knows no upgrade (RFC 9110, 7.8).
+  request.wants_websocket = head.version() == 11 && parser.upgrade() &&
+                            http::token_list(head[http::field::upgrade]).exists("websocket");
   request.websocket_key = text_of(head, http::field::sec_websocket_key);
   request.websocket_version = text_of(head, http::field::sec_websocket_version);
   return request;

@@ -45,6 +45,7 @@ class SpacedSeeds {
  private:
   static VoxelCoord cell(glm::vec3 p) { return {floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)}; }
   size_t index(VoxelCoord at) const {
+    CHECK_DEBUG((VoxelBox{{}, size_}.holds(at)));
     return (static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
                static_cast<size_t>(size_.z) +
            static_cast<size_t>(at.z);

@@ -48,6 +48,13 @@ TEST(HttpRequests, say_how_the_connection_goes_on) {
   EXPECT_EQ(websocket->websocket_version, "13");
 }
 
+TEST(HttpRequests, of_version_1_0_open_no_websocket) {
+  const auto request =
+      parse_http_head("GET /session HTTP/1.0\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\r\n");
+  ASSERT_TRUE(request);
+  EXPECT_FALSE(request->wants_websocket);
+}
+
 TEST(HttpRequests, take_gzip_unless_they_say_no) {
   const auto takes = [](const std::string& value) {
     return parse_http_head(get_head("/", "Host: a\r\nAccept-Encoding: " + value + "\r\n"))->takes_gzip;
