@@ -20,4 +20,5 @@ mkdir "$copy/page"
 cp "$here"/*.js "$here/package.json" "$copy"
 cp "$here"/../../client/web/page/* "$copy/page"
 cd "$copy"
-node "$program" "$@"
+# This reporter tells what failed at the end, where a reader of a long log looks first.
+node --test-reporter=spec "$program" "$@"
