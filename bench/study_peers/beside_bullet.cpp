@@ -32,6 +32,7 @@ constexpr int lives_of_ours = 5;  ///< odd
 
 /// What became of the pieces.
 struct Life {
+  int steps = 0;
   double total_ms = 0.0;
   double first_second_ms = 0.0;  ///< of a step, on average
   std::optional<double> rest_s;  ///< when none moved any more
@@ -39,7 +40,7 @@ struct Life {
   size_t lost = 0;               ///< out of the world, by any side
   float lowest_m = 0.0F;         ///< of all heights at all steps; 0: none was lower
 
-  double step_ms(int steps) const { return total_ms / steps; }
+  double step_ms() const { return total_ms / steps; }
 };
 
 WorldConfig config_of(bool merging) {
@@ -79,28 +80,28 @@ std::vector<peers::StockPiece> pieces_of(World& world, const TickDelta& now) {
   return pieces;
 }
 
-/// Steps both kinds of world. `look`, whose time does not count, returns whether anything still moves.
+/// Steps either kind of world, to its last step before `end`. `look`, whose time does not count, returns
+/// whether anything still moves.
 template <typename Step, typename Look>
-Life live(int steps, Step step, Look look) {
-  Life life;
-  for (int i = 1; i <= steps; ++i) {
+void live(Life& life, int end, Step step, Look look) {
+  while (life.steps < end) {
     const double before_s = thread_cpu_s();
     step();
     life.total_ms += (thread_cpu_s() - before_s) * 1e3;
-    if (i == steps_per_s) life.first_second_ms = life.total_ms / i;
+    if (++life.steps == steps_per_s) life.first_second_ms = life.total_ms / life.steps;
     if (look(life))
       life.rest_s.reset();
     else if (!life.rest_s)
-      life.rest_s = static_cast<double>(i) / steps_per_s;
+      life.rest_s = static_cast<double>(life.steps) / steps_per_s;
   }
-  return life;
 }
 
 Life live_here(World& world, int steps) {
   std::shared_ptr<const TickDelta> last;
   std::set<PieceId> fallen;
-  Life life = live(
-      steps, [&] { last = world.step({}); },
+  Life life;
+  live(
+      life, steps, [&] { last = world.step({}); },
       [&](Life& so_far) {
         for (const AppliedOperation& applied : last->operations)
           if (const auto* discarded = std::get_if<DiscardOperation>(&applied.operation)) {
@@ -115,13 +116,6 @@ Life live_here(World& world, int steps) {
         return !last->pieces.empty();
       });
   life.fallen = fallen.size();
-  return life;
-}
-
-Life live_there(peers::StockBullet& bullet, int steps) {
-  Life life = live(
-      steps, [&] { bullet.step(); }, [&](Life&) { return bullet.awake() > 0; });
-  life.fallen = bullet.below(-fallen_m);
   return life;
 }
 
@@ -140,15 +134,14 @@ std::string rest_label(const Life& ours, const Life& theirs) {
   return theirs.rest_s ? "rest" : "rest at least";
 }
 
-/// Ours, the median of several lives, which differ in nothing but their time: each is short, and the
-/// machine's moods are long.
-Life typical_life(const BlastScene& scene, bool merging, int steps) {
-  std::vector<Life> lives;
-  for (int i = 0; i < lives_of_ours; ++i) {
-    World world(config_of(merging));
-    strike(world, scene);
-    lives.push_back(live_here(world, steps));
-  }
+Life one_life(const BlastScene& scene, bool merging, int steps) {
+  World world(config_of(merging));
+  strike(world, scene);
+  return live_here(world, steps);
+}
+
+/// Lives that differ in nothing but their time: one with the median of each time.
+Life typical(std::vector<Life> lives) {
   const auto middle = [&](double Life::*value) {
     std::ranges::nth_element(lives, lives.begin() + lives_of_ours / 2, {}, value);
     return lives[lives_of_ours / 2].*value;
@@ -166,8 +159,17 @@ void run_scene(const BlastScene& scene, int seconds, PeerFindings& findings) {
   const std::vector<peers::StockPiece> pieces = pieces_of(struck, *now);
   peers::StockBullet bullet(struck.field(), ground_box);
   for (const peers::StockPiece& piece : pieces) bullet.add(piece);
-  const Life alone = typical_life(scene, false, steps), whole = typical_life(scene, true, steps);
-  const Life stock = live_there(bullet, steps);
+  // In turns: a life of ours is short, and the machine's moods are long.
+  std::vector<Life> lives_alone, lives_whole;
+  Life stock;
+  for (int i = 1; i <= lives_of_ours; ++i) {
+    lives_alone.push_back(one_life(scene, false, steps));
+    lives_whole.push_back(one_life(scene, true, steps));
+    live(
+        stock, steps * i / lives_of_ours, [&] { bullet.step(); }, [&](Life&) { return bullet.awake() > 0; });
+  }
+  stock.fallen = bullet.below(-fallen_m);
+  const Life alone = typical(lives_alone), whole = typical(lives_whole);
 
   const auto put = [&](const std::string& name, const std::string& label, const std::string& what,
                        double noise_percent, double ours, double theirs) {
@@ -180,8 +182,8 @@ void run_scene(const BlastScene& scene, int seconds, PeerFindings& findings) {
   };
   put("first_second_ms", "", "a step while they fly, no merging, ms", 25.0, alone.first_second_ms,
       stock.first_second_ms);
-  put("step_ms", "step", fmt::format("a step over {} s, no merging, ms", seconds), 15.0, alone.step_ms(steps),
-      stock.step_ms(steps));
+  put("step_ms", "step", fmt::format("a step over {} s, no merging, ms", seconds), 15.0, alone.step_ms(),
+      stock.step_ms());
   put("life_ms", "life", fmt::format("all of {} s, ours with merging, ms", seconds), 15.0, whole.total_ms,
       stock.total_ms);
   put("rest_s", rest_label(whole, stock), rest_text(whole, stock, seconds), 0.0,
@@ -225,8 +227,10 @@ PeerFindings beside_bullet(const PeerOptions& options) {
       "`btConvexHullShape`s with the default margin, by the default broadphase, dispatcher, solver (10 "
       "iterations) and sleeping.",
       "Steps are 1/60 s, on one thread; times are the thread's processor time. Scree's is that of the "
-      "whole tick, hashes and poses included, the median of five lives of the same pieces (Bullet: one life, "
-      "which takes longer than all of them). No merging: pieces stay bodies, as Bullet's do. With "
+      "whole tick, hashes and poses included, the median of five lives of the same pieces, each followed by "
+      "a "
+      "fifth of Bullet's only one, which takes longer than all of ours. No merging: pieces stay bodies, as "
+      "Bullet's do. With "
       "merging, pieces at rest become terrain, as in a session. Pieces do not break again in either.",
       "Rest is the time from the last blow until Scree has no piece left, and until Bullet has put all to "
       "sleep; what has not come to rest when the session ends has the session's length."};

@@ -105,15 +105,17 @@ Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, si
   if (!started) return fail(started.error().message);
   peers::Luanti& luanti = **started;
   Session session;
+  const auto bytes_of_one = [&] { return sum_of(to_clients(luanti)) / luanti.clients(); };
+  // Clients make meshes of all that came for a while, and the server is held up by them.
+  const auto calm = [&] { seconds_until_quiet(bytes_of_one, calm_bytes, calm_within_s); };
   if (auto joined = join(luanti, 1); !joined) return fail(joined.error().message);
+  calm();
   const double one_mib = luanti.server_memory_mib();
   if (auto joined = fill(luanti, viewers); !joined) return fail(joined.error().message);
   viewers = luanti.clients();
+  calm();
   session.viewer_mib =
       (luanti.server_memory_mib() - one_mib) / static_cast<double>(std::max<size_t>(viewers - 1, 1));
-  // Clients make meshes of all that came for a while, and the server is held up by them.
-  const auto bytes_of_one = [&] { return sum_of(to_clients(luanti)) / viewers; };
-  seconds_until_quiet(bytes_of_one, calm_bytes, calm_within_s);
   luanti.start_steps();
   rest_and_carve(
       session, viewers, places(peers::Luanti::ground, carves), rest_s, [&] { return luanti.server_cpu_s(); },
@@ -129,12 +131,16 @@ Result<Session> luanti_session(size_t& viewers, size_t carves, double rest_s, si
                     static_cast<double>(told.steps_ms.size());
   session.late_step_ms = quantile(told.steps_ms, 0.99);
   nodes = told.carved_nodes / told.carve_ms.size();
-  const auto add = [&]() -> Result<void> {
+  const auto add = [&]() -> Result<double> {
     const size_t known = to_clients(luanti).size();
-    if (auto added = luanti.add_client(); !added) return added;
+    if (auto added = luanti.add_client(); !added) return fail(added.error().message);
     if (!holds_within(joined_within_s, [&] { return to_clients(luanti).size() > known; }))
       return fail(fmt::format("one more Luanti client sends nothing within {:.0f} s", joined_within_s));
-    return {};
+    const double heard_s = steady_now_s();
+    // It is quiet for a while before that, and has none of the terrain.
+    if (!holds_within(joined_within_s, [&] { return luanti.told().joined >= luanti.clients(); }))
+      return fail(fmt::format("one more Luanti client is not let in within {:.0f} s", joined_within_s));
+    return heard_s;
   };
   const auto joined = measure_joins(session, add, [&] { return to_clients(luanti).back(); });
   if (!joined) return fail(joined.error().message);
@@ -213,8 +219,12 @@ Result<Session> scree_session(size_t viewers, size_t carves, double rest_s, Peer
         eyes.carve(blow_at(terrain, x_m, z_m, radius_m, seeds_a_carve, ++number));
       },
       settled);
-  const auto joined = measure_joins(
-      session, [&] { return eyes.add(); }, [&] { return eyes.received_bytes().back(); });
+  const auto add = [&]() -> Result<double> {
+    const double begin_s = steady_now_s();
+    if (auto added = eyes.add(); !added) return fail(added.error().message);
+    return begin_s;
+  };
+  const auto joined = measure_joins(session, add, [&] { return eyes.received_bytes().back(); });
   if (!joined) return fail(joined.error().message);
   findings.check("scree_carves", eyes.refused() == 0 && eyes.pieces() == 0,
                  fmt::format("{} carves refused, {} pieces left", eyes.refused(), eyes.pieces()));

@@ -104,14 +104,16 @@ void rest_and_carve(Session& session, size_t viewers, const std::vector<glm::ive
       (carving.bytes - idle_bytes_s * carving.seconds) / carves / static_cast<double>(viewers);
 }
 
-/// Some who join one after the other: medians. `add` returns once that one's bytes are counted, and `bytes`
-/// are those of the last.
+/// Some who join one after the other: medians. `add` returns once the server has let one in, the time from
+/// which on that one's join counts; `bytes` are those of the last.
 template <typename Add, typename Bytes>
 Result<void> measure_joins(Session& session, Add add, Bytes bytes) {
   std::vector<double> seconds, received;
   for (int i = 0; i < joins; ++i) {
-    if (Result<void> added = add(); !added) return added;
-    seconds.push_back(seconds_until_quiet(bytes));
+    const Result<double> begin_s = add();
+    if (!begin_s) return fail(begin_s.error().message);
+    const double let_in_s = steady_now_s() - *begin_s;
+    seconds.push_back(let_in_s + seconds_until_quiet(bytes));
     received.push_back(static_cast<double>(bytes()));
   }
   session.join_s = quantile(seconds, 0.5);
