@@ -182,7 +182,7 @@ struct Peer {
   PeerSegments segments;
 
   void segment(Scene& scene) {
-    constexpr int half = static_cast<int>(near_half_m / terrain.voxel_size_m), height = 96;
+    const int half = static_cast<int>(near_half_m / terrain.voxel_size_m), height = 96;
     segments = segment_with_openvdb(scene.field, {{-half, -height, -half}, {half, height, half}});
     milliseconds.push_back(segments.milliseconds);
   }

@@ -1,7 +1,6 @@
 // The same pieces in the same flight: our bodies, and Bullet as it comes.
 #include <algorithm>
 #include <fmt/format.h>
-#include <optional>
 #include <set>
 
 #include "bench/peers/stock_bullet.h"
@@ -33,14 +32,17 @@ constexpr int lives_of_ours = 5;  ///< odd
 /// What became of the pieces.
 struct Life {
   int steps = 0;
+  int steps_moved = 0;  ///< the last step at which something moved
   double total_ms = 0.0;
   double first_second_ms = 0.0;  ///< of a step, on average
-  std::optional<double> rest_s;  ///< when none moved any more
   size_t fallen = 0;             ///< below fallen_m at any step, or out of the world
   size_t lost = 0;               ///< out of the world, by any side
   float lowest_m = 0.0F;         ///< of all heights at all steps; 0: none was lower
 
   double step_ms() const { return total_ms / steps; }
+  bool rests() const { return steps_moved < steps; }
+  /// When nothing moved any more, or the length of it all.
+  double rest_s() const { return static_cast<double>(std::min(steps_moved + 1, steps)) / steps_per_s; }
 };
 
 WorldConfig config_of(bool merging) {
@@ -89,10 +91,7 @@ void live(Life& life, int end, Step step, Look look) {
     step();
     life.total_ms += (thread_cpu_s() - before_s) * 1e3;
     if (++life.steps == steps_per_s) life.first_second_ms = life.total_ms / life.steps;
-    if (look(life))
-      life.rest_s.reset();
-    else if (!life.rest_s)
-      life.rest_s = static_cast<double>(life.steps) / steps_per_s;
+    if (look(life)) life.steps_moved = life.steps;
   }
 }
 
@@ -123,15 +122,15 @@ Life live_here(World& world, int steps) {
 /// it void.
 std::string rest_text(const Life& ours, const Life& theirs, int seconds) {
   const std::string text = "until the last lies still, s";
-  if (!ours.rest_s) return text + fmt::format(" (Scree: not within {} s, the ratio says nothing)", seconds);
-  if (!theirs.rest_s)
+  if (!ours.rests()) return text + fmt::format(" (Scree: not within {} s, the ratio says nothing)", seconds);
+  if (!theirs.rests())
     return text + fmt::format(" (Bullet: not within {} s, the ratio is at least this)", seconds);
   return text;
 }
 
 std::string rest_label(const Life& ours, const Life& theirs) {
-  if (!ours.rest_s) return "";
-  return theirs.rest_s ? "rest" : "rest at least";
+  if (!ours.rests()) return "";
+  return theirs.rests() ? "rest" : "rest at least";
 }
 
 Life one_life(const BlastScene& scene, bool merging, int steps) {
@@ -186,12 +185,11 @@ void run_scene(const BlastScene& scene, int seconds, PeerFindings& findings) {
       stock.step_ms());
   put("life_ms", "life", fmt::format("all of {} s, ours with merging, ms", seconds), 15.0, whole.total_ms,
       stock.total_ms);
-  put("rest_s", rest_label(whole, stock), rest_text(whole, stock, seconds), 0.0,
-      whole.rest_s.value_or(static_cast<double>(seconds)),
-      stock.rest_s.value_or(static_cast<double>(seconds)));
-  findings.check(std::string(scene.name) + "_all_merged", whole.rest_s && whole.lost == 0,
-                 (whole.rest_s ? fmt::format("no piece is left after {:.1f} s", *whole.rest_s)
-                               : fmt::format("some are still pieces after {} s", seconds)) +
+  put("rest_s", rest_label(whole, stock), rest_text(whole, stock, seconds), 0.0, whole.rest_s(),
+      stock.rest_s());
+  findings.check(std::string(scene.name) + "_all_merged", whole.rests() && whole.lost == 0,
+                 (whole.rests() ? fmt::format("no piece is left after {:.1f} s", whole.rest_s())
+                                : fmt::format("some are still pieces after {} s", seconds)) +
                      fmt::format(", {} left the world", whole.lost));
   findings.check(
       std::string(scene.name) + "_none_falls_through", alone.fallen + whole.fallen == 0,
