@@ -1,5 +1,6 @@
 // What was measured beside one peer: each figure several times, Scree's and the peer's in turns, with the
-// noise within which these are said to lie.
+// noise within which their ratio is said to lie. What is claimed is the ratio: a machine that is slower for a
+// while is so for both sides.
 #pragma once
 
 #include <string>
@@ -15,14 +16,19 @@ struct ReportTable;
 struct Comparison {
   std::string name;                 ///< of its metrics: snake_case, unit last
   std::string what;                 ///< for people, with its unit
-  double noise_percent = 0.0;       ///< largest distance of two runs, in percent of their median
+  double noise_percent = 0.0;       ///< stated: largest spread()
   bool more_is_better = false;      ///< of rates; all else costs
   std::string label = {};           ///< of the plot of ratios; empty: it is not in it
   std::vector<double> ours = {};    ///< a value of each run; empty: Scree does no such thing
-  std::vector<double> theirs = {};  ///< likewise, of the peer
+  std::vector<double> theirs = {};  ///< likewise, of the peer; as many, when there are any of both
 
-  /// How many times better Scree's median is than the peer's; 0: there is no such figure.
+  /// How many times better Scree is than the peer, run by run; empty: there is no such figure, as where one
+  /// side has nothing, or a value that is not above 0.
+  std::vector<double> ratios() const;
+  /// Their median; 0: there are none.
   double ratio() const;
+  /// Of the ratios, in percent; of the side that has something where there are none.
+  double spread() const;
 };
 
 /// Distance of the largest value from the smallest, in percent of the median; 0 of less than two values.

@@ -86,9 +86,11 @@ Result<StudyResult> run_peers_study(const StudyOptions& options) {
   ReportSection whole{
       "All peers",
       {fmt::format("Each figure was measured {} times, Scree and the peer in turns, in one run of one "
-                   "program on one machine. The spread is the distance of the largest from the smallest, "
-                   "in percent of the median; the noise is the spread that is stated for the figure. The "
-                   "conditions are said peer by peer below.",
+                   "program on one machine; the ratio is the median of the runs' own. The spread is the "
+                   "distance of the largest from the smallest, in percent of the median; the noise is the "
+                   "spread that is stated for the ratio, or for the value of a figure without one: a "
+                   "machine that is slower for a while is so for both sides. The conditions are said peer "
+                   "by peer below.",
                    options.quick ? 1 : runs)}};
   whole.tables.push_back(table_of(all));
   whole.plots.push_back(ratios_of(all));
