@@ -246,7 +246,7 @@ struct SessionRow {
 
 constexpr SessionRow rows[] = {
     {"carve_blocks_ms", "carve in a server", "a carve holds the server's step up, ms",
-     &Session::carve_blocks_ms, 40.0},
+     &Session::carve_blocks_ms, 60.0},
     {"carve_cpu_ms", "processor a carve", "the server's processor time for a carve and all that follows, ms",
      &Session::carve_cpu_ms, 60.0},
     {"carve_bytes", "bytes a carve", "to each viewer, of a carve and all that follows, bytes",
