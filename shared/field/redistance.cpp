@@ -47,9 +47,10 @@ void relax_rows(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float
   }
 }
 
-/// Updates all voxels but those of the outermost layer, which must be fixed or unused. Voxels far from any
-/// source are skipped, plane by plane. The rows of a plane are updated in one loop, as a row is shorter than
-/// a few vectors; values computed across the ends of rows fall in the outermost layer.
+/// Updates all voxels but those of the outermost layer, which must be fixed or unused; where all rows count
+/// as sources, fixed. Voxels far from any source are skipped, plane by plane. The rows of a plane are updated
+/// in one loop, as a row is shorter than a few vectors; values computed across the ends of rows fall in the
+/// outermost layer.
 class Solver {
  public:
   explicit Solver(const VoxelCoord& size)
@@ -210,7 +211,7 @@ void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* mag
   keep(codes.size() - plane, plane);
 }
 
-/// Marks the rows with voxels that others measure from.
+/// Marks the rows with voxels that others measure from, and all rows of a small window.
 void find_sources(const VoxelCoord& size, Solver& solver) {
   constexpr int rows_few = 1024;  // too few for skipping any to pay
   if (size.x * size.y <= rows_few) return solver.add_all_sources();

@@ -26,7 +26,8 @@ struct NearestParts {
 
 /// Shares the mass of each voxel in `lost` (units) out among the parts, by the shares of the voxel within
 /// their planes. Mass that no part claims goes to the nearest part. The sum is exactly that of `lost`. `lost`
-/// and `nearest.cells` have a value for each voxel of `box`, which holds all the parts' windows.
+/// and `nearest.cells` have a value for each voxel of `box`, which holds all the parts' windows; every voxel,
+/// also one without mass, has a cell that there is, and every cell a part.
 std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>& lost,
                                 const NearestParts& nearest, const std::vector<CellPart>& parts);
 

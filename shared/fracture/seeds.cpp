@@ -36,6 +36,7 @@ class SpacedSeeds {
     uint16_t& own = numbers_[index(home)];
     if (own != 0) return false;
     seeds.push_back(p);
+    CHECK(seeds.size() <= UINT16_MAX);
     own = static_cast<uint16_t>(seeds.size());
     return true;
   }
