@@ -201,19 +201,20 @@ std::string data_of(const Plot& plot) {
   return script;
 }
 
-/// How one series is drawn; `bars`: how many series share a place on the x axis, `bar`: which of them this
-/// is.
-std::string drawing_of(const PlotSeries& series, size_t i, size_t bar, size_t bars) {
-  const std::string_view colour = colours[i % colours.size()];
+/// How the series of `$data<i>` is drawn, in the look of that number; `bars`: how many series share a place
+/// on the x axis, `bar`: which of them this is.
+std::string drawing_of(const PlotSeries& series, size_t i, size_t look, size_t bar, size_t bars) {
+  const std::string_view colour = colours[look % colours.size()];
   // Series that share a colour differ by their dashes.
-  const size_t dashes = i / colours.size() + 1;
-  const int mark = marks[i % marks.size()];
+  const size_t dashes = look / colours.size() + 1;
+  const int mark = marks[look % marks.size()];
   const std::string title = "title " + script_string(series.name);
   const double bar_width = 0.8 / static_cast<double>(std::max<size_t>(bars, 1));
   const double shift = (static_cast<double>(bar) - 0.5 * (static_cast<double>(bars) - 1.0)) * bar_width;
   std::string script;
   switch (series.style) {
     case SeriesStyle::line:
+    case SeriesStyle::fit:
       script =
           fmt::format("$data{} using 1:2 with lines lw 1.6 dt {} lc rgb '{}' {}", i, dashes, colour, title);
       break;
@@ -248,11 +249,13 @@ std::string gnuplot_script(const Plot& plot, const std::string& svg_file) {
       head(plot, svg_file, x) + names_on_x(plot, x) + events(plot, x) + data_of(plot) + "plot ";
   const auto is_bars = [](const PlotSeries& s) { return s.style == SeriesStyle::bars; };
   const auto bars = static_cast<size_t>(std::ranges::count_if(plot.series, is_bars));
-  size_t bar = 0;
+  size_t bar = 0, looks = 0;
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
     if (i > 0) script += ", \\\n  ";
-    script += drawing_of(series, i, bar, bars);
+    if (series.style != SeriesStyle::fit) ++looks;
+    CHECK(looks > 0);  // a fit stands behind what it fits
+    script += drawing_of(series, i, looks - 1, bar, bars);
     if (is_bars(series)) ++bar;
   }
   return script + "\n";

@@ -22,7 +22,13 @@ struct ReportTable {
 /// A number with three significant digits, without an exponent.
 std::string figure(double value);
 
-enum class SeriesStyle { line, points, line_and_points, bars };
+enum class SeriesStyle {
+  line,
+  points,
+  line_and_points,
+  bars,
+  fit  ///< a line through what the series before it has, in its colour
+};
 
 struct PlotSeries {
   std::string name;  ///< in the legend

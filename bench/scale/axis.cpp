@@ -84,7 +84,7 @@ void add_series(Plot& plot, const Curve& curve, bool with_law) {
   if (!with_law || !law) return;
   const double first = points.front().size, last = points.back().size;
   plot.series.push_back(
-      {legend_of(curve), SeriesStyle::line, {{first, law->at(first)}, {last, law->at(last)}}});
+      {legend_of(curve), SeriesStyle::fit, {{first, law->at(first)}, {last, law->at(last)}}});
 }
 
 std::vector<Plot> plots_of(const Axis& axis) {

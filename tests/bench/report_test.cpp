@@ -179,6 +179,17 @@ TEST(GnuplotScript, every_axis_of_logarithms_has_three_labels_at_least) {
   EXPECT_TRUE(has(script, "set yrange [2:5]\nset ytics (2, 3, 4, 5)\n")) << script.substr(0, 1500);
 }
 
+TEST(GnuplotScript, a_fit_has_the_colour_of_what_it_fits) {
+  Plot plot = plain_plot("p");
+  plot.series.push_back({"law of a", SeriesStyle::fit, {{1.0, 2.0}, {2.0, 3.0}}});
+  plot.series.push_back({"b", SeriesStyle::points, {{1.0, 2.0}}});
+  const std::string script = gnuplot_script(plot, "p.svg");
+  EXPECT_TRUE(has(script, "$data0 using 1:2 with linespoints lw 2 dt 1 pt 7 ps 0.8 lc rgb '#0072b2'"))
+      << script;
+  EXPECT_TRUE(has(script, "$data1 using 1:2 with lines lw 1.6 dt 1 lc rgb '#0072b2'")) << script;
+  EXPECT_TRUE(has(script, "$data2 using 1:2 with points pt 5 ps 0.6 lc rgb '#d55e00'")) << script;
+}
+
 TEST(AxisTicks, are_round_few_and_within_the_range) {
   for (double lo : {1e-7, 0.013, 0.99, 1.0, 7.3, 5000.0})
     for (double ratio : {1.001, 1.02, 1.3, 2.0, 9.0, 50.0, 1e4, 1e12}) {
