@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "shared/base/check.h"
@@ -22,15 +23,17 @@ constexpr int passes_of_levels = 6;
 constexpr int passes_of_codes = 4;
 
 /// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis.
+/// GLM's min and max are std's, but of values: references to locals stay in memory under AddressSanitizer,
+/// and then there are no vectors.
 inline float upwind(float p, float q, float r) {
-  const float a = std::min(p, std::min(q, r));
-  const float c = std::max(p, std::max(q, r));
-  const float b = std::max(std::min(p, q), std::min(std::max(p, q), r));
+  const float a = glm::min(p, glm::min(q, r));
+  const float c = glm::max(p, glm::max(q, r));
+  const float b = glm::max(glm::min(p, q), glm::min(glm::max(p, q), r));
   const float one = a + 1.0F;
-  const float two = 0.5F * (a + b + std::sqrt(std::max(0.0F, 2.0F - (a - b) * (a - b))));
+  const float two = 0.5F * (a + b + std::sqrt(glm::max(0.0F, 2.0F - (a - b) * (a - b))));
   const float sum = a + b + c;
   const float three =
-      (sum + std::sqrt(std::max(0.0F, sum * sum - 3.0F * (a * a + b * b + c * c - 1.0F)))) * (1.0F / 3.0F);
+      (sum + std::sqrt(glm::max(0.0F, sum * sum - 3.0F * (a * a + b * b + c * c - 1.0F)))) * (1.0F / 3.0F);
   const float planar = two > c ? three : two;
   return one > b ? planar : one;
 }
@@ -40,10 +43,10 @@ SCREE_VECTOR_CLONES
 void relax_rows(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const float* __restrict u,
                 const float* __restrict floor, float* __restrict out) {
   for (ptrdiff_t z = 0; z < count; ++z) {
-    const float a = std::min(u[z - 1], u[z + 1]);
-    const float b = std::min(u[z - step_y], u[z + step_y]);
-    const float c = std::min(u[z - step_x], u[z + step_x]);
-    out[z] = std::max(floor[z], std::min(u[z], upwind(a, b, c)));
+    const float a = glm::min(u[z - 1], u[z + 1]);
+    const float b = glm::min(u[z - step_y], u[z + step_y]);
+    const float c = glm::min(u[z - step_x], u[z + step_x]);
+    out[z] = glm::max(floor[z], glm::min(u[z], upwind(a, b, c)));
   }
 }
 
