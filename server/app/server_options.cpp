@@ -349,6 +349,13 @@ std::string fault_of(const CLI::ConfigItem& item) {
   return {};
 }
 
+/// The one file that --config names, else nothing. As it was given: Option::as() throws again what parsing
+/// threw.
+std::string named_file(const CLI::Option& config) {
+  const std::vector<std::string>& given = config.results();
+  return given.size() == 1 ? given.front() : std::string();
+}
+
 /// Of a file that was refused, the first entry that is at fault, with file and line; empty if none is by
 /// itself.
 std::string fault_in_file(const std::string& path) {
@@ -372,7 +379,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   CLI::App app("A dedicated server for terrain that breaks, falls, and is terrain again.", "scree-server");
   Raw raw;
   app.set_version_flag("--version", SCREE_VERSION);
-  const CLI::Option* file =
+  const CLI::Option* config =
       app.set_config("--config", "", "a TOML file with these options, by the same names");
   app.allow_config_extras(CLI::config_extras_mode::error);
   declare(app, raw);
@@ -380,7 +387,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   try {
     app.parse(argc, argv);
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
-    refuse_shared_files(raw, file->count() > 0 ? file->as<std::string>() : std::string());
+    refuse_shared_files(raw, named_file(*config));
     take_token(raw);
     take_anonymous(raw);
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
@@ -388,8 +395,8 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     take_web(raw);
     take_world(raw);
   } catch (const CLI::ParseError& error) {
-    const bool mistaken = error.get_exit_code() != 0 && file->count() > 0;
-    const std::string fault = mistaken ? fault_in_file(file->as<std::string>()) : std::string();
+    const bool mistaken = error.get_exit_code() != 0;
+    const std::string fault = mistaken ? fault_in_file(named_file(*config)) : std::string();
     if (fault.empty()) return app.exit(error) == 0 ? 0 : usage_error;
     std::fprintf(stderr, "scree-server: %s\n", fault.c_str());
     return usage_error;

@@ -247,9 +247,15 @@ TEST(ServerOptions, what_is_no_number_is_refused_at_the_start_by_its_range) {
   EXPECT_EQ(exit_code({"--replay", "r", "--from", "-1"}), 2);
 }
 
+TEST(ServerOptions, a_second_configuration_file_is_a_mistake) {
+  const std::string words = words_for({"--config", "one.toml", "--config", "two.toml"});
+  EXPECT_TRUE(holds(words, "--config")) << words;
+  EXPECT_EQ(exit_code({"--config", "one.toml", "--config", "two.toml"}), 2);
+}
+
 TEST(ServerOptions, nothing_after_an_option_is_a_mistake) {
   for (const char* option :
-       {"--world", "--record", "--replay", "--ground", "--bans", "--admin-token", "--bind"}) {
+       {"--world", "--record", "--replay", "--ground", "--bans", "--admin-token", "--bind", "--config"}) {
     const std::string words = words_for({option, ""});
     EXPECT_TRUE(holds(words, "must not be empty")) << words;
   }
