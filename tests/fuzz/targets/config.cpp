@@ -1,5 +1,5 @@
 // What a host or a player writes: the server's command line and its TOML file, and a client's endpoint. Lines
-// up to one that is empty are arguments, the rest is the file.
+// up to one that is empty are arguments ('' is an empty one), the rest is the file.
 //
 // Holds: options that are taken are within their limits; all else is a message and an exit code.
 #include <CLI/CLI.hpp>
@@ -34,7 +34,7 @@ std::vector<std::string> lines_of(std::string_view text, size_t& end) {
     const std::string line(text.substr(end, line_end - end));
     end = std::min(line_end + 1, text.size());
     if (line.empty()) break;
-    lines.push_back(line.substr(0, line.find('\0')));
+    lines.push_back(line == "''" ? "" : line.substr(0, line.find('\0')));
   }
   return lines;
 }
