@@ -5,12 +5,10 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "proto/messages.h"
-#include "server/app/config_entries.h"
+#include "server/app/config_file.h"
 #include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
@@ -349,30 +347,6 @@ std::string fault_of(const CLI::ConfigItem& item) {
   return {};
 }
 
-/// The one file that --config names, else nothing. As it was given: Option::as() throws again what parsing
-/// threw.
-std::string named_file(const CLI::Option& config) {
-  const std::vector<std::string>& given = config.results();
-  return given.size() == 1 ? given.front() : std::string();
-}
-
-/// Of a file that was refused, the first entry that is at fault, with file and line; empty if none is by
-/// itself.
-std::string fault_in_file(const std::string& path) {
-  std::ifstream file(path);
-  for (const ConfigEntry& entry : config_entries(file)) {
-    const std::string place = path + ":" + std::to_string(entry.line) + ": ";
-    if (!entry.closed) return place + "a list that does not end";
-    std::istringstream text(entry.text);
-    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text)) {
-      const bool section = item.name == "++" || item.name == "--";
-      const std::string fault = section ? "options stand in no section" : fault_of(item);
-      if (!fault.empty()) return place + fault;
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
@@ -396,7 +370,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     take_world(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0;
-    const std::string fault = mistaken ? fault_in_file(named_file(*config)) : std::string();
+    const std::string fault = mistaken ? fault_in_file(named_file(*config), fault_of) : std::string();
     if (fault.empty()) return app.exit(error) == 0 ? 0 : usage_error;
     std::fprintf(stderr, "scree-server: %s\n", fault.c_str());
     return usage_error;

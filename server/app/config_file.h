@@ -1,0 +1,22 @@
+// The configuration file that a command line names, and what is wrong in it. Beside CLI11, which reads it but
+// tells no lines.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace scree {
+
+/// The one file that the option names, else nothing. As it was given: Option::as() throws again what parsing
+/// threw.
+std::string named_file(const CLI::Option& config);
+
+/// What is wrong with an entry, taken alone; empty: nothing.
+using EntryCheck = std::function<std::string(const CLI::ConfigItem&)>;
+
+/// Of a file that was refused, the first entry that is at fault, with file and line; empty if none is by
+/// itself, or there is no such file.
+std::string fault_in_file(const std::string& path, const EntryCheck& fault_of);
+
+}  // namespace scree
