@@ -102,7 +102,7 @@ Result<AudienceOutcome> show_storm(const Audience& audience) {
   if (!server) return tl::unexpected(server.error());
   const auto times = std::make_unique<TickTimes>();
   run_paced(world, **server, commands, *times, 0.5);
-  malloc_trim(0);  // what lies free would be taken first, and not be seen
+  malloc_trim(0);  // or viewers would use pages that lie free, and seem to need none
   const size_t before_bytes = process_memory_bytes();
   const auto drains = Drains::connect((*server)->port(), hellos(audience, ground_m), *times);
   if (!drains) return tl::unexpected(drains.error());

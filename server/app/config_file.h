@@ -1,5 +1,5 @@
-// The configuration file that a command line names, and what is wrong in it. Beside CLI11, which reads it but
-// tells no lines.
+// The configuration file that a command line names, and what is wrong in it, with the line: CLI11 reads the
+// file, but does not tell at which line it is wrong.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,8 +8,8 @@
 
 namespace scree {
 
-/// The one file that the option names, else nothing. As it was given: Option::as() throws again what parsing
-/// threw.
+/// The file that the option names; empty where it names none, or several. Does not throw, so that it can be
+/// asked while an error is handled; Option::as() throws where parsing threw.
 std::string named_file(const CLI::Option& config);
 
 /// What is wrong with an entry, taken alone; empty: nothing.

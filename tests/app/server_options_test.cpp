@@ -249,8 +249,7 @@ TEST(ServerOptions, what_is_no_number_is_refused_at_the_start_by_its_range) {
 
 TEST(ServerOptions, a_second_configuration_file_is_a_mistake) {
   const std::string words = words_for({"--config", "one.toml", "--config", "two.toml"});
-  EXPECT_TRUE(holds(words, "--config")) << words;
-  EXPECT_EQ(exit_code({"--config", "one.toml", "--config", "two.toml"}), 2);
+  EXPECT_TRUE(holds(words, "--config: ")) << words;
 }
 
 TEST(ServerOptions, nothing_after_an_option_is_a_mistake) {
