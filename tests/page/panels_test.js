@@ -32,6 +32,8 @@ const calls_from = async (page, name, count) => {
   await until(page, `${name} ${count} times`, (wanted, least) => globalThis.fake.calls.filter(([one]) => one === wanted).length >= least, name, count);
   return calls(page, name);
 };
+/** Milliseconds after which a browser takes a touch for a long press. */
+const LONG_PRESS_MS = 1000;
 /** Milliseconds of the page's clock, more than between two drawings of its panels. */
 const PANELS_MS = 250;
 /** Once the page has taken all that was done so far into its panels, however long its frames are, and nothing moves. */
@@ -114,8 +116,28 @@ test('two thumbs move, look and strike', async () => {
   await settled(page);
   const looked = (await calls(page, 'look')).reduce(([x, y], [, dx, dy]) => [x + dx, y + dy], [0, 0]);
   assert.deepEqual(looked, [20, 10]);
+  await close();
+});
+
+test('a thumb strikes as it comes down, however long it stays, and while the other one moves', async () => {
+  const { page, close } = await opened([640, 360]);
+  const strikes = async () => { await settled(page); return (await calls(page, 'strike')).length; };
+  const [x, y] = await page.$eval('#strike', (one) => { const box = one.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; });
+  const long = await page.touchscreen.touchStart(x, y);
+  assert.equal(await strikes(), 1);
+  await new Promise((resolve) => { setTimeout(resolve, LONG_PRESS_MS); });
+  await long.end();
+  assert.equal(await strikes(), 1);
   await page.tap('#strike');
-  assert.equal((await calls_from(page, 'strike', 1)).length, 1);
+  assert.equal(await strikes(), 2);
+  const left = await page.touchscreen.touchStart(100, 200);
+  await left.move(100, 100);
+  const right = await page.touchscreen.touchStart(x, y);
+  await right.end();
+  assert.equal(await strikes(), 3);
+  await left.end();
+  await page.$eval('#strike', (one) => one.click());
+  assert.equal(await strikes(), 4);
   await close();
 });
 

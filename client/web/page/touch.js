@@ -28,7 +28,10 @@ export class Touch {
       canvas.addEventListener(end, of_touch((event) => {
         if (this.#thumbs.up(event.pointerId, event.timeStamp) && end === 'pointerup') this.#tapped();
       }));
-    $('strike').addEventListener('click', () => client.strike());
+    // As the finger comes down: browsers make no click of a long press, nor of a second finger.
+    $('strike').addEventListener('pointerdown', (event) => { if (event.button === 0) client.strike(); });
+    // A click without a pointer: by the keyboard, or by what reads the page aloud.
+    $('strike').addEventListener('click', (event) => { if (event.detail === 0) client.strike(); });
     for (const [id, way] of [['up', 1], ['down', -1]]) {
       $(id).addEventListener('pointerdown', (event) => {
         $(id).setPointerCapture(event.pointerId);
