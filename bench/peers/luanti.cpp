@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "bench/peers/luanti_game.h"
-#include "bench/report/text_file.h"
+#include "bench/support/text_file.h"
 #include "bench/support/watched_process.h"
 #include "shared/base/timing.h"
 

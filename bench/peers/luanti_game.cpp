@@ -1,6 +1,6 @@
 #include "bench/peers/luanti_game.h"
 
-#include "bench/report/text_file.h"
+#include "bench/support/text_file.h"
 
 namespace scree::peers {
 

@@ -1,4 +1,4 @@
-// scree-bench: runs benchmarks and studies, and compares what they found. Tables for people, JSON for
+// scree-bench: runs benchmarks and compares their results. Tables for people, JSON for
 // programs. Exit status: 0 done, 1 something could not be done, 2 wrong usage, 3 a check was missed (with
 // --strict) or a comparison found something worse (with --strict: or gone).
 #include <CLI/CLI.hpp>
@@ -8,8 +8,9 @@
 #include "bench/programs/exit_codes.h"
 #include "bench/programs/run_all.h"
 #include "bench/programs/run_benches.h"
-#include "scenes/scene.h"
+#include "bench/support/benches.h"
 #include "shared/base/option_check.h"
+#include "tools/scenes/scene.h"
 
 namespace scree {
 namespace {
@@ -24,9 +25,6 @@ int list() {
     for (const std::string& part : bench.parts) std::printf("%-12s   --part %s\n", "", part.c_str());
     if (bench.takes_scene) std::printf("%-12s   --scene NAME\n", "");
   }
-  if (!all_studies().empty()) std::printf("\nstudies:\n");
-  for (const Study& study : all_studies())
-    std::printf("%-12s %s\n", study.name.c_str(), study.summary.c_str());
   return exit_done;
 }
 
@@ -60,44 +58,36 @@ CLI::App* add_run(CLI::App& app, BenchRuns& runs) {
   return command;
 }
 
-CLI::App* add_study(CLI::App& app, const Study& study, StudyRun& run) {
-  CLI::App* command = app.add_subcommand(study.name, study.summary);
-  command->add_flag("--quick", run.quick, "fewer rounds and points: to see that it runs");
-  command->add_option("--out", run.folder, "folder of the report")->capture_default_str();
-  command->add_option("--json", run.json_file, "write the figures to this file")
-      ->check(check_writable, "FILE");
-  command->add_flag("--strict", run.strict, strict_help);
-  return command;
-}
-
-CLI::App* add_all(CLI::App& app, AllRuns& runs) {
+CLI::App* add_all(CLI::App& app, AllRuns& runs, uint32_t& repeat) {
   CLI::App* command = app.add_subcommand("all",
                                          "run every benchmark, each in a process of its own, and keep the "
                                          "results by machine");
   command->add_flag("--quick", runs.quick, quick_help);
-  bounded(command->add_option("--repeat", runs.repeat, "runs of each benchmark"),
-          whole_within(1.0, repeat_max));
-  command->add_flag("--studies", runs.studies, "run the studies as well");
+  bounded(command->add_option("--repeat", repeat, "runs of each benchmark"), whole_within(1.0, repeat_max));
   command->add_flag("--resume", runs.resume, "leave out what the folder has already");
   command->add_option("--out", runs.folder, "folder of the results; unless said, bench/results/MACHINE");
-  command->add_option("--report", runs.report_folder, "folder of the studies' reports")
-      ->capture_default_str();
   command->add_flag("--strict", runs.strict, strict_help);
   return command;
 }
 
+std::vector<MeasuredWork> every_bench(uint32_t repeat) {
+  std::vector<MeasuredWork> work;
+  for (const Bench& bench : all_benches())
+    work.push_back(
+        {ResultKind::bench, bench.name, {"run", bench.name, "--repeat", std::to_string(repeat)}, repeat});
+  return work;
+}
+
 int run(int argc, char** argv) {
-  CLI::App app("Benchmarks and studies of Scree", "scree-bench");
+  CLI::App app("Benchmarks of Scree", "scree-bench");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
-  app.add_subcommand("list", "name every benchmark and study");
+  app.add_subcommand("list", "name every benchmark");
   BenchRuns benches;
   const CLI::App* run_command = add_run(app, benches);
-  StudyRun study{.quick = false, .folder = "out/report", .json_file = {}, .strict = false};
-  std::vector<const CLI::App*> study_commands;
-  for (const Study& row : all_studies()) study_commands.push_back(add_study(app, row, study));
-  AllRuns all{.folder = {}, .report_folder = "out/report"};
-  const CLI::App* all_command = add_all(app, all);
+  AllRuns all;
+  uint32_t repeat = 1;
+  const CLI::App* all_command = add_all(app, all, repeat);
   CLI::App* compare = app.add_subcommand("compare",
                                          "what became better or worse from one result to another; exits "
                                          "with 3 when something is worse");
@@ -115,10 +105,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? exit_done : exit_usage;
   }
   if (run_command->parsed()) return run_benches(benches);
-  if (all_command->parsed()) return run_all(all);
+  if (all_command->parsed()) return run_all(every_bench(repeat), all);
   if (compare->parsed()) return compare_files(compared);
-  for (size_t i = 0; i < study_commands.size(); ++i)
-    if (study_commands[i]->parsed()) return run_study(all_studies()[i], study);
   return list();
 }
 

@@ -19,10 +19,10 @@
 #include "client/viewer/events/piece_watch.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/overlay.h"
-#include "scenes/build.h"
-#include "scenes/structures.h"
 #include "server/store/recorder.h"
 #include "server/world/world.h"
+#include "tools/scenes/build.h"
+#include "tools/scenes/structures.h"
 
 namespace scree {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/programs/exit_codes.h"
-#include "bench/programs/run_benches.h"
+#include "bench/programs/print_result.h"
 #include "bench/results/result_file.h"
 
 extern char** environ;
@@ -24,7 +24,7 @@ namespace {
 
 /// Runs this program with the arguments, in the same terminal; says how it ended where that was not well.
 std::optional<std::string> run_myself(const std::vector<std::string>& arguments) {
-  std::vector<std::string> texts{"scree-bench"};
+  std::vector<std::string> texts{program_invocation_short_name};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(text.data());
@@ -41,46 +41,29 @@ std::optional<std::string> run_myself(const std::vector<std::string>& arguments)
   return std::nullopt;
 }
 
-struct Work {
-  ResultKind kind;
-  std::string name;
-};
-
-std::vector<Work> all_work(const AllRuns& runs) {
-  std::vector<Work> work;
-  for (const Bench& bench : all_benches()) work.push_back({ResultKind::bench, bench.name});
-  if (runs.studies)
-    for (const Study& study : all_studies()) work.push_back({ResultKind::study, study.name});
-  return work;
-}
-
-/// A study is run once: it repeats what needs it by itself.
-std::vector<std::string> arguments_of(const Work& work, const AllRuns& runs, const std::string& file) {
-  std::vector<std::string> arguments;
-  if (work.kind == ResultKind::bench)
-    arguments = {"run", work.name, "--json", file, "--repeat", std::to_string(runs.repeat)};
-  else
-    arguments = {work.name, "--json", file, "--out", runs.report_folder};
+std::vector<std::string> arguments_of(const MeasuredWork& work, const AllRuns& runs,
+                                      const std::string& file) {
+  std::vector<std::string> arguments = work.arguments;
+  arguments.insert(arguments.end(), {"--json", file});
   if (runs.quick) arguments.emplace_back("--quick");
   return arguments;
 }
 
-bool is_there(const Work& work, const AllRuns& runs, const std::string& file) {
+bool is_there(const MeasuredWork& work, const AllRuns& runs, const std::string& file) {
   const Result<KeptResult> result = read_result(file);
   return result && result->kind == work.kind && result->name == work.name &&
-         result->options == kept_options({.quick = runs.quick}) &&
-         (work.kind == ResultKind::study || result->runs >= runs.repeat);
+         result->options == kept_options({.quick = runs.quick}) && result->runs >= work.runs;
 }
 
 /// How a piece of work came out; the result is missing where it failed.
 struct Outcome {
-  Work work;
+  MeasuredWork work;
   double seconds = 0.0;
   std::optional<KeptResult> result{};
   std::string failure{};
 };
 
-Outcome carry_out(const Work& work, const AllRuns& runs, const std::string& file) {
+Outcome carry_out(const MeasuredWork& work, const AllRuns& runs, const std::string& file) {
   Outcome outcome{.work = work};
   const auto began = std::chrono::steady_clock::now();
   if (!(runs.resume && is_there(work, runs, file)))
@@ -121,18 +104,17 @@ std::string results_folder() {
   return "bench/results/" + slug_of(this_machine());
 }
 
-int run_all(const AllRuns& runs) {
+int run_all(const std::vector<MeasuredWork>& work, const AllRuns& runs) {
   const std::string folder = runs.folder.empty() ? results_folder() : runs.folder;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    std::fprintf(stderr, "scree-bench: %s: %s\n", folder.c_str(), error.message().c_str());
+    std::fprintf(stderr, "%s: %s\n", folder.c_str(), error.message().c_str());
     return exit_not_done;
   }
-  const std::vector<Work> work = all_work(runs);
   std::vector<Outcome> outcomes;
   bool failed = false, missed = false;
-  for (const Work& next : work) {
+  for (const MeasuredWork& next : work) {
     std::printf("[%zu of %zu] %s\n", outcomes.size() + 1, work.size(), next.name.c_str());
     outcomes.push_back(carry_out(next, runs, folder + "/" + next.name + ".json"));
     const Outcome& outcome = outcomes.back();

@@ -1,11 +1,10 @@
-// Runs benches or a study, prints what they found, and keeps it in files.
+// Runs benches, prints their results, and writes these to files.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "bench/support/bench.h"
-#include "bench/support/study.h"
 
 namespace scree {
 
@@ -21,18 +20,5 @@ struct BenchRuns {
 
 /// Returns the exit status.
 int run_benches(const BenchRuns& runs);
-
-struct StudyRun {
-  bool quick = false;
-  std::string folder;     ///< the report's
-  std::string json_file;  ///< empty: none
-  bool strict = false;
-};
-
-/// Returns the exit status.
-int run_study(const Study& study, const StudyRun& run);
-
-/// What a result of such a run has as its options.
-std::map<std::string, std::string> kept_options(const BenchOptions& options);
 
 }  // namespace scree

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "bench/report/machine.h"
 #include "bench/support/bench.h"
+#include "bench/support/machine.h"
 #include "shared/base/kind_table.h"
 
 namespace scree {

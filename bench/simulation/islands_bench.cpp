@@ -5,12 +5,12 @@
 #include "bench/peers/segment_sdf.h"
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
-#include "scenes/structures.h"
 #include "server/field/vdb_field.h"
 #include "server/world/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
 #include "shared/falling/island_search.h"
+#include "tools/scenes/structures.h"
 
 namespace scree {
 

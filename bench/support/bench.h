@@ -47,7 +47,7 @@ struct BenchOptions {
   bool quick = false;    ///< fewer rounds, only to show that it runs
   double minutes = 0.0;  ///< of the session, for benches that have one; 0: as many as fit into some minutes
   std::function<void(double fraction)> progress = [](double) {};
-  /// Of benches that take a scene (scenes/scene.h): that one; null: the bench's own ground.
+  /// Of benches that take a scene (tools/scenes/scene.h): that one; null: the bench's own ground.
   std::shared_ptr<const SceneSetup> scene{};
 
   // Of benches that have parts.
@@ -64,8 +64,5 @@ struct Bench {
   std::vector<std::string> parts = {};  ///< that BenchOptions::part may name
   bool takes_scene = false;             ///< BenchOptions::scene
 };
-
-/// Every benchmark there is, in alphabetical order.
-const std::vector<Bench>& all_benches();
 
 }  // namespace scree

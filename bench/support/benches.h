@@ -1,4 +1,4 @@
-// The benchmarks, one function each; all_benches() names them.
+// The benchmarks, one function each, and the table that names them.
 #pragma once
 
 #include "bench/support/bench.h"
@@ -34,5 +34,8 @@ BenchReport run_support_bench(const BenchOptions& options);
 BenchReport run_transforms_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
 BenchReport run_worst_bench(const BenchOptions& options);
+
+/// Every benchmark, in alphabetical order (bench/programs/all_benches.cpp).
+const std::vector<Bench>& all_benches();
 
 }  // namespace scree

@@ -1,6 +1,6 @@
 #include "bench/support/canyon_show.h"
 
-#include "scenes/structures.h"
+#include "tools/scenes/structures.h"
 
 namespace scree {
 

@@ -7,7 +7,7 @@ namespace scree {
 
 /// Lets the calling thread, and threads and processes that it starts, run on some of the cores that it may
 /// use: the first `count`, or all but those; until this ends. Where no other is left, or the system refuses:
-/// all; usable_cores() (bench/report/machine.h) says how many.
+/// all; usable_cores() (bench/support/machine.h) says how many.
 class OnCores {
  public:
   enum class Which { first, others };

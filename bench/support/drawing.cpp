@@ -3,9 +3,9 @@
 #include <thread>
 
 #include "client/render/scene/look_at.h"
-#include "scenes/build.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
+#include "tools/scenes/build.h"
 
 namespace scree {
 

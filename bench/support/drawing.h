@@ -7,8 +7,8 @@
 #include "bench/support/bench.h"
 #include "bench/support/stage.h"
 #include "client/render/method_switch.h"
-#include "scenes/scene.h"
 #include "shared/operation/operation.h"
+#include "tools/scenes/scene.h"
 
 namespace scree {
 

@@ -51,7 +51,7 @@ Result<void> MadeWorld::write() {
 
 Result<void> MadeWorld::finish() {
   const Ledger ledger{.terrain = gain_, .dust = -gain_, .moved = -gain_};
-  moment_.ledger = to_recorded(ledger);
+  moment_.ledger = ledger;
   MapField none(config_.terrain);
   moment_.state_hash = state_hash(
       {moment_.tick, moment_.field_hash, Bodies(none, {}).state_hash(), moment_.next_piece, ledger});

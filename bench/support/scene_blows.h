@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "bench/support/bench.h"
-#include "scenes/build.h"
+#include "tools/scenes/build.h"
 
 namespace scree {
 

@@ -14,7 +14,7 @@
 
 #include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
-#include "server/work/command.h"
+#include "server/command/command.h"
 #include "server/world/world.h"
 
 namespace scree {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "server/command/command.h"
 #include "server/replay/replay_player.h"
-#include "server/work/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"

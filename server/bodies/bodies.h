@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "proto/world_value.h"
 #include "server/colliders/terrain_collider_kind.h"
+#include "server/formats/world_value.h"
 #include "shared/base/ids.h"
 #include "shared/base/result.h"
 #include "shared/field/field.h"
@@ -71,9 +71,9 @@ class Bodies {
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
 
-  /// The shape as `BodyShape` (proto/world_value.h) says. `state.id` must be new, the position finite, the
-  /// rotation a unit quaternion. Speeds beyond limits::travel_max_voxels a step are reduced to it; a body
-  /// whose speed is not finite is stopped by the next step.
+  /// The shape as `BodyShape` (server/formats/world_value.h) says. `state.id` must be new, the position
+  /// finite, the rotation a unit quaternion. Speeds beyond limits::travel_max_voxels a step are reduced to
+  /// it; a body whose speed is not finite is stopped by the next step.
   void add(BodyShape given, const BodyState& state);
   /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
   void remove(PieceId id);

@@ -10,7 +10,7 @@
 
 #include "auth/access_token.h"
 #include "crypto/tls_context.h"
-#include "server/work/refusal.h"
+#include "server/command/refusal.h"
 #include "shared/operation/request.h"
 
 namespace scree {

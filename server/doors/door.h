@@ -13,8 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "server/command/refusal.h"
 #include "server/doors/limits.h"
-#include "server/work/refusal.h"
 #include "shared/base/rate_limit.h"
 
 namespace scree {

@@ -1,4 +1,4 @@
-// Which sessions share the server as one party (server/work/command.h): those with the same token, or,
+// Which sessions share the server as one party (server/command/command.h): those with the same token, or,
 // without one, of the same address. By more connections nobody gets more. Programs on the server's own
 // machine are a party each, as many as are there at once; who comes next takes over the party, and with it
 // the debts, that was left last, so that nobody gains by coming and going. A party is known by the number of

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/command/command.h"
 #include "server/net/limits.h"
-#include "server/work/command.h"
 
 namespace scree {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "proto/world_value.h"
+#include "server/formats/world_value.h"
 #include "shared/base/ids.h"
 #include "shared/field/piece.h"
 

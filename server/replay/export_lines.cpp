@@ -78,7 +78,7 @@ std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, cons
   const bool csv = format == LineFormat::csv;
   const double voxel_m = world.terrain.voxel_size_m;
   const double unit_m3 = voxel_m * voxel_m * voxel_m / units_per_voxel;
-  const Ledger ledger = from_recorded(frame.ledger);
+  const Ledger ledger = frame.ledger;
   const double time_s = static_cast<double>(frame.tick) / world.tick_rate_hz;
   std::string line = csv ? fmt::format("{},{:.3f}", frame.tick, time_s)
                          : fmt::format(R"({{"tick":{},"time_s":{:.3f})", frame.tick, time_s);

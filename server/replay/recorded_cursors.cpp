@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "proto/event_codec.h"
+#include "server/formats/event_codec.h"
 
 namespace scree {
 

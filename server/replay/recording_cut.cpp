@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/replay/recorded_world.h"
 #include "server/replay/verify.h"
 #include "server/store/limits.h"

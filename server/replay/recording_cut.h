@@ -1,10 +1,10 @@
 // Cuts a shorter recording out of one, which plays and verifies by itself. What happened is simulated again
 // and compared with what was recorded, then the new file is verified.
 //
-// Bullet cannot be taken up in the middle of a movement (proto/world_value.h). So the new recording begins
-// with the latest state before its first tick from which the simulation gives the recorded hashes: that of a
-// tick without pieces, or one that the recording has; the commands from there on are kept without their
-// ticks.
+// Bullet cannot be taken up in the middle of a movement (server/formats/world_value.h). So the new recording
+// begins with the latest state before its first tick from which the simulation gives the recorded hashes:
+// that of a tick without pieces, or one that the recording has; the commands from there on are kept without
+// their ticks.
 #pragma once
 
 #include <functional>

@@ -111,7 +111,7 @@ std::string setting_difference(const Side& a, const Side& b) {
   return a.settings.size() == b.settings.size() ? std::string() : "the other has more settings";
 }
 
-std::string ledger_difference(const RecordedLedger& a, const RecordedLedger& b, float voxel_size_m) {
+std::string ledger_difference(const Ledger& a, const Ledger& b, float voxel_size_m) {
   const double m3 = double{voxel_size_m} * voxel_size_m * voxel_size_m / units_per_voxel;
   std::string text;
   const auto compare = [&](const char* name, int64_t one, int64_t other) {

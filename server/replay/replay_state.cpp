@@ -48,7 +48,7 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
     poses[piece.id] = piece.pose;
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
   }
-  ledger = from_recorded(keyframe.ledger);
+  ledger = keyframe.ledger;
   settings = keyframe.settings;
   state_hash = keyframe.state_hash;
   return check_hash(keyframe.field_hash);
@@ -123,7 +123,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   if (auto placed = place_pieces(*frame, *delta); !placed) return tl::unexpected(placed.error());
   if (auto equal = check_hash(frame->field_hash); !equal) return tl::unexpected(equal.error());
   for (const BrickCoord coord : changed) delta->bricks.push_back(published_brick(field, coord));
-  ledger = from_recorded(frame->ledger);
+  ledger = frame->ledger;
   state_hash = frame->state_hash;
   if (!frame->settings.empty()) settings = frame->settings;
   delta->settings = frame->settings;

@@ -2,7 +2,7 @@
 
 #include <xxhash.h>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/replay/recorded_world.h"
 #include "server/store/event_deriver.h"
 #include "server/world/settings.h"

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "proto/recording_codec.h"
+#include "server/formats/recording_codec.h"
 #include "server/store/database.h"
 
 namespace scree {

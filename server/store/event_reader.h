@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "proto/event_codec.h"
+#include "server/formats/event_codec.h"
 #include "server/store/database.h"
 
 namespace scree {

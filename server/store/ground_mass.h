@@ -1,6 +1,6 @@
 // What the unedited ground weighs where a world's terrain is edited: kept with each chunk
-// (proto/world.proto), so that a start balances the ledger without generating the ground. Pure functions of
-// the ground.
+// (server/formats/world.proto), so that a start balances the ledger without generating the ground. Pure
+// functions of the ground.
 #pragma once
 
 #include <array>

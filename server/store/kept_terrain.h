@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/store/ground_mass.h"
 #include "server/world/tick_delta.h"
 

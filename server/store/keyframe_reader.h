@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "proto/recording_codec.h"
+#include "server/formats/recording_codec.h"
 #include "server/store/database.h"
 #include "shared/field/coord.h"
 

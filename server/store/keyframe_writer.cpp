@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "proto/operation_codec.h"
-#include "proto/recording_codec.h"
+#include "server/formats/recording_codec.h"
 #include "server/store/limits.h"
 #include "server/store/schema.h"
 #include "server/store/world_schema.h"
@@ -156,7 +156,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   }
   pieces_ = std::move(alive);
   keyframe.tick = state.tick();
-  keyframe.ledger = to_recorded(state.ledger());
+  keyframe.ledger = state.ledger();
   keyframe.field_hash = state.field_hash();
   keyframe.state_hash = state.state_hash();
   if (state.settings() != header_) keyframe.settings = state.settings();

@@ -17,18 +17,6 @@ Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   return RecordingHeader{header.program, std::move(*world), header.merge_burst_ticks};
 }
 
-std::vector<RecordedCommand> to_recorded(std::span<const Command> commands) {
-  std::vector<RecordedCommand> out;
-  for (const auto& [session, request, body, party] : commands) out.push_back({session, request, body, party});
-  return out;
-}
-
-std::vector<Command> from_recorded(std::span<const RecordedCommand> commands) {
-  std::vector<Command> out;
-  for (const auto& [session, request, body, party] : commands) out.push_back({session, request, body, party});
-  return out;
-}
-
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {
   CHECK_EQ(delta.tick, before.tick() + 1);
   RecordedFrame frame;
@@ -38,7 +26,7 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
     const auto known = before.pieces().find(piece.id);
     if (known == before.pieces().end() || known->second.pose != piece.pose) frame.moved.push_back(piece);
   }
-  frame.ledger = to_recorded(delta.ledger);
+  frame.ledger = delta.ledger;
   frame.field_hash = delta.field_hash;
   frame.state_hash = delta.state_hash;
   frame.settings = delta.settings;
@@ -56,7 +44,7 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
     CHECK_DEBUG(delta.spawned[i].id == delta.pieces[i].id);
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
   }
-  keyframe.ledger = to_recorded(delta.ledger);
+  keyframe.ledger = delta.ledger;
   keyframe.field_hash = delta.field_hash;
   keyframe.state_hash = delta.state_hash;
   keyframe.settings = delta.settings;

@@ -1,14 +1,14 @@
-// Converts between ticks and the rows of a recording (proto/recording_codec.h).
+// Converts between ticks and the rows of a recording (server/formats/recording_codec.h).
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "proto/recording_codec.h"
-#include "proto/world_value.h"
+#include "server/command/command.h"
+#include "server/formats/recording_codec.h"
+#include "server/formats/world_value.h"
 #include "server/store/event_deriver.h"
-#include "server/work/command.h"
 #include "server/world/published_state.h"
 #include "server/world/recorded_values.h"
 #include "server/world/tick_delta.h"
@@ -34,9 +34,6 @@ struct RecordingStart {
 RecordedHeader to_recorded(const RecordingHeader& header);
 /// Refuses settings that this program does not know.
 Result<RecordingHeader> from_recorded(const RecordedHeader& header);
-
-std::vector<RecordedCommand> to_recorded(std::span<const Command> commands);
-std::vector<Command> from_recorded(std::span<const RecordedCommand> commands);
 
 /// The frame of tick `delta`, which follows the state `before`.
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before);

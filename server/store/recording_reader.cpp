@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/store/database.h"
 #include "server/store/earlier_keyframes.h"
 #include "server/store/event_reader.h"
@@ -326,7 +326,7 @@ Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
   if (!bytes->has_value()) return std::vector<Command>();
   const auto recorded = state_->decoded(decode_recorded_commands(**bytes), tick);
   if (!recorded) return tl::unexpected(recorded.error());
-  return from_recorded(*recorded);
+  return *recorded;
 }
 
 std::optional<Tick> RecordingReader::events_from() const {

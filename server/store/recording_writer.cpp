@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "proto/event_codec.h"
-#include "proto/world_codec.h"
+#include "server/formats/event_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/store/cursor_track.h"
 #include "server/store/database.h"
 #include "server/store/event_deriver.h"
@@ -154,7 +154,7 @@ Result<void> RecordingWriter::State::put_machine() {
 
 Result<void> RecordingWriter::State::put_commands(Tick tick, std::span<const Command> commands) {
   if (commands.empty()) return {};
-  return database.put(insert_commands, tick, encode(to_recorded(commands)));
+  return database.put(insert_commands, tick, encode(commands));
 }
 
 /// The state's keyframe with the world's value, from which the simulation goes on. Events begin anew there,

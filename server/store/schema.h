@@ -1,10 +1,10 @@
-// The tables of a recording: one SQLite file. proto/recording.proto specifies the blobs.
+// The tables of a recording: one SQLite file. server/formats/recording.proto specifies the blobs.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "proto/recording_codec.h"
+#include "server/formats/recording_codec.h"
 #include "server/store/file_kind.h"
 
 namespace scree::schema {

@@ -1,7 +1,7 @@
 // A world as a file: its terrain's edits by chunk, its pieces, and the rest of its value
-// (proto/world_value.h), all of one tick. Each save is one transaction, and on the disk when save() returns:
-// whatever crashes, the file holds the last whole one. Every byte read is checked. Nobody but one process
-// writes (world_lock.h); others may read meanwhile. One thread at a time.
+// (server/formats/world_value.h), all of one tick. Each save is one transaction, and on the disk when save()
+// returns: whatever crashes, the file holds the last whole one. Every byte read is checked. Nobody but one
+// process writes (world_lock.h); others may read meanwhile. One thread at a time.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"
 

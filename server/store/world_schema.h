@@ -1,10 +1,10 @@
-// The tables of a world file: one SQLite file in WAL mode. proto/world.proto specifies the blobs.
+// The tables of a world file: one SQLite file in WAL mode. server/formats/world.proto specifies the blobs.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/store/file_kind.h"
 #include "server/store/limits.h"
 #include "shared/field/coord.h"

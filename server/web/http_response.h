@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/work/refusal.h"
+#include "server/command/refusal.h"
 
 namespace scree {
 

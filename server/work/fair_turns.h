@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "proto/world_value.h"
+#include "server/formats/world_value.h"
 
 namespace scree {
 

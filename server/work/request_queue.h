@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-#include "server/work/command.h"
+#include "server/command/command.h"
 #include "server/work/fair_turns.h"
 #include "shared/base/ids.h"
 #include "shared/base/result.h"

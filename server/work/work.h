@@ -8,7 +8,7 @@
 #pragma once
 
 #include "server/bodies/bodies.h"
-#include "server/work/command.h"
+#include "server/command/command.h"
 #include "server/work/tick_work.h"
 #include "shared/base/check.h"
 

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "proto/world_value.h"
+#include "server/formats/world_value.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/falling/island_search.h"

@@ -4,14 +4,6 @@
 
 namespace scree {
 
-RecordedLedger to_recorded(const Ledger& ledger) {
-  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
-}
-
-Ledger from_recorded(const RecordedLedger& ledger) {
-  return {ledger.terrain, ledger.pieces, ledger.dust, ledger.poured, ledger.moved};
-}
-
 RecordedHeader to_recorded(const WorldConfig& config) {
   RecordedHeader out;
   out.terrain = config.terrain;

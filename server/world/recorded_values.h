@@ -1,14 +1,10 @@
-// Converts the simulation's values to those that files hold (proto/recording_codec.h) and back.
+// Converts the simulation's values to those that files hold (server/formats/recording_codec.h) and back.
 #pragma once
 
-#include "proto/recording_codec.h"
-#include "server/world/tick_delta.h"
+#include "server/formats/recording_codec.h"
 #include "server/world/world_config.h"
 
 namespace scree {
-
-RecordedLedger to_recorded(const Ledger& ledger);
-Ledger from_recorded(const RecordedLedger& ledger);
 
 /// Without a program's name.
 RecordedHeader to_recorded(const WorldConfig& config);

@@ -9,28 +9,16 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "server/work/command.h"
+#include "server/command/command.h"
 #include "server/work/tick_work.h"
 #include "server/world/service_limits.h"
 #include "server/world/stages.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
+#include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
-
-/// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust =
-/// poured.
-struct Ledger {
-  MassUnits terrain = 0;  ///< gain of the terrain since the start (negative: loss)
-  MassUnits pieces = 0;   ///< in pieces alive; not negative
-  MassUnits dust = 0;     ///< merges take it up again; not negative
-  MassUnits poured = 0;   ///< added by fills
-  MassUnits moved = 0;    ///< taken out of the terrain since the start, in all; for scale
-
-  MassUnits error() const { return terrain + pieces + dust - poured; }
-  bool operator==(const Ledger&) const = default;
-};
 
 /// An applied operation, with the facts by which a publisher selects it.
 struct AppliedOperation {

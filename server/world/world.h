@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 
-#include "server/work/command.h"
+#include "server/command/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world_config.h"
 
@@ -42,9 +42,9 @@ class World {
   /// Refuses a configuration beyond its limits. `threads`: that step() takes, its caller's included; 0: as
   /// many as the machine has cores.
   static Result<std::unique_ptr<World>> create(const WorldConfig& config, size_t threads = 1);
-  /// The world of a value (proto/world_value.h), which may come from a file: refuses one whose parts do not
-  /// agree with each other, or that no world has, and one whose ground is not there. Masses and hashes are
-  /// measured anew, but for the ground's where `ground` knows it.
+  /// The world of a value (server/formats/world_value.h), which may come from a file: refuses one whose parts
+  /// do not agree with each other, or that no world has, and one whose ground is not there. Masses and hashes
+  /// are measured anew, but for the ground's where `ground` knows it.
   static Result<std::unique_ptr<World>> restore(const WorldSnapshot& value, size_t threads = 1,
                                                 const GroundMasses& ground = {});
   /// The same of a value without bricks, whose terrain is `terrain`.

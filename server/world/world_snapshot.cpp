@@ -146,10 +146,10 @@ class Restoring {
   }
 
   Result<void> ledger() {
-    const Ledger said = from_recorded(m_.ledger);
+    const Ledger said = m_.ledger;
     for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved})
       if (mass < -mass_max || mass > mass_max) return fail("its ledger has more than there can be");
-    s_.ledger = measure_ ? measured() : from_recorded(m_.ledger);
+    s_.ledger = measure_ ? measured() : m_.ledger;
     const Ledger& ledger = s_.ledger;
     for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})
       if (mass < 0) return fail("its ledger has less than nothing");
@@ -162,7 +162,7 @@ class Restoring {
 
   /// What is there, with its dust; what is missing was poured, or became dust.
   Ledger measured() {
-    Ledger ledger = from_recorded(m_.ledger);
+    Ledger ledger = m_.ledger;
     ledger.terrain = s_.measure_terrain(ground_);
     ledger.pieces = s_.mass_of_pieces();
     ledger.poured += ledger.error();
@@ -287,7 +287,7 @@ WorldMoment World::moment() const {
   m.config = to_recorded(s.config);
   m.tick = s.tick;
   m.next_piece = s.next_piece;
-  m.ledger = to_recorded(s.ledger);
+  m.ledger = s.ledger;
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
   for (const auto& [id, volume] : s.pieces)

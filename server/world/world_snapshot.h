@@ -1,7 +1,7 @@
-// What else can be told of a world's value (proto/world_value.h).
+// What else can be told of a world's value (server/formats/world_value.h).
 #pragma once
 
-#include "proto/world_value.h"
+#include "server/formats/world_value.h"
 
 namespace scree {
 

@@ -12,9 +12,9 @@
 #include <map>
 #include <set>
 
-#include "proto/world_value.h"
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
+#include "server/formats/world_value.h"
 #include "server/recombine/rest.h"
 #include "server/work/piece_shares.h"
 #include "server/work/request_queue.h"

@@ -9,13 +9,13 @@
 #include <limits>
 #include <thread>
 
-#include "proto/world_codec.h"
 #include "server/app/admission.h"
 #include "server/app/limits.h"
 #include "server/app/piece_outlook.h"
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
+#include "server/formats/world_codec.h"
 #include "server/replay/recorded_world.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"

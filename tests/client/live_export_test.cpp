@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "client/bot/bot.h"
-#include "export/live/live_terrain.h"
 #include "server/app/live_server.h"
 #include "tests/support/holds.h"
 #include "tests/support/patience.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/written_ground.h"
+#include "tools/export/live/live_terrain.h"
 
 namespace scree {
 namespace {

@@ -1,12 +1,12 @@
 // What a film shows when little is said: events are found, moments and cameras chosen, and what cannot be is
 // refused in words.
-#include "film/film_order.h"
+#include "tools/film/film_order.h"
 
 #include <glm/geometric.hpp>
 
-#include "film/limits.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/recording_fixture.h"
+#include "tools/film/limits.h"
 
 namespace scree {
 namespace {

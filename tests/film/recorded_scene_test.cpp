@@ -1,5 +1,5 @@
 // The moments of a recording: what is drawn is what was recorded, whichever moments were drawn before.
-#include "film/recorded_scene.h"
+#include "tools/film/recorded_scene.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,14 +1,14 @@
 // Films of a small recording: what stands in their files, and what does not when they fail.
-#include "film/render_film.h"
+#include "tools/film/render_film.h"
 
 #include <csignal>
 
 #include "client/viewer/base/camera_text.h"
 #include "client/viewer/pictures/png.h"
-#include "film/stop_signals.h"
 #include "tests/support/loaded_libraries.h"
 #include "tests/support/recording_fixture.h"
 #include "tests/support/run_program.h"
+#include "tools/film/stop_signals.h"
 
 namespace scree {
 namespace {

@@ -1,6 +1,6 @@
 // Grounds of stored bricks: what is imported is what is read, caves and materials included, from near and
 // far; damaged files are refused.
-#include "import/bricks_import.h"
+#include "tools/import/bricks_import.h"
 
 #include <filesystem>
 #include <fstream>

@@ -8,18 +8,18 @@
 #include <map>
 #include <sys/resource.h>
 
-#include "export/elevation.h"
-#include "export/gdal/geotiff_export.h"
-#include "export/mesh_export.h"
-#include "export/pinches.h"
-#include "export/vdb/vdb_export.h"
-#include "import/files/solid_files.h"
-#include "import/gdal/gdal_raster.h"
-#include "import/heights_import.h"
 #include "shared/field/field.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/written_ground.h"
+#include "tools/export/elevation.h"
+#include "tools/export/gdal/geotiff_export.h"
+#include "tools/export/mesh_export.h"
+#include "tools/export/pinches.h"
+#include "tools/export/vdb/vdb_export.h"
+#include "tools/import/files/solid_files.h"
+#include "tools/import/gdal/gdal_raster.h"
+#include "tools/import/heights_import.h"
 
 namespace scree {
 namespace {

@@ -1,15 +1,15 @@
 // Imports of elevation models: the demo ground's volume, resampling, holes, and what is refused in words.
-#include "import/heights_import.h"
+#include "tools/import/heights_import.h"
 
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 
 #include "ground/ground_file.h"
-#include "import/gdal/gdal_raster.h"
 #include "shared/field/terrain.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/text_raster.h"
+#include "tools/import/gdal/gdal_raster.h"
 
 namespace scree {
 namespace {

@@ -1,6 +1,6 @@
 // Imports of meshes and of OpenVDB files: volumes against the meshes' own, what is repaired and said, exports
 // that come back the same, and bad files.
-#include "import/files/solid_files.h"
+#include "tools/import/files/solid_files.h"
 
 #include <cmath>
 #include <filesystem>
@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "export/mesh_export.h"
-#include "export/vdb/vdb_export.h"
-#include "import/mesh/triangle_mesh.h"
 #include "tests/support/box_solid.h"
 #include "tests/support/test_folder.h"
+#include "tools/export/mesh_export.h"
+#include "tools/export/vdb/vdb_export.h"
+#include "tools/import/mesh/triangle_mesh.h"
 
 namespace scree {
 namespace {

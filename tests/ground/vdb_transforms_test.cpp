@@ -6,8 +6,8 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
-#include "import/files/solid_files.h"
 #include "tests/support/test_folder.h"
+#include "tools/import/files/solid_files.h"
 
 namespace scree {
 namespace {

@@ -1,8 +1,8 @@
 // What files say of their ground: its hash in a header, its mass in a chunk's row.
 #include <gtest/gtest.h>
 
-#include "proto/recording_codec.h"
-#include "proto/world_codec.h"
+#include "server/formats/recording_codec.h"
+#include "server/formats/world_codec.h"
 #include "shared/field/mass.h"
 
 namespace scree {

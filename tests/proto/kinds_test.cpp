@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "proto/operation_codec.h"
-#include "proto/recording_codec.h"
+#include "server/formats/recording_codec.h"
 #include "tests/support/holds.h"
 #include "tests/support/wire_samples.h"
 

@@ -16,10 +16,10 @@
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
+#include "server/command/refusal.h"
 #include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "server/publish/limits.h"
-#include "server/work/refusal.h"
 #include "tests/proto/message_words.h"
 #include "tests/support/wire_samples.h"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "proto/codec.h"
-#include "proto/event_codec.h"
 #include "proto/marks.h"
+#include "server/formats/event_codec.h"
 #include "shared/base/random.h"
 
 namespace scree {

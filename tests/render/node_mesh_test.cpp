@@ -12,7 +12,7 @@
 namespace scree {
 namespace {
 
-/// Metres, as they are drawn (shaders/surface.vert).
+/// Metres, as they are drawn (client/shaders/surface.vert).
 using Position = std::array<float, 3>;
 
 Position position_of(const NodeMesh& mesh, uint32_t index, float voxel_m) {

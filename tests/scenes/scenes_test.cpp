@@ -2,10 +2,10 @@
 // tick, and the hashes do not depend on the number of threads.
 #include <gtest/gtest.h>
 
-#include "scenes/build.h"
 #include "server/app/ground_giver.h"
 #include "server/app/saved_world.h"
 #include "tests/support/test_folder.h"
+#include "tools/scenes/build.h"
 
 namespace scree {
 

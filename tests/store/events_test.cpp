@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "proto/event_codec.h"
+#include "server/formats/event_codec.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/verify.h"
 #include "server/store/event_deriver.h"

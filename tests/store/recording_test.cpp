@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/limits.h"

@@ -17,23 +17,25 @@ struct Layer {
   std::vector<std::string_view> beneath;
 };
 
-/// Of scenes and what measures.
+/// Scenes, measurements and studies.
 std::vector<Layer> bench_layers() {
   return {
-      {"scenes/", {"server/app/", "import/", "client/viewer/base/"}},
-      {"bench/report/", {"film/process/"}},
-      {"bench/support/", {"bench/report/", "scenes/", "server/", "client/", "export/"}},
+      {"tools/scenes/", {"server/app/", "tools/import/", "client/viewer/base/"}},
+      {"bench/support/", {"tools/scenes/", "tools/film/process/", "server/", "client/", "tools/export/"}},
       {"bench/peers/", {"bench/support/"}},
       {"bench/simulation/", {"bench/support/", "bench/peers/"}},
       {"bench/drawing/", {"bench/support/", "bench/peers/"}},
       {"bench/wire/", {"bench/support/"}},
-      {"bench/paper/", {"bench/support/", "bench/peers/"}},
-      {"bench/matrix/", {"bench/support/"}},
-      {"bench/scale/", {"bench/wire/"}},
-      {"bench/study_peers/", {"bench/support/", "bench/peers/"}},
       {"bench/results/", {"bench/support/"}},
-      {"bench/programs/",
-       {"bench/results/", "bench/paper/", "bench/matrix/", "bench/scale/", "bench/study_peers/"}},
+      {"bench/programs/", {"bench/results/"}},
+      {"studies/report/", {"tools/film/process/"}},
+      {"studies/support/", {"studies/report/", "bench/support/"}},
+      {"studies/paper/", {"studies/support/", "bench/peers/"}},
+      {"studies/matrix/", {"studies/support/"}},
+      {"studies/scale/", {"studies/support/", "bench/wire/"}},
+      {"studies/peers/", {"studies/support/", "bench/peers/"}},
+      {"studies/programs/",
+       {"bench/programs/", "studies/paper/", "studies/matrix/", "studies/scale/", "studies/peers/"}},
   };
 }
 
@@ -51,20 +53,22 @@ std::vector<Layer> other_layers() {
       {"proto/", {"shared/operation/"}},
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/"}},
-      {"import/", {"ground/"}},
-      {"export/", {"import/", "server/app/", "client/cache/"}},
+      {"tools/import/", {"ground/"}},
+      {"tools/export/", {"tools/import/", "server/app/", "client/cache/"}},
       {"transport/", {"crypto/"}},
       {"auth/", {"proto/", "crypto/"}},
-      {"server/field/", {"proto/"}},
+      {"server/command/", {"shared/operation/"}},
+      {"server/formats/", {"proto/", "server/command/"}},
+      {"server/field/", {"server/formats/"}},
       {"server/fracture/", {"server/field/"}},
       {"server/colliders/", {"shared/surface/"}},
       {"server/bodies/", {"server/field/", "server/colliders/"}},
       {"server/recombine/", {"server/field/"}},
       {"server/work/", {"server/bodies/"}},
       {"server/world/", {"server/fracture/", "server/work/", "server/recombine/"}},
-      {"server/doors/", {"server/work/", "auth/"}},
+      {"server/doors/", {"server/command/", "auth/"}},
       {"server/publish/", {"server/world/"}},
-      {"server/web/", {"server/work/", "transport/"}},
+      {"server/web/", {"server/command/", "transport/"}},
       {"server/net/", {"server/doors/", "server/publish/", "server/web/"}},
       {"server/store/", {"proto/", "server/world/"}},
       {"server/replay/", {"server/store/"}},
@@ -94,9 +98,10 @@ std::vector<Layer> other_layers() {
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
       {"client/web/", {"client/viewer/viewing/"}},
-      {"film/process/", {"shared/base/"}},
-      {"film/", {"film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
-      {"tests/", {"bench/", "film/", "cmake/"}},
+      {"tools/film/process/", {"shared/base/"}},
+      {"tools/film/",
+       {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
+      {"tests/", {"bench/", "studies/", "tools/film/", "cmake/"}},
   };
 }
 
@@ -122,8 +127,8 @@ const std::vector<Library>& libraries() {
       // bench/peers/: its own tools are what ours are measured beside.
       {"OpenVDB",
        std::regex("(openvdb|nanovdb)/.*"),
-       {"server/field/", "import/vdb/", "export/vdb/", "bench/peers/", "tests/ground/"}},
-      {"assimp", std::regex("assimp/.*"), {"import/assimp/"}},
+       {"server/field/", "tools/import/vdb/", "tools/export/vdb/", "bench/peers/", "tests/ground/"}},
+      {"assimp", std::regex("assimp/.*"), {"tools/import/assimp/"}},
       {"Bullet",
        std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"),
        {"server/bodies/", "bench/peers/", "tests/bodies/"}},
@@ -138,12 +143,12 @@ const std::vector<Library>& libraries() {
        {"client/render/", "client/viewer/", "client/web/", "bench/peers/"}},
       {"Asio",
        std::regex("(boost/)?asio.*"),
-       {"transport/", "server/doors/", "server/net/", "client/connection/", "tests/", "bench/"}},
+       {"transport/", "server/doors/", "server/net/", "client/connection/", "tests/", "bench/", "studies/"}},
       {"Boost.Beast", std::regex("boost/beast.*"), {"server/web/"}},
       {"Wslay", std::regex("wslay/.*"), {"transport/"}},
-      {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"import/", "export/gdal/"}},
+      {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},
-      {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/"}},
+      {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/", "server/formats/"}},
   };
   return table;
 }

@@ -1,8 +1,8 @@
 // A box of rock as a solid, in voxels; and a ground file with some, on rough hills.
 #pragma once
 
-#include "import/bricks_import.h"
 #include "tests/support/written_ground.h"
+#include "tools/import/bricks_import.h"
 
 namespace scree {
 

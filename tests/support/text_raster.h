@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "import/raster.h"
+#include "tools/import/raster.h"
 
 namespace scree {
 

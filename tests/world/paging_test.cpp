@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/support/scenes.h"
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/world/published_state.h"
 #include "server/world/world.h"
 #include "server/world/world_snapshot.h"

@@ -14,10 +14,10 @@
 namespace scree {
 namespace {
 
-/// As shaders/bricks.glsl declares its arrays.
+/// As client/shaders/bricks.glsl declares its arrays.
 constexpr size_t levels_max = 8;
 
-/// The border of shaders/bricks.glsl, and one more for rounding.
+/// The border of client/shaders/bricks.glsl, and one more for rounding.
 constexpr int border_bricks = 3;
 
 /// The finest level reaches two thirds of the view radius at least: beyond, a pixel is hardly smaller than
@@ -120,7 +120,7 @@ std::optional<BrickWorld::Plain> BrickWorld::plain(glm::vec3 lo_m, glm::vec3 hi_
   constexpr float end_voxels = 1e-3F;
   const glm::ivec3 lo(glm::floor((lo_m / shown.voxel_m() + end_voxels) / static_cast<float>(brick_size)));
   const glm::ivec3 hi(glm::floor((hi_m / shown.voxel_m() - end_voxels) / static_cast<float>(brick_size)));
-  // Near the window's end the next level shows (shaders/bricks.glsl).
+  // Near the window's end the next level shows (client/shaders/bricks.glsl).
   const BrickCoord margin{border_bricks, border_bricks, border_bricks};
   if (!window.holds(BrickCoord{lo.x, lo.y, lo.z} - margin) ||
       !window.holds(BrickCoord{hi.x, hi.y, hi.z} + margin))

@@ -19,7 +19,7 @@ namespace scree {
 /// Largest stored distance: one more than the bricks that a ray can skip at once.
 inline constexpr int empty_distance_max = 16;
 
-/// As the shaders read it (shaders/bricks.glsl).
+/// As the shaders read it (client/shaders/bricks.glsl).
 struct ClipEntry {
   enum Kind : uint32_t { unloaded = 0, stored = 254, solid = 255 };  ///< between: empty, the distance
 

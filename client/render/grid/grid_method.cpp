@@ -23,7 +23,7 @@ constexpr int lines_unit = 2;
 constexpr int shadow_unit = 3;
 constexpr int cases_unit = 4;
 
-/// As shaders/grid.geom reads it: for each case a row of corners of triangles, and one that ends it.
+/// As client/shaders/grid.geom reads it: for each case a row of corners of triangles, and one that ends it.
 constexpr size_t case_row = 3 * cube_triangles_max + 1;
 constexpr uint8_t no_corner = 255;
 

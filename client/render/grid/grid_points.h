@@ -1,5 +1,5 @@
-// The points of the grid as the GPU takes them (shaders/grid.vert): coordinates along the axes, and the
-// blocks of 8³ cells that have something to show. Needs the GL context current.
+// The points of the grid as the GPU takes them (client/shaders/grid.vert): coordinates along the axes, and
+// the blocks of 8³ cells that have something to show. Needs the GL context current.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@
 namespace scree {
 namespace {
 
-/// Of the field as generated: from here on, looks are those of a cut (shaders/bricks.glsl).
+/// Of the field as generated: from here on, looks are those of a cut (client/shaders/bricks.glsl).
 constexpr Code cut_begins = -10;
 /// From here on, on either side, nothing of the weathered ground is left.
 constexpr Code worn_all = 58;

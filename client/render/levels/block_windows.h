@@ -24,7 +24,7 @@ struct BlockWindows {
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
   /// Sets SurfaceVertex::paint of a mesh in this window's voxels: by brick, and by layer in cuts. Makes
   /// SurfaceVertex::before a distance, 0 … 127, of what lies here now from the field as generated, also where
-  /// that was at the same place but faced another way (worn_at in shaders/bricks.glsl).
+  /// that was at the same place but faced another way (worn_at in client/shaders/bricks.glsl).
   void put_looks_on(SurfaceMesh& mesh) const;
 
  private:

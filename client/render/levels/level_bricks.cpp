@@ -11,7 +11,7 @@ namespace {
 /// surface that shadows and occlusion read.
 constexpr float air_kept_voxels = 1.5F;
 
-/// Beyond this code on either side, the looks do not change (shaders/bricks.glsl, worn_all).
+/// Beyond this code on either side, the looks do not change (client/shaders/bricks.glsl, worn_all).
 constexpr Code code_far = 58;
 
 VoxelBox samples_of(BrickCoord brick) {

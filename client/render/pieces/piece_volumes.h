@@ -1,5 +1,6 @@
 // Pieces as their own volumes on the GPU: bricks in an atlas, entries in a texture of their own, and one
-// instance each, whose box is drawn and marched through (shaders/piece.glsl). Needs the GL context current.
+// instance each, whose box is drawn and marched through (client/shaders/piece.glsl). Needs the GL context
+// current.
 //
 // A piece's bricks begin one voxel before its first rock, so that all of its surface lies in them.
 #pragma once
@@ -16,7 +17,7 @@ namespace scree {
 
 class PieceVolumes {
  public:
-  /// Entries in a row of the texture, as shaders/piece.glsl has it.
+  /// Entries in a row of the texture, as client/shaders/piece.glsl has it.
   static constexpr int entries_row = 256;
 
   PieceVolumes();
@@ -32,7 +33,7 @@ class PieceVolumes {
   size_t cpu_bytes() const;
 
  private:
-  /// As shaders/piece.vert takes it.
+  /// As client/shaders/piece.vert takes it.
   struct Instance {
     std::array<float, 4> place;
     std::array<float, 4> rotation;

@@ -8,7 +8,7 @@
 namespace scree {
 
 /// Vertices lie at (origin + position · step) voxels of the finest level. Exact in floats: only the product
-/// with a voxel's size is rounded (shaders/surface.vert), and that of equal numbers.
+/// with a voxel's size is rounded (client/shaders/surface.vert), and that of equal numbers.
 struct MeshPlace {
   glm::vec3 origin;
   float step;

@@ -30,7 +30,7 @@ constexpr uint8_t layer_number(Material layer) {
 }
 
 /// How far a vertex lies within a layer is told in steps of so many metres, up to layer_steps_max: beyond,
-/// the layer shows whole (shaders/rock.glsl).
+/// the layer shows whole (client/shaders/rock.glsl).
 inline constexpr float layer_step_m = 0.02F;
 inline constexpr int layer_steps_max = 255 / paint_in_cuts;
 

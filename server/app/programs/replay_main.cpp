@@ -122,7 +122,7 @@ int info(const Options& options) {
   const WorldConfig& world = header.world;
   const Tick first = (*recording)->first_tick();
   const Tick ticks = (*recording)->last_tick() - first + 1;
-  const Ledger ledger = from_recorded(sums->last.ledger);
+  const Ledger ledger = sums->last.ledger;
   Json settings = Json::object();
   for (const SettingValue& setting : print(world)) settings[setting.name] = setting.value;
   Json json{{"file", options.path},

@@ -85,7 +85,7 @@ Json describe(const std::string& path, const WorldRows& rows, const ChunkSums& s
           {"bricks_edited", sums.bricks},
           {"pieces_alive", moment.pieces.size()},
           {"requests_waiting", waiting},
-          {"ledger_error", from_recorded(moment.ledger).error()},
+          {"ledger_error", moment.ledger.error()},
           {"field_hash", hex(moment.field_hash)},
           {"state_hash", hex(moment.state_hash)},
           {"bytes_of_rows", rows.bytes + sums.bytes},

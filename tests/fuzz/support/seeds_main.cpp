@@ -13,7 +13,7 @@
 #include "ground/ground_file.h"
 #include "ground/ground_writer.h"
 #include "proto/operation_codec.h"
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
 #include "shared/base/random.h"
@@ -28,7 +28,7 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 const TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
-constexpr size_t seed_bytes_max = 4096;  // as of scripts/fuzz.sh
+constexpr size_t seed_bytes_max = 4096;  // as of tools/scripts/fuzz.sh
 constexpr int session_ticks = 150;
 
 /// The other way round than FuzzInput.
@@ -185,7 +185,7 @@ void write_recording(Corpora& corpora) {
       commands = {{1, 1, carve(16.0F, 1)}, {2, 1, FillRequest{sphere({20.0F, 1.0F, 16.0F}, 1.0F)}}};
     const auto delta = world.step(commands);
     row(1, tick, encode(to_recorded(*delta, state)));
-    if (!commands.empty()) row(3, tick, encode(std::span<const RecordedCommand>(to_recorded(commands))));
+    if (!commands.empty()) row(3, tick, encode(std::span<const Command>(commands)));
     state.apply(*delta);
     if (tick == 2) row(2, tick, encode(to_recorded_keyframe(state.as_delta())));
     (void)(*writer)->add(*delta, commands);

@@ -8,7 +8,7 @@
 
 #include "ground/ground_file.h"
 #include "proto/height_codec.h"
-#include "proto/world_codec.h"
+#include "server/formats/world_codec.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "tests/fuzz/support/fuzz_input.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "proto/operation_codec.h"
-#include "proto/recording_codec.h"
 #include "proto/transforms.h"
+#include "server/formats/recording_codec.h"
 #include "shared/base/check.h"
 #include "tests/fuzz/support/fuzz_input.h"
 #include "tests/fuzz/support/target.h"
@@ -59,7 +59,7 @@ void keyframe(Bytes bytes) {
 }
 void commands(Bytes bytes) {
   check_round(bytes, decode_recorded_commands,
-              [](const std::vector<RecordedCommand>& value) { return encode(std::span(value)); });
+              [](const std::vector<Command>& value) { return encode(std::span(value)); });
 }
 
 /// The place is the first byte of an input: new ones come last.

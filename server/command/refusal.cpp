@@ -1,0 +1,91 @@
+#include "server/command/refusal.h"
+
+#include <numeric>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+struct Row {
+  Refusal reason;
+  std::string_view name;
+};
+
+/// In the order of the enumeration.
+constexpr Row rows[] = {
+    {Refusal::carve_invalid, "carve_invalid"},
+    {Refusal::fill_invalid, "fill_invalid"},
+    {Refusal::paint_invalid, "paint_invalid"},
+    {Refusal::settings_invalid, "settings_invalid"},
+    {Refusal::blast_speed, "blast_speed"},
+    {Refusal::pieces_max, "pieces_max"},
+    {Refusal::pieces_share, "pieces_share"},
+    {Refusal::requests_waiting, "requests_waiting"},
+    {Refusal::memory_max, "memory_max"},
+    {Refusal::terrain_unreadable, "terrain_unreadable"},
+    {Refusal::session_over, "session_over"},
+    {Refusal::replay, "replay"},
+    {Refusal::requests_per_second, "requests_per_second"},
+    {Refusal::commands_waiting, "commands_waiting"},
+    {Refusal::no_admin_token, "no_admin_token"},
+    {Refusal::role, "role"},
+    {Refusal::admin_invalid, "admin_invalid"},
+    {Refusal::http_malformed, "http_malformed"},
+    {Refusal::http_too_long, "http_too_long"},
+    {Refusal::http_late, "http_late"},
+    {Refusal::http_requests_per_second, "http_requests_per_second"},
+    {Refusal::origin_foreign, "origin_foreign"},
+    {Refusal::connects_per_second, "connects_per_second"},
+    {Refusal::connections_per_address, "connections_per_address"},
+    {Refusal::outsiders_max, "outsiders_max"},
+    {Refusal::sessions_max, "sessions_max"},
+    {Refusal::idle_made_room, "idle_made_room"},
+    {Refusal::protocol_version, "protocol_version"},
+    {Refusal::hello_missing, "hello_missing"},
+    {Refusal::hello_late, "hello_late"},
+    {Refusal::hello_repeated, "hello_repeated"},
+    {Refusal::message_malformed, "message_malformed"},
+    {Refusal::message_cut_short, "message_cut_short"},
+    {Refusal::messages_per_second, "messages_per_second"},
+    {Refusal::bytes_per_second, "bytes_per_second"},
+    {Refusal::interest_invalid, "interest_invalid"},
+    {Refusal::ground_waiting, "ground_waiting"},
+    {Refusal::admin_token_wrong, "admin_token_wrong"},
+    {Refusal::token_guesses, "token_guesses"},
+    {Refusal::tls_required, "tls_required"},
+    {Refusal::tls_failed, "tls_failed"},
+    {Refusal::stream_malformed, "stream_malformed"},
+    {Refusal::token_missing, "token_missing"},
+    {Refusal::token_malformed, "token_malformed"},
+    {Refusal::token_foreign, "token_foreign"},
+    {Refusal::token_world, "token_world"},
+    {Refusal::token_expired, "token_expired"},
+    {Refusal::token_revoked, "token_revoked"},
+    {Refusal::kicked, "kicked"},
+    {Refusal::banned, "banned"},
+    {Refusal::server_stops, "server_stops"},
+    {Refusal::outbox_full, "outbox_full"},
+    {Refusal::reading_stalled, "reading_stalled"},
+};
+
+constexpr bool in_order() {
+  for (size_t i = 0; i < std::size(rows); ++i)
+    if (rows[i].reason != static_cast<Refusal>(i)) return false;
+  return std::size(rows) == refusal_reasons;
+}
+static_assert(in_order(), "every reason has a name, in the order of the enumeration");
+
+}  // namespace
+
+std::string_view name_of(Refusal reason) {
+  CHECK(static_cast<size_t>(reason) < refusal_reasons);
+  return rows[static_cast<size_t>(reason)].name;
+}
+
+uint64_t RefusalCounts::total() const {
+  return std::accumulate(counts_.begin(), counts_.end(), uint64_t{0});
+}
+
+}  // namespace scree

@@ -1,0 +1,192 @@
+#include "server/formats/recording_codec.h"
+
+#include <algorithm>
+#include <recording.pb.h>
+
+#include "proto/codec.h"
+#include "proto/operation_codec.h"
+#include "proto/transforms.h"
+#include "proto/wire_values.h"
+#include "server/formats/recording_values.h"
+#include "shared/base/check.h"
+#include "shared/base/limits.h"
+#include "shared/base/overloaded.h"
+#include "shared/base/text.h"
+
+namespace scree {
+
+namespace {
+
+std::string without_length(const std::vector<uint8_t>& message) {
+  CHECK(message.size() >= length_prefix_bytes);
+  return {message.begin() + length_prefix_bytes, message.end()};
+}
+
+PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
+  ServerMessage message = check.take(decode_server(bytes));
+  if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
+  check.refuse("what should be a piece is another message");
+  return {};
+}
+
+Command read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
+  const ClientMessage message = check.take(decode_client(as_span(bytes)));
+  return std::visit(
+      Overloaded{[&]<typename Asks>(const Asked<Asks>& asked) {
+                   return Command{session, asked.request, static_cast<const Asks&>(asked)};
+                 },
+                 [&](const AdminMessage& admin) {
+                   const auto* settings = std::get_if<SettingValues>(&admin.act);
+                   if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+                   return Command{session, admin.request,
+                                  SettingsRequest{settings == nullptr ? SettingValues() : *settings}};
+                 },
+                 [&](const GoodbyeMessage&) {
+                   return Command{session, 0, LeaveRequest{}};
+                 },
+                 [&](const auto&) {
+                   check.refuse("a message that asks for nothing stands where a request should");
+                   return Command{};
+                 }},
+      message);
+}
+
+/// As the client sent it, without the token.
+ClientMessage message_of(const Command& command) {
+  return std::visit(Overloaded{[&]<typename Asks>(const Asks& asks) {
+                                 return ClientMessage(Asked<Asks>{asks, command.request});
+                               },
+                               [&](const SettingsRequest& settings) {
+                                 return ClientMessage(AdminMessage{command.request, {}, settings.settings});
+                               },
+                               [](const LeaveRequest&) { return ClientMessage(GoodbyeMessage{}); }},
+                    command.body);
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const RecordedHeader& header) {
+  recorded::Header to;
+  write(to, header);
+  return bytes_of(to);
+}
+
+Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Header>(bytes, "header of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("header of the recording");
+  RecordedHeader header = read(*from, check);
+  return checked(std::move(header), check);
+}
+
+std::vector<uint8_t> encode(const RecordedFrame& frame) {
+  recorded::Frame to;
+  to.set_tick(frame.tick);
+  to.set_operations(to_string(encode_operations(frame.operations)));
+  to.set_moved(to_string(pack_transforms(frame.moved)));
+  write(*to.mutable_ledger(), frame.ledger);
+  to.set_field_hash(frame.field_hash);
+  to.set_state_hash(frame.state_hash);
+  write(*to.mutable_settings(), frame.settings);
+  return bytes_of(to);
+}
+
+Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Frame>(bytes, "frame of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("frame of the recording");
+  RecordedFrame frame;
+  frame.tick = from->tick();
+  frame.operations = check.take(decode_operations(as_span(from->operations())));
+  frame.moved = check.take(unpack_transforms(as_span(from->moved())));
+  frame.ledger = read(from->ledger());
+  frame.field_hash = from->field_hash();
+  frame.state_hash = from->state_hash();
+  frame.settings = check.settings(from->settings());
+  return checked(std::move(frame), check);
+}
+
+std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
+  recorded::Keyframe to;
+  to.set_tick(keyframe.tick);
+  const std::span<const BrickPatch> bricks(keyframe.bricks);
+  for (size_t at = 0; at < bricks.size(); at += limits::bricks_per_message_max) {
+    const size_t count = std::min(limits::bricks_per_message_max, bricks.size() - at);
+    to.add_bricks(to_string(encode_bricks(bricks.subspan(at, count))));
+  }
+  for (const PieceMessage& piece : keyframe.pieces)
+    to.add_pieces(without_length(encode(ServerMessage(piece))));
+  to.set_poses(to_string(pack_transforms(keyframe.poses)));
+  write(*to.mutable_ledger(), keyframe.ledger);
+  to.set_field_hash(keyframe.field_hash);
+  to.set_state_hash(keyframe.state_hash);
+  write(*to.mutable_settings(), keyframe.settings);
+  return bytes_of(to);
+}
+
+Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Keyframe>(bytes, "keyframe of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("keyframe of the recording");
+  RecordedKeyframe keyframe;
+  keyframe.tick = from->tick();
+  for (const std::string& packed : from->bricks()) {
+    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed)));
+    if (check.failed()) break;
+    keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
+  }
+  size_t voxels = 0;
+  for (const std::string& packed : from->pieces()) {
+    if (check.failed()) break;
+    keyframe.pieces.push_back(read_piece(as_span(packed), check));
+    voxels += keyframe.pieces.back().volume.window.codes.size();
+    if (voxels > limits::piece_voxels_max)
+      check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
+                   " voxels (limits.piece_voxels_max)");
+  }
+  keyframe.ledger = read(from->ledger());
+  keyframe.field_hash = from->field_hash();
+  keyframe.state_hash = from->state_hash();
+  keyframe.settings = check.settings(from->settings());
+  keyframe.poses = check.take(unpack_transforms(as_span(from->poses())));
+  return checked(std::move(keyframe), check);
+}
+
+std::vector<uint8_t> encode_recorded_piece(const PieceMessage& piece) {
+  const std::string bytes = without_length(encode(ServerMessage(piece)));
+  return {bytes.begin(), bytes.end()};
+}
+
+Result<PieceMessage> decode_recorded_piece(std::span<const uint8_t> bytes) {
+  FieldChecker check("piece of the recording");
+  PieceMessage piece = read_piece(bytes, check);
+  return checked(std::move(piece), check);
+}
+
+std::vector<uint8_t> encode(std::span<const Command> commands) {
+  recorded::Commands to;
+  const bool parties = std::ranges::any_of(commands, [](const auto& command) { return command.party != 0; });
+  for (const Command& command : commands) {
+    to.add_sessions(command.session);
+    if (parties) to.add_parties(command.party);
+    to.add_requests(without_length(encode(message_of(command))));
+  }
+  return bytes_of(to);
+}
+
+Result<std::vector<Command>> decode_recorded_commands(std::span<const uint8_t> bytes) {
+  const auto from = parsed<recorded::Commands>(bytes, "commands of the recording");
+  if (!from) return tl::unexpected(from.error());
+  FieldChecker check("commands of the recording");
+  if (from->sessions_size() != from->requests_size()) check.refuse("sessions and requests differ in number");
+  if (from->parties_size() != 0 && from->parties_size() != from->requests_size())
+    check.refuse("parties and requests differ in number");
+  std::vector<Command> commands;
+  for (int i = 0; i < from->requests_size() && !check.failed(); ++i) {
+    commands.push_back(read_command(from->sessions(i), from->requests(i), check));
+    if (from->parties_size() != 0) commands.back().party = from->parties(i);
+  }
+  return checked(std::move(commands), check);
+}
+
+}  // namespace scree

@@ -1,0 +1,199 @@
+// A world between two ticks as one value: a save, the start of a recording, and where a recording goes on
+// after a restart. World::snapshot() (server/world/world.h) makes it, World::restore() makes a world of it.
+//
+// What Bullet cannot take up again is left out: caches of contacts with their impulses, who sleeps, and the
+// order of its tree. A restored body is awake and without contacts. Nor is a search for islands kept: islands
+// that wait to fall are searched anew. So a restored world is no continuation of the running one bit for bit,
+// but a pure function of the value: the same value and the same commands give the same hashes, and
+// snapshot(restore(value)) is the value.
+//
+// Metres, voxels and ticks, as said. Plain values, whose pieces share immutable buffers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "proto/messages.h"
+#include "server/formats/recording_codec.h"
+#include "shared/field/piece.h"
+
+namespace scree {
+
+/// The data of a piece that the body library needs. `hull_m`: corners of the piece's convex hull, at least 4
+/// and not all in one plane, relative to the centre of mass, in the volume's axes (the world's axes at
+/// birth). See server/fracture/hull.h.
+struct BodyShape {
+  std::vector<glm::vec3> hull_m;
+  float mass_kg = 0.0F;
+  glm::mat3 inertia_kg_m2{0.0F};  ///< tensor in the volume's axes; symmetric, positive definite
+  /// Coefficient of friction. A contact has the geometric mean of both sides; the terrain has that of its
+  /// material.
+  float friction = 0.7F;
+  /// Points that collide with the terrain, for a concave piece: of its own surface, in the same frame as
+  /// `hull_m`. Empty: points of the hull collide.
+  std::vector<glm::vec3> surface_m{};
+  /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
+  /// has. Empty: the hull collides.
+  std::vector<std::vector<glm::vec3>> parts_m{};
+
+  bool operator==(const BodyShape&) const = default;
+};
+
+/// Properties that a piece keeps for life.
+struct PieceTraits {
+  uint8_t generation = 0;  ///< number of breaks among its ancestors
+  bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
+  uint64_t owner = 0;      ///< party of the client whose carve it comes from (command.h); 0: of none
+
+  bool operator==(const PieceTraits&) const = default;
+};
+
+/// What never changes of a piece. Neither buffer is null.
+struct KeptPiece {
+  PieceId id = 0;
+  PieceTraits traits;
+  std::shared_ptr<const Volume> volume;
+  std::shared_ptr<const BodyShape> shape;
+};
+
+struct BoundsM {
+  glm::vec3 lo_m{0.0F};
+  glm::vec3 hi_m{0.0F};
+
+  bool operator==(const BoundsM&) const = default;
+};
+
+/// A body's exact motion, in its principal axes, as its library keeps it.
+struct BodyMotion {
+  PieceId id = 0;
+  glm::vec3 origin_m{0.0F};
+  std::array<glm::vec3, 3> basis{};  ///< rows of the rotation
+  glm::vec3 velocity_m_s{0.0F};
+  glm::vec3 spin_rad_s{0.0F};
+  bool frozen = false;            ///< Bodies::freeze
+  std::optional<BoundsM> thawed;  ///< where it thawed, until it has moved away
+
+  bool operator==(const BodyMotion&) const = default;
+};
+
+/// `bodies` in order of id; the rest are changes that the bodies have not been told yet.
+struct MotionValue {
+  std::vector<BodyMotion> bodies;
+  std::vector<BoundsM> freed;     ///< where bodies were removed
+  std::vector<VoxelBox> changes;  ///< where terrain changed
+
+  bool operator==(const MotionValue&) const = default;
+};
+
+/// How long a piece has been still (RestDetector).
+struct RestWatch {
+  PieceId id = 0;
+  glm::vec3 anchor_m{0.0F};
+  std::array<float, 4> anchor_rotation{};  ///< w, x, y, z
+  uint32_t age_ticks = 0;
+  uint32_t still_ticks = 0;
+  uint32_t terrain_ticks = 0;
+
+  bool operator==(const RestWatch&) const = default;
+};
+
+struct RestValue {
+  std::vector<RestWatch> watches;  ///< ordered by id
+  uint64_t put_off = 0;
+
+  bool operator==(const RestValue&) const = default;
+};
+
+/// Whose turn it is (FairTurns).
+struct TurnsValue {
+  struct Turn {
+    uint64_t who = 0;
+    uint64_t start_ns = 0;
+    bool waits = false;
+
+    bool operator==(const Turn&) const = default;
+  };
+  std::vector<Turn> turns;  ///< ordered by `who`
+  uint64_t served_ns = 0;
+
+  bool operator==(const TurnsValue&) const = default;
+};
+
+/// Requests that wait, of a session and of a party (RequestQueue). The commands' sessions and parties are
+/// those that they wait under.
+struct WaitingValue {
+  Command command;
+  float cost_us = 0.0F;
+  Tick since = 0;
+};
+struct SessionValue {
+  uint64_t session = 0;
+  float waiting_us = 0.0F;
+  std::vector<WaitingValue> requests;
+};
+struct PartyValue {
+  uint64_t party = 0;
+  TurnsValue turns;  ///< of its sessions
+  std::vector<SessionValue> sessions;
+};
+struct RequestsValue {
+  TurnsValue turns;  ///< of the parties
+  std::vector<PartyValue> parties;
+};
+
+/// A piece that is still to be cut into so many (server/world/cut_stage.h).
+struct PendingCut {
+  PieceId piece = 0;
+  uint32_t pieces = 0;
+  SeedPattern pattern = SeedPattern::uniform;
+  uint32_t random_seed = 0;
+  glm::vec3 impact_m{0.0F};
+  /// The carve whose volume this is, whole: its blow throws the pieces. Null: they move on as parts of the
+  /// piece.
+  std::shared_ptr<const CarveRequest> thrown_by{};
+};
+
+/// Changed bricks around which islands are searched for.
+struct IslandCut {
+  std::vector<BrickCoord> bricks;
+  uint32_t restarts = 0;
+
+  bool operator==(const IslandCut&) const = default;
+};
+
+/// All but the terrain: cheap to make, so that every tick can be saved.
+struct WorldMoment {
+  RecordedHeader config;  ///< `program` is empty
+  Tick tick = 0;
+  PieceId next_piece = 1;
+  Ledger ledger;
+  uint64_t field_hash = 0;
+  uint64_t state_hash = 0;        ///< of field, bodies and ledger, as a tick publishes it
+  std::vector<KeptPiece> pieces;  ///< ordered by id, as motion.bodies
+  MotionValue motion;
+  RestValue rest;
+  RequestsValue requests;
+  Tick requested = 0;  ///< tick in which a request that costs time was carried out last
+  float debt_us = 0.0F;
+  std::vector<PendingCut> cuts;  ///< in order
+  Tick cut_at = 0;               ///< tick of the last cut, as island_at of the last fall
+  Tick island_at = 0;
+  std::vector<IslandCut> islands;    ///< searches, in order
+  std::vector<BrickCoord> cut;       ///< ordered; await a search for islands
+  std::vector<BrickCoord> strained;  ///< ordered; await a search for support
+  std::vector<VoxelBox> gained;      ///< around terrain that gained rock
+  std::vector<PieceId> buried;       ///< ordered, as `sunk`; may be gone
+  std::vector<PieceId> sunk;
+};
+
+struct WorldSnapshot {
+  WorldMoment moment;
+  std::vector<BrickPatch> bricks;  ///< every edited brick, ordered
+};
+
+}  // namespace scree

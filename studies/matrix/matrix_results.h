@@ -1,0 +1,63 @@
+// All that the matrix measured, and the scores that follow from it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "studies/matrix/profiles.h"
+#include "studies/matrix/ranking.h"
+#include "studies/matrix/shapes.h"
+
+namespace scree {
+
+struct MeasuredSession {
+  Simulated simulated;
+  SessionFigures figures;
+  CutFigures cut;
+  MergeFigures merge;
+};
+
+struct MeasuredDrawing {
+  std::string drawing;
+  DrawnFigures figures;
+};
+
+/// A combination measured whole, to compare with what its parts foretell: as often as drawings are, and its
+/// tick, as a session's, by the first time alone.
+struct MeasuredWhole {
+  Combination combination;
+  DrawnFigures figures;
+};
+
+struct MatrixResults {
+  bool quick = false;
+  std::string renderer;                   ///< OpenGL's name of what draws
+  std::vector<MeasuredSession> sessions;  ///< whose pieces become terrain again: they are ranked
+  std::vector<MeasuredSession> frozen;    ///< by Recombination::off, as a control: the cycle stays open
+  std::vector<MeasuredDrawing> drawings;
+  int draw_rounds = 1;  ///< drawings and whole combinations are measured so often, and each time is the least
+  std::vector<std::string> left_out;  ///< drawings that this machine lacks, with the reason
+  std::vector<MeasuredWhole> whole;
+  std::vector<double> repeated_ms;  ///< the tick of the defaults, measured again and again
+  std::vector<std::pair<Preset, ProfileFigures>> profiles;
+};
+
+/// Combination number i is drawing i / sessions.size() with session i % sessions.size().
+size_t combinations_of(const MatrixResults& results);
+Combination combination_of(const MatrixResults& results, size_t number);
+/// Its number, or combinations_of() where it was not measured.
+size_t number_of(const MatrixResults& results, const std::string& drawing, const Simulated& simulated);
+
+/// Drawing and session measured apart and added up: frame = tick + update + drawing; memory = the world's
+/// heap + the method's memory; mass error = the mass moved that is dust at the end; surface error = root of
+/// the sum of the squares of five: how far the pieces are cut from their cells, the terrain lies from the
+/// exact union after a merge, pieces lie in rock, bodies are from their pieces, and the drawn surface from
+/// the field.
+MatrixScore score_of(const MatrixResults& results, size_t number);
+std::vector<MatrixScore> scores_of(const MatrixResults& results);
+
+/// What the parts foretell of a whole frame's and tick's time, milliseconds; 0 where a part is missing.
+double foretold_ms(const MatrixResults& results, const Combination& combination);
+
+}  // namespace scree

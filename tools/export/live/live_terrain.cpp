@@ -1,0 +1,222 @@
+#include "tools/export/live/live_terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "client/cache/join_server.h"
+#include "shared/base/limits.h"
+#include "shared/base/text.h"
+#include "tools/export/limits.h"
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto message_wait = 50ms;
+constexpr auto acknowledge_interval = 200ms;
+
+/// The box in parts of so many chunks a side, at most.
+std::vector<ChunkBox> parts_of(const ChunkBox& box, int side) {
+  std::vector<ChunkBox> parts;
+  for (int x = box.lo.x; x < box.hi.x; x += side)
+    for (int y = box.lo.y; y < box.hi.y; y += side)
+      for (int z = box.lo.z; z < box.hi.z; z += side)
+        parts.push_back(
+            {{x, y, z},
+             {std::min(x + side, box.hi.x), std::min(y + side, box.hi.y), std::min(z + side, box.hi.z)}});
+  return parts;
+}
+
+bool holds(const ChunkBox& box, ChunkCoord chunk) {
+  return chunk.x >= box.lo.x && chunk.y >= box.lo.y && chunk.z >= box.lo.z && chunk.x < box.hi.x &&
+         chunk.y < box.hi.y && chunk.z < box.hi.z;
+}
+
+void copy_edits(Field& from, const ChunkBox& box, Field& to) {
+  for (const ChunkCoord chunk : from.edited_chunks()) {
+    if (!holds(box, chunk)) continue;
+    for (const BrickCoord brick : from.edited_bricks(chunk)) {
+      to.set_brick(brick, from.brick(brick));
+      to.paint_brick(brick, from.painted(brick));
+    }
+  }
+}
+
+class Fetcher {
+ public:
+  explicit Fetcher(const LiveFetch& how) : how_(how), ends_(Clock::now() + how.within), rejoin_({}) {}
+  ~Fetcher() {
+    if (connection_) connection_->leave();
+  }
+  Fetcher(const Fetcher&) = delete;
+  Fetcher& operator=(const Fetcher&) = delete;
+
+  Result<LiveTerrain> fetch(const std::function<void(double)>& progress) {
+    if (auto joined = join({}); !joined) return tl::unexpected(joined.error());
+    return how_.box ? fetch_box(progress) : fetch_all(progress);
+  }
+
+ private:
+  /// Begins a session with as wide an interest as the server grants.
+  Result<void> join(glm::vec3 eye_m) {
+    if (connection_) connection_->close();  // the next session goes on by its ticket
+    const HelloMessage hello{protocol_version, "scree-export", eye_m, limits::interest_radius_max_m};
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(ends_ - Clock::now());
+    auto connected =
+        join_server(rejoin_, how_.server, hello, std::clamp(left, 1ms, limits::export_connect_ms));
+    if (!connected) return tl::unexpected<Error>(connected.error());
+    connection_ = std::move(*connected);
+    mirror_ = rejoin_.begin(*connection_);
+    ++sessions_;
+    has_edits_ = has_all_edits_ = false;
+    return {};
+  }
+
+  /// Applies what comes, and asks for what is missing.
+  Result<void> follow() {
+    for (const Received& received : connection_->wait(message_wait)) {
+      if (auto taken = rejoin_.before(received.message, *mirror_); !taken) return taken;
+      if (const auto applied = mirror_->apply(received.message); !applied)
+        return tl::unexpected(applied.error());
+      rejoin_.after(received.message, *mirror_, *connection_);
+      while (const auto repair = mirror_->take_repair_request()) connection_->send(*repair);
+      if (std::holds_alternative<StatusMessage>(received.message)) compare();
+    }
+    if (!connection_->connected() && connection_->counters().waiting_messages == 0)
+      return fail("the connection was lost: " + connection_->close_reason());
+    const Clock::time_point now = Clock::now();
+    if (now >= acknowledged_ + acknowledge_interval) {
+      acknowledged_ = now;
+      connection_->send(AckMessage{mirror_->tick()});
+    }
+    rejoin_.tend(std::chrono::duration<double>(now.time_since_epoch()).count(), *mirror_, *connection_);
+    return {};
+  }
+
+  Result<void> follow_until(const std::function<bool()>& done, const std::function<std::string()>& missing) {
+    while (!done()) {
+      if (Clock::now() >= ends_)
+        return fail(fmt::format("{}: not complete within {} s (--timeout): {}",
+                                endpoint_text(how_.server.host, how_.server.port), how_.within.count(),
+                                missing()));
+      if (auto followed = follow(); !followed)
+        return fail(endpoint_text(how_.server.host, how_.server.port) + ": " + followed.error().message);
+    }
+    return {};
+  }
+
+  /// Of a status that has just come: it is about the mirror as it is.
+  void compare() {
+    const StatusMessage& status = *mirror_->status();
+    const MirrorCounters& counted = mirror_->counters();
+    has_edits_ = status.tick == mirror_->tick() && status.chunks_waiting == 0 &&
+                 counted.repairs_asked == counted.repairs_arrived;
+    has_all_edits_ = has_edits_ && status.field_hash == mirror_->field().hash();
+  }
+
+  Result<void> complete_edits() {
+    return follow_until([this] { return has_edits_; },
+                        [this] {
+                          const auto& status = mirror_->status();
+                          return status ? fmt::format("{} edited chunks wait", status->chunks_waiting)
+                                        : std::string("the server says nothing");
+                        });
+  }
+
+  /// Tiles that are missed are asked for; those that came make more chunks whole.
+  Result<void> complete_ground(const ChunkBox& box) {
+    if (rejoin_.tiles() == nullptr) return {};
+    std::vector<ChunkCoord> missing;
+    for_each_chunk(box.voxels(), [&](ChunkCoord chunk) { missing.push_back(chunk); });
+    uint64_t seen = ~uint64_t{0};
+    return follow_until(
+        [&] {
+          if (std::exchange(seen, rejoin_.tiles()->tiles_received()) != rejoin_.tiles()->tiles_received())
+            std::erase_if(missing, [&](ChunkCoord chunk) { return is_here(mirror_->terrain(), chunk); });
+          return missing.empty();
+        },
+        [&] {
+          return fmt::format("the ground of {} chunks is missing; a smaller --box needs less",
+                             missing.size());
+        });
+  }
+
+  Result<void> complete_ground(const std::vector<ChunkBox>& parts,
+                               const std::function<void(double)>& progress) {
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (auto ground = complete_ground(parts[i]); !ground) return ground;
+      progress(static_cast<double>(i + 1) / static_cast<double>(parts.size()));
+    }
+    return {};
+  }
+
+  /// Chunks a side of a cube that lies within the interest around its middle.
+  int part_side() const {
+    const float side_m = 2.0F * connection_->welcome().interest_radius_m / std::sqrt(3.0F);
+    return std::max(1, static_cast<int>(side_m / chunk_m()));
+  }
+  float chunk_m() const { return static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m; }
+
+  LiveTerrain taken(const ChunkBox& box) const {
+    return {std::make_unique<MapField>(mirror_->terrain()), box, mirror_->tick(), sessions_};
+  }
+
+  Result<LiveTerrain> fetch_box(const std::function<void(double)>& progress) {
+    const auto box = how_.box(MapField(mirror_->terrain()));
+    if (!box) return tl::unexpected(box.error());
+    const std::vector<ChunkBox> parts = parts_of(*box, part_side());
+    LiveTerrain terrain = taken(*box);
+    for (size_t i = 0; i < parts.size(); ++i) {
+      const ChunkCoord sum = parts[i].lo + parts[i].hi;
+      if (auto joined = join(0.5F * chunk_m() * glm::vec3(sum.x, sum.y, sum.z)); !joined)
+        return tl::unexpected(joined.error());
+      if (auto edits = complete_edits(); !edits) return tl::unexpected(edits.error());
+      if (auto ground = complete_ground(parts[i]); !ground) return tl::unexpected(ground.error());
+      copy_edits(mirror_->field(), parts[i], *terrain.field);
+      progress(static_cast<double>(i + 1) / static_cast<double>(parts.size()));
+    }
+    terrain.tick = mirror_->tick();
+    terrain.sessions = sessions_;
+    return terrain;
+  }
+
+  Result<LiveTerrain> fetch_all(const std::function<void(double)>& progress) {
+    if (const auto middle = spawn_of(mirror_->terrain()); middle && *middle != glm::vec3{})
+      if (auto joined = join(*middle); !joined) return tl::unexpected(joined.error());
+    if (auto edits = complete_edits(); !edits) return tl::unexpected(edits.error());
+    if (!has_all_edits_)
+      return fail(fmt::format(
+          "edits lie farther than {:.0f} m from the middle of the world: --box says which part is wanted",
+          connection_->welcome().interest_radius_m));
+    auto box = whole_of(mirror_->field());
+    if (!box) return tl::unexpected(box.error());
+    if (auto few = check_count(*box); !few) return tl::unexpected(few.error());
+    LiveTerrain terrain = taken(*box);
+    copy_edits(mirror_->field(), *box, *terrain.field);
+    if (auto ground = complete_ground(parts_of(*box, part_side()), progress); !ground)
+      return tl::unexpected(ground.error());
+    return terrain;
+  }
+
+  const LiveFetch& how_;
+  const Clock::time_point ends_;
+  Rejoin rejoin_;
+  std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Mirror> mirror_;
+  Clock::time_point acknowledged_{};
+  size_t sessions_ = 0;
+  bool has_edits_ = false;      ///< of this session's interest
+  bool has_all_edits_ = false;  ///< of the world
+};
+
+}  // namespace
+
+Result<LiveTerrain> fetch_terrain(const LiveFetch& how, const std::function<void(double)>& progress) {
+  return Fetcher(how).fetch(progress);
+}
+
+}  // namespace scree

@@ -1,0 +1,231 @@
+// scree-export: writes the rock of a kept world, of a ground, of a recording's tick or of a running server to
+// files of other programs.
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "client/connection/endpoint_options.h"
+#include "ground/ground_file.h"
+#include "server/app/distinct_files.h"
+#include "server/app/ground_giver.h"
+#include "server/replay/recorded_field.h"
+#include "server/store/stored_field.h"
+#include "shared/base/limits.h"
+#include "shared/base/option_check.h"
+#include "shared/base/program_output.h"
+#include "tools/export/gdal/geotiff_export.h"
+#include "tools/export/limits.h"
+#include "tools/export/live/live_terrain.h"
+#include "tools/export/mesh_export.h"
+#include "tools/export/surface_file.h"
+#include "tools/export/vdb/vdb_export.h"
+#include "tools/import/programs/program.h"
+
+namespace scree {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Progress = std::function<void(double)>;
+
+struct Options {
+  std::string from;
+  ServerEndpoint server;
+  bool live = false;  ///< from the server
+  int64_t timeout_s = 600;
+  std::string out;
+  std::string ground;
+  std::optional<Tick> tick;  ///< of a recording
+  std::vector<float> box_m;
+  std::optional<double> cell_m;
+};
+
+/// What is exported.
+struct Exported {
+  std::unique_ptr<Field> field;
+  ChunkBox box;
+};
+
+/// A recording's terrain after a tick; as of a world, its pieces are no rock of the terrain.
+Result<std::unique_ptr<Field>> field_of_recording(const Options& options) {
+  const auto giver = ground_giver(options.from, options.ground);
+  if (!giver) return tl::unexpected(giver.error());
+  return field_at(options.from, *options.tick, *giver);
+}
+
+/// A world's terrain with its edits.
+Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
+  auto file = WorldFile::open(options.from);
+  if (!file) return tl::unexpected(file.error());
+  if (auto held = (*file)->hold_moment(); !held) return tl::unexpected(held.error());
+  auto rows = (*file)->read_moment();
+  if (!rows) return tl::unexpected(rows.error());
+  const auto giver = ground_giver(options.from, options.ground);
+  if (!giver) return tl::unexpected(giver.error());
+  RecordedHeader& config = rows->world.moment.config;
+  if (auto given = give_ground(config.ground, config.terrain, *giver); !given)
+    return fail(options.from + ": " + given.error().message);
+  return stored_field(std::move(*file), config.terrain, limits::export_bricks_max);
+}
+
+Result<std::unique_ptr<Field>> field_of(const Options& options) {
+  if (options.tick) return field_of_recording(options);
+  if (!options.from.ends_with(".ground")) return field_of_world(options);
+  auto file = GroundFile::open(options.from);
+  if (!file) return tl::unexpected(file.error());
+  TerrainSource source;
+  source.heights = *file;
+  if (const auto& bricks = (*file)->bricks()) source.voxel_size_m = bricks->voxel_size_m;
+  return std::make_unique<MapField>(source);
+}
+
+/// That of --box.
+Result<ChunkBox> given_box(const Options& options, float voxel_size_m) {
+  const std::vector<float>& m = options.box_m;
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!(m[axis] < m[axis + 3]) || !(std::abs(m[axis]) <= 8192.0F) || !(std::abs(m[axis + 3]) <= 8192.0F))
+      return fail(
+          "--box is x,y,z of its lowest corner, then of its highest, in metres, within 8192 of the origin");
+  const ChunkBox box = chunks_of({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, voxel_size_m);
+  if (auto few = check_count(box); !few) return tl::unexpected(few.error());
+  return box;
+}
+
+Result<Exported> read_file(const Options& options) {
+  auto field = field_of(options);
+  if (!field) return tl::unexpected(field.error());
+  const auto box =
+      options.box_m.empty() ? whole_of(**field) : given_box(options, (*field)->source().voxel_size_m);
+  if (!box) return fail(options.from + ": " + box.error().message);
+  if (auto few = check_count(*box); !few) return fail(options.from + ": " + few.error().message);
+  return Exported{std::move(*field), *box};
+}
+
+Result<Exported> read_server(const Options& options, Json& line) {
+  LiveFetch fetch{.server = options.server, .within = std::chrono::seconds(options.timeout_s)};
+  if (!options.box_m.empty())
+    fetch.box = [&](const Field& field) { return given_box(options, field.source().voxel_size_m); };
+  auto terrain = with_bar([&](const Progress& progress) { return fetch_terrain(fetch, progress); });
+  if (!terrain) return tl::unexpected(terrain.error());
+  line["tick"] = terrain->tick;
+  line["sessions"] = terrain->sessions;
+  return Exported{std::move(terrain->field), terrain->box};
+}
+
+Result<Json> write_vdb(const Options& options, const Exported& what, const Progress& progress) {
+  const auto exported = export_vdb(*what.field, what.box, options.out, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"active_voxels", exported->active_voxels}, {"bytes", exported->bytes}};
+}
+
+Result<Json> write_mesh(const Options& options, const Exported& what, const Progress& progress) {
+  const auto exported = export_mesh(*what.field, what.box, options.out, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"points", exported->points},
+              {"triangles", exported->triangles},
+              {"volume_m3", exported->volume_m3},
+              {"bytes", exported->bytes}};
+}
+
+/// The ground file knows the height that its source has at y = 0; a server does not say it.
+Result<Json> write_elevation(const Options& options, const Exported& what, const Progress& progress) {
+  GeotiffExport how{.cell_m = options.cell_m};
+  if (const auto* file = dynamic_cast<const GroundFile*>(what.field->source().heights.get()))
+    how.zero_m = static_cast<double>(file->header().zero_m);
+  const auto exported = export_geotiff(*what.field, what.box, options.out, how, progress);
+  if (!exported) return tl::unexpected(exported.error());
+  return Json{{"columns", exported->grid.columns},
+              {"rows", exported->grid.rows},
+              {"cell_m", exported->grid.cell_m},
+              {"empty_cells", exported->sums.empty_cells},
+              {"lowest_m", exported->sums.lowest_m},
+              {"highest_m", exported->sums.highest_m},
+              {"zero_m", how.zero_m},
+              {"volume_m3", exported->sums.volume_m3},
+              {"georeference", nullptr},
+              {"bytes", exported->bytes}};
+}
+
+using Write = Result<Json> (*)(const Options& options, const Exported& what, const Progress& progress);
+
+Write writer_of(const std::string& path) {
+  if (path.ends_with(".vdb")) return write_vdb;
+  if (path.ends_with(".tif")) return write_elevation;
+  return is_surface_name(path) ? write_mesh : nullptr;
+}
+
+Result<void> run(const Options& options) {
+  const Write write = writer_of(options.out);
+  if (write == nullptr)
+    return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
+  const std::array files{NamedFile{"what is exported", options.from, false, true},
+                         NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
+  if (auto distinct = check_distinct(files); !distinct) return distinct;
+  if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
+  Json line{{"file", options.out}};
+  if (options.tick) line["tick"] = *options.tick;
+  const auto what = options.live ? read_server(options, line) : read_file(options);
+  if (!what) return tl::unexpected(what.error());
+  line["chunks"] = what->box.count();
+  const auto written = with_bar([&](const Progress& progress) -> Result<Json> {
+    try {
+      return write(options, *what, progress);
+    } catch (const ChunkUnreadable& unreadable) {  // of a kept world's file
+      return fail(unreadable.what());
+    }
+  });
+  if (!written) return tl::unexpected(written.error());
+  line.update(*written);
+  std::printf("%s\n", line.dump().c_str());
+  return {};
+}
+
+void declare(CLI::App& app, Options& options) {
+  CLI::Option* from = app.add_option("from", options.from,
+                                     "the file of a world, a ground (.ground), or, with --tick, a recording");
+  app.get_option("--server")->excludes(from);
+  app.add_option("--ground", options.ground,
+                 "the ground file of the world; unless said, looked for beside it and among all grounds")
+      ->needs(from);
+  bounded(app.add_option("--tick", options.tick, "of a recording: the terrain after this tick"),
+          whole_within(0, whole_most))
+      ->needs(from);
+  bounded(app.add_option("--timeout", options.timeout_s, "seconds that a server's terrain may take"),
+          whole_within(1, 86400))
+      ->needs(app.get_option("--server"))
+      ->capture_default_str();
+  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")->required();
+  app.add_option(
+         "--box", options.box_m,
+         "x,y,z,x,y,z: the lowest and the highest corner, metres, rounded to chunks; unless said, all that "
+         "was edited and all of a ground that ends")
+      ->delimiter(',')
+      ->expected(6);
+  app.add_option("--cell", options.cell_m, "metres between a .tif's samples; unless said, the voxels' size")
+      ->check(CLI::Range(double{limits::voxel_size_min_m}, 1024.0));
+}
+
+}  // namespace
+}  // namespace scree
+
+int main(int argc, char** argv) {
+  scree::fail_at_file_limit();
+  CLI::App app(
+      "Writes the rock of a kept world, of a ground, of a recording's tick or of a running server as an "
+      "OpenVDB level set, as a mesh or as an elevation model.",
+      "scree-export");
+  app.set_version_flag("--version", SCREE_VERSION);
+  scree::Options options;
+  scree::EndpointOptions endpoint(app, options.server, "SCREE_TOKEN", scree::EndpointNaming::server);
+  scree::declare(app, options);
+  if (const auto ended = scree::parse(app, argc, argv)) return *ended;
+  options.live = endpoint.names_server();
+  const auto completed = endpoint.complete();
+  if (!completed || options.live != options.from.empty()) {
+    scree::refuse(app, completed
+                           ? scree::Error{"either the file of a world, ground or recording, or --server"}
+                           : completed.error());
+    return scree::exit_usage;
+  }
+  const auto done = scree::run(options);
+  return done ? 0 : scree::refuse(app, done.error());
+}

@@ -1,0 +1,189 @@
+#include "tools/film/film_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "client/viewer/base/camera_text.h"
+#include "shared/base/option_check.h"
+#include "tools/film/encoded_film.h"
+#include "tools/film/limits.h"
+
+namespace scree {
+namespace {
+
+constexpr int usage_error = 2;
+
+/// For CLI::Option::check(): what a parser says is wrong, if anything.
+template <typename Parse>
+auto understood_by(Parse parse) {
+  return [parse](const std::string& text) {
+    const auto parsed = parse(text);
+    return parsed ? std::string() : parsed.error().message;
+  };
+}
+
+Result<void> check_method(const std::string& name) {
+  if (method_named(name) != nullptr) return {};
+  return fail("there is no '" + name + "'; there are\n" + describe_methods());
+}
+
+Result<void> check_quality(const std::string& name) {
+  if (kind_named<Quality>(name)) return {};
+  return fail("there is no '" + name + "'; there are " + listed(kind_names<Quality>));
+}
+
+/// Nothing where the option was not given.
+template <typename Value, typename Parse>
+std::optional<Value> if_given(const std::string& text, Parse parse) {
+  if (text.empty()) return std::nullopt;
+  auto value = parse(text);
+  return value ? std::optional<Value>(*value) : std::nullopt;  // the option's check has told
+}
+
+/// Declares the options, and understands them once they are parsed.
+class FilmOptionParser {
+ public:
+  explicit FilmOptionParser(CLI::App& app);
+
+  /// After parsing. The error names the option.
+  Result<FilmOptions> understand();
+
+ private:
+  void declare_moments(CLI::App& app);
+  void declare_camera(CLI::App& app);
+  void declare_pictures(CLI::App& app);
+  Result<void> understand_camera();
+
+  FilmOptions options_;
+  std::string from_, to_, camera_, path_, eye_, orbit_;
+  std::string size_ = "1280x720";
+  std::string method_{all_methods().front().name};
+  std::string quality_{name_of(Quality::high)};
+  float view_radius_m_ = 0.0F;  ///< 0: the quality's
+  int encoder_quality_ = 80;
+  CLI::Option* encoder_quality_given_ = nullptr;
+};
+
+FilmOptionParser::FilmOptionParser(CLI::App& app) {
+  app.add_option("RECORDING", options_.recording, "a recording")->required();
+  app.add_option("-o,--out", options_.format.file,
+                 "the film: a file that ends in .mp4, .webp or .gif, or a folder of PNGs, which ends in /")
+      ->required()
+      ->check(understood_by(check_film_name), "FILE");
+  app.add_option("--ground", options_.ground, "its ground file, where that does not lie beside it");
+  declare_moments(app);
+  declare_camera(app);
+  declare_pictures(app);
+  refuse_empty(app);
+}
+
+void FilmOptionParser::declare_moments(CLI::App& app) {
+  const auto moment = understood_by(parse_tick_or_time);
+  app.add_option("--from", from_, "the first moment: a tick, as 600, or a time, as 10s, 1.5m or 1:30")
+      ->check(moment, "MOMENT");
+  app.add_option(
+         "--to", to_,
+         "the moment at which it ends; unless said, an orbit shows 8 s about its event, a path's film is as "
+         "long as the path, and any other shows all of the recording")
+      ->check(moment, "MOMENT");
+  bounded(app.add_option("--fps", options_.order.frames_per_s, "frames a second"),
+          {limits::film_fps_min, limits::film_fps_max})
+      ->capture_default_str();
+  bounded(
+      app.add_option("--speed", options_.order.speed, "seconds of the recording in one second of the film"),
+      {limits::film_speed_min, limits::film_speed_max})
+      ->capture_default_str();
+}
+
+void FilmOptionParser::declare_camera(CLI::App& app) {
+  CLI::Option_group* const places = app.add_option_group(
+      "camera", "from where it is seen: at most one; unless said, an orbit round the largest event");
+  places
+      ->add_option("--camera", camera_,
+                   "from one place: x,y,z,yaw,pitch in metres and degrees, as the viewer's")
+      ->check(understood_by(parse_camera), "PLACE");
+  places->add_option("--path", path_, "FILE with key frames of the camera, as the viewer's (K records one)");
+  places->add_option("--eye", eye_,
+                     "by the eye of a person who was there: the name, or the number of who has none");
+  places
+      ->add_option(
+          "--orbit", orbit_,
+          "round an event: its number in `scree replay events`, counted from 1, or the largest of a kind: " +
+              listed(kind_names<EventKind>))
+      ->check(understood_by(parse_event), "EVENT");
+  places->require_option(0, 1);
+  refuse_empty(*places);
+}
+
+void FilmOptionParser::declare_pictures(CLI::App& app) {
+  app.add_option("--size", size_, "WIDTHxHEIGHT, pixels")
+      ->check(understood_by(parse_size), "SIZE")
+      ->capture_default_str();
+  app.add_option("--method", method_, "how it is drawn:\n" + describe_methods())
+      ->check(understood_by(check_method), "METHOD")
+      ->capture_default_str();
+  app.add_option("--quality", quality_, "what a frame may cost: " + listed(kind_names<Quality>))
+      ->check(understood_by(check_quality), "QUALITY")
+      ->capture_default_str();
+  bounded(app.add_option("--view-radius", view_radius_m_,
+                         "how far terrain is drawn in detail, metres, instead of the quality's"),
+          {limits::view_radius_min_m, limits::view_radius_max_m});
+  app.add_option("--particles", options_.drawn.particles,
+                 "dust, grit and splinters where rock breaks, strikes and settles: true or false")
+      ->capture_default_str();
+  encoder_quality_given_ =
+      bounded(app.add_option("--encoder-quality", encoder_quality_,
+                             "of .mp4 and .webp: more is nearer to the pictures, and larger"),
+              whole_within(1, 100))
+          ->capture_default_str();
+}
+
+Result<void> FilmOptionParser::understand_camera() {
+  options_.order.camera = if_given<WhichEvent>(orbit_, parse_event).value_or(WhichEvent());
+  if (const auto camera = if_given<Camera>(camera_, parse_camera)) options_.order.camera = *camera;
+  if (!eye_.empty()) options_.order.camera = PersonsEye{eye_};
+  if (path_.empty()) return {};
+  auto path = CameraPath::read(path_);
+  if (!path) return tl::unexpected(path.error());
+  options_.order.camera = std::move(*path);
+  return {};
+}
+
+Result<FilmOptions> FilmOptionParser::understand() {
+  if (auto camera = understand_camera(); !camera) return tl::unexpected(camera.error());
+  options_.order.from = if_given<TickOrTime>(from_, parse_tick_or_time);
+  options_.order.to = if_given<TickOrTime>(to_, parse_tick_or_time);
+  DrawChoice& drawn = options_.drawn;
+  drawn.size = if_given<PictureSize>(size_, parse_size).value_or(PictureSize());
+  drawn.method = method_named(method_);
+  drawn.quality = kind_named<Quality>(quality_).value_or(Quality::high);
+  drawn.view_radius_m = view_radius_m_ > 0.0F ? view_radius_m_ : traits_of(drawn.quality).view_radius_m;
+  FilmFormat& format = options_.format;
+  const Encoding* encoding = encoding_of(format.file);
+  if (encoder_quality_given_->count() > 0 && (encoding == nullptr || !encoding->has_quality))
+    return fail("--encoder-quality is of .mp4 and .webp alone");
+  format.width = drawn.size.width;
+  format.height = drawn.size.height;
+  format.frames_per_s = options_.order.frames_per_s;
+  format.quality = encoder_quality_;
+  return options_;
+}
+
+}  // namespace
+
+std::variant<FilmOptions, int> parse_film_options(int argc, const char* const* argv) {
+  CLI::App app("Makes a film of a recording, by drawing its moments one after the other.", "scree-render");
+  app.set_version_flag("--version", SCREE_VERSION);
+  FilmOptionParser parser(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : usage_error;
+  }
+  auto options = parser.understand();
+  if (options) return std::move(*options);
+  std::fprintf(stderr, "scree-render: %s\n", options.error().message.c_str());
+  return usage_error;
+}
+
+}  // namespace scree

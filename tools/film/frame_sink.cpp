@@ -1,0 +1,30 @@
+#include "tools/film/frame_sink.h"
+
+#include <filesystem>
+
+#include "tools/film/encoded_film.h"
+#include "tools/film/picture_folder.h"
+
+namespace scree {
+namespace {
+
+bool is_folder(const std::string& file) {
+  return file.ends_with('/');
+}
+
+}  // namespace
+
+Result<void> check_film_name(const std::string& file) {
+  std::error_code unknown;
+  if (!is_folder(file) && std::filesystem::is_directory(file, unknown))
+    return fail("'" + file + "' is a folder: write " + file + "/ for a film of PNGs in it");
+  if (is_folder(file) || encoding_of(file) != nullptr) return {};
+  return fail("'" + file + "' is no film: it ends in .mp4, .webp or .gif, or in / for a folder of PNGs");
+}
+
+Result<std::unique_ptr<FrameSink>> open_sink(const FilmFormat& format, Stopped stopped) {
+  if (is_folder(format.file)) return open_picture_folder(format.file);
+  return open_encoded_film(format, std::move(stopped));
+}
+
+}  // namespace scree

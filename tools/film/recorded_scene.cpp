@@ -1,0 +1,104 @@
+#include "tools/film/recorded_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "client/mirror/pose_between.h"
+#include "client/viewer/base/limits.h"
+#include "server/replay/recorded_field.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// Ticks after which the speeds of pieces are known, by which they raise dust.
+constexpr double ticks_to_know_speeds = 3.0;
+
+}  // namespace
+
+/// Begins so early that all dust of the first moment is raised on the way there.
+Result<std::unique_ptr<RecordedScene>> RecordedScene::open(const std::string& path, double from_tick,
+                                                           const GroundGiver& ground) {
+  auto source = ReplaySource::open(path, 0, ground);
+  if (!source) return tl::unexpected(source.error());
+  CHECK(from_tick >= static_cast<double>((*source)->first_tick()) &&
+        from_tick <= static_cast<double>((*source)->last_tick()));
+  const double dust_ticks = double{limits::particle_seconds_max} * (*source)->header().world.tick_rate_hz;
+  const auto start = static_cast<Tick>(std::max(static_cast<double>((*source)->first_tick()),
+                                                std::floor(from_tick - dust_ticks) - ticks_to_know_speeds));
+  if (auto sought = (*source)->seek(start); !sought) return tl::unexpected(sought.error());
+  auto state = state_at_start(**source);
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<RecordedScene>(new RecordedScene(std::move(*source), std::move(*state)));
+}
+
+RecordedScene::RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_ptr<const TickDelta> state)
+    : source_(std::move(source)),
+      field_(source_->header().world.terrain),
+      moment_(static_cast<double>(state->tick)) {
+  take(std::move(state), unseen_);
+}
+
+Result<MirrorChanges> RecordedScene::go_to(double tick) {
+  CHECK(tick >= moment_ && tick <= static_cast<double>(source_->last_tick()));
+  const auto whole = static_cast<Tick>(tick);
+  while (now_->tick < whole) {
+    if (auto read = look_ahead(); !read) return tl::unexpected(read.error());
+    take(std::exchange(ahead_, nullptr), unseen_);
+  }
+  const double part = tick - static_cast<double>(whole);
+  if (part > 0.0)
+    if (auto read = look_ahead(); !read) return tl::unexpected(read.error());
+  move_pieces(static_cast<float>(part));
+  moment_ = tick;
+  return std::exchange(unseen_, {});
+}
+
+Result<void> RecordedScene::look_ahead() {
+  if (ahead_ != nullptr) return {};
+  auto next = source_->next();
+  if (!next) return tl::unexpected(next.error());
+  CHECK(*next != nullptr);  // the caller stays within the recording
+  CHECK_EQ((*next)->tick, now_->tick + 1);
+  ahead_ = std::move(*next);
+  return {};
+}
+
+void RecordedScene::take(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes) {
+  now_ = std::move(delta);
+  follow_bricks(*now_, field_);
+  for (const BrickState& brick : now_->bricks) changes.bricks.push_back(brick.coord);
+  for (const SpawnedPiece& piece : now_->spawned) volumes_[piece.id] = piece.volume;
+  take_pieces(changes);
+  const double now_s = seconds_of(static_cast<double>(now_->tick));
+  dust_.add(watch_.step(pieces_, field_.source().voxel_size_m, now_s), now_s);
+}
+
+/// The pieces alive after the tick, where they are then.
+void RecordedScene::take_pieces(MirrorChanges& changes) {
+  ScenePieces alive;
+  for (const PieceState& piece : now_->pieces) {
+    alive.emplace_hint(alive.end(), piece.id, ScenePiece{volumes_.at(piece.id), dequantise(piece.pose)});
+    if (pieces_.erase(piece.id) == 0) changes.pieces_added.push_back(piece.id);
+  }
+  for (const auto& [id, piece] : pieces_) changes.pieces_removed.push_back(id);
+  pieces_ = std::move(alive);
+  std::erase_if(volumes_, [this](const auto& volume) { return !pieces_.contains(volume.first); });
+}
+
+/// Each piece to that part of its way from the last whole tick to the next one; one that ends there waits.
+void RecordedScene::move_pieces(float part) {
+  for (const PieceState& from : now_->pieces) {
+    Pose pose = dequantise(from.pose);
+    if (part > 0.0F) {
+      const auto to = std::ranges::lower_bound(ahead_->pieces, from.id, {}, &PieceState::id);
+      if (to != ahead_->pieces.end() && to->id == from.id)
+        pose = pose_between(pose, dequantise(to->pose), part);
+    }
+    pieces_.at(from.id).pose = pose;
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,294 @@
+#include "tools/import/bricks_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "ground/ground_writer.h"
+#include "shared/base/limits.h"
+#include "shared/field/mass.h"
+#include "shared/field/redistance.h"
+#include "tools/import/chunk_pyramid.h"
+#include "tools/import/level_ground.h"
+#include "tools/import/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// Where two solids touch, their common face is inside, however it is rounded. Voxels.
+constexpr float seam_voxels = 0.001F;
+
+/// A brick with a voxel of the solids below this code shows their surface: half a voxel, rounded up.
+constexpr Code surface_code = 22;
+
+constexpr float voxel_default_m = 0.25F;
+
+/// The grounds that take part: what the solids stand on, and what a client makes without stored chunks.
+struct Grounds {
+  TerrainSource under;
+  TerrainSource bare;
+};
+
+VoxelBox box_of(ChunkCoord chunk) {
+  const VoxelCoord first = first_voxel(chunk);
+  return {first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}};
+}
+
+Result<VoxelBox> box_of(const std::vector<std::unique_ptr<Solid>>& solids, float voxel_size_m) {
+  std::optional<VoxelBox> box;
+  for (const auto& solid : solids) {
+    if (solid->box().empty()) return fail("it has no rock at all");
+    box = box ? hull_of(*box, solid->box()) : solid->box();
+  }
+  if (!box) return fail("there is nothing to import");
+  if (auto layout = layout_around(*box, voxel_size_m); !layout) return tl::unexpected(layout.error());
+  return *box;
+}
+
+/// The level of rock where nothing else is said, in steps of heights.
+Result<Grounds> grounds_of(const BricksImport& how, const std::vector<std::unique_ptr<Solid>>& solids,
+                           const VoxelBox& box, float voxel_size_m) {
+  Grounds grounds;
+  grounds.under.voxel_size_m = grounds.bare.voxel_size_m = voxel_size_m;
+  if (how.on != nullptr) {
+    grounds.under.heights = how.on;
+    grounds.bare.heights = std::make_shared<BareGround>(how.on);
+    return grounds;
+  }
+  double level_m = std::numeric_limits<double>::infinity();
+  for (const auto& solid : solids)
+    level_m = std::min(level_m, solid->lowest_m() + static_cast<double>(voxel_size_m));
+  level_m = how.level_m.value_or(level_m);
+  constexpr auto most_m = static_cast<double>(limits::height_max_m);
+  if (!(std::abs(level_m) <= most_m))
+    return fail(
+        fmt::format("the level rock below lies at {:.4g} m, beyond ± {:.0f} m (limits.height_max_m); "
+                    "--level says another height, --at another place",
+                    level_m, most_m));
+  const int side = std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.z), std::abs(box.hi.z)});
+  const float cell_m = std::clamp(2.0F * static_cast<float>(side) * voxel_size_m, limits::height_cell_min_m,
+                                  limits::height_cell_max_m);
+  const MaterialHeights none{-limits::world_half_height_m, limits::world_half_height_m};
+  grounds.under.heights = grounds.bare.heights = std::make_shared<LevelGround>(
+      static_cast<int32_t>(std::lround(level_m * height_steps_per_m)), cell_m, how.layers.value_or(none));
+  return grounds;
+}
+
+class Importer {
+ public:
+  Importer(const std::vector<std::unique_ptr<Solid>>& solids, const BricksImport& how, Grounds grounds)
+      : solids_(solids),
+        how_(how),
+        grounds_(std::move(grounds)),
+        under_(grounds_.under),
+        bare_(grounds_.bare) {
+    under_.bound_generated(fields_bytes_max);
+    bare_.bound_generated(fields_bytes_max);
+  }
+
+  const Grounds& grounds() const { return grounds_; }
+  double volume_m3() const {
+    const auto voxel_m = static_cast<double>(grounds_.bare.voxel_size_m);
+    return static_cast<double>(mass_) / units_per_voxel * voxel_m * voxel_m * voxel_m;
+  }
+
+  Result<ChunkPyramid::Level> finest(const VoxelBox& box, const std::function<void(double)>& progress) {
+    std::set<ChunkCoord> surface;
+    for (const auto& solid : solids_) {
+      const auto chunks = solid->surface_chunks();
+      surface.insert(chunks.begin(), chunks.end());
+    }
+    std::set<ChunkCoord> candidates = how_.exact ? exact_chunks() : with_interior(surface, box);
+    if (how_.on != nullptr)
+      for (const TileKey key : how_.on->chunks())
+        if (key.level == 0) candidates.insert(chunk_of(key));
+    ChunkPyramid::Level level;
+    size_t done = 0;
+    for (const ChunkCoord chunk : candidates) {
+      GeneratedChunk made =
+          how_.exact ? exact_chunk(chunk) : chunk_with_solids(chunk, surface.contains(chunk));
+      if (!same_bricks(made, bare_.chunk_bricks(chunk).generated))
+        level.emplace(chunk, std::make_shared<const GeneratedChunk>(std::move(made)));
+      if (level.size() > limits::import_chunks_max)
+        return fail(
+            fmt::format("more than {} chunks of {} voxels a side have to be stored "
+                        "(limits.import_chunks_max); larger voxels (--voxel-size) make fewer",
+                        limits::import_chunks_max, chunk_size));
+      progress(0.8 * static_cast<double>(++done) / static_cast<double>(candidates.size()));
+    }
+    if (level.empty())
+      return fail("all of it lies inside the rock of the ground: nothing would be seen of it");
+    return level;
+  }
+
+ private:
+  static constexpr size_t fields_bytes_max = size_t{16} << 20U;
+
+  /// And the chunks that are all rock, where the ground is not.
+  std::set<ChunkCoord> with_interior(const std::set<ChunkCoord>& surface, const VoxelBox& box) {
+    std::set<ChunkCoord> chunks = surface;
+    constexpr VoxelCoord middle{chunk_size / 2, chunk_size / 2, chunk_size / 2};
+    for_each_chunk(box, [&](ChunkCoord chunk) {
+      if (surface.contains(chunk)) return;
+      for (const auto& solid : solids_)
+        if (solid->is_inside(first_voxel(chunk) + middle)) {
+          chunks.insert(chunk);
+          return;
+        }
+    });
+    return chunks;
+  }
+
+  std::set<ChunkCoord> exact_chunks() const {
+    std::set<ChunkCoord> chunks;
+    for_each_chunk({first_voxel(how_.exact->lo), first_voxel(how_.exact->hi)},
+                   [&](ChunkCoord chunk) { chunks.insert(chunk); });
+    return chunks;
+  }
+
+  GeneratedChunk exact_chunk(ChunkCoord chunk) {
+    Window window(box_of(chunk));
+    std::vector<float> levels(window.codes.size());
+    solids_.front()->read_levels(window.box, levels);
+    std::ranges::transform(levels, window.codes.begin(), [](float level) { return encode(level); });
+    mass_ += mass_of(window);
+    GeneratedChunk made = split_into_bricks(window, chunk);
+    for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i)
+      if (const auto material = solids_.front()->material(brick_in_chunk(chunk, i)))
+        made.materials[static_cast<size_t>(i)] = static_cast<uint8_t>(1 + static_cast<int>(*material));
+    return made;
+  }
+
+  GeneratedChunk chunk_with_solids(ChunkCoord chunk, bool has_surface) {
+    if (!has_surface) {
+      const bool rock = std::ranges::any_of(
+          solids_, [&](const auto& solid) { return solid->is_inside(first_voxel(chunk)); });
+      if (!rock) return copy_of(under_.chunk_bricks(chunk).generated);
+      mass_ += MassUnits{chunk_size} * chunk_size * chunk_size * units_per_voxel;
+      GeneratedChunk made = uniform_chunk(solid_brick());
+      put_materials(made, chunk, nullptr);
+      return made;
+    }
+    const VoxelBox box = box_of(chunk).grown(chunk_apron);
+    std::vector<float> levels = levels_of_solids(box);
+    Window solids(box);
+    distances_from_levels(levels, solids);
+    mass_ += mass_of(part_of(solids, box_of(chunk)));
+    Window together = gather(under_, box);
+    unite(solids, levels, together);
+    GeneratedChunk made = split_into_bricks(together, chunk);
+    made.materials = under_.chunk_bricks(chunk).generated.materials;
+    put_materials(made, chunk, &solids);
+    return made;
+  }
+
+  /// The least of all solids' levels.
+  std::vector<float> levels_of_solids(const VoxelBox& box) const {
+    std::vector<float> levels(Window::count(box), std::numeric_limits<float>::max());
+    std::vector<float> own(levels.size());
+    for (const auto& solid : solids_) {
+      if (common(solid->box().grown(chunk_apron), box).empty()) continue;
+      solid->read_levels(box, own);
+      const float seam = solids_.size() > 1 ? seam_voxels : 0.0F;
+      std::ranges::transform(levels, own, levels.begin(),
+                             [seam](float a, float b) { return std::min(a, b - seam); });
+    }
+    return levels;
+  }
+
+  /// `ground` becomes the union with the solids. Where they are far, it keeps its codes.
+  static void unite(const Window& solids, std::vector<float>& levels, Window& ground) {
+    if (std::ranges::all_of(ground.codes, [](Code code) { return code == code_air; })) {
+      ground.codes = solids.codes;
+      return;
+    }
+    for (size_t i = 0; i < levels.size(); ++i)
+      levels[i] =
+          std::min(levels[i], decode(ground.codes[i]) - (levels[i] < band_voxels ? seam_voxels : 0.0F));
+    Window united(ground.box);
+    distances_from_levels(levels, united);
+    for (size_t i = 0; i < levels.size(); ++i)
+      if (solids.codes[i] != code_air) ground.codes[i] = std::min(united.codes[i], ground.codes[i]);
+  }
+
+  /// Of the bricks in which the solids have rock, or their surface within rounding; all, if there is no
+  /// window of them.
+  void put_materials(GeneratedChunk& chunk, ChunkCoord at, const Window* solids) const {
+    for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+      const BrickCoord brick = brick_in_chunk(at, i);
+      const VoxelCoord first = first_voxel(brick);
+      if (chunk.bricks[static_cast<size_t>(i)] == &air_brick()) continue;
+      if (solids != nullptr) {
+        const Window part = part_of(*solids, {first, first + VoxelCoord{brick_size, brick_size, brick_size}});
+        if (std::ranges::none_of(part.codes, [](Code code) { return code < surface_code; })) continue;
+      }
+      std::optional<Material> material;
+      for (const auto& solid : solids_)
+        if (!material) material = solid->material(brick);
+      if (!material) material = how_.material;
+      if (material)
+        chunk.materials[static_cast<size_t>(i)] = static_cast<uint8_t>(1 + static_cast<int>(*material));
+    }
+  }
+
+  const std::vector<std::unique_ptr<Solid>>& solids_;
+  const BricksImport& how_;
+  const Grounds grounds_;
+  MapField under_;
+  MapField bare_;
+  MassUnits mass_ = 0;
+};
+
+Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const Grounds& grounds,
+                                                 const BricksImport& how) {
+  HeightLayout layout = grounds.bare.heights->layout();
+  auto writer = GroundWriter::create(path, layout, how.on != nullptr ? how.on->header().zero_m : 0.0F);
+  if (!writer) return tl::unexpected(writer.error());
+  if (how.on != nullptr) {
+    (*writer)->copy_heights(*how.on);
+  } else {
+    const std::vector<int32_t> row(static_cast<size_t>(layout.columns), layout.lowest);
+    for (int z = 0; z < layout.rows; ++z) (*writer)->add_row(row);
+  }
+  return writer;
+}
+
+}  // namespace
+
+Result<BricksImported> import_bricks(const std::vector<std::unique_ptr<Solid>>& solids,
+                                     const std::string& path, const BricksImport& how,
+                                     const std::function<void(double)>& progress) {
+  const bool on_bricks = how.on != nullptr && how.on->bricks();
+  const float voxel_size_m =
+      how.voxel_size_m.value_or(on_bricks ? how.on->bricks()->voxel_size_m : voxel_default_m);
+  if (on_bricks && how.on->bricks()->voxel_size_m != voxel_size_m)
+    return fail(fmt::format("the bricks of the ground below have voxels of {} m, not {} m",
+                            how.on->bricks()->voxel_size_m, voxel_size_m));
+  const auto box = box_of(solids, voxel_size_m);
+  if (!box) return tl::unexpected(box.error());
+  auto grounds = grounds_of(how, solids, *box, voxel_size_m);
+  if (!grounds) return tl::unexpected(grounds.error());
+  Importer importer(solids, how, std::move(*grounds));
+  auto level = importer.finest(*box, progress);
+  if (!level) return tl::unexpected(level.error());
+  auto writer = begin_file(path, importer.grounds(), how);
+  if (!writer) return tl::unexpected(writer.error());
+  BricksImported imported;
+  imported.chunks = level->size();
+  imported.volume_m3 = importer.volume_m3();
+  ChunkPyramid pyramid(importer.grounds().bare, std::move(*level));
+  (*writer)->begin_chunks(pyramid.layout());
+  pyramid.write(**writer);
+  progress(1.0);
+  const auto header = (*writer)->finish();
+  if (!header) return tl::unexpected(header.error());
+  imported.header = *header;
+  imported.bytes = (*writer)->bytes();
+  return imported;
+}
+
+}  // namespace scree

@@ -1,0 +1,243 @@
+#include "tools/import/heights_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+#include "ground/ground_writer.h"
+#include "shared/base/limits.h"
+#include "tools/import/limits.h"
+
+namespace scree {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// What the first reading finds.
+struct Survey {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  double highest_m = -std::numeric_limits<double>::infinity();
+  uint64_t nodata = 0;
+};
+
+Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::function<void(double)>& progress) {
+  const Raster::Shape shape = raster.shape();
+  Survey found;
+  std::vector<double> row(static_cast<size_t>(shape.columns));
+  for (int z = 0; z < shape.rows; ++z) {
+    if (Result<void> read = raster.read_row(z, row); !read) return tl::unexpected(read.error());
+    for (const double height : row) {
+      if (!std::isfinite(height)) {
+        ++found.nodata;
+        continue;
+      }
+      found.lowest_m = std::min(found.lowest_m, height * how.vertical_scale);
+      found.highest_m = std::max(found.highest_m, height * how.vertical_scale);
+    }
+    progress(0.3 * (z + 1) / shape.rows);
+  }
+  if (found.lowest_m > found.highest_m)
+    return fail("the raster has no height at all: every cell is without data");
+  if (std::max(-found.lowest_m, found.highest_m) > limits::raster_height_max_m)
+    return fail(
+        fmt::format("heights of {:.4g} to {:.4g} m are none in metres (limits.raster_height_max_m); "
+                    "--vertical-scale makes metres of other units",
+                    found.lowest_m, found.highest_m));
+  return found;
+}
+
+/// A raster's rows in the ground's samples. Where these lie between cells, by the cubic B-spline, as the
+/// ground's own surface (shared/field/heights.h): heights in whole metres make no terraces. Rows are asked
+/// for from the north.
+class Resampled {
+ public:
+  Resampled(Raster& raster, const HeightLayout& layout, double scale, double nodata_m)
+      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), nodata_m_(nodata_m) {}
+
+  Result<void> row(int z, std::span<double> heights_m) {
+    const auto [first, weight] = place(z, layout_.rows, shape_.rows);
+    std::array<const std::vector<double>*, 4> rows{};
+    for (int k = 0; k < 4; ++k) {
+      const auto row = source(std::clamp(first + k, 0, shape_.rows - 1));
+      if (!row) return tl::unexpected(row.error());
+      rows[static_cast<size_t>(k)] = *row;
+    }
+    for (size_t i = 0; i < heights_m.size(); ++i) {
+      double sum = 0.0;
+      for (size_t k = 0; k < 4; ++k) sum += weight[k] * (*rows[k])[i];
+      heights_m[i] = sum;
+    }
+    rows_.erase(rows_.begin(), rows_.lower_bound(std::clamp(first, 0, shape_.rows - 1)));
+    return {};
+  }
+
+ private:
+  struct Place {
+    int first;
+    std::array<double, 4> weight;
+  };
+
+  static Place place(int i, int count, int source_count) {
+    if (count == source_count) return {i - 1, {0.0, 1.0, 0.0, 0.0}};
+    const double at =
+        static_cast<double>(i) * static_cast<double>(source_count - 1) / static_cast<double>(count - 1);
+    const int whole = std::min(static_cast<int>(at), source_count - 1);
+    const double t = at - static_cast<double>(whole), s = 1.0 - t;
+    return {whole - 1,
+            {s * s * s / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
+             (3.0 * s * s * s - 6.0 * s * s + 4.0) / 6.0, t * t * t / 6.0}};
+  }
+
+  /// A row of the raster, in the ground's columns.
+  Result<const std::vector<double>*> source(int z) {
+    const auto found = rows_.find(z);
+    if (found != rows_.end()) return &found->second;
+    std::vector<double> cells(static_cast<size_t>(shape_.columns));
+    if (Result<void> read = raster_.read_row(z, cells); !read) return tl::unexpected(read.error());
+    for (double& height : cells) height = std::isfinite(height) ? height * scale_ : nodata_m_;
+    std::vector<double> row(static_cast<size_t>(layout_.columns));
+    for (int x = 0; x < layout_.columns; ++x) {
+      const auto [first, weight] = place(x, layout_.columns, shape_.columns);
+      double sum = 0.0;
+      for (int k = 0; k < 4; ++k)
+        sum += weight[static_cast<size_t>(k)] *
+               cells[static_cast<size_t>(std::clamp(first + k, 0, shape_.columns - 1))];
+      row[static_cast<size_t>(x)] = sum;
+    }
+    return &rows_.emplace(z, std::move(row)).first->second;
+  }
+
+  Raster& raster_;
+  const Raster::Shape shape_;
+  const HeightLayout& layout_;
+  double scale_;
+  double nodata_m_;
+  std::map<int, std::vector<double>> rows_;
+};
+
+Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& how) {
+  if (shape.columns < 2 || shape.rows < 2)
+    return fail(
+        fmt::format("{} × {} cells make no surface: at least 2 × 2 are needed", shape.columns, shape.rows));
+  if (shape.columns > limits::raster_side_max || shape.rows > limits::raster_side_max)
+    return fail(fmt::format("{} × {} cells: at most {} a side can be imported (limits.raster_side_max)",
+                            shape.columns, shape.rows, limits::raster_side_max));
+  const double cell_x_m = how.cell_m.value_or(shape.cell_x_m.value_or(none));
+  const double cell_z_m = how.cell_m.value_or(shape.cell_z_m.value_or(none));
+  if (!std::isfinite(cell_x_m) || !std::isfinite(cell_z_m))
+    return fail("the file does not say how wide its cells are: --cell METRES does");
+  const double sample_m = how.sample_m.value_or(std::min(cell_x_m, cell_z_m));
+  const double width = std::round(cell_x_m * (shape.columns - 1) / sample_m);
+  const double depth = std::round(cell_z_m * (shape.rows - 1) / sample_m);
+  if (width * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m) ||
+      depth * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m))
+    return fail(fmt::format(
+        "{:.0f} × {:.0f} m are wider than a world, {:.0f} m (limits.world_half_width_m); cut the "
+        "raster (gdal_translate -srcwin), or say --cell for a smaller scale",
+        width * sample_m, depth * sample_m, 2.0 * static_cast<double>(limits::world_half_width_m)));
+  if (!(width + 1.0 <= limits::height_samples_max && depth + 1.0 <= limits::height_samples_max))
+    return fail(fmt::format("samples every {} m are more than {} a side (limits.height_samples_max)",
+                            sample_m, limits::height_samples_max));
+  HeightLayout layout;
+  layout.columns = static_cast<int32_t>(width) + 1;
+  layout.rows = static_cast<int32_t>(depth) + 1;
+  layout.cell_m = static_cast<float>(sample_m);
+  return layout;
+}
+
+/// The height that becomes y = 0; the error says how the model can be made to fit.
+Result<double> zero_of(const Survey& found, const HeightsImport& how) {
+  const double relief_m = found.highest_m - found.lowest_m;
+  const bool low = relief_m <= limits::relief_at_zero_max_m;
+  const double zero_m =
+      how.zero_m.value_or(std::floor(low ? found.lowest_m : 0.5 * (found.lowest_m + found.highest_m)));
+  const auto max_m = static_cast<double>(limits::height_max_m);
+  if (found.lowest_m - zero_m < -max_m || found.highest_m - zero_m > max_m)
+    return fail(
+        fmt::format("heights of {:.1f} to {:.1f} m do not fit into ± {:.0f} m around {:.1f} m "
+                    "(limits.height_max_m); --vertical-scale below {:.2f} makes them fit",
+                    found.lowest_m, found.highest_m, max_m, zero_m,
+                    how.vertical_scale * 2.0 * max_m / std::max(relief_m, 1.0)));
+  return zero_m;
+}
+
+int32_t quantised(double height_m) {
+  const auto max_m =
+      static_cast<double>(limits::height_max_m);  // what fills cells without data may go beyond
+  return static_cast<int32_t>(std::lround(std::clamp(height_m, -max_m, max_m) * height_steps_per_m));
+}
+
+void note(HeightsImported& imported, const HeightLayout& layout, int z, std::span<const int32_t> heights) {
+  const double cell_m = static_cast<double>(layout.cell_m);
+  double sum = 0.0;
+  for (const int32_t height : heights) sum += static_cast<double>(height);
+  imported.volume_m3 += sum / height_steps_per_m * cell_m * cell_m;
+  const int side = std::max(layout.columns, layout.rows);
+  const int step = (side + limits::preview_side_max - 1) / limits::preview_side_max;
+  if (z % step != 0) return;
+  imported.preview_columns = (layout.columns + step - 1) / step;
+  imported.preview_cell_m = layout.cell_m * static_cast<float>(step);
+  for (int x = 0; x < layout.columns; x += step)
+    imported.preview_m.push_back(static_cast<float>(heights[static_cast<size_t>(x)]) / height_steps_per_m);
+}
+
+}  // namespace
+
+Result<HeightsImported> import_heights(Raster& raster, const std::string& path, const HeightsImport& how,
+                                       const std::function<void(double)>& progress) {
+  auto layout = layout_of(raster.shape(), how);
+  if (!layout) return tl::unexpected(layout.error());
+  const auto found = survey(raster, how, progress);
+  if (!found) return tl::unexpected(found.error());
+  const auto zero_m = zero_of(*found, how);
+  if (!zero_m) return tl::unexpected(zero_m.error());
+  layout->layers.soil_below_m = static_cast<float>(how.soil_below_m.value_or(limits::world_half_height_m));
+  layout->layers.ice_above_m = static_cast<float>(how.ice_above_m.value_or(limits::world_half_height_m));
+  if (Result<void> valid = validate(*layout); !valid) return tl::unexpected(valid.error());
+  auto writer = GroundWriter::create(path, *layout, static_cast<float>(*zero_m));
+  if (!writer) return tl::unexpected(writer.error());
+  HeightsImported imported;
+  Resampled resampled(raster, *layout, how.vertical_scale, how.nodata_m.value_or(found->lowest_m));
+  std::vector<double> row(static_cast<size_t>(layout->columns));
+  std::vector<int32_t> heights(row.size());
+  for (int z = 0; z < layout->rows; ++z) {
+    if (Result<void> read = resampled.row(z, row); !read) return tl::unexpected(read.error());
+    std::ranges::transform(row, heights.begin(),
+                           [&](double height_m) { return quantised(height_m - *zero_m); });
+    (*writer)->add_row(heights);
+    note(imported, *layout, z, heights);
+    progress(0.3 + 0.7 * (z + 1) / layout->rows);
+  }
+  const auto header = (*writer)->finish();
+  if (!header) return tl::unexpected(header.error());
+  imported.header = *header;
+  imported.bytes = (*writer)->bytes();
+  imported.nodata = found->nodata;
+  imported.lowest_m = found->lowest_m;
+  imported.highest_m = found->highest_m;
+  return imported;
+}
+
+std::vector<uint8_t> shaded_relief(const HeightsImported& imported) {
+  const int columns = imported.preview_columns;
+  const int rows = static_cast<int>(imported.preview_m.size()) / columns;
+  const auto at = [&](int x, int z) {
+    return imported
+        .preview_m[static_cast<size_t>(std::clamp(z, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1))];
+  };
+  std::vector<uint8_t> pixels;
+  pixels.reserve(imported.preview_m.size());
+  for (int z = 0; z < rows; ++z)
+    for (int x = 0; x < columns; ++x) {
+      const float east = (at(x + 1, z) - at(x - 1, z)) / (2.0F * imported.preview_cell_m);
+      const float south = (at(x, z + 1) - at(x, z - 1)) / (2.0F * imported.preview_cell_m);
+      const float light = (east + south + 1.4142F) / (2.0F * std::sqrt(east * east + south * south + 1.0F));
+      pixels.push_back(static_cast<uint8_t>(255.0F * std::clamp(light, 0.0F, 1.0F)));
+    }
+  return pixels;
+}
+
+}  // namespace scree

@@ -1,0 +1,80 @@
+#include "tools/import/mesh/winding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace scree {
+
+namespace {
+
+constexpr uint32_t leaf_triangles = 8;
+/// A node counts as one dipole from this many of its radii on; errors are then below a hundredth.
+constexpr double far_radii = 2.0;
+constexpr double full_angle = 4.0 * M_PI;
+
+/// Van Oosterom and Strackee 1983.
+double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+  return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
+}
+
+}  // namespace
+
+WindingTree::WindingTree(const TriangleMesh& mesh) {
+  for (const auto& t : mesh.triangles)
+    triangles_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  if (!triangles_.empty()) build(0, static_cast<uint32_t>(triangles_.size()));
+}
+
+uint32_t WindingTree::build(uint32_t first, uint32_t count) {
+  const auto index = static_cast<uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  Node node{{}, {}, 0.0, first, count, 0};
+  double area = 0.0;
+  glm::dvec3 lo(1e300), hi(-1e300);
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Corners& t = triangles_[i];
+    const glm::dvec3 normal = 0.5 * glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double own = glm::length(normal);
+    node.normal += normal;
+    node.centre += own * (t[0] + t[1] + t[2]) / 3.0;
+    area += own;
+    for (const glm::dvec3& p : t) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  }
+  node.centre = area > 0.0 ? node.centre / area : 0.5 * (lo + hi);
+  for (uint32_t i = first; i < first + count; ++i)
+    for (const glm::dvec3& p : triangles_[i])
+      node.radius = std::max(node.radius, glm::length(p - node.centre));
+  if (count > leaf_triangles) {
+    const glm::dvec3 size = hi - lo;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    const auto begin = triangles_.begin() + first;
+    std::nth_element(begin, begin + count / 2, begin + count, [axis](const Corners& a, const Corners& b) {
+      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
+    });
+    build(first, count / 2);
+    node.right = build(first + count / 2, count - count / 2);
+  }
+  nodes_[index] = node;
+  return index;
+}
+
+double WindingTree::winding(const glm::dvec3& p) const {
+  return nodes_.empty() ? 0.0 : winding(0, p) / full_angle;
+}
+
+double WindingTree::winding(uint32_t at, const glm::dvec3& p) const {
+  const Node& node = nodes_[at];
+  const glm::dvec3 to = node.centre - p;
+  const double distance = glm::length(to);
+  if (distance > far_radii * node.radius) return glm::dot(to, node.normal) / (distance * distance * distance);
+  if (node.right != 0) return winding(at + 1, p) + winding(node.right, p);
+  double sum = 0.0;
+  for (uint32_t i = node.first; i < node.first + node.count; ++i)
+    sum += solid_angle(triangles_[i][0] - p, triangles_[i][1] - p, triangles_[i][2] - p);
+  return sum;
+}
+
+}  // namespace scree

@@ -1,0 +1,23 @@
+// A solid of an OpenVDB grid, read through its transform. Internal to import/vdb.
+#pragma once
+
+#include "tools/import/placement.h"
+#include "tools/import/solid.h"
+#include "tools/import/vdb/vdb_grids.h"
+
+namespace scree {
+
+/// Rock is where sign · (value − iso) is negative; of a level set 1 and 0, of a fog volume −1 and the
+/// density.
+struct GridSide {
+  float iso = 0.0F;
+  float sign = 1.0F;
+};
+
+/// The grid's values are finite, and a level set's are metres. `materials` may be null. The error
+/// says that it is beyond the world, or too large for voxels of that size.
+Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openvdb::Int32Grid::Ptr materials,
+                                             const GridSide& side, const Placement& place,
+                                             float voxel_size_m);
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// Solids from OpenVDB files: level sets, and fog volumes by the density at which rock begins.
+#pragma once
+
+#include <string>
+
+#include "tools/import/bricks_import.h"
+#include "tools/import/placement.h"
+
+namespace scree {
+
+struct VdbImport {
+  std::string grid{};    ///< its name; unless said, the first of floats
+  double density = 0.5;  ///< of a fog volume: rock where it is more
+  Placement place{};
+  float voxel_size_m = 0.25F;  ///< of the world
+};
+
+struct VdbSolid {
+  std::unique_ptr<Solid> solid;
+  std::string grid;
+  bool is_level_set = false;
+  /// What `scree export` wrote of the ground, if the file is from there, its voxels are the world's and it is
+  /// not moved: then its codes are exact.
+  std::optional<BricksImport::Exact> exact{};
+  std::optional<double> level_m{};
+  std::optional<MaterialHeights> layers{};
+};
+
+/// The error says what is wrong with the file. All of the grid lies in memory from then on.
+Result<VdbSolid> read_vdb(const std::string& path, const VdbImport& how);
+
+}  // namespace scree

@@ -1,0 +1,58 @@
+#include "tools/scenes/build.h"
+
+#include "server/store/stored_field.h"
+#include "shared/base/overloaded.h"
+#include "shared/operation/operation.h"
+
+namespace scree {
+
+namespace {
+
+/// A tick has time for a fill of any size; those before it may have put it off.
+constexpr int ticks_a_request_max = 60;
+
+Result<void> carry_out(World& world, const BuildStep& step) {
+  const Command command{.body = std::visit([](const auto& request) { return Request(request); }, step)};
+  std::shared_ptr<const TickDelta> delta = world.step({&command, 1});
+  for (int tick = 1; delta->replies.empty(); ++tick) {
+    if (tick == ticks_a_request_max) return fail("the world does not answer what builds the scene");
+    delta = world.step({});
+  }
+  const std::string& refusal = delta->replies.front().refusal;
+  return refusal.empty() ? Result<void>() : fail(refusal);
+}
+
+}  // namespace
+
+Result<void> build_scene(World& world, const SceneSetup& setup) {
+  for (const BuildStep& step : setup.build)
+    if (auto done = carry_out(world, step); !done) return done;
+  return {};
+}
+
+Result<std::unique_ptr<World>> scene_world(const SceneSetup& setup, size_t threads) {
+  auto world = World::create(setup.config, threads);
+  if (!world) return world;
+  if (auto built = build_scene(**world, setup); !built) return tl::unexpected(built.error());
+  return world;
+}
+
+void build_scene(Field& field, const SceneSetup& setup) {
+  PieceTable none;
+  for (const BuildStep& step : setup.build)
+    std::visit(Overloaded{[&](const FillRequest& fill) { apply(FillOperation{fill.shape}, field, none); },
+                          [&](const PaintRequest& paint) {
+                            apply(PaintOperation{paint.shape, paint.material}, field, none);
+                          }},
+               step);
+}
+
+Result<void> make_scene_file(const SceneSetup& setup, const std::string& path, uint64_t number) {
+  auto world = scene_world(setup);
+  if (!world) return tl::unexpected(world.error());
+  WorldHeader header{.world = number, .config = (*world)->moment().config};
+  header.config.program = "scree-scene " SCREE_VERSION;
+  return create_world(path, header, **world);
+}
+
+}  // namespace scree
