@@ -32,8 +32,7 @@ Result<void> check_text(const std::string& text, size_t bytes_max, const char* w
 
 Result<void> check(const AccessToken& token) {
   if (token.id == 0) return fail("a token's id is not 0");
-  if (Result<void> name = check_text(token.name, limits::person_name_bytes_max, "the name"); !name)
-    return name;
+  TRY(check_text(token.name, limits::person_name_bytes_max, "the name"));
   return check_text(token.world, limits::world_name_bytes_max, "the world's name");
 }
 
@@ -58,14 +57,14 @@ Result<AccessToken> read_payload(std::span<const uint8_t> payload) {
   token.world = read_text(reader, "world");
   reader.finish();
   if (reader.failed()) return tl::unexpected(reader.error());
-  if (Result<void> good = check(token); !good) return tl::unexpected(good.error());
+  TRY(check(token));
   return token;
 }
 
 }  // namespace
 
 Result<std::string> sign(const AccessToken& token, const SigningKey& key) {
-  if (Result<void> good = check(token); !good) return tl::unexpected(good.error());
+  TRY(check(token));
   std::vector<uint8_t> bytes = bytes_of(prefix);
   ByteWriter writer(bytes);
   writer.u8(static_cast<uint8_t>(token.role));

@@ -58,7 +58,7 @@ Result<void> write_new(const std::string& path, mode_t mode, BIO* content) {
 Result<VerifyingKey> VerifyingKey::read(const std::string& path) {
   auto key = read_key(path, "public",
                       [](BIO* file) { return PEM_read_bio_PUBKEY(file, nullptr, nullptr, nullptr); });
-  if (!key) return tl::unexpected(key.error());
+  TRY(key);
   return VerifyingKey(std::move(*key));
 }
 
@@ -83,7 +83,7 @@ Result<SigningKey> SigningKey::read(const std::string& path) {
   const auto none = [](char*, int, int, void*) { return 0; };
   auto key = read_key(path, "private",
                       [&](BIO* file) { return PEM_read_bio_PrivateKey(file, nullptr, none, nullptr); });
-  if (!key) return tl::unexpected(key.error());
+  TRY(key);
   return SigningKey(std::move(*key));
 }
 
@@ -93,7 +93,7 @@ Result<void> SigningKey::write(const std::string& path, const std::string& publi
   CHECK(PEM_write_bio_PrivateKey(secret.get(), key_->key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1);
   CHECK(PEM_write_bio_PUBKEY(open.get(), key_->key.get()) == 1);
   if (::access(public_path.c_str(), F_OK) == 0) return fail(public_path + " exists already");
-  if (Result<void> written = write_new(path, owner_only, secret.get()); !written) return written;
+  TRY(write_new(path, owner_only, secret.get()));
   return write_new(public_path, everybody_reads, open.get());
 }
 

@@ -65,9 +65,8 @@ TlsServerContext::~TlsServerContext() = default;
 
 Result<std::shared_ptr<const TlsServerContext>> TlsServerContext::load(const std::string& certificate_path,
                                                                        const std::string& key_path) {
-  auto context = context_for(TLS_server_method());
-  if (!context) return tl::unexpected(context.error());
-  SSL_CTX* const tls = context->get();
+  auto context = TRY(context_for(TLS_server_method()));
+  SSL_CTX* const tls = context.get();
   const std::string certificate = "the TLS certificate " + certificate_path;
   const std::string key = "the TLS key " + key_path;
   if (!can_be_read(certificate_path)) return fail(certificate + " cannot be read");
@@ -84,7 +83,7 @@ Result<std::shared_ptr<const TlsServerContext>> TlsServerContext::load(const std
     return fail(key + " is no private key in PEM form without a passphrase: " + words);
   }
   auto impl = std::make_unique<Impl>();
-  impl->context = std::move(*context);
+  impl->context = std::move(context);
   return std::shared_ptr<const TlsServerContext>(new TlsServerContext(std::move(impl)));
 }
 
@@ -102,13 +101,12 @@ TlsClientContext::TlsClientContext(std::unique_ptr<Impl> impl) : impl_(std::move
 TlsClientContext::~TlsClientContext() = default;
 
 Result<std::shared_ptr<const TlsClientContext>> TlsClientContext::make(const TlsTrust& trust) {
-  auto context = context_for(TLS_client_method());
-  if (!context) return tl::unexpected(context.error());
+  auto context = TRY(context_for(TLS_client_method()));
   auto impl = std::make_unique<Impl>();
-  SSL_CTX* const tls = context->get();
+  SSL_CTX* const tls = context.get();
   if (!trust.fingerprint.empty()) {
     auto fingerprint = canonical_fingerprint(trust.fingerprint);
-    if (!fingerprint) return tl::unexpected(fingerprint.error());
+    TRY(fingerprint);
     impl->fingerprint = std::move(*fingerprint);
   } else {
     SSL_CTX_set_verify(tls, SSL_VERIFY_PEER, nullptr);
@@ -124,7 +122,7 @@ Result<std::shared_ptr<const TlsClientContext>> TlsClientContext::make(const Tls
       X509_VERIFY_PARAM_set_flags(SSL_CTX_get0_param(tls), X509_V_FLAG_PARTIAL_CHAIN);
     }
   }
-  impl->context = std::move(*context);
+  impl->context = std::move(context);
   return std::shared_ptr<const TlsClientContext>(new TlsClientContext(std::move(impl)));
 }
 

@@ -147,8 +147,7 @@ Result<void> TlsEngine::shake() {
   ERR_clear_error();
   const int done = SSL_do_handshake(impl_->ssl.get());
   if (done == 1) {
-    if (impl_->client)
-      if (Result<void> pinned = impl_->check_pinned(); !pinned) return pinned;
+    if (impl_->client) TRY(impl_->check_pinned());
     impl_->established = true;
     return {};
   }

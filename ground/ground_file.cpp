@@ -65,9 +65,8 @@ Result<void> GroundFile::read_index(uint64_t file_bytes) {
   if (header_.index_begins > file_bytes || file_bytes - header_.index_begins < bytes)
     return fail("it is cut short");
   if (header_.chunk_index_begins != header_.index_begins + bytes) return fail("its header is damaged");
-  const auto read = read_at(file_, header_.index_begins, bytes);
-  if (!read) return tl::unexpected(read.error());
-  ByteReader reader(*read, "the index");
+  const auto read = TRY(read_at(file_, header_.index_begins, bytes));
+  ByteReader reader(read, "the index");
   index_.resize(tiles);
   for (Entry& entry : index_) {
     entry.begins = reader.u64("begin of a tile");
@@ -83,16 +82,14 @@ Result<void> GroundFile::read_chunk_index(uint64_t file_bytes) {
   if (!bricks()) return {};
   const uint64_t begins = header_.chunk_index_begins;
   if (begins > file_bytes || file_bytes - begins < sizeof(uint32_t)) return fail("it is cut short");
-  const auto count_bytes = read_at(file_, begins, sizeof(uint32_t));
-  if (!count_bytes) return tl::unexpected(count_bytes.error());
-  const size_t count = ByteReader(*count_bytes, "the index").u32("stored chunks");
+  const auto count_bytes = TRY(read_at(file_, begins, sizeof(uint32_t)));
+  const size_t count = ByteReader(count_bytes, "the index").u32("stored chunks");
   if (count > limits::file_chunks_max)
     return fail("it stores " + std::to_string(count) + " chunks, more than " +
                 std::to_string(limits::file_chunks_max) + " (limits.file_chunks_max)");
   if (file_bytes - begins - sizeof(uint32_t) < count * chunk_entry_bytes) return fail("it is cut short");
-  const auto read = read_at(file_, begins + sizeof(uint32_t), count * chunk_entry_bytes);
-  if (!read) return tl::unexpected(read.error());
-  ByteReader reader(*read, "the index");
+  const auto read = TRY(read_at(file_, begins + sizeof(uint32_t), count * chunk_entry_bytes));
+  ByteReader reader(read, "the index");
   for (size_t i = 0; i < count; ++i) {
     const auto number = [&] { return std::bit_cast<int32_t>(reader.u32("key of a stored chunk")); };
     const int level = number(), x = number(), y = number(), z = number();
@@ -116,15 +113,13 @@ Result<void> GroundFile::check_chunks() {
   size_t named = 1;
   for (auto each = chunks_.rbegin(); each != chunks_.rend(); ++each) {  // keys have the level first
     const TileKey key = each->first;
-    const auto bytes = read(key);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto unpacked = unpack_chunk(*bytes, key, *bricks());
-    if (!unpacked) return tl::unexpected(unpacked.error());
-    for (size_t i = 0; i < unpacked->children.size(); ++i) {
-      if (!unpacked->children[i]) continue;
+    const auto bytes = TRY(read(key));
+    const auto unpacked = TRY(unpack_chunk(bytes, key, *bricks()));
+    for (size_t i = 0; i < unpacked.children.size(); ++i) {
+      if (!unpacked.children[i]) continue;
       const auto child = chunks_.find(bricks()->children(key)[i]);
       if (child == chunks_.end()) return missing();
-      child->second.digest = *unpacked->children[i];
+      child->second.digest = *unpacked.children[i];
       ++named;
     }
   }
@@ -138,13 +133,11 @@ Result<void> GroundFile::check() {
     for (int z = 0; z < HeightLayout::tiles_on(level, layout().rows); ++z)
       for (int x = 0; x < HeightLayout::tiles_on(level, layout().columns); ++x) {
         const TileKey key{level, x, z};
-        const auto bytes = read(key);
-        if (!bytes) return tl::unexpected(bytes.error());
-        const auto tile = unpack_tile(*bytes, key, layout());
-        if (!tile) return tl::unexpected(tile.error());
+        const auto bytes = TRY(read(key));
+        const auto tile = TRY(unpack_tile(bytes, key, layout()));
         const std::vector<TileKey> children = layout().children(key);
         for (size_t i = 0; i < children.size(); ++i)
-          index_[index_of(layout(), children[i])].digest = tile->children[i];
+          index_[index_of(layout(), children[i])].digest = tile.children[i];
       }
   return {};
 }

@@ -97,10 +97,8 @@ Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   header.chunk_index_begins = reader.u64("index of stored chunks");
   if (reader.failed()) return tl::unexpected(reader.error());
   if (name != name_of(header)) return fail("it is damaged: its header does not have its hash");
-  if (Result<void> valid = validate(layout); !valid) return tl::unexpected(valid.error());
-  if (header.ground.bricks)
-    if (Result<void> valid = validate(header.ground.bricks->layout); !valid)
-      return tl::unexpected(valid.error());
+  TRY(validate(layout));
+  if (header.ground.bricks) TRY(validate(header.ground.bricks->layout));
   return header;
 }
 

@@ -193,9 +193,9 @@ void GroundWriter::write_index() {
 
 Result<GroundHeader> GroundWriter::finish() {
   end_heights();
-  if (Result<void> valid = validate(header_.ground.layout); !valid) return tl::unexpected(valid.error());
+  TRY(validate(header_.ground.layout));
   if (auto& bricks = header_.ground.bricks) {
-    if (Result<void> valid = validate(bricks->layout); !valid) return tl::unexpected(valid.error());
+    TRY(validate(bricks->layout));
     const TileKey root = bricks->layout.root();
     put_chunk(root, nullptr);
     bricks->root = orphans_.at(root);

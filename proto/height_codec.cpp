@@ -71,14 +71,13 @@ Result<UnpackedTile> unpack_tile(std::span<const uint8_t> bytes, TileKey key, co
     return fail("tile: of " + std::to_string(bytes.size()) + " bytes (limits.tile_bytes_max)");
   for (size_t i = 0; i < unpacked.children.size(); ++i)
     std::copy_n(bytes.data() + i * sizeof(Digest), sizeof(Digest), unpacked.children[i].begin());
-  const auto content = content_of(bytes.subspan(start));
-  if (!content) return tl::unexpected(content.error());
+  const auto content = TRY(content_of(bytes.subspan(start)));
   for (int z = 0; z < tile_samples; ++z)
     for (int x = 0; x < tile_samples; ++x) {
       const size_t i = HeightTile::index(x, z);
       uint32_t folded = 0;
       for (size_t plane = 0; plane < planes; ++plane)
-        folded |= static_cast<uint32_t>((*content)[plane * tile_sample_count + i]) << (8U * plane);
+        folded |= static_cast<uint32_t>(content[plane * tile_sample_count + i]) << (8U * plane);
       const auto height = static_cast<int32_t>(unfold(folded) + predicted(unpacked.tile.heights, x, z));
       if (height < layout.lowest || height > layout.highest)
         return fail("tile: a height is beyond those that the model is said to have");

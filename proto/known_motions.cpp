@@ -47,7 +47,7 @@ Result<std::vector<PieceId>> KnownMotions::advance(std::span<const uint8_t> moti
         }
         return steps;
       });
-  if (!decoded) return tl::unexpected(decoded.error());
+  TRY(decoded);
   for (const WholeMotion& whole : decoded->wholes) {
     const auto found = pieces_.find(whole.id);
     if (found == pieces_.end())

@@ -75,9 +75,8 @@ Result<GeneratedChunk> chunk_of_content(std::span<const uint8_t> content) {
       continue;
     }
     if (content.size() - next < brick_voxels) return fail("stored chunk: a brick's codes are missing");
-    const auto brick = read_codes(content.subspan(next, brick_voxels));
-    if (!brick) return tl::unexpected(brick.error());
-    bricks[i] = *brick;
+    const auto brick = TRY(read_codes(content.subspan(next, brick_voxels)));
+    bricks[i] = brick;
     next += brick_voxels;
   }
   if (next != content.size()) return fail("stored chunk: more codes than bricks");
@@ -129,11 +128,9 @@ Result<UnpackedChunk> unpack_chunk(std::span<const uint8_t> bytes, TileKey key, 
     unpacked.chunk = uniform_chunk(air_brick());
     return unpacked;
   }
-  const auto content = decompressed(bytes);
-  if (!content) return tl::unexpected(content.error());
-  auto chunk = chunk_of_content(*content);
-  if (!chunk) return tl::unexpected(chunk.error());
-  unpacked.chunk = std::move(*chunk);
+  const auto content = TRY(decompressed(bytes));
+  auto chunk = TRY(chunk_of_content(content));
+  unpacked.chunk = std::move(chunk);
   return unpacked;
 }
 

@@ -119,13 +119,12 @@ Result<std::vector<Part>> read_parts(std::string_view text) {
   std::vector<Part> parts;
   while (true) {
     const size_t comma = text.find(',');
-    const auto part = read_part(text.substr(0, comma));
-    if (!part) return tl::unexpected(part.error());
+    const auto part = TRY(read_part(text.substr(0, comma)));
     for (const Part& before : parts)
-      if (before.way == part->way && before.name == part->name)
-        return fail_with({"a link is told twice what its ", part->text.substr(0, part->text.find('=')),
-                          " is: '", before.text, "' and '", part->text, "'"});
-    parts.push_back(*part);
+      if (before.way == part.way && before.name == part.name)
+        return fail_with({"a link is told twice what its ", part.text.substr(0, part.text.find('=')),
+                          " is: '", before.text, "' and '", part.text, "'"});
+    parts.push_back(part);
     if (comma == std::string_view::npos) return parts;
     text.remove_prefix(comma + 1);
   }
@@ -168,13 +167,12 @@ size_t buffer_of(const LinkWay& way) {
 Result<LinkConfig> read_link(std::string_view text) {
   LinkConfig link;
   if (text.empty()) return link;
-  const auto parts = read_parts(text);
-  if (!parts) return tl::unexpected(parts.error());
+  const auto parts = TRY(read_parts(text));
   for (const bool of_one_way : {false, true})  // it stands over what is said of both, whichever comes first
-    for (const Part& part : *parts) {
+    for (const Part& part : parts) {
       if (part.way.empty() == of_one_way) continue;
       const Result<void> read = part.name == "seed" ? read_seed(part, link) : read_property(part, link);
-      if (!read) return tl::unexpected(read.error());
+      TRY(read);
     }
   return link;
 }

@@ -103,8 +103,8 @@ Result<void> measure(Stage& stage, const MethodEntry& entry, bool quick, BenchRe
     for (const auto& subject : subjects)
       for (int i = 0; i < (quick ? 1 : carves); ++i) {
         const auto seed = static_cast<uint64_t>(30 + round * carves + i);
-        if (Result<void> drawn = draw(stage, *subject, subject->standing, false, seed); !drawn) return drawn;
-        if (Result<void> drawn = draw(stage, *subject, subject->carving, true, seed); !drawn) return drawn;
+        TRY(draw(stage, *subject, subject->standing, false, seed));
+        TRY(draw(stage, *subject, subject->carving, true, seed));
         show_blast(stage, subject->drawing);
         const Result<void> drawn = draw(stage, *subject, subject->blasting, false, seed);
         stage.renderer->set_particles({});

@@ -126,20 +126,18 @@ Result<std::unique_ptr<Luanti>> Luanti::start(const std::string& folder, int vie
   state->folder = folder;
   state->view_nodes = view_nodes;
   const Result<uint16_t> port = free_udp_port();
-  if (!port) return tl::unexpected(port.error());
+  TRY(port);
   const std::string home = folder + "/server";
-  if (auto made = write_luanti_game(home + "/.minetest/games/" + luanti_game_id); !made)
-    return tl::unexpected(made.error());
+  TRY(write_luanti_game(home + "/.minetest/games/" + luanti_game_id));
   for (const auto& [path, text] : {std::pair(home + "/server.conf", server_settings()),
                                    std::pair(state->world() + "/orders", std::string())})
-    if (auto written = write_text_file(path, text); !written) return tl::unexpected(written.error());
+    TRY(write_text_file(path, text));
   state->server =
       start_at_home(home, server_path,
                     {"--config", home + "/server.conf", "--world", state->world(), "--gameid", luanti_game_id,
                      "--port", std::to_string(*port), "--logfile", home + "/log.txt"});
-  Result<std::unique_ptr<UdpRelay>> relay = UdpRelay::start(*port);
-  if (!relay) return tl::unexpected(relay.error());
-  state->relay = std::move(*relay);
+  std::unique_ptr<UdpRelay> relay = TRY(UdpRelay::start(*port));
+  state->relay = std::move(relay);
   const double until_s = steady_now_s() + ready_within_s;
   while (!state->has_answered("ready")) {
     if (steady_now_s() > until_s) return fail("Luanti's server is not ready after a minute");
@@ -155,8 +153,7 @@ Luanti::~Luanti() = default;
 Result<void> Luanti::add_client() {
   const std::string name = "viewer" + std::to_string(state_->clients.size());
   const std::string home = state_->folder + "/" + name;
-  if (auto written = write_text_file(home + "/client.conf", client_settings(state_->view_nodes)); !written)
-    return written;
+  TRY(write_text_file(home + "/client.conf", client_settings(state_->view_nodes)));
   state_->clients.push_back(
       start_at_home(home, client_path,
                     {"--config", home + "/client.conf", "--go", "--address", "127.0.0.1", "--port",

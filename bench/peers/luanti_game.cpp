@@ -96,10 +96,8 @@ end)
 }  // namespace
 
 Result<void> write_luanti_game(const std::string& folder) {
-  if (auto written = write_text_file(folder + "/game.conf", "title = Scree's peer\n"); !written)
-    return written;
-  if (auto written = write_text_file(folder + "/mods/rock/mod.conf", "name = rock\n"); !written)
-    return written;
+  TRY(write_text_file(folder + "/game.conf", "title = Scree's peer\n"));
+  TRY(write_text_file(folder + "/mods/rock/mod.conf", "name = rock\n"));
   return write_text_file(folder + "/mods/rock/init.lua", script);
 }
 

@@ -21,9 +21,8 @@ int complain(const std::string& message) {
 /// By name: a file has one, whatever it is called.
 Result<Results> results_at(const std::string& path, bool is_folder) {
   if (is_folder) return read_results(path);
-  Result<KeptResult> result = read_result(path);
-  if (!result) return tl::unexpected(result.error());
-  return Results{{result->name, std::move(*result)}};
+  KeptResult result = TRY(read_result(path));
+  return Results{{result.name, std::move(result)}};
 }
 
 /// What only one of two folders has; returns how many.

@@ -283,7 +283,7 @@ Result<std::map<std::string, KeptResult>> read_results(const std::string& folder
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     if (entry.path().extension() != ".json") continue;
     auto result = read_result(entry.path().string());
-    if (!result) return tl::unexpected(result.error());
+    TRY(result);
     if (entry.path().stem() != result->name)
       return fail(entry.path().string() + ": it holds the result of '" + result->name + "'");
     results[result->name] = std::move(*result);

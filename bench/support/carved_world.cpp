@@ -24,7 +24,7 @@ Result<void> write_behind(MapField& field, MadeWorld& world, int z) {
       ground += brick_mass(field.generated_brick(coord));
     }
     std::ranges::sort(bricks, {}, &BrickPatch::coord);
-    if (auto added = world.add(chunk, std::move(bricks), ground); !added) return added;
+    TRY(world.add(chunk, std::move(bricks), ground));
     field.forget_chunk(chunk);
   }
   return {};
@@ -33,8 +33,7 @@ Result<void> write_behind(MapField& field, MadeWorld& world, int z) {
 }  // namespace
 
 Result<void> write_carved_world(const std::string& path, const CarvedGround& ground) {
-  auto world = MadeWorld::create(path, ground.config);
-  if (!world) return tl::unexpected(world.error());
+  auto world = TRY(MadeWorld::create(path, ground.config));
   const TerrainSource& terrain = ground.config.terrain;
   MapField field(terrain);
   BlowGrid blows(terrain, ground.carves_a_side, ground.spacing_m, ground.radius_m, 1);
@@ -44,10 +43,10 @@ Result<void> write_carved_world(const std::string& path, const CarvedGround& gro
     pieces.clear();
     if (made % (rows_between_writes * ground.carves_a_side) != 0) continue;
     const int behind = floor_to_int(blow->impact_m.z / terrain.voxel_size_m) - reach_of_a_carve_voxels;
-    if (auto written = write_behind(field, *world, behind); !written) return written;
+    TRY(write_behind(field, world, behind));
   }
-  if (auto written = write_behind(field, *world, std::numeric_limits<int>::max()); !written) return written;
-  return world->finish();
+  TRY(write_behind(field, world, std::numeric_limits<int>::max()));
+  return world.finish();
 }
 
 }  // namespace scree

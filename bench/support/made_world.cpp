@@ -28,7 +28,7 @@ Result<MadeWorld> MadeWorld::create(const std::string& path, const WorldConfig& 
   remove_world(path + unfinished);
   auto file =
       WorldFile::create(path + unfinished, {.world = 1, .config = nothing.config}, {nothing, {}}, false);
-  if (!file) return tl::unexpected(file.error());
+  TRY(file);
   return MadeWorld(path, config, std::move(*file));
 }
 
@@ -55,7 +55,7 @@ Result<void> MadeWorld::finish() {
   MapField none(config_.terrain);
   moment_.state_hash = state_hash(
       {moment_.tick, moment_.field_hash, Bodies(none, {}).state_hash(), moment_.next_piece, ledger});
-  if (auto written = write(); !written) return written;
+  TRY(write());
   file_.reset();  // its log goes into it
   std::error_code error;
   std::filesystem::rename(path_ + unfinished, path_, error);

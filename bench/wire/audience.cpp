@@ -43,7 +43,7 @@ class Mirrors {
     for (size_t i = 0; i < count; ++i) {
       auto connected = Connection::connect(
           server, {protocol_version, "mirror", {0.0F, ground_m, 0.0F}, interest_m}, std::chrono::seconds(20));
-      if (!connected) return tl::unexpected(connected.error());
+      TRY(connected);
       mirrors_.push_back(std::make_unique<Mirror>((*connected)->welcome()));
       connections_.push_back(std::move(*connected));
     }
@@ -98,45 +98,41 @@ Result<AudienceOutcome> show_storm(const Audience& audience) {
   net.terrain = config.terrain;
   net.service = config.service;
   raise_descriptors(2 * sessions + 1024);
-  const auto server = NetServer::listen(net, commands);
-  if (!server) return tl::unexpected(server.error());
+  const auto server = TRY(NetServer::listen(net, commands));
   const auto times = std::make_unique<TickTimes>();
-  run_paced(world, **server, commands, *times, 0.5);
+  run_paced(world, *server, commands, *times, 0.5);
   malloc_trim(0);  // or viewers would use pages that lie free, and seem to need none
   const size_t before_bytes = process_memory_bytes();
-  const auto drains = Drains::connect((*server)->port(), hellos(audience, ground_m), *times);
-  if (!drains) return tl::unexpected(drains.error());
-  (*drains)->start();
+  const auto drains = TRY(Drains::connect(server->port(), hellos(audience, ground_m), *times));
+  drains->start();
   Mirrors eyes;
-  if (auto joined = eyes.join(audience.mirrors, (*server)->port(), ground_m); !joined)
-    return tl::unexpected(joined.error());
-  run_paced(world, **server, commands, *times, 2.0);
+  TRY(eyes.join(audience.mirrors, server->port(), ground_m));
+  run_paced(world, *server, commands, *times, 2.0);
   const size_t joined_bytes = process_memory_bytes();
-  (*drains)->count(true);
-  const auto others_s = [&] { return cpu_s(CLOCK_PROCESS_CPUTIME_ID) - (*drains)->cpu_s() - eyes.cpu_s(); };
+  drains->count(true);
+  const auto others_s = [&] { return cpu_s(CLOCK_PROCESS_CPUTIME_ID) - drains->cpu_s() - eyes.cpu_s(); };
   const double before_s = others_s();
   BlowGrid blows(config.terrain, 6, 4.5F, 2.0F, seeds_per_blow);
-  const PacedTicks ticks = run_paced(world, **server, commands, *times, audience.seconds, [&](uint64_t tick) {
+  const PacedTicks ticks = run_paced(world, *server, commands, *times, audience.seconds, [&](uint64_t tick) {
     return tick % ticks_per_blow == 0 ? blows.next() : std::nullopt;
   });
   const double busy_ms = (others_s() - before_s) * 1e3;
-  (*drains)->count(false);
-  (*drains)->stop();
+  drains->count(false);
+  drains->stop();
   eyes.stop();
   const auto viewers = static_cast<double>(audience.viewers), run = static_cast<double>(ticks.run);
   const double simulated_ms = std::accumulate(ticks.cpu_ms.begin(), ticks.cpu_ms.end(), 0.0);
   AudienceOutcome outcome;
-  outcome.ages = (*drains)->ages();
+  outcome.ages = drains->ages();
   outcome.ticks = ticks.run;
   outcome.late_ticks = ticks.late;
-  outcome.kbit_s_a_viewer =
-      static_cast<double>((*drains)->bytes()) * 8.0 / 1000.0 / audience.seconds / viewers;
+  outcome.kbit_s_a_viewer = static_cast<double>(drains->bytes()) * 8.0 / 1000.0 / audience.seconds / viewers;
   outcome.kib_a_viewer =
       static_cast<double>(joined_bytes - std::min(before_bytes, joined_bytes)) / 1024.0 / viewers;
   outcome.tick_cpu_ms = simulated_ms / run;
   outcome.net_cpu_ms = std::max(0.0, busy_ms - simulated_ms) / run;
-  outcome.resets = (*server)->stats().published.resets;
-  outcome.lost = (*drains)->lost();
+  outcome.resets = server->stats().published.resets;
+  outcome.lost = drains->lost();
   outcome.checks = eyes.checks();
   outcome.mismatches = eyes.mismatches();
   outcome.failure = eyes.failure();

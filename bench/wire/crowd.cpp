@@ -35,9 +35,8 @@ Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots,
   LiveConfig config;
   config.governed = true;
   config.world = world;
-  auto started = LiveServer::start(config);
-  if (!started) return tl::unexpected(started.error());
-  LiveServer& server = **started;
+  auto started = TRY(LiveServer::start(config));
+  LiveServer& server = *started;
   const auto begin = Clock::now();
   const auto end =
       begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -56,7 +55,7 @@ Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots,
   std::this_thread::sleep_until(end);
   outcome.ticks_per_s = static_cast<double>(server.report().ticks - ticks_before) / seconds_since(from);
   for (std::thread& thread : threads) thread.join();
-  if (const Result<void> stopped = server.stop(); !stopped) return tl::unexpected(stopped.error());
+  TRY(server.stop());
   outcome.server = server.report();
   return outcome;
 }

@@ -17,7 +17,7 @@ struct Crowd {
 
 Result<void> run_crowd(const Crowd& crowd, double seconds, BenchReport& report) {
   const auto outcome = show_storm({.viewers = crowd.viewers, .spread_m = crowd.spread_m, .seconds = seconds});
-  if (!outcome) return tl::unexpected(outcome.error());
+  TRY(outcome);
   const AgeCount& ages = outcome->ages;
   const std::string name = fmt::format("{}_{}", crowd.viewers, crowd.spread_m > 0.0F ? "spread" : "together");
   const double p99_ms = ages.quantile_ms(0.99);

@@ -263,16 +263,15 @@ Result<void> run_links(const std::vector<Link>& links, double seconds, BenchRepo
   NetConfig net;
   net.terrain = terrain;
   net.service = world.config().service;
-  const auto server = NetServer::listen(net, commands);
-  if (!server) return tl::unexpected(server.error());
+  const auto server = TRY(NetServer::listen(net, commands));
   const auto times = std::make_unique<TickTimes>();
-  RealTime simulation(world, **server, commands, *times);
+  RealTime simulation(world, *server, commands, *times);
   const auto never = [] { return false; };
   simulation.run(2.0, true, never);
   const double begin_s = steady_now_s();
   Viewers viewers;
   for (const Link& link : links)
-    viewers.push_back(std::make_unique<FarViewer>(link, (*server)->port(), eye_m, *times));
+    viewers.push_back(std::make_unique<FarViewer>(link, server->port(), eye_m, *times));
   simulation.run(5.0, true, never);
   for (const auto& viewer : viewers) viewer->count(true);
   simulation.run(seconds, true, never);

@@ -84,18 +84,16 @@ Result<void> make_world(BenchReport& report, const RoamPlan& plan, const WorldCo
   MassUnits ground = 0;
   for (const int32_t mass : ground_masses(config.terrain, carved_chunk)) ground += mass;
   const std::vector<ChunkCoord> square = square_of(chunks_of(plan));
-  auto world = MadeWorld::create(plan.made, config);
-  if (!world) return tl::unexpected(world.error());
+  auto world = TRY(MadeWorld::create(plan.made, config));
   for (size_t i = 0; i < square.size(); ++i) {
-    if (auto added = world->add(square[i], moved(carved[i % templates], square[i]), ground); !added)
-      return added;
+    TRY(world.add(square[i], moved(carved[i % templates], square[i]), ground));
     if (i + 1 != looked_at) continue;
-    const double bytes = static_cast<double>(world->bytes_written() * square.size()) / looked_at;
+    const double bytes = static_cast<double>(world.bytes_written() * square.size()) / looked_at;
     std::error_code ignored;
     if (bytes * 2.5 > static_cast<double>(fs::space(fs::path(plan.made).parent_path(), ignored).available))
       return fail(fmt::format("the disk has no room for {:.0f} MB", bytes * 2.5e-6));
   }
-  if (auto finished = world->finish(); !finished) return finished;
+  TRY(world.finish());
   report.metric("paged_made_s", watch.lap_ms() * 1e-3);
   return {};
 }

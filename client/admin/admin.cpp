@@ -27,9 +27,8 @@ class Talk {
   template <typename T>
   Result<T> next(const char* what) {
     for (;;) {
-      const auto message = next_message(what);
-      if (!message) return tl::unexpected(message.error());
-      if (const T* wanted = std::get_if<T>(&*message)) return *wanted;
+      const auto message = TRY(next_message(what));
+      if (const T* wanted = std::get_if<T>(&message)) return *wanted;
     }
   }
 
@@ -37,11 +36,10 @@ class Talk {
   template <typename T>
   Result<T> answer() {
     for (;;) {
-      const auto message = next_message("reply");
-      if (!message) return tl::unexpected(message.error());
-      const auto* reply = std::get_if<ReplyMessage>(&*message);
+      const auto message = TRY(next_message("reply"));
+      const auto* reply = std::get_if<ReplyMessage>(&message);
       if (reply != nullptr && !reply->refusal.empty()) return fail(reply->refusal);
-      if (const T* wanted = std::get_if<T>(&*message)) return *wanted;
+      if (const T* wanted = std::get_if<T>(&message)) return *wanted;
     }
   }
 
@@ -70,9 +68,8 @@ Result<Talk> join(const AdminServer& server) {
   const Clock::time_point until = Clock::now() + server.within;
   HelloMessage hello;
   hello.client = "scree-admin";
-  auto connected = Connection::connect(server, hello, server.within);
-  if (!connected) return tl::unexpected(connected.error());
-  return Talk(std::move(*connected), until);
+  auto connected = TRY(Connection::connect(server, hello, server.within));
+  return Talk(std::move(connected), until);
 }
 
 Result<StatusMessage> status_of(Talk& talk) {
@@ -80,74 +77,66 @@ Result<StatusMessage> status_of(Talk& talk) {
 }
 
 Result<SettingValues> settings_of_status(Talk& talk) {
-  Result<StatusMessage> status = status_of(talk);
-  if (!status) return tl::unexpected(status.error());
-  return std::move(status->settings);
+  StatusMessage status = TRY(status_of(talk));
+  return std::move(status.settings);
 }
 
 /// Joins, asks, and waits for the answer: an error when it is a refusal.
 template <typename Answer>
 Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminAct act) {
-  Result<Talk> talk = join(server);
-  if (!talk) return tl::unexpected(talk.error());
-  talk->send(AdminMessage{1, "", std::move(act)});
-  Result<Answer> answer = talk->answer<Answer>();
-  if (!answer) return tl::unexpected(answer.error());
-  return std::pair{std::move(*answer), std::move(*talk)};
+  Talk talk = TRY(join(server));
+  talk.send(AdminMessage{1, "", std::move(act)});
+  Result<Answer> answer = talk.answer<Answer>();
+  TRY(answer);
+  return std::pair{std::move(*answer), std::move(talk)};
 }
 
 Result<void> done_by(const AdminServer& server, AdminAct act) {
-  const auto asked = ask<ReplyMessage>(server, std::move(act));
-  if (!asked) return tl::unexpected(asked.error());
+  const auto asked = TRY(ask<ReplyMessage>(server, std::move(act)));
   return {};
 }
 
 }  // namespace
 
 Result<StatusMessage> read_status(const AdminServer& server) {
-  Result<Talk> talk = join(server);
-  if (!talk) return tl::unexpected(talk.error());
-  Result<StatusMessage> status = status_of(*talk);
+  Talk talk = TRY(join(server));
+  Result<StatusMessage> status = status_of(talk);
   if (status && status->clients > 0) --status->clients;  // the others: this program is one while it asks
   return status;
 }
 
 Result<SettingValues> read_settings(const AdminServer& server) {
-  Result<Talk> talk = join(server);
-  if (!talk) return tl::unexpected(talk.error());
-  return settings_of_status(*talk);
+  Talk talk = TRY(join(server));
+  return settings_of_status(talk);
 }
 
 Result<SettingValues> change_settings(const AdminServer& server, const SettingValues& changes) {
-  auto asked = ask<ReplyMessage>(server, changes);
-  if (!asked) return tl::unexpected(asked.error());
+  auto asked = TRY(ask<ReplyMessage>(server, changes));
   // A reply follows its own tick's messages, so the next status is of a later one.
-  return settings_of_status(asked->second);
+  return settings_of_status(asked.second);
 }
 
 Result<std::vector<SessionRow>> list_sessions(const AdminServer& server) {
   auto asked = ask<AdminListMessage>(server, ListSessions{});
-  if (!asked) return tl::unexpected(asked.error());
+  TRY(asked);
   return std::move(asked->first.sessions);
 }
 
 Result<std::vector<BanRow>> list_bans(const AdminServer& server) {
   auto asked = ask<AdminListMessage>(server, ListBans{});
-  if (!asked) return tl::unexpected(asked.error());
+  TRY(asked);
   return std::move(asked->first.bans);
 }
 
 Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish) {
-  Result<Talk> talk = join(server);
-  if (!talk) return tl::unexpected(talk.error());
-  if (!talk->welcome().replay) return fail("this server plays no recording (scree server --replay)");
-  const auto before = talk->next<PlaybackMessage>("playback");
-  if (!before) return tl::unexpected(before.error());
-  talk->send(AdminMessage{1, "", wish});
-  if (const auto taken = talk->answer<ReplyMessage>(); !taken) return tl::unexpected(taken.error());
+  Talk talk = TRY(join(server));
+  if (!talk.welcome().replay) return fail("this server plays no recording (scree server --replay)");
+  const auto before = TRY(talk.next<PlaybackMessage>("playback"));
+  talk.send(AdminMessage{1, "", wish});
+  TRY(talk.answer<ReplyMessage>());
   for (;;) {
-    auto now = talk->next<PlaybackMessage>("playback");
-    if (!now || now->heeded > before->heeded) return now;
+    auto now = talk.next<PlaybackMessage>("playback");
+    if (!now || now->heeded > before.heeded) return now;
   }
 }
 

@@ -55,7 +55,7 @@ Result<void> Bot::join() {
 tl::expected<void, ConnectionEnd> Bot::connect() {
   const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
   auto connected = join_server(rejoin_, config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
-  if (!connected) return tl::unexpected(connected.error());
+  TRY(connected);
   connection_ = std::move(*connected);
   report_.welcome = connection_->welcome();
   mirror_ = rejoin_.begin(*connection_);
@@ -118,9 +118,9 @@ Result<void> Bot::step(std::chrono::milliseconds wait) {
 
 Result<void> Bot::receive(const Received& received) {
   tally(received, report_);
-  if (Result<void> taken = rejoin_.before(received.message, *mirror_); !taken) return taken;
+  TRY(rejoin_.before(received.message, *mirror_));
   const Result<MirrorChanges> applied = mirror_->apply(received.message);
-  if (!applied) return tl::unexpected(applied.error());
+  TRY(applied);
   rejoin_.after(received.message, *mirror_, *connection_);
   while (const auto repair = mirror_->take_repair_request()) {
     log("check", "a check failed at tick " + std::to_string(repair->tick) + ": asking for " +

@@ -89,32 +89,29 @@ void ReceivedTiles::begin_session() {
 Result<ReceivedTiles::Held> ReceivedTiles::unpacked(TileKey key, std::vector<uint8_t> bytes) {
   Held held;
   if (key.kind == TileKind::bricks) {
-    auto unpacked = unpack_chunk(bytes, key, *bricks());
-    if (!unpacked) return tl::unexpected(unpacked.error());
+    auto unpacked = TRY(unpack_chunk(bytes, key, *bricks()));
     const std::array<TileKey, 8> places = bricks()->children(key);
     for (size_t i = 0; i < places.size(); ++i) {
-      if (!unpacked->children[i]) continue;
-      digests_[places[i]] = *unpacked->children[i];
+      if (!unpacked.children[i]) continue;
+      digests_[places[i]] = *unpacked.children[i];
       held.children = static_cast<uint8_t>(held.children | (1U << i));
     }
-    held.chunk = std::make_shared<const GeneratedChunk>(std::move(unpacked->chunk));
+    held.chunk = std::make_shared<const GeneratedChunk>(std::move(unpacked.chunk));
   } else {
-    auto unpacked = unpack_tile(bytes, key, layout());
-    if (!unpacked) return tl::unexpected(unpacked.error());
+    auto unpacked = TRY(unpack_tile(bytes, key, layout()));
     const std::vector<TileKey> children = layout().children(key);
-    for (size_t i = 0; i < children.size(); ++i) digests_[children[i]] = unpacked->children[i];
-    held.tile = std::make_shared<const HeightTile>(unpacked->tile);
+    for (size_t i = 0; i < children.size(); ++i) digests_[children[i]] = unpacked.children[i];
+    held.tile = std::make_shared<const HeightTile>(unpacked.tile);
   }
   held.packed = std::move(bytes);
   return held;
 }
 
 Result<void> ReceivedTiles::put(TileKey key, std::vector<uint8_t> bytes) {
-  auto held = unpacked(key, std::move(bytes));
-  if (!held) return tl::unexpected(held.error());
+  auto held = TRY(unpacked(key, std::move(bytes)));
   const std::scoped_lock lock(mutex_);
-  held_bytes_ += held->bytes();
-  held_[key] = std::move(*held);
+  held_bytes_ += held.bytes();
+  held_[key] = std::move(held);
   missed_.erase(key);
   return {};
 }
@@ -128,7 +125,7 @@ Result<void> ReceivedTiles::take(const TileMessage& message) {
   const Digest& digest = digests_.at(message.key);
   if (sha256(message.bytes) != digest)
     return fail("a tile of the ground does not have the hash that names it");
-  if (Result<void> done = put(message.key, message.bytes); !done) return done;
+  TRY(put(message.key, message.bytes));
   ++received_;
   folder_.write(digest, message.bytes);
   return {};

@@ -92,7 +92,7 @@ void Rejoin::offer(const Mirror& mirror, ServerChannel& connection) {
 Result<void> Rejoin::before(const ServerMessage& message, Mirror& mirror) {
   if (const auto* tile = std::get_if<TileMessage>(&message)) {
     if (tiles_ == nullptr) return fail("a tile of a ground that has none");
-    if (Result<void> taken = tiles_->take(*tile); !taken) return taken;
+    TRY(tiles_->take(*tile));
     if (tiles_->tiles_received() % limits::tiles_between_bounds == 0) folder_.bound();
   }
   if (!keeps()) return {};

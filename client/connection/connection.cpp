@@ -83,9 +83,8 @@ Result<void> Connection::Impl::start(const ServerEndpoint& server, const std::ve
   if (server.host.empty()) return fail("no server is named (--host)");
   std::shared_ptr<const TlsClientContext> tls;
   if (server.tls) {
-    auto made = TlsClientContext::make(server.trust);
-    if (!made) return tl::unexpected(made.error());
-    tls = std::move(*made);
+    auto made = TRY(TlsClientContext::make(server.trust));
+    tls = std::move(made);
   }
   resolver.async_resolve(server.host, std::to_string(server.port),
                          [this, server, tls, first](const asio::error_code& error, const auto& results) {

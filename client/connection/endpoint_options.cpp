@@ -80,8 +80,7 @@ Result<void> EndpointOptions::take_server() {
 }
 
 Result<void> EndpointOptions::complete() {
-  if (names_server())
-    if (const auto taken = take_server(); !taken) return taken;
+  if (names_server()) TRY(take_server());
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
   if (!link_.empty()) {
     const auto link = read_link(link_);
@@ -89,9 +88,8 @@ Result<void> EndpointOptions::complete() {
     endpoint_.link = *link;
   }
   if (!token_path_.empty()) {
-    auto token = read_secret(token_path_, limits::access_token_bytes_max);
-    if (!token) return tl::unexpected(token.error());
-    endpoint_.token = std::move(*token);
+    auto token = TRY(read_secret(token_path_, limits::access_token_bytes_max));
+    endpoint_.token = std::move(token);
   }
   if (endpoint_.token.empty()) return {};
   return check_secret(endpoint_.token, limits::access_token_bytes_max);

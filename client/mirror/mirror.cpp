@@ -89,7 +89,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
       },
       message);
   if (applied) applied = within_limits();
-  if (!applied) return tl::unexpected(applied.error());
+  TRY(applied);
   return changes;
 }
 
@@ -132,13 +132,13 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
   }
   for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);
   ++counters_.frames;
-  if (Result<void> applied = apply_transforms(frame.transforms, frame.tick); !applied) return applied;
+  TRY(apply_transforms(frame.transforms, frame.tick));
   return apply_motions(frame.motions, frame.tick);
 }
 
 Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, float& work_us, ChunkSet& changed,
                                      MirrorChanges& changes) {
-  if (Result<void> valid = validate(operation, table_, field_.source().voxel_size_m); !valid) return valid;
+  TRY(validate(operation, table_, field_.source().voxel_size_m));
   work_us += price_us(operation, field_, table_);
   if (work_us > limits::mirror_frame_work_max_us)
     return fail("more work than any tick's (limits.mirror_frame_work_max_us)");
@@ -219,24 +219,22 @@ std::optional<RepairRequest> Mirror::take_repair_request() {
 }
 
 Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick tick) {
-  const Result<std::vector<PieceState>> states = unpack_transforms(packed);
-  if (!states) return tl::unexpected(states.error());
-  for (const PieceState& state : *states) {
+  const std::vector<PieceState> states = TRY(unpack_transforms(packed));
+  for (const PieceState& state : states) {
     const auto found = motions_.find(state.id);
     if (found == motions_.end())
       return fail("the pose of piece " + std::to_string(state.id) + ", which is not known here");
     move_piece(found->second, dequantise(state.pose), tick);
   }
-  counters_.transforms += states->size();
+  counters_.transforms += states.size();
   counters_.transform_bytes += packed.size();
   return {};
 }
 
 Result<void> Mirror::apply_motions(const std::vector<uint8_t>& motions, Tick tick) {
-  const Result<std::vector<PieceId>> moved = known_motions_.advance(motions);
-  if (!moved) return tl::unexpected(moved.error());
-  for (const PieceId id : *moved) move_piece(motions_.at(id), pose_of(*known_motions_.motion(id)), tick);
-  counters_.transforms += moved->size();
+  const std::vector<PieceId> moved = TRY(known_motions_.advance(motions));
+  for (const PieceId id : moved) move_piece(motions_.at(id), pose_of(*known_motions_.motion(id)), tick);
+  counters_.transforms += moved.size();
   counters_.transform_bytes += motions.size();
   return {};
 }

@@ -49,7 +49,7 @@ Result<void> MethodSwitch::follow(const MirrorChanges& changes, const Scene& sce
   Slot& wanted = shown_.method ? next_ : shown_;
   if (shown_fits) next_ = {};
   if (!shown_fits && !fits(wanted)) {
-    if (Result<void> begun = begin(wanted, scene); !begun) return begun;
+    TRY(begin(wanted, scene));
     // The scene holds the changes; passed twice, they would be meshed twice.
     wanted.method->update(scene, camera);
     if (&wanted == &shown_) return {};

@@ -191,8 +191,7 @@ void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuff
 Result<void> Renderer::Parts::draw_picture(DrawMethod* method, const Camera& camera, int width, int height,
                                            const LineList& lines) {
   const int drawn_width = drawn(width), drawn_height = drawn(height);
-  if (Result<void> ready = canvases.prepare(drawn_width, drawn_height, fineness.samples); !ready)
-    return ready;
+  TRY(canvases.prepare(drawn_width, drawn_height, fineness.samples));
   draw_scene(method, camera, canvases.drawn(), drawn_width, drawn_height, lines);
   canvases.average();
   return {};
@@ -283,7 +282,7 @@ Result<DepthImage> Renderer::draw_depths(DrawMethod& method, const Camera& camer
 Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int width, int height) {
   const TraceSpan span(parts_->trace, "viewer", "draw");
   parts_->timers.begin_frame(parts_->trace);
-  if (Result<void> drawn = parts_->draw_picture(&method, camera, width, height, {}); !drawn) return drawn;
+  TRY(parts_->draw_picture(&method, camera, width, height, {}));
   parts_->errors.poll();
   glFinish();
   return {};

@@ -51,8 +51,8 @@ Result<void> draw_all(Viewing& viewing, std::optional<Flight>& flight) {
       if (*drawn && options.time_demo) continue;
     } else {
       const size_t waiting = viewing.screenshots.waiting().size();
-      if (Result<void> stepped = viewing.step(now_s); !stepped) return stepped;
-      if (Result<void> taken = viewing.take_due(now_s); !taken) return taken;
+      TRY(viewing.step(now_s));
+      TRY(viewing.take_due(now_s));
       flying = flight && viewing.screenshots.empty() && viewing.joined(now_s);
       if (flying || waiting != viewing.screenshots.waiting().size()) progress_s = now_s;
     }

@@ -142,9 +142,8 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
       whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
       say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
     }
-    if (Result<void> acted = act_on_files(action, now_s); !acted) return acted;
-    if (action == Action::next_method)
-      if (Result<void> chosen = choose(next_available(methods.chosen())); !chosen) return chosen;
+    TRY(act_on_files(action, now_s));
+    if (action == Action::next_method) TRY(choose(next_available(methods.chosen())));
   }
   if (input.said) viewing_.session.say(*input.said);
   grow(tool_, input.wheel);
@@ -211,17 +210,17 @@ Result<void> WindowApp::frame() {
   whereabouts_.step(viewing_.camera, input.fly, input.elapsed_s, viewing_.session, now_s);
   if (viewing_.options.path) follow_path(now_s);
   record_path(now_s);
-  if (Result<void> acted = act(input, now_s); !acted) return acted;
+  TRY(act(input, now_s));
   FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
   Stopwatch watch;
-  if (Result<void> stepped = viewing_.step(now_s); !stepped) return stepped;
+  TRY(viewing_.step(now_s));
   parts.update_ms = static_cast<float>(watch.lap_ms());
   if (!window_.minimised()) {
     View& view = *viewing_.view;
     view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
                          viewing_.lines(tool_, overlay_, eye().person(), now_s));
     parts.draw_ms = static_cast<float>(watch.lap_ms());
-    if (Result<void> drawn = draw_hud(parts, now_s); !drawn) return drawn;
+    TRY(draw_hud(parts, now_s));
   }
   window_.show_frame();
   if (!window_.minimised()) choose_quality(parts.frame_ms, now_s);
@@ -257,8 +256,7 @@ Result<void> run(ViewerOptions options) {
   if (!viewing) return fail(viewing.error().message);
   WindowApp app(**window, **viewing, kept.loaded());
   const Settings start = app.settings();
-  while (!(*window)->should_close())
-    if (Result<void> done = app.frame(); !done) return done;
+  while (!(*window)->should_close()) TRY(app.frame());
   kept.keep(start, app.settings());
   return (*viewing)->finish();
 }

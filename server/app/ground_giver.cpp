@@ -12,9 +12,8 @@ GroundGiver ground_giver(const std::string& path, const WorldConfig& given) {
       terrain.heights = given.terrain.heights;
       return {};
     }
-    auto found = find_ground(ground, ground_folders(path));
-    if (!found) return tl::unexpected(found.error());
-    terrain.heights = std::move(*found);
+    auto found = TRY(find_ground(ground, ground_folders(path)));
+    terrain.heights = std::move(found);
     return {};
   };
 }
@@ -22,22 +21,21 @@ GroundGiver ground_giver(const std::string& path, const WorldConfig& given) {
 Result<GroundGiver> ground_giver(const std::string& path, const std::string& ground_path) {
   WorldConfig given;
   if (ground_path.empty()) return ground_giver(path, given);
-  if (auto taken = take_ground(ground_path, given); !taken) return tl::unexpected(taken.error());
+  TRY(take_ground(ground_path, given));
   return ground_giver(path, given);
 }
 
 Result<void> take_ground(const std::string& ground_path, WorldConfig& config) {
-  auto file = GroundFile::open(ground_path);
-  if (!file) return tl::unexpected(file.error());
+  auto file = TRY(GroundFile::open(ground_path));
   // Bricks are of one size; another one that is asked for is refused by name.
-  const auto& bricks = (*file)->bricks();
+  const auto& bricks = file->bricks();
   float& voxel_size_m = config.terrain.voxel_size_m;
   if (bricks && voxel_size_m == TerrainSource{}.voxel_size_m) voxel_size_m = bricks->voxel_size_m;
   if (bricks && bricks->voxel_size_m != voxel_size_m)
     return fail(ground_path + ": its stored bricks have voxels of " + std::to_string(bricks->voxel_size_m) +
                 " m, not of " + std::to_string(voxel_size_m) + " m (--voxel-size)");
-  config.ground = (*file)->name();
-  config.terrain.heights = std::move(*file);
+  config.ground = file->name();
+  config.terrain.heights = std::move(file);
   return {};
 }
 

@@ -19,9 +19,8 @@ Result<std::unique_ptr<LiveEvents>> LiveEvents::open(const std::string& path, co
                                                      const SettingValues& settings) {
   std::unique_ptr<EventLog> log;
   if (!path.empty()) {
-    auto opened = EventLog::open(path);
-    if (!opened) return tl::unexpected(opened.error());
-    log = std::move(*opened);
+    auto opened = TRY(EventLog::open(path));
+    log = std::move(opened);
   }
   return std::unique_ptr<LiveEvents>(new LiveEvents(path, std::move(log), world, settings));
 }

@@ -222,7 +222,7 @@ LiveServer::~LiveServer() {
 
 Result<std::unique_ptr<LiveServer>> LiveServer::start(const LiveConfig& config) {
   auto state = std::make_unique<State>(config);
-  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
+  TRY(state->open());
   if (config.pacing == Pacing::real_time) state->thread = std::thread([s = state.get()] { s->run(); });
   return std::unique_ptr<LiveServer>(new LiveServer(std::move(state)));
 }

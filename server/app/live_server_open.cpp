@@ -23,7 +23,7 @@ Result<void> LiveServer::State::open() {
       return fail("a replay's events are its recording's: scree replay export (--events)");
     auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
                               config.net.ticks_per_transform);
-    if (!replay) return tl::unexpected(replay.error());
+    TRY(replay);
     feed = std::move(replay->feed);
     config.world = replay->world;
     config.net.replay = true;
@@ -39,14 +39,12 @@ Result<void> LiveServer::State::open() {
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
-  if (auto opened = open_events(); !opened) return opened;
+  TRY(open_events());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
-  auto listening = NetServer::listen(config.net, commands);
-  if (!listening) return tl::unexpected(listening.error());
-  net = std::move(*listening);
-  if (auto opened = open_recorder(); !opened) return opened;
-  if (kept != nullptr)
-    if (auto started = start_keeping(); !started) return started;
+  auto listening = TRY(NetServer::listen(config.net, commands));
+  net = std::move(listening);
+  TRY(open_recorder());
+  if (kept != nullptr) TRY(start_keeping());
   if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
     const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
     report.settings = keyframe->settings;  // ticks say only what changes
@@ -67,7 +65,7 @@ Result<void> LiveServer::State::open_world() {
   auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
                              : SavedWorld::open(path, config.world, config.sim_threads,
                                                 ground_giver(path, config.world), config.bricks_in_max);
-  if (!opened) return tl::unexpected(opened.error());
+  TRY(opened);
   kept = std::move(*opened);
   feed = feed_of(kept->take_world());
   config.world = feed->world()->config();
@@ -86,11 +84,11 @@ Result<void> LiveServer::State::start_keeping() {
   if (kept->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
   if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
   World& world = *feed->world();
-  if (auto started = kept->start(world, std::move(keeping)); !started) return started;
+  TRY(kept->start(world, std::move(keeping)));
   resident = std::make_unique<ResidentMemory>();
   auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max,
                                    [seen = resident.get()] { return seen->bytes(); });
-  if (!opened) return tl::unexpected(opened.error());
+  TRY(opened);
   pager = std::move(*opened);
   tell();
   return {};
@@ -108,7 +106,7 @@ Result<void> LiveServer::State::open_recorder() {
       goes_on ? Recorder::create(config.record_path, header,
                                  {world.moment(), world.outline(), reader_of(world)}, config.record_ring)
               : Recorder::create(config.record_path, header, config.record_ring);
-  if (!recording) return tl::unexpected(recording.error());
+  TRY(recording);
   recorder = std::move(*recording);
   report.record_path = config.record_path;
   return {};
@@ -116,9 +114,8 @@ Result<void> LiveServer::State::open_recorder() {
 
 Result<void> LiveServer::State::open_events() {
   if (!has_events()) return {};
-  auto opened = LiveEvents::open(config.events_path, config.world, print(config.world));
-  if (!opened) return tl::unexpected(opened.error());
-  events = std::move(*opened);
+  auto opened = TRY(LiveEvents::open(config.events_path, config.world, print(config.world)));
+  events = std::move(opened);
   config.net.noted = [this](Event event) { events->note(std::move(event)); };
   if (const World* world = feed->world(); world->tick() > 0)
     events->note({.kind = EventKind::rebuild, .text = config.world_path});

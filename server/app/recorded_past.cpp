@@ -22,7 +22,7 @@ Result<void> check_recording(const WorldRows& rows, const std::string& path, Rec
   if (!is_same_terrain(*config, recording.header().world)) return other;
   if (moment.tick < recording.first_tick() || moment.tick > recording.last_tick()) return {};
   const auto frame = recording.frame(moment.tick);
-  if (!frame) return tl::unexpected(frame.error());
+  TRY(frame);
   if (frame->state_hash != moment.state_hash) return other;
   return {};
 }
@@ -47,42 +47,34 @@ Result<void> exchange(const std::string& path, const std::string& made, const st
 
 Result<PastWorld> world_of_recording(const std::string& path, const std::string& recording,
                                      std::optional<Tick> tick, const GroundGiver& ground) {
-  const auto lock = WorldLock::take(path);
-  if (!lock) return tl::unexpected(lock.error());
-  const auto reader = RecordingReader::open(recording);
-  if (!reader) return tl::unexpected(reader.error());
-  RecordedTerrain terrain(**reader);
-  const auto world = simulated_to(**reader, tick.value_or((*reader)->last_tick()), terrain, ground);
-  if (!world) return tl::unexpected(world.error());
+  const auto lock = TRY(WorldLock::take(path));
+  const auto reader = TRY(RecordingReader::open(recording));
+  RecordedTerrain terrain(*reader);
+  const auto world = TRY(simulated_to(*reader, tick.value_or(reader->last_tick()), terrain, ground));
   const WorldHeader header{.world = std::max<uint64_t>(1, random_number()), .config = {}};
-  if (auto written = write_world(path, header, **world); !written) return tl::unexpected(written.error());
-  return PastWorld{(*world)->tick(), {}};
+  TRY(write_world(path, header, *world));
+  return PastWorld{world->tick(), {}};
 }
 
 Result<PastWorld> roll_back(const std::string& path, const std::string& recording, Tick tick,
                             const GroundGiver& ground) {
-  const auto lock = WorldLock::take(path);
-  if (!lock) return tl::unexpected(lock.error());
+  const auto lock = TRY(WorldLock::take(path));
   const std::string made = path + "-past", before = path + "-before-" + std::to_string(tick);
   std::error_code error;
   if (fs::exists(before, error)) return fail(before + " exists already: move it away");
-  const auto reader = RecordingReader::open(recording);
-  if (!reader) return tl::unexpected(reader.error());
+  const auto reader = TRY(RecordingReader::open(recording));
   WorldHeader header;
   {
-    const auto file = WorldFile::open(path);
-    if (!file) return tl::unexpected(file.error());
-    const auto rows = (*file)->read_moment();
-    if (!rows) return tl::unexpected(rows.error());
-    if (auto fits = check_recording(*rows, path, **reader); !fits) return tl::unexpected(fits.error());
-    header = rows->header;
+    const auto file = TRY(WorldFile::open(path));
+    const auto rows = TRY(file->read_moment());
+    TRY(check_recording(rows, path, *reader));
+    header = rows.header;
   }
-  RecordedTerrain terrain(**reader);
-  const auto world = simulated_to(**reader, tick, terrain, ground);
-  if (!world) return tl::unexpected(world.error());
+  RecordedTerrain terrain(*reader);
+  const auto world = TRY(simulated_to(*reader, tick, terrain, ground));
   fs::remove(made, error);
-  if (auto written = write_world(made, header, **world); !written) return tl::unexpected(written.error());
-  if (auto exchanged = exchange(path, made, before); !exchanged) return tl::unexpected(exchanged.error());
+  TRY(write_world(made, header, *world));
+  TRY(exchange(path, made, before));
   return PastWorld{tick, before};
 }
 

@@ -34,27 +34,23 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
                                                      size_t threads, const GroundGiver& ground,
                                                      size_t bricks_max) {
-  auto lock = WorldLock::take(path);
-  if (!lock) return tl::unexpected(lock.error());
-  std::unique_ptr<SavedWorld> kept(new SavedWorld(path, std::move(*lock)));
+  auto lock = TRY(WorldLock::take(path));
+  std::unique_ptr<SavedWorld> kept(new SavedWorld(path, std::move(lock)));
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
-    auto world = World::create(config, threads);
-    if (!world) return tl::unexpected(world.error());
-    kept->world_ = std::move(*world);
+    auto world = TRY(World::create(config, threads));
+    kept->world_ = std::move(world);
     kept->number_ = std::max<uint64_t>(1, random_number());
     return kept;
   }
-  auto file = WorldFile::open(path);
-  if (!file) return tl::unexpected(file.error());
+  auto file = TRY(WorldFile::open(path));
   size_t chunks = 0;
-  auto world = restored(**file, threads, ground, bricks_max, *kept, chunks);
-  if (!world) return tl::unexpected(world.error());
-  tell_differences(path, config, (*world)->config());
-  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, (*world)->tick(),
-               chunks, (*world)->field().chunks_in().size());
-  kept->file_ = std::move(*file);
-  kept->world_ = std::move(*world);
+  auto world = TRY(restored(*file, threads, ground, bricks_max, *kept, chunks));
+  tell_differences(path, config, world->config());
+  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, world->tick(),
+               chunks, world->field().chunks_in().size());
+  kept->file_ = std::move(file);
+  kept->world_ = std::move(world);
   return kept;
 }
 
@@ -63,32 +59,29 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
                                                     const GroundGiver& ground, size_t bricks_max,
                                                     SavedWorld& kept, size_t& chunks) {
   const std::string& path = file.path();
-  auto rows = file.read_moment();
-  if (!rows) return tl::unexpected(rows.error());
-  RecordedHeader& header = rows->world.moment.config;
+  auto rows = TRY(file.read_moment());
+  RecordedHeader& header = rows.world.moment.config;
   if (auto given = give_ground(header.ground, header.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
-  auto reader = chunk_reader(path);
-  if (!reader) return tl::unexpected(reader.error());
+  auto reader = TRY(chunk_reader(path));
   const auto config = config_of(header);
   const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;
   GroundMasses masses;
-  const PagedTerrain terrain = terrain_of(file, std::move(*reader), masses,
+  const PagedTerrain terrain = terrain_of(file, std::move(reader), masses,
                                           bricks_max != 0 ? bricks_max : bricks_within(max_mb, {}) / 2);
-  auto world = World::restore(rows->world, terrain, threads, masses);
+  auto world = World::restore(rows.world, terrain, threads, masses);
   if (!world) return fail(path + ": damaged: " + world.error().message);
   chunks = (*world)->field().chunks_in().size() + (*world)->field().chunks_out();
-  kept.number_ = rows->header.world;
-  kept.first_session_ = first_free_session(rows->world.moment);
+  kept.number_ = rows.header.world;
+  kept.first_session_ = first_free_session(rows.world.moment);
   return world;
 }
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open_temporary(const WorldConfig& config, size_t threads) {
-  auto path = temporary_world_path();
-  if (!path) return tl::unexpected(path.error());
-  auto kept = open(*path, config, threads, {});
+  auto path = TRY(temporary_world_path());
+  auto kept = open(path, config, threads, {});
   if (!kept) {
-    remove_world(*path);
+    remove_world(path);
     return kept;
   }
   (*kept)->temporary_ = true;
@@ -106,9 +99,8 @@ Result<void> SavedWorld::start(World& world, KeeperConfig config) {
     const WorldSnapshot value = world.snapshot();
     WorldHeader header{.world = number_, .config = value.moment.config};
     header.config.program = "scree-server " SCREE_VERSION;
-    auto file = WorldFile::create(path_, header, value, !temporary_);
-    if (!file) return tl::unexpected(file.error());
-    file_ = std::move(*file);
+    auto file = TRY(WorldFile::create(path_, header, value, !temporary_));
+    file_ = std::move(file);
   }
   keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.tick(), world.config().terrain,
                                           std::move(config));

@@ -10,9 +10,8 @@
 namespace scree {
 
 Result<ReadChunk> chunk_reader(const std::string& path) {
-  auto opened = WorldFile::open(path);
-  if (!opened) return tl::unexpected(opened.error());
-  return [file = std::shared_ptr<WorldFile>(std::move(*opened))](ChunkCoord chunk) {
+  auto opened = TRY(WorldFile::open(path));
+  return [file = std::shared_ptr<WorldFile>(std::move(opened))](ChunkCoord chunk) {
     return file->read_bricks(chunk);
   };
 }
@@ -30,12 +29,10 @@ Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path
                                                          std::shared_ptr<ChunkFetcher> clients,
                                                          size_t bricks_max,
                                                          std::function<double()> resident_bytes) {
-  auto reader = chunk_reader(path);
-  if (!reader) return tl::unexpected(reader.error());
+  auto reader = TRY(chunk_reader(path));
   auto own = std::make_shared<ChunkFetcher>();
-  for (ChunkFetcher* const fetcher : {own.get(), clients.get()})
-    if (Result<void> started = fetcher->start(path); !started) return tl::unexpected(started.error());
-  field.page_by(std::move(*reader));
+  for (ChunkFetcher* const fetcher : {own.get(), clients.get()}) TRY(fetcher->start(path));
+  field.page_by(std::move(reader));
   return std::unique_ptr<TerrainPager>(
       new TerrainPager(field, bricks_max, std::move(own), std::move(clients), std::move(resident_bytes)));
 }

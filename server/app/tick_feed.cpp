@@ -43,18 +43,17 @@ std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world) {
 
 Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,
                                uint32_t ticks_per_transform) {
-  auto source = ReplaySource::open(options.path, options.from, ground, WithoutTicks::awaited);
-  if (!source) return tl::unexpected(source.error());
-  const WorldConfig world = (*source)->header().world;
-  if ((*source)->last_tick() == 0)
+  auto source = TRY(ReplaySource::open(options.path, options.from, ground, WithoutTicks::awaited));
+  const WorldConfig world = source->header().world;
+  if (source->last_tick() == 0)
     spdlog::warn("{} has no tick yet: the replay waits for the first", options.path);
-  else if (!(*source)->is_ended())
+  else if (!source->is_ended())
     spdlog::warn("{} is being written, or was cut short: it plays to its last whole tick, {}", options.path,
-                 (*source)->last_tick());
+                 source->last_tick());
   const PlayerOptions player{
       options.at_end, options.speed, ticks_per_transform,
       [path = options.path](const std::string& what) { spdlog::warn("{}: {}", path, what); }};
-  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(*source), player), world};
+  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(source), player), world};
 }
 
 }  // namespace scree

@@ -141,8 +141,8 @@ Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given,
 
 Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape,
                                     std::vector<glm::vec3> points_m) {
-  if (Result<void> sound = check_shape(motion.id, *shape); !sound) return sound;
-  if (Result<void> sound = check_motion(motion); !sound) return sound;
+  TRY(check_shape(motion.id, *shape));
+  TRY(check_motion(motion));
   Body& body = make(motion.id, std::move(shape), std::move(points_m));
   body.rigid->setCenterOfMassTransform(transform_of(motion));
   body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
@@ -194,7 +194,7 @@ Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>
   CHECK_EQ(shapes.size(), motions.bodies.size());
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (contains(motions.bodies[i].id)) return refuse(motions.bodies[i].id, "it comes twice");
-    if (Result<void> made = s.restore(motions.bodies[i], shapes[i]); !made) return made;
+    TRY(s.restore(motions.bodies[i], shapes[i]));
   }
   s.restore_common(motions);
   return {};

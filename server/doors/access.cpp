@@ -40,25 +40,22 @@ std::string may_of(Role role) {
 
 Result<std::shared_ptr<const Access>> Access::load(const AccessConfig& config,
                                                    const std::string& admin_token) {
-  if (Result<void> good = check_together(config, admin_token); !good) return tl::unexpected(good.error());
+  TRY(check_together(config, admin_token));
   std::shared_ptr<Access> access(new Access);
   access->anonymous_ = config.anonymous;
   access->world_ = config.world;
   access->admin_token_ = admin_token;
   if (!config.tls_certificate_path.empty()) {
-    auto tls = TlsServerContext::load(config.tls_certificate_path, config.tls_key_path);
-    if (!tls) return tl::unexpected(tls.error());
-    access->tls_ = std::move(*tls);
+    auto tls = TRY(TlsServerContext::load(config.tls_certificate_path, config.tls_key_path));
+    access->tls_ = std::move(tls);
   }
   if (!config.token_key_path.empty()) {
-    auto key = VerifyingKey::read(config.token_key_path);
-    if (!key) return tl::unexpected(key.error());
-    access->key_ = std::move(*key);
+    auto key = TRY(VerifyingKey::read(config.token_key_path));
+    access->key_ = std::move(key);
   }
   if (!config.token_revoked_path.empty()) {
-    auto revoked = read_revoked(config.token_revoked_path);
-    if (!revoked) return tl::unexpected(revoked.error());
-    access->revoked_ = std::move(*revoked);
+    auto revoked = TRY(read_revoked(config.token_revoked_path));
+    access->revoked_ = std::move(revoked);
   }
   return access;
 }
@@ -91,7 +88,7 @@ tl::expected<Grant, Refused> Access::grant_to(const ReadToken& read, uint64_t no
     return refuse(Refusal::token_world, "the token is for the world '" + token.world + "', and this one is " +
                                             (world_.empty() ? "without a name" : "'" + world_ + "'"));
   const Grant grant{token.role, token.id, token.expires_s, token.name};
-  if (auto holds = still_holds(grant, now_s); !holds) return tl::unexpected(holds.error());
+  TRY(still_holds(grant, now_s));
   return grant;
 }
 

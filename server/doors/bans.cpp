@@ -26,11 +26,10 @@ Result<void> take_line(const std::string& line, std::map<std::string, Ban>& bans
   Ban ban;
   if (!(words >> address >> ban.until_s)) return fail("a ban is written as ADDRESS UNTIL REASON");
   std::getline(words >> std::ws, ban.reason);
-  const auto key = ban_key(address);
-  if (!key) return tl::unexpected(key.error());
-  if (bans.size() >= limits::bans_max && !bans.contains(*key))
+  const auto key = TRY(ban_key(address));
+  if (bans.size() >= limits::bans_max && !bans.contains(key))
     return fail("there are more than " + std::to_string(limits::bans_max) + " bans (limits.bans_max)");
-  bans[*key] = ban;
+  bans[key] = ban;
   return {};
 }
 

@@ -62,10 +62,9 @@ std::vector<uint8_t> encode(std::span<const Event> events) {
 }
 
 Result<std::vector<Event>> decode_recorded_events(std::span<const uint8_t> bytes, Tick tick) {
-  const auto from = parsed<recorded::Events>(bytes, "events of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Events>(bytes, "events of the recording"));
   FieldChecker check("events of the recording");
-  return checked(read(from->events(), tick, false, check), check);
+  return checked(read(from.events(), tick, false, check), check);
 }
 
 std::vector<uint8_t> encode(const RecordedMachine& machine) {
@@ -79,20 +78,19 @@ std::vector<uint8_t> encode(const RecordedMachine& machine) {
 }
 
 Result<RecordedMachine> decode_recorded_machine(std::span<const uint8_t> bytes) {
-  const auto from = parsed<recorded::Machine>(bytes, "durations of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Machine>(bytes, "durations of the recording"));
   FieldChecker check("durations of the recording");
   RecordedMachine machine;
-  machine.tick = from->tick();
-  if (from->tick_us().empty() || from->tick_us_size() > static_cast<int>(limits::ticks_per_row_max) ||
-      static_cast<Tick>(from->tick_us_size()) > machine.tick)
-    check.refuse(std::to_string(from->tick_us_size()) + " durations up to tick " +
+  machine.tick = from.tick();
+  if (from.tick_us().empty() || from.tick_us_size() > static_cast<int>(limits::ticks_per_row_max) ||
+      static_cast<Tick>(from.tick_us_size()) > machine.tick)
+    check.refuse(std::to_string(from.tick_us_size()) + " durations up to tick " +
                  std::to_string(machine.tick) + " (limits.ticks_per_row_max)");
-  machine.tick_us.assign(from->tick_us().begin(), from->tick_us().end());
-  machine.events = read(from->events(), machine.tick, true, check);
+  machine.tick_us.assign(from.tick_us().begin(), from.tick_us().end());
+  machine.events = read(from.events(), machine.tick, true, check);
   if (!check.failed())
     machine.cursors =
-        unpack_cursors(from->cursors(), machine.tick + 1 - machine.tick_us.size(), machine.tick, check);
+        unpack_cursors(from.cursors(), machine.tick + 1 - machine.tick_us.size(), machine.tick, check);
   return checked(std::move(machine), check);
 }
 

@@ -72,10 +72,9 @@ std::vector<uint8_t> encode(const RecordedHeader& header) {
 }
 
 Result<RecordedHeader> decode_recorded_header(std::span<const uint8_t> bytes) {
-  const auto from = parsed<recorded::Header>(bytes, "header of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Header>(bytes, "header of the recording"));
   FieldChecker check("header of the recording");
-  RecordedHeader header = read(*from, check);
+  RecordedHeader header = read(from, check);
   return checked(std::move(header), check);
 }
 
@@ -92,17 +91,16 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
 }
 
 Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
-  const auto from = parsed<recorded::Frame>(bytes, "frame of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Frame>(bytes, "frame of the recording"));
   FieldChecker check("frame of the recording");
   RecordedFrame frame;
-  frame.tick = from->tick();
-  frame.operations = check.take(decode_operations(as_span(from->operations())));
-  frame.moved = check.take(unpack_transforms(as_span(from->moved())));
-  frame.ledger = read(from->ledger());
-  frame.field_hash = from->field_hash();
-  frame.state_hash = from->state_hash();
-  frame.settings = check.settings(from->settings());
+  frame.tick = from.tick();
+  frame.operations = check.take(decode_operations(as_span(from.operations())));
+  frame.moved = check.take(unpack_transforms(as_span(from.moved())));
+  frame.ledger = read(from.ledger());
+  frame.field_hash = from.field_hash();
+  frame.state_hash = from.state_hash();
+  frame.settings = check.settings(from.settings());
   return checked(std::move(frame), check);
 }
 
@@ -125,18 +123,17 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
 }
 
 Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes) {
-  const auto from = parsed<recorded::Keyframe>(bytes, "keyframe of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Keyframe>(bytes, "keyframe of the recording"));
   FieldChecker check("keyframe of the recording");
   RecordedKeyframe keyframe;
-  keyframe.tick = from->tick();
-  for (const std::string& packed : from->bricks()) {
+  keyframe.tick = from.tick();
+  for (const std::string& packed : from.bricks()) {
     const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed)));
     if (check.failed()) break;
     keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
   size_t voxels = 0;
-  for (const std::string& packed : from->pieces()) {
+  for (const std::string& packed : from.pieces()) {
     if (check.failed()) break;
     keyframe.pieces.push_back(read_piece(as_span(packed), check));
     voxels += keyframe.pieces.back().volume.window.codes.size();
@@ -144,11 +141,11 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
       check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
                    " voxels (limits.piece_voxels_max)");
   }
-  keyframe.ledger = read(from->ledger());
-  keyframe.field_hash = from->field_hash();
-  keyframe.state_hash = from->state_hash();
-  keyframe.settings = check.settings(from->settings());
-  keyframe.poses = check.take(unpack_transforms(as_span(from->poses())));
+  keyframe.ledger = read(from.ledger());
+  keyframe.field_hash = from.field_hash();
+  keyframe.state_hash = from.state_hash();
+  keyframe.settings = check.settings(from.settings());
+  keyframe.poses = check.take(unpack_transforms(as_span(from.poses())));
   return checked(std::move(keyframe), check);
 }
 
@@ -175,16 +172,15 @@ std::vector<uint8_t> encode(std::span<const Command> commands) {
 }
 
 Result<std::vector<Command>> decode_recorded_commands(std::span<const uint8_t> bytes) {
-  const auto from = parsed<recorded::Commands>(bytes, "commands of the recording");
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<recorded::Commands>(bytes, "commands of the recording"));
   FieldChecker check("commands of the recording");
-  if (from->sessions_size() != from->requests_size()) check.refuse("sessions and requests differ in number");
-  if (from->parties_size() != 0 && from->parties_size() != from->requests_size())
+  if (from.sessions_size() != from.requests_size()) check.refuse("sessions and requests differ in number");
+  if (from.parties_size() != 0 && from.parties_size() != from.requests_size())
     check.refuse("parties and requests differ in number");
   std::vector<Command> commands;
-  for (int i = 0; i < from->requests_size() && !check.failed(); ++i) {
-    commands.push_back(read_command(from->sessions(i), from->requests(i), check));
-    if (from->parties_size() != 0) commands.back().party = from->parties(i);
+  for (int i = 0; i < from.requests_size() && !check.failed(); ++i) {
+    commands.push_back(read_command(from.sessions(i), from.requests(i), check));
+    if (from.parties_size() != 0) commands.back().party = from.parties(i);
   }
   return checked(std::move(commands), check);
 }

@@ -229,15 +229,14 @@ std::vector<uint8_t> encode(const WorldHeader& header) {
 }
 
 Result<WorldHeader> decode_world_header(std::span<const uint8_t> bytes) {
-  const auto from = parsed<kept::WorldHeader>(bytes, header_subject);
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<kept::WorldHeader>(bytes, header_subject));
   WorldHeader header;
-  header.format = from->format();
+  header.format = from.format();
   if (header.format != world_format) return header;  // in another format the fields may mean something else
   FieldChecker check(header_subject);
-  header.world = from->world();
+  header.world = from.world();
   if (header.world == 0) check.refuse("the world has no number");
-  header.config = read(from->config(), check);
+  header.config = read(from.config(), check);
   if (header.config.format != recording_format) check.refuse("its settings are of another format");
   return checked(std::move(header), check);
 }
@@ -256,11 +255,10 @@ std::vector<uint8_t> encode(const WorldChunk& chunk) {
 }
 
 Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
-  const auto from = parsed<kept::Chunk>(bytes, chunk_subject);
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<kept::Chunk>(bytes, chunk_subject));
   FieldChecker check(chunk_subject);
-  WorldChunk chunk{{from->x(), from->y(), from->z()}, from->version(), from->hash(), {}, {}};
-  chunk.bricks = check.take(decode_bricks(as_span(from->bricks())));
+  WorldChunk chunk{{from.x(), from.y(), from.z()}, from.version(), from.hash(), {}, {}};
+  chunk.bricks = check.take(decode_bricks(as_span(from.bricks())));
   uint64_t hash = 0;
   for (const BrickPatch& patch : chunk.bricks) {
     hash += brick_hash(patch.coord, patch.brick, patch.paint);
@@ -270,8 +268,8 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   if (std::ranges::adjacent_find(chunk.bricks, std::ranges::greater_equal{}, &BrickPatch::coord) !=
       chunk.bricks.end())
     check.refuse("bricks are not in order");
-  if (from->has_ground_mass()) {
-    chunk.ground_mass = from->ground_mass();
+  if (from.has_ground_mass()) {
+    chunk.ground_mass = from.ground_mass();
     if (*chunk.ground_mass < 0 || *chunk.ground_mass > brick_mass(solid_brick()) * ssize(chunk.bricks))
       check.refuse("its ground weighs more than rock, or less than nothing");
   }
@@ -286,10 +284,9 @@ std::vector<uint8_t> encode(const KeptPiece& piece) {
 }
 
 Result<KeptPiece> decode_kept_piece(std::span<const uint8_t> bytes) {
-  const auto from = parsed<kept::Piece>(bytes, piece_subject);
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<kept::Piece>(bytes, piece_subject));
   FieldChecker check(piece_subject);
-  return checked(read(*from, check), check);
+  return checked(read(from, check), check);
 }
 
 std::vector<uint8_t> encode(const WorldMoment& moment) {
@@ -299,10 +296,9 @@ std::vector<uint8_t> encode(const WorldMoment& moment) {
 }
 
 Result<WorldMoment> decode_world_moment(std::span<const uint8_t> bytes) {
-  const auto from = parsed<kept::Moment>(bytes, moment_subject);
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<kept::Moment>(bytes, moment_subject));
   FieldChecker check(moment_subject);
-  return checked(read(*from, check), check);
+  return checked(read(from, check), check);
 }
 
 std::vector<uint8_t> encode(const WorldSnapshot& world) {
@@ -317,20 +313,19 @@ std::vector<uint8_t> encode(const WorldSnapshot& world) {
 }
 
 Result<WorldSnapshot> decode_world(std::span<const uint8_t> bytes) {
-  const auto from = parsed<kept::World>(bytes, moment_subject);
-  if (!from) return tl::unexpected(from.error());
+  const auto from = TRY(parsed<kept::World>(bytes, moment_subject));
   FieldChecker check(moment_subject);
-  WorldSnapshot world{read(from->moment(), check), {}};
+  WorldSnapshot world{read(from.moment(), check), {}};
   size_t voxels = 0;
-  for (int i = 0; i < from->pieces_size() && !check.failed(); ++i) {
-    world.moment.pieces.push_back(read(from->pieces(i), check));
+  for (int i = 0; i < from.pieces_size() && !check.failed(); ++i) {
+    world.moment.pieces.push_back(read(from.pieces(i), check));
     voxels += world.moment.pieces.back().volume->window.codes.size();
     if (voxels > limits::piece_voxels_max)
       check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
                    " voxels (limits.piece_voxels_max)");
   }
-  for (int i = 0; i < from->bricks_size() && !check.failed(); ++i) {
-    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(from->bricks(i))));
+  for (int i = 0; i < from.bricks_size() && !check.failed(); ++i) {
+    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(from.bricks(i))));
     world.bricks.insert(world.bricks.end(), bricks.begin(), bricks.end());
   }
   return checked(std::move(world), check);

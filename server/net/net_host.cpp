@@ -49,9 +49,9 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       talk_(config.chat) {}
 
 Result<void> NetHost::listen() {
-  if (Result<void> opened = open_access(); !opened) return opened;
-  if (Result<void> opened = open_site(); !opened) return opened;
-  if (auto listening = entrance_.listen(config_.bind, config_.port); !listening) return listening;
+  TRY(open_access());
+  TRY(open_site());
+  TRY(entrance_.listen(config_.bind, config_.port));
   fit_descriptors();
   tick_timer();
   return {};
@@ -212,7 +212,7 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
       refuse_request(session, message.request, admin.error());
       return {};
     }
-    if (auto right = check_admin_token(session.address(), message.token); !right) return right;
+    TRY(check_admin_token(session.address(), message.token));
   }
   const auto* settings = std::get_if<SettingValues>(&message.act);
   if (settings == nullptr) {

@@ -31,11 +31,10 @@ void tell(const Access& access) {
 
 Result<void> NetHost::open_access() {
   auto access = Access::load(config_.access, config_.admin_token);
-  if (!access) return tl::unexpected(access.error());
-  auto bans = Bans::open(config_.access.bans_path);
-  if (!bans) return tl::unexpected(bans.error());
+  TRY(access);
+  auto bans = TRY(Bans::open(config_.access.bans_path));
   access_ = std::move(*access);
-  bans_ = std::move(*bans);
+  bans_ = std::move(bans);
   tell(*access_);
   for (const std::string& open : open_doors(config_.access, config_.bind)) spdlog::warn("open: {}", open);
   return {};
@@ -68,9 +67,7 @@ tl::expected<Grant, Refused> NetHost::grant_to(const ClientSession& session, con
   if (config_.access.tls_required && !session.encrypted())
     return refuse(Refusal::tls_required, "this server is reached by TLS alone (--tls)");
   const bool guesses = !hello.token.empty() && !config_.admin_token.empty() && !is_access_token(hello.token);
-  if (guesses)
-    if (auto right = check_admin_token(session.address(), hello.token); !right)
-      return tl::unexpected(right.error());
+  if (guesses) TRY(check_admin_token(session.address(), hello.token));
   const uint64_t now_s = unix_now_s();
   auto grant = access_->grant(hello.token, now_s);
   if (!grant) return grant;
@@ -207,12 +204,11 @@ Result<void> NetHost::ban(const BanAddress& ban) {
       return fail("there is no session " + std::to_string(ban.session));
     address = departed != nullptr ? departed->ip : found->second.session->ip();
   }
-  const auto key = ban_key(address);
-  if (!key) return tl::unexpected(key.error());
+  const auto key = TRY(ban_key(address));
   const uint64_t now_s = unix_now_s();
   const uint64_t until_s = ban.minutes == 0 ? 0 : now_s + ban.minutes * seconds_per_minute;
-  Result<void> added = bans_.add(*key, {until_s, ban.reason}, now_s);
-  spdlog::info("{} is banned by an administrator", *key);
+  Result<void> added = bans_.add(key, {until_s, ban.reason}, now_s);
+  spdlog::info("{} is banned by an administrator", key);
   tickets_.forget_departed(
       [&](const Departed& departed) { return bans_.find(departed.ip, now_s) != nullptr; });
   std::vector<std::shared_ptr<ClientSession>> there;
@@ -225,9 +221,8 @@ Result<void> NetHost::ban(const BanAddress& ban) {
 }
 
 Result<void> NetHost::lift(const LiftBan& lift) {
-  const auto key = ban_key(lift.address);
-  if (!key) return tl::unexpected(key.error());
-  return bans_.lift(*key);
+  const auto key = TRY(ban_key(lift.address));
+  return bans_.lift(key);
 }
 
 }  // namespace scree

@@ -30,18 +30,17 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
                                                  std::to_string(hello.protocol) +
                                                  ": use a client and a server of the same release");
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
-  const auto grant = grant_to(session, hello);
-  if (!grant) return tl::unexpected(grant.error());
+  const auto grant = TRY(grant_to(session, hello));
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
-  const std::optional<Departed> before = resume(hello.ticket, *grant);
+  const std::optional<Departed> before = resume(hello.ticket, grant);
   const bool has_place = before && scree::has_place(*before, steady_now_s());
-  if (auto room = find_room(session, *grant, has_place); !room) return tl::unexpected(room.error());
+  TRY(find_room(session, grant, has_place));
   Entry& entry = enter(session, before ? before->session : session.id());
   publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels, hello.world == world_);
-  entry.grant = *grant;
-  entry.party = join_party(session, *grant, before ? before->party : 0);
-  entry.name = grant->name;
+  entry.grant = grant;
+  entry.party = join_party(session, grant, before ? before->party : 0);
+  entry.name = grant.name;
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : steady_now_s();
   if (before) entry.requests = before->requests;
@@ -49,14 +48,14 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
     if (const auto control = may_administer(session, true); !control)
       publisher_.set_control_refusal(session.id(), control.error().message);
   if (hello.meets)
-    talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant->role);
+    talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
   note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
   ++counts_.sessions_joined;
   counts_.sessions_resumed += before ? 1 : 0;
   update_stats();
   say(spdlog::level::info, "joined",
       fmt::format("session {}: {} {} from {} as {}, interest {} m", session.id(), hello.client,
-                  before ? "goes on" : "joined", session.peer(), name_of(grant->role), *radius_m));
+                  before ? "goes on" : "joined", session.peer(), name_of(grant.role), *radius_m));
   WelcomeMessage welcome;
   welcome.session = session.id();
   welcome.tick = publisher_.state().tick();
@@ -65,7 +64,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   welcome.terrain = config_.terrain;
   welcome.interest_radius_m = *radius_m;
   welcome.replay = config_.replay;
-  welcome.role = grant->role;
+  welcome.role = grant.role;
   welcome.world = world_;
   welcome.ticket = tickets_.issue(session.id());
   welcome.resumed = before.has_value();

@@ -35,9 +35,8 @@ int status_of(Refusal reason) {
 
 Result<void> NetHost::open_site() {
   if (!config_.web.on) return {};
-  auto files = web_files(config_.web);
-  if (!files) return tl::unexpected(files.error());
-  site_ = std::make_unique<Site>(std::move(*files), config_.web.origins);
+  auto files = TRY(web_files(config_.web));
+  site_ = std::make_unique<Site>(std::move(files), config_.web.origins);
   return {};
 }
 
@@ -114,7 +113,7 @@ tl::expected<void, Refused> NetHost::may_see_status(const HttpConnection& from, 
   if (!is_access_token(*token) && config_.admin_token.empty()) return refuse(Refusal::token_malformed, "");
   if (!is_access_token(*token)) return check_admin_token(from.address(), *token);
   const auto grant = access_->grant(*token, unix_now_s());
-  if (!grant) return tl::unexpected(grant.error());
+  TRY(grant);
   if (!may_act_as(grant->role, Role::admin)) return refuse(Refusal::role, "");
   return {};
 }

@@ -36,8 +36,7 @@ NetServer::~NetServer() {
 
 Result<std::unique_ptr<NetServer>> NetServer::listen(const NetConfig& config, CommandQueue& commands) {
   auto impl = std::make_unique<Impl>(config, commands);
-  const auto listening = impl->host.listen();
-  if (!listening) return tl::unexpected(listening.error());
+  TRY(impl->host.listen());
   impl->thread = std::thread([host = &impl->host] { host->run(); });
   return std::unique_ptr<NetServer>(new NetServer(std::move(impl)));
 }
@@ -79,9 +78,9 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& 
 
 Result<void> NetServer::reload() {
   auto access = Access::load(impl_->config.access, impl_->config.admin_token);
-  if (!access) return tl::unexpected(access.error());
+  TRY(access);
   auto files = web_files(impl_->config.web);
-  if (!files) return tl::unexpected(files.error());
+  TRY(files);
   asio::post(impl_->host.context(), [host = &impl_->host, access = std::move(*access), files = *files] {
     host->take_access(access);
     host->take_files(files);

@@ -47,11 +47,10 @@ MarksMessage EventMarks::put_together() const {
 Result<void> EventMarks::read_up_to(RecordingReader& recording, Tick to) {
   if (read_to_ == to && machine_read_to_ >= to) return {};
   const auto events = recording.events(read_to_ + 1, to);
-  if (!events) return tl::unexpected(events.error());
-  const auto rows = recording.machine(machine_read_to_ + 1, to);
-  if (!rows) return tl::unexpected(rows.error());
+  TRY(events);
+  const auto rows = TRY(recording.machine(machine_read_to_ + 1, to));
   for (const Event& event : *events) add(event);
-  for (const RecordedMachine& row : *rows) {
+  for (const RecordedMachine& row : rows) {
     machine_read_to_ = row.tick;
     for (const Event& event : row.events) add(event);
   }
@@ -74,7 +73,7 @@ Result<void> EventMarks::read_on(RecordingReader& recording) {
   // So that the bar is filled by the recording, and each column grows once for each time that it doubles.
   while ((std::max(last, first_ + 1) - first_ - 1) / ticks_per_column_ >= limits::mark_columns_max)
     lengthen_columns();
-  if (auto read = read_up_to(recording, std::min(last, read_to_ + step_)); !read) return read;
+  TRY(read_up_to(recording, std::min(last, read_to_ + step_)));
   const bool is_time = ++calls_ % marks_period == 0 || message_ == nullptr;
   if (changed_ && is_time) message_ = std::make_shared<MarksMessage>(put_together());
   if (is_time) changed_ = false;

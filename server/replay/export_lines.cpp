@@ -26,11 +26,10 @@ struct Batch {
 
 Result<Batch> read_batch(RecordingReader& recording, Tick from, Tick to) {
   auto events = recording.events(from, to);
-  if (!events) return tl::unexpected(events.error());
-  const auto rows = recording.machine(from, to);
-  if (!rows) return tl::unexpected(rows.error());
+  TRY(events);
+  const auto rows = TRY(recording.machine(from, to));
   Batch batch{std::move(*events), {}};
-  for (const RecordedMachine& row : *rows) {
+  for (const RecordedMachine& row : rows) {
     const Tick first = row.tick + 1 - row.tick_us.size();
     for (size_t i = 0; i < row.tick_us.size(); ++i)
       batch.ms[first + i] = static_cast<float>(row.tick_us[i]) / us_per_ms;
@@ -47,15 +46,13 @@ std::optional<float> ms_of(const Durations& ms, Tick tick) {
 }
 
 Result<void> derive_events(const std::string& path, const GroundGiver& ground, const TakeEvent& take) {
-  auto source = ReplaySource::open(path, 0, ground);
-  if (!source) return tl::unexpected(source.error());
-  const WorldConfig& world = (*source)->header().world;
+  auto source = TRY(ReplaySource::open(path, 0, ground));
+  const WorldConfig& world = source->header().world;
   EventDeriver deriver(world.terrain.voxel_size_m, print(world));
   for (;;) {
-    const auto delta = (*source)->next();
-    if (!delta) return tl::unexpected(delta.error());
-    if (*delta == nullptr) return {};
-    for (const Event& event : deriver.events_of(**delta)) take(event, std::nullopt);
+    const auto delta = TRY(source->next());
+    if (delta == nullptr) return {};
+    for (const Event& event : deriver.events_of(*delta)) take(event, std::nullopt);
   }
 }
 
@@ -101,21 +98,19 @@ Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, c
   if (!recording.events_from()) return derive_events(recording.path(), ground, take);
   const Tick last = recording.last_tick();
   for (Tick from = recording.first_tick(); from <= last; from += batch_ticks) {
-    const auto batch = read_batch(recording, from, std::min(last, from + batch_ticks - 1));
-    if (!batch) return tl::unexpected(batch.error());
-    for (const Event& event : batch->events) take(event, ms_of(batch->ms, event.tick));
+    const auto batch = TRY(read_batch(recording, from, std::min(last, from + batch_ticks - 1)));
+    for (const Event& event : batch.events) take(event, ms_of(batch.ms, event.tick));
   }
   return {};
 }
 
 Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
                            const TakeLine& take) {
-  const auto recording = RecordingReader::open(path);
-  if (!recording) return tl::unexpected(recording.error());
+  const auto recording = TRY(RecordingReader::open(path));
   const bool csv = format == LineFormat::csv;
   if (csv) take(std::string(event_csv_heads));
-  const uint32_t tick_rate_hz = (*recording)->header().world.tick_rate_hz;
-  return each_event(**recording, ground, [&](const Event& event, std::optional<float> tick_ms) {
+  const uint32_t tick_rate_hz = recording->header().world.tick_rate_hz;
+  return each_event(*recording, ground, [&](const Event& event, std::optional<float> tick_ms) {
     const EventContext context{tick_rate_hz, tick_ms};
     take(csv ? csv_line(event, context) : json_line(event, context));
   });
@@ -134,12 +129,11 @@ Result<void> export_ticks(RecordingReader& recording, LineFormat format, const T
   for (Tick tick = recording.first_tick(), read = tick; tick <= recording.last_tick(); ++tick) {
     if (tick == read) {
       read = tick + batch_ticks;
-      auto next = read_batch(recording, tick, read - 1);
-      if (!next) return tl::unexpected(next.error());
-      batch = std::move(*next);
+      auto next = TRY(read_batch(recording, tick, read - 1));
+      batch = std::move(next);
     }
     const auto frame = recording.frame(tick);
-    if (!frame) return tl::unexpected(frame.error());
+    TRY(frame);
     take(tick_line(*frame, recording.header().world, batch.ms, format));
   }
   return {};

@@ -28,34 +28,29 @@ struct Terrain {
 
 /// By a keyframe, which says how the terrain was, whatever the operations before it do.
 Result<Terrain> at_next_keyframe(const DiffSide& side, Tick tick, const Error& because) {
-  const auto reader = RecordingReader::open(side.path);
-  if (!reader) return tl::unexpected(reader.error());
-  const Tick end = std::min((*reader)->last_tick(), tick + keyframe_ahead_max);
+  const auto reader = TRY(RecordingReader::open(side.path));
+  const Tick end = std::min(reader->last_tick(), tick + keyframe_ahead_max);
   Tick at = 0;
   for (Tick wanted = tick; wanted <= end && at < tick; ++wanted) {
-    const auto near = (*reader)->keyframe_tick_before(wanted);
-    if (!near) return tl::unexpected(near.error());
-    at = *near;
+    const auto near = TRY(reader->keyframe_tick_before(wanted));
+    at = near;
   }
   if (at < tick) return tl::unexpected(because);
-  const auto keyframe = (*reader)->keyframe_before(at);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  if (!keyframe->has_value()) return tl::unexpected(because);
-  Terrain terrain{{}, at, (*reader)->header().world.terrain.voxel_size_m};
-  for (const BrickPatch& patch : (*keyframe)->bricks)
+  const auto keyframe = TRY(reader->keyframe_before(at));
+  if (!keyframe.has_value()) return tl::unexpected(because);
+  Terrain terrain{{}, at, reader->header().world.terrain.voxel_size_m};
+  for (const BrickPatch& patch : keyframe->bricks)
     terrain.bricks[patch.coord] = {patch.brick, patch.paint,
                                    brick_hash(patch.coord, patch.brick, patch.paint)};
   return terrain;
 }
 
 Result<Terrain> terrain_after(const DiffSide& side, Tick tick) {
-  auto source = ReplaySource::open(side.path, tick, side.ground);
-  if (!source) return tl::unexpected(source.error());
-  Terrain terrain{{}, tick, (*source)->header().world.terrain.voxel_size_m};
+  auto source = TRY(ReplaySource::open(side.path, tick, side.ground));
+  Terrain terrain{{}, tick, source->header().world.terrain.voxel_size_m};
   if (tick == 0) return terrain;
-  const auto whole = (*source)->next();
-  if (!whole) return tl::unexpected(whole.error());
-  for (const BrickState& state : (*whole)->bricks)
+  const auto whole = TRY(source->next());
+  for (const BrickState& state : whole->bricks)
     terrain.bricks[state.coord] = {*state.brick, state.paint, state.hash};
   return terrain;
 }

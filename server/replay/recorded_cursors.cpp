@@ -60,9 +60,8 @@ Result<std::vector<PlayerCursor>> RecordedCursors::at(RecordingReader& recording
         rows_, [&](const RecordedMachine& row) { return row.tick >= tick && first_of(row) <= tick; });
   };
   if (row_of() == rows_.end() || row_of() + 1 == rows_.end()) {
-    auto rows = recording.machine(tick, tick);
-    if (!rows) return tl::unexpected(rows.error());
-    rows_ = std::move(*rows);
+    auto rows = TRY(recording.machine(tick, tick));
+    rows_ = std::move(rows);
   }
   const auto row = row_of();
   if (row == rows_.end()) {

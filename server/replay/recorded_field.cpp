@@ -18,16 +18,14 @@ Result<std::shared_ptr<const TickDelta>> state_at_start(ReplaySource& source) {
 }
 
 Result<std::unique_ptr<Field>> field_at(const std::string& path, Tick tick, const GroundGiver& ground) {
-  auto source = ReplaySource::open(path, 0, ground);
-  if (!source) return tl::unexpected(source.error());
-  if (tick < (*source)->first_tick() || tick > (*source)->last_tick())
+  auto source = TRY(ReplaySource::open(path, 0, ground));
+  if (tick < source->first_tick() || tick > source->last_tick())
     return fail(path + ": there is no tick " + std::to_string(tick) + " in it; its ticks are " +
-                std::to_string((*source)->first_tick()) + " to " + std::to_string((*source)->last_tick()));
-  if (auto sought = (*source)->seek(tick); !sought) return tl::unexpected(sought.error());
-  const auto state = state_at_start(**source);
-  if (!state) return tl::unexpected(state.error());
-  auto field = std::make_unique<MapField>((*source)->header().world.terrain);
-  follow_bricks(**state, *field);
+                std::to_string(source->first_tick()) + " to " + std::to_string(source->last_tick()));
+  TRY(source->seek(tick));
+  const auto state = TRY(state_at_start(*source));
+  auto field = std::make_unique<MapField>(source->header().world.terrain);
+  follow_bricks(*state, *field);
   return field;
 }
 

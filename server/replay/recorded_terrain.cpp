@@ -32,8 +32,7 @@ Result<std::unique_ptr<World>> RecordedTerrain::restore(const RecordedState& sta
                                     uint64_t hash = 0;
                                     for (const BrickPatch& brick : bricks)
                                       hash += brick_hash(brick.coord, brick.brick, brick.paint);
-                                    if (auto taken = take(chunk, bricks); !taken)
-                                      return taken;  // it lies in the world
+                                    TRY(take(chunk, bricks));  // it lies in the world
                                     hashes_[chunk] = hash;
                                     masses[chunk] = ground_under(terrain, chunk, bricks);
                                     return {};

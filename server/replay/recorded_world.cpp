@@ -25,20 +25,18 @@ Result<std::unique_ptr<World>> restored_from(RecordedState state, Tick tick, Rec
   if (moment.tick != tick)
     return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
                 std::to_string(moment.tick));
-  if (auto given = give_ground(moment.config.ground, moment.config.terrain, ground); !given)
-    return tl::unexpected(given.error());
+  TRY(give_ground(moment.config.ground, moment.config.terrain, ground));
   return terrain.restore(state);
 }
 
 Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
                                         const GroundGiver& ground) {
   auto state = recording.state(tick);
-  if (!state) return tl::unexpected(state.error());
+  TRY(state);
   if (state->has_value()) return restored_from(std::move(**state), tick, terrain, ground);
   if (tick != 0) return fail("tick " + std::to_string(tick) + " has no state");
   WorldConfig config = recording.header().world;
-  if (auto given = give_ground(config.ground, config.terrain, ground); !given)
-    return tl::unexpected(given.error());
+  TRY(give_ground(config.ground, config.terrain, ground));
   auto world = World::create(config);
   if (world) terrain.adopt(**world);
   return world;
@@ -55,18 +53,18 @@ Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, R
     return fail(recording.path() + " has the ticks " + std::to_string(first) + " to " + std::to_string(last) +
                 ", not " + std::to_string(tick) + " (--to)");
   const auto start = recording.state_before(tick);
-  if (!start) return tl::unexpected(start.error());
+  TRY(start);
   auto world = world_at(recording, *start, terrain, ground);
   if (!world) return fail(recording.path() + ": " + world.error().message);
   while ((*world)->tick() < tick) {
     const Tick next = (*world)->tick() + 1;
     const auto commands = recording.commands(next);
-    if (!commands) return tl::unexpected(commands.error());
+    TRY(commands);
     const auto delta = (*world)->step(*commands);
     terrain.make_room(**world);
     if (next > first) {
       const auto frame = recording.frame(next);
-      if (!frame) return tl::unexpected(frame.error());
+      TRY(frame);
       if (const std::string differs = difference_of(*delta, *frame); !differs.empty())
         return fail(recording.path() + ": at tick " + std::to_string(next) + ", " + differs);
     }

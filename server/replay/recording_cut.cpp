@@ -38,9 +38,8 @@ class MachineRows {
     if (!recording_.events_from()) return std::vector<Event>();
     if (tick > read_to_) {
       read_to_ = tick + machine_batch_ticks - 1;
-      auto rows = recording_.machine(tick, read_to_);
-      if (!rows) return tl::unexpected(rows.error());
-      rows_ = std::move(*rows);
+      auto rows = TRY(recording_.machine(tick, read_to_));
+      rows_ = std::move(rows);
     }
     times = {};
     std::vector<Event> events;
@@ -74,8 +73,7 @@ class Cutting {
 
   /// `may_begin_quiet`: from a state that the recording has not.
   Result<void> write(const std::string& path, bool may_begin_quiet) {
-    const auto from = recording_.state_before(first_ - 1);
-    if (!from) return tl::unexpected(from.error());
+    const auto from = TRY(recording_.state_before(first_ - 1));
     std::optional<WorldSnapshot> quiet;
     const auto look = [&](World& world, const TickDelta& delta) {
       const bool due = !quiet || delta.tick >= quiet->moment.tick + ticks_per_state;
@@ -83,30 +81,25 @@ class Cutting {
         quiet = world.snapshot();
     };
     RecordedTerrain terrain(recording_);
-    auto world = simulated_to(recording_, first_ - 1, terrain, ground_, show(0.0, 0.4), look);
-    if (!world) return tl::unexpected(world.error());
-    state_ = quiet ? quiet->moment.tick : *from;
-    auto writer = begin(path, quiet);
-    if (!writer) return tl::unexpected(writer.error());
+    auto world = TRY(simulated_to(recording_, first_ - 1, terrain, ground_, show(0.0, 0.4), look));
+    state_ = quiet ? quiet->moment.tick : from;
+    auto writer = TRY(begin(path, quiet));
     for (Tick tick = state_ + 1; tick < first_; ++tick) {
       const auto commands = recording_.commands(tick);
-      if (!commands) return tl::unexpected(commands.error());
-      if (auto added = (*writer)->add_unseen(tick, *commands); !added) return added;
+      TRY(commands);
+      TRY(writer->add_unseen(tick, *commands));
     }
-    if (first_ > 1)
-      if (auto begun = (*writer)->begin_at((*world)->outline(), reader_of(**world)); !begun) return begun;
-    if (auto written = write_ticks(**writer, *world, terrain); !written) return written;
-    return (*writer)->finish();
+    if (first_ > 1) TRY(writer->begin_at(world->outline(), reader_of(*world)));
+    TRY(write_ticks(*writer, world, terrain));
+    return writer->finish();
   }
 
   Result<void> verify_written(const std::string& path) const {
-    const auto written = RecordingReader::open(path);
-    if (!written) return tl::unexpected(written.error());
-    const auto report = verify(**written, show(0.7, 1.0), ground_);
-    if (!report) return tl::unexpected(report.error());
-    if (!report->agrees())
-      return fail(path + " differs at tick " + std::to_string(report->first_difference) + ": " +
-                  report->difference);
+    const auto written = TRY(RecordingReader::open(path));
+    const auto report = TRY(verify(*written, show(0.7, 1.0), ground_));
+    if (!report.agrees())
+      return fail(path + " differs at tick " + std::to_string(report.first_difference) + ": " +
+                  report.difference);
     return {};
   }
 
@@ -137,17 +130,16 @@ class Cutting {
     const auto shown = show(0.4, 0.7);
     for (Tick tick = first_; tick <= last_; ++tick) {
       const auto frame = recording_.frame(tick);
-      if (!frame) return tl::unexpected(frame.error());
+      TRY(frame);
       const auto commands = recording_.commands(tick);
-      if (!commands) return tl::unexpected(commands.error());
+      TRY(commands);
       TickDelta delta = *world->step(*commands);
       if (const std::string differs = difference_of(delta, *frame); !differs.empty())
         return fail(recording_.path() + ": at tick " + std::to_string(tick) + ", " + differs);
-      const auto noted = machine.at(tick, delta.times);
-      if (!noted) return tl::unexpected(noted.error());
+      const auto noted = TRY(machine.at(tick, delta.times));
       terrain.make_room(*world);
       auto state = recording_.state(tick);
-      if (!state) return tl::unexpected(state.error());
+      TRY(state);
       std::optional<WorldMoment> part;
       if (state->has_value()) {
         world.reset();  // there is room for one
@@ -156,9 +148,8 @@ class Cutting {
         world = std::move(*restored);
         part = world->moment();
       }
-      if (auto added = writer.add(delta, *commands, *noted, part ? &*part : nullptr); !added) return added;
-      if (tick % limits::ticks_per_keyframe == 0 || tick == last_)
-        if (auto committed = writer.commit(); !committed) return committed;
+      TRY(writer.add(delta, *commands, noted, part ? &*part : nullptr));
+      if (tick % limits::ticks_per_keyframe == 0 || tick == last_) TRY(writer.commit());
       if (tick % progress_ticks == 0) shown(tick - first_, last_ - first_ + 1);
     }
     return {};

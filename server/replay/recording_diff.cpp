@@ -54,29 +54,25 @@ struct Side {
   std::vector<Command> commands;
 
   Result<void> read(Tick tick) {
-    auto next = reader->frame(tick);
-    if (!next) return tl::unexpected(next.error());
-    auto asked = reader->commands(tick);
-    if (!asked) return tl::unexpected(asked.error());
-    frame = std::move(*next);
-    commands = std::move(*asked);
+    auto next = TRY(reader->frame(tick));
+    auto asked = TRY(reader->commands(tick));
+    frame = std::move(next);
+    commands = std::move(asked);
     if (!frame.settings.empty()) settings = frame.settings;
     return {};
   }
 };
 
 Result<Side> open_side(const std::string& path) {
-  auto reader = RecordingReader::open(path);
-  if (!reader) return tl::unexpected(reader.error());
-  return Side{std::move(*reader), {}, {}, {}};
+  auto reader = TRY(RecordingReader::open(path));
+  return Side{std::move(reader), {}, {}, {}};
 }
 
 /// How the settings stood before the first tick that is compared.
 Result<void> begin(Side& side, Tick first) {
   side.settings = print(side.reader->header().world);
-  const auto keyframe = side.reader->keyframe_before(first - 1);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  if (keyframe->has_value() && !(*keyframe)->settings.empty()) side.settings = (*keyframe)->settings;
+  const auto keyframe = TRY(side.reader->keyframe_before(first - 1));
+  if (keyframe.has_value() && !keyframe->settings.empty()) side.settings = keyframe->settings;
   return {};
 }
 
@@ -153,12 +149,10 @@ class Comparison {
     const WorldConfig& world = a_.reader->header().world;
     add(DiffStage::world, world_difference(world, b_.reader->header().world));
     if (!result_.same()) return at(result_.first);
-    for (Side* side : {&a_, &b_})
-      if (auto begun = begin(*side, result_.first); !begun) return tl::unexpected(begun.error());
+    for (Side* side : {&a_, &b_}) TRY(begin(*side, result_.first));
     for (Tick tick = result_.first; tick <= result_.last; ++tick) {
-      for (Side* side : {&a_, &b_})
-        if (auto read = side->read(tick); !read) return tl::unexpected(read.error());
-      if (auto compared = compare(tick); !compared) return tl::unexpected(compared.error());
+      for (Side* side : {&a_, &b_}) TRY(side->read(tick));
+      TRY(compare(tick));
       if (!result_.same()) return at(tick);
       if (progress && tick % progress_ticks == 0)
         progress(tick - result_.first + 1, result_.last - result_.first + 1);
@@ -180,16 +174,14 @@ class Comparison {
     add(DiffStage::commands, command_difference(a_, b_));
     add(DiffStage::settings, setting_difference(a_, b_));
     if (a_.frame.field_hash != b_.frame.field_hash) {
-      const auto where = field_difference(names_a_, names_b_, tick);
-      if (!where) return tl::unexpected(where.error());
-      add(DiffStage::field, *where);
+      const auto where = TRY(field_difference(names_a_, names_b_, tick));
+      add(DiffStage::field, where);
     }
     std::string moved = piece_difference(a_.frame.moved, b_.frame.moved);
     // The hash is of field, ledger and bodies: where the others agree, the bodies do not.
     if (moved.empty() && result_.same() && is_same_ledger() && a_.frame.state_hash != b_.frame.state_hash) {
-      auto later = first_piece_after(tick);
-      if (!later) return tl::unexpected(later.error());
-      moved = std::move(*later);
+      auto later = TRY(first_piece_after(tick));
+      moved = std::move(later);
     }
     add(DiffStage::bodies, std::move(moved));
     add(DiffStage::ledger,
@@ -204,11 +196,9 @@ class Comparison {
     const std::string exact = "the exact motions differ, by less than poses say";
     const Tick end = std::min(result_.last, tick + looked_ahead_max);
     for (Tick later = tick + 1; later <= end; ++later) {
-      const auto one = a_.reader->frame(later);
-      if (!one) return tl::unexpected(one.error());
-      const auto other = b_.reader->frame(later);
-      if (!other) return tl::unexpected(other.error());
-      if (const std::string piece = piece_difference(one->moved, other->moved); !piece.empty())
+      const auto one = TRY(a_.reader->frame(later));
+      const auto other = TRY(b_.reader->frame(later));
+      if (const std::string piece = piece_difference(one.moved, other.moved); !piece.empty())
         return exact + fmt::format("; seen first at tick {}: ", later) + piece;
     }
     return exact;
@@ -237,11 +227,9 @@ class Comparison {
 
 Result<RecordingDiff> diff(const DiffSide& a, const DiffSide& b,
                            const std::function<void(Tick, Tick)>& progress) {
-  auto one = open_side(a.path);
-  if (!one) return tl::unexpected(one.error());
-  auto other = open_side(b.path);
-  if (!other) return tl::unexpected(other.error());
-  return Comparison(a, b, std::move(*one), std::move(*other)).run(progress);
+  auto one = TRY(open_side(a.path));
+  auto other = TRY(open_side(b.path));
+  return Comparison(a, b, std::move(one), std::move(other)).run(progress);
 }
 
 }  // namespace scree

@@ -59,7 +59,7 @@ Result<Tick> ReplayPlayer::target_of(const ControlReplay& wish) {
     case ReplayMove::previous_event: {
       const bool on = wish.move == ReplayMove::next_event;
       const auto event = on ? source_->next_event(here) : source_->previous_event(here);
-      if (!event) return tl::unexpected(event.error());
+      TRY(event);
       return event->value_or(here);
     }
   }
@@ -73,12 +73,11 @@ Result<void> ReplayPlayer::heed(const ControlReplay& wish) {
     ++heeded_;
     return {};
   }
-  const auto to = target_of(wish);
-  if (!to) return tl::unexpected(to.error());
+  const auto to = TRY(target_of(wish));
   const Tick first = source_->first_tick();
   if (wish.move == ReplayMove::to_tick && first > first_known_ && wish.value < static_cast<int64_t>(first))
     tell_dropped(static_cast<Tick>(std::max<int64_t>(wish.value, 0)), " is asked for", told_asked_);
-  target_ = *to;
+  target_ = to;
   ++moves_waiting_;
   return {};
 }
@@ -116,7 +115,7 @@ Result<void> ReplayPlayer::look() {
     return {};
   }
   const Tick before = source_->last_tick();
-  if (auto looked = source_->look_again(); !looked) return looked;
+  TRY(source_->look_again());
   quiet_ticks_ = source_->last_tick() > before ? 0 : quiet_ticks_ + 1;
   grows_ = !source_->is_ended() &&
            static_cast<double>(quiet_ticks_) < limits::quiet_s_max * header().world.tick_rate_hz;
@@ -143,11 +142,11 @@ Result<void> ReplayPlayer::leave_dropped(bool was_there) {
 
 Result<void> ReplayPlayer::add_company(TickDelta& delta) {
   auto marks = source_->marks();
-  if (!marks) return tl::unexpected(marks.error());
+  TRY(marks);
   delta.marks = std::move(*marks);
   if (number_ % options_.ticks_per_transform != 0) return {};
   auto cursors = source_->cursors();
-  if (!cursors) return tl::unexpected(cursors.error());
+  TRY(cursors);
   if (cursors_ == nullptr || cursors_->cursors != *cursors)
     cursors_ = std::make_shared<RecordedCursorsMessage>(RecordedCursorsMessage{std::move(*cursors)});
   delta.cursors = cursors_;
@@ -155,15 +154,14 @@ Result<void> ReplayPlayer::add_company(TickDelta& delta) {
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
-  if (auto looked = look(); !looked) return tl::unexpected(looked.error());
+  TRY(look());
   {
     std::vector<ControlReplay> wishes;
     {
       const std::scoped_lock lock(mutex_);
       wishes.swap(wishes_);
     }
-    for (const ControlReplay& wish : wishes)
-      if (auto heeded = heed(wish); !heeded) return tl::unexpected(heeded.error());
+    for (const ControlReplay& wish : wishes) TRY(heed(wish));
   }
   if (begun_ && playing_ && !target_ && at_border() && !waits_for_more()) {
     const bool at_end = speed_ > 0.0F;
@@ -181,7 +179,7 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
   begun_ = true;
   delta->tick = number_;
   delta->playback = state();
-  if (auto added = add_company(*delta); !added) return tl::unexpected(added.error());
+  TRY(add_company(*delta));
   source_->let_go();
   return delta;
 }

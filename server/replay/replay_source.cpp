@@ -44,14 +44,13 @@ ReplaySource::~ReplaySource() = default;
 Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const std::string& path, Tick from,
                                                          const GroundGiver& ground,
                                                          WithoutTicks without_ticks) {
-  auto reader = RecordingReader::open(path, without_ticks);
-  if (!reader) return tl::unexpected(reader.error());
-  RecordingHeader header = (*reader)->header();
+  auto reader = TRY(RecordingReader::open(path, without_ticks));
+  RecordingHeader header = reader->header();
   if (auto given = give_ground(header.world.ground, header.world.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
   auto source = std::unique_ptr<ReplaySource>(
-      new ReplaySource(std::make_unique<State>(std::move(*reader), std::move(header))));
-  if (auto sought = source->seek(from); !sought) return tl::unexpected(sought.error());
+      new ReplaySource(std::make_unique<State>(std::move(reader), std::move(header))));
+  TRY(source->seek(from));
   return source;
 }
 
@@ -83,7 +82,7 @@ Result<std::vector<PlayerCursor>> ReplaySource::cursors() {
 
 Result<std::shared_ptr<const MarksMessage>> ReplaySource::marks() {
   if (!state_->reader->events_from()) return nullptr;
-  if (auto read = state_->marks.read_on(*state_->reader); !read) return tl::unexpected(read.error());
+  TRY(state_->marks.read_on(*state_->reader));
   return state_->marks.message();
 }
 
@@ -96,16 +95,14 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::next(Tick count) {
   if (std::exchange(state_->keyframe_due, false)) return state_->whole_state();
   if (state_->tick >= last_tick()) return nullptr;
   CHECK(state_->tick >= first_tick());
-  auto joint = state_->advance();
-  if (!joint) return tl::unexpected(joint.error());
+  auto joint = TRY(state_->advance());
   float work_us = state_->work_us;
   for (; count > 1 && state_->tick < last_tick() && work_us < joint_work_max_us; --count) {
-    const auto more = state_->advance();
-    if (!more) return tl::unexpected(more.error());
-    append(**joint, **more);
+    const auto more = TRY(state_->advance());
+    append(*joint, *more);
     work_us += state_->work_us;
   }
-  return *joint;
+  return joint;
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
@@ -113,7 +110,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   BricksBefore before;
   const PieceTable pieces = state_->pieces;
   const SettingValues settings = state_->settings;
-  if (auto gone = state_->go_to(to, before); !gone) return tl::unexpected(gone.error());
+  TRY(state_->go_to(to, before));
   auto delta = state_->unchanged();
   add_differences(state_->field, before, *delta);
   for (const auto& [id, volume] : state_->pieces)
@@ -130,9 +127,8 @@ Result<std::optional<Tick>> ReplaySource::next_event(Tick after) {
   if (state_->reader->events_from()) return state_->reader->next_event(after);
   const Tick end = std::min(last_tick(), after + looked_through_max);
   for (Tick at = after + 1; at <= end; ++at) {
-    const auto begins = state_->begins_something(at);
-    if (!begins) return tl::unexpected(begins.error());
-    if (*begins) return std::optional(at);
+    const auto begins = TRY(state_->begins_something(at));
+    if (begins) return std::optional(at);
   }
   return std::optional<Tick>();
 }
@@ -140,9 +136,8 @@ Result<std::optional<Tick>> ReplaySource::next_event(Tick after) {
 Result<std::optional<Tick>> ReplaySource::previous_event(Tick before) {
   if (state_->reader->events_from()) return state_->reader->previous_event(before);
   for (Tick at = before, looked = 0; at > first_tick() + 1 && looked < looked_through_max; ++looked) {
-    const auto begins = state_->begins_something(--at);
-    if (!begins) return tl::unexpected(begins.error());
-    if (*begins) return std::optional(at);
+    const auto begins = TRY(state_->begins_something(--at));
+    if (begins) return std::optional(at);
   }
   return std::optional<Tick>();
 }
@@ -157,8 +152,8 @@ Result<void> ReplaySource::seek(Tick tick) {
     return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is before its start, " +
                 std::to_string(start) + " (--from)");
   BricksBefore forgotten;
-  if (auto restored = state_->restore_before(tick, forgotten); !restored) return restored;
-  if (auto gone = state_->go_to(tick, forgotten); !gone) return gone;
+  TRY(state_->restore_before(tick, forgotten));
+  TRY(state_->go_to(tick, forgotten));
   state_->keyframe_due = tick != 0 || last_tick() == 0;
   return {};
 }

@@ -59,14 +59,13 @@ Result<void> ReplaySource::State::restore_before(Tick wanted, BricksBefore& befo
                            return field.has_edits(chunk) && field.chunk_hash(chunk) == hash;
                          },
                          [this](PieceId piece) { return pieces.contains(piece); }};
-  auto keyframe = reader->keyframe_before(wanted, known);
-  if (!keyframe) return tl::unexpected(keyframe.error());
+  auto keyframe = TRY(reader->keyframe_before(wanted, known));
   KeyframeParts parts;
-  if (*keyframe)
-    parts = std::move(**keyframe);
+  if (keyframe)
+    parts = std::move(*keyframe);
   else
     parts.keyframe.settings = print(header.world);
-  if (auto restored = restore(std::move(parts), before); !restored) return restored;
+  TRY(restore(std::move(parts), before));
   if (tick < start()) return damaged("the recording has no state to start from");
   return {};
 }
@@ -109,7 +108,7 @@ Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickD
 Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* before, bool keeps) {
   CHECK(tick < reader->last_tick());
   const auto frame = reader->frame(tick + 1);
-  if (!frame) return tl::unexpected(frame.error());
+  TRY(frame);
   PlayedTick undo;
   if (keeps) undo = {{}, pieces, poses, ledger, settings, state_hash};
   const bool notes = before != nullptr || keeps;
@@ -118,10 +117,9 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   work_us = 0.0F;
   std::set<BrickCoord> changed;
   for (const Operation& operation : frame->operations)
-    if (auto applied = apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr); !applied)
-      return tl::unexpected(applied.error());
-  if (auto placed = place_pieces(*frame, *delta); !placed) return tl::unexpected(placed.error());
-  if (auto equal = check_hash(frame->field_hash); !equal) return tl::unexpected(equal.error());
+    TRY(apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr));
+  TRY(place_pieces(*frame, *delta));
+  TRY(check_hash(frame->field_hash));
   for (const BrickCoord coord : changed) delta->bricks.push_back(published_brick(field, coord));
   ledger = frame->ledger;
   state_hash = frame->state_hash;
@@ -159,11 +157,9 @@ Result<void> ReplaySource::State::go_to(Tick wanted, BricksBefore& before) {
     return {};
   }
   const auto nearest = reader->keyframe_tick_before(wanted);
-  if (!nearest) return tl::unexpected(nearest.error());
-  if (back || *nearest > tick)
-    if (auto restored = restore_before(wanted, before); !restored) return restored;
-  while (tick < wanted)
-    if (const auto delta = advance(&before, back); !delta) return tl::unexpected(delta.error());
+  TRY(nearest);
+  if (back || *nearest > tick) TRY(restore_before(wanted, before));
+  while (tick < wanted) TRY(advance(&before, back));
   CHECK_EQ(tick, wanted);
   return {};
 }
@@ -191,7 +187,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
 
 Result<bool> ReplaySource::State::begins_something(Tick at) {
   const auto frame = reader->frame(at);
-  if (!frame) return tl::unexpected(frame.error());
+  TRY(frame);
   return std::ranges::any_of(frame->operations, [](const Operation& operation) {
     return pieces_merged_by(operation) == 0 && !std::holds_alternative<DiscardOperation>(operation);
   });

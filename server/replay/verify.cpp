@@ -18,7 +18,7 @@ namespace {
 Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, RecordedTerrain& terrain,
                      VerifyReport& report, const GroundGiver& ground) {
   auto state = recording.state(world->tick());
-  if (!state) return tl::unexpected(state.error());
+  TRY(state);
   if (!state->has_value() || !report.difference.empty()) return false;
   // Of terrain that comes chunk by chunk, the value has the hash.
   const std::vector<uint8_t> own =
@@ -46,7 +46,7 @@ Result<void> compare_events(RecordingReader& recording, const std::vector<Event>
   const auto from = recording.events_from();
   if (!from || tick < *from || !report.difference.empty()) return {};
   const auto recorded = recording.events(tick);
-  if (!recorded) return tl::unexpected(recorded.error());
+  TRY(recorded);
   if (*recorded != simulated)
     report.difference = std::to_string(simulated.size()) + " events, recorded were " +
                         std::to_string(recorded->size()) + ", or others";
@@ -60,29 +60,25 @@ Result<VerifyReport> verify_ticks(RecordingReader& recording, const std::functio
   VerifyReport report;
   const Tick start = recording.first_tick() - 1;
   RecordedTerrain terrain(recording, bricks_max);
-  auto world = simulated_to(recording, start, terrain, ground);
-  if (!world) return tl::unexpected(world.error());
-  if (auto restarted = restart(recording, *world, terrain, report, ground); !restarted)
-    return tl::unexpected(restarted.error());
-  EventDeriver deriver = deriver_of(recording, **world);
+  auto world = TRY(simulated_to(recording, start, terrain, ground));
+  TRY(restart(recording, world, terrain, report, ground));
+  EventDeriver deriver = deriver_of(recording, *world);
   for (Tick tick = start + 1; tick <= recording.last_tick() && report.agrees(); ++tick) {
     const auto frame = recording.frame(tick);
-    if (!frame) return tl::unexpected(frame.error());
+    TRY(frame);
     const auto commands = recording.commands(tick);
-    if (!commands) return tl::unexpected(commands.error());
-    const auto delta = (*world)->step(*commands);
-    terrain.make_room(**world);
+    TRY(commands);
+    const auto delta = world->step(*commands);
+    terrain.make_room(*world);
     CHECK_EQ(delta->tick, tick);
     report.ticks = tick - start;
     report.commands += commands->size();
     report.field_hash = delta->field_hash;
     report.state_hash = delta->state_hash;
     report.difference = difference_of(*delta, *frame);
-    if (auto compared = compare_events(recording, deriver.events_of(*delta), tick, report); !compared)
-      return tl::unexpected(compared.error());
-    const auto restarted = restart(recording, *world, terrain, report, ground);
-    if (!restarted) return tl::unexpected(restarted.error());
-    if (*restarted) deriver = deriver_of(recording, **world);
+    TRY(compare_events(recording, deriver.events_of(*delta), tick, report));
+    const auto restarted = TRY(restart(recording, world, terrain, report, ground));
+    if (restarted) deriver = deriver_of(recording, *world);
     if (!report.difference.empty()) report.first_difference = tick;
     if (progress && (tick % progress_ticks == 0 || tick == recording.last_tick()))
       progress(tick, recording.last_tick());

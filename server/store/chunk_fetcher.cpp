@@ -77,9 +77,8 @@ ChunkFetcher::~ChunkFetcher() {
 
 Result<void> ChunkFetcher::start(const std::string& path) {
   CHECK(!state_->thread.joinable());
-  auto file = WorldFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  state_->file = std::move(*file);
+  auto file = TRY(WorldFile::open(path));
+  state_->file = std::move(file);
   state_->thread = std::thread([this] { state_->run(read_); });
   return {};
 }

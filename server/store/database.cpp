@@ -90,27 +90,25 @@ Result<Statement> Database::prepare(const std::string& sql) {
 }
 
 Result<std::optional<int64_t>> Database::number(const std::string& sql) {
-  const auto statement = prepare(sql);
-  if (!statement) return tl::unexpected(statement.error());
-  const int code = sqlite3_step(statement->get());
+  const auto statement = TRY(prepare(sql));
+  const int code = sqlite3_step(statement.get());
   if (code == SQLITE_DONE) return std::optional<int64_t>();
   if (code != SQLITE_ROW) return failure("cannot be read");
-  if (sqlite3_column_type(statement->get(), 0) == SQLITE_NULL) return std::optional<int64_t>();
-  return std::optional<int64_t>(sqlite3_column_int64(statement->get(), 0));
+  if (sqlite3_column_type(statement.get(), 0) == SQLITE_NULL) return std::optional<int64_t>();
+  return std::optional<int64_t>(sqlite3_column_int64(statement.get(), 0));
 }
 
 Result<bool> Database::has_table(const std::string& table) {
   const auto count =
       number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
-  if (!count) return tl::unexpected(count.error());
+  TRY(count);
   return *count == 1;
 }
 
 Result<std::string> Database::text(const std::string& sql) {
-  const auto statement = prepare(sql);
-  if (!statement) return tl::unexpected(statement.error());
-  if (sqlite3_step(statement->get()) != SQLITE_ROW) return failure("cannot be read");
-  const auto* value = reinterpret_cast<const char*>(sqlite3_column_text(statement->get(), 0));
+  const auto statement = TRY(prepare(sql));
+  if (sqlite3_step(statement.get()) != SQLITE_ROW) return failure("cannot be read");
+  const auto* value = reinterpret_cast<const char*>(sqlite3_column_text(statement.get(), 0));
   return std::string(value == nullptr ? "" : value);
 }
 
@@ -150,16 +148,14 @@ Result<void> Database::run(const Statement& prepared, uint64_t key) {
 }
 
 Result<void> Database::each(const std::string& select, const TakeRow& take) {
-  const auto prepared = prepare(select);
-  if (!prepared) return tl::unexpected(prepared.error());
-  return each_of(*prepared, take);
+  const auto prepared = TRY(prepare(select));
+  return each_of(prepared, take);
 }
 
 Result<void> Database::each(const std::string& select, uint64_t key, const TakeRow& take) {
-  const auto prepared = prepare(select);
-  if (!prepared) return tl::unexpected(prepared.error());
-  sqlite3_bind_int64(prepared->get(), 1, static_cast<int64_t>(key));
-  return each_of(*prepared, take);
+  const auto prepared = TRY(prepare(select));
+  sqlite3_bind_int64(prepared.get(), 1, static_cast<int64_t>(key));
+  return each_of(prepared, take);
 }
 
 Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
@@ -179,26 +175,24 @@ Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
 }
 
 Result<void> Database::each_number(const std::string& select, const TakeNumbers& take) {
-  const auto prepared = prepare(select);
-  if (!prepared) return tl::unexpected(prepared.error());
-  std::vector<int64_t> columns(static_cast<size_t>(sqlite3_column_count(prepared->get())));
+  const auto prepared = TRY(prepare(select));
+  std::vector<int64_t> columns(static_cast<size_t>(sqlite3_column_count(prepared.get())));
   for (;;) {
-    const int code = sqlite3_step(prepared->get());
+    const int code = sqlite3_step(prepared.get());
     if (code == SQLITE_DONE) return {};
     if (code != SQLITE_ROW) return failure("cannot be read");
     for (size_t i = 0; i < columns.size(); ++i)
-      columns[i] = sqlite3_column_int64(prepared->get(), static_cast<int>(i));
-    if (Result<void> taken = take(columns); !taken) return taken;
+      columns[i] = sqlite3_column_int64(prepared.get(), static_cast<int>(i));
+    TRY(take(columns));
   }
 }
 
 Result<void> Database::copy_to(const std::string& path) {
-  auto to = create(path);
-  if (!to) return tl::unexpected(to.error());
-  sqlite3_backup* backup = sqlite3_backup_init(to->database_.get(), "main", database_.get(), "main");
-  if (backup == nullptr) return to->failure("cannot be written");
+  auto to = TRY(create(path));
+  sqlite3_backup* backup = sqlite3_backup_init(to.database_.get(), "main", database_.get(), "main");
+  if (backup == nullptr) return to.failure("cannot be written");
   sqlite3_backup_step(backup, -1);
-  if (sqlite3_backup_finish(backup) != SQLITE_OK) return to->failure("cannot be written");
+  if (sqlite3_backup_finish(backup) != SQLITE_OK) return to.failure("cannot be written");
   return {};
 }
 

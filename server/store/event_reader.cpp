@@ -20,28 +20,24 @@ tl::unexpected<Error> EventReader::damaged(const std::string& what) const {
 Result<EventReader> EventReader::open(Database& database) {
   EventReader reader(database);
   for (const char* table : {"events", "machine"}) {
-    const auto has = database.has_table(table);
-    if (!has) return tl::unexpected(has.error());
-    if (!*has) return reader;
+    const auto has = TRY(database.has_table(table));
+    if (!has) return reader;
   }
   reader.exists_ = true;
-  if (auto looked = reader.look(); !looked) return tl::unexpected(looked.error());
+  TRY(reader.look());
   return reader;
 }
 
 /// Where the first row of the machine's begins. A recording that an earlier release began has it later.
 Result<void> EventReader::look() {
   if (!exists_ || from_) return {};
-  const auto row = database_->number("SELECT min(tick) FROM machine");
-  if (!row) return tl::unexpected(row.error());
-  if (!row->has_value()) return {};
-  const auto tick = static_cast<Tick>(**row);
-  auto select = database_->prepare(schema::select_from("machine"));
-  if (!select) return tl::unexpected(select.error());
-  const auto bytes = database_->get(*select, tick);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (!bytes->has_value()) return {};
-  const auto machine = decode_recorded_machine(**bytes);
+  const auto row = TRY(database_->number("SELECT min(tick) FROM machine"));
+  if (!row.has_value()) return {};
+  const auto tick = static_cast<Tick>(*row);
+  auto select = TRY(database_->prepare(schema::select_from("machine")));
+  const auto bytes = TRY(database_->get(select, tick));
+  if (!bytes.has_value()) return {};
+  const auto machine = decode_recorded_machine(*bytes);
   if (!machine) return damaged(" at tick " + std::to_string(tick) + ": " + machine.error().message);
   from_ = machine->tick + 1 - machine->tick_us.size();
   return {};
@@ -57,8 +53,7 @@ Result<std::vector<Event>> EventReader::events(Tick from, Tick to) {
     events.insert(events.end(), row->begin(), row->end());
     return {};
   };
-  if (auto read = database_->each(rows_of("events", from, to), take); !read)
-    return tl::unexpected(read.error());
+  TRY(database_->each(rows_of("events", from, to), take));
   return events;
 }
 
@@ -75,16 +70,14 @@ Result<std::vector<RecordedMachine>> EventReader::machine(Tick from, Tick to) {
     return {};
   };
   // A row that ends after `to` has ticks before it.
-  if (auto read = database_->each(rows_of("machine", from, to + limits::ticks_per_row_max), take); !read)
-    return tl::unexpected(read.error());
+  TRY(database_->each(rows_of("machine", from, to + limits::ticks_per_row_max), take));
   return rows;
 }
 
 Result<std::optional<Tick>> EventReader::tick_of(const std::string& select) {
   if (!from_) return std::optional<Tick>();
-  const auto tick = database_->number(select);
-  if (!tick) return tl::unexpected(tick.error());
-  return tick->has_value() ? std::optional(static_cast<Tick>(**tick)) : std::nullopt;
+  const auto tick = TRY(database_->number(select));
+  return tick.has_value() ? std::optional(static_cast<Tick>(*tick)) : std::nullopt;
 }
 
 Result<std::optional<Tick>> EventReader::next(Tick tick, Tick last) {

@@ -63,13 +63,12 @@ std::string missing_log_hint(const std::string& path) {
 }
 
 Result<void> check_format(Database& database, const FileKind& kind) {
-  const auto id = database.number("PRAGMA application_id");
-  if (!id) return tl::unexpected(id.error());
+  const auto id = TRY(database.number("PRAGMA application_id"));
   const std::string noun(kind.noun);
-  if (id->value_or(0) != kind.application_id)
+  if (id.value_or(0) != kind.application_id)
     return fail(database.path() + " is no " + noun + ": it is an SQLite file of another program");
   const auto format = database.number("PRAGMA user_version");
-  if (!format) return tl::unexpected(format.error());
+  TRY(format);
   if (format->value_or(0) != kind.format)
     return fail(database.path() + " is a " + noun + " of format " + std::to_string(format->value_or(0)) +
                 "; this program reads format " + std::to_string(kind.format) + ": " +
@@ -78,9 +77,8 @@ Result<void> check_format(Database& database, const FileKind& kind) {
 }
 
 Result<void> check_pages(Database& database) {
-  const auto check = database.text("PRAGMA quick_check(1)");
-  if (!check) return tl::unexpected(check.error());
-  if (*check != "ok") return fail(database.path() + ": damaged or cut short: " + *check);
+  const auto check = TRY(database.text("PRAGMA quick_check(1)"));
+  if (check != "ok") return fail(database.path() + ": damaged or cut short: " + check);
   return {};
 }
 

@@ -13,16 +13,15 @@ MassUnits KeptTerrain::ground_of(Chunk& chunk, BrickCoord brick) const {
 
 Result<KeptTerrain::Chunk*> KeptTerrain::chunk_at(ChunkCoord coord) {
   if (const auto found = chunks_.find(coord); found != chunks_.end()) return &found->second;
-  const auto saved = read_(coord);
-  if (!saved) return tl::unexpected(saved.error());
+  const auto saved = TRY(read_(coord));
   Chunk& chunk = chunks_[coord];
-  if (!saved->has_value()) return &chunk;
-  for (const BrickPatch& patch : (*saved)->bricks)
+  if (!saved.has_value()) return &chunk;
+  for (const BrickPatch& patch : saved->bricks)
     chunk.bricks[patch.coord] = {patch.coord, shared_copy(patch.brick),
                                  brick_hash(patch.coord, patch.brick, patch.paint), patch.paint};
-  chunk.hash = (*saved)->hash;
-  if ((*saved)->ground_mass) {
-    chunk.ground_mass = *(*saved)->ground_mass;
+  chunk.hash = saved->hash;
+  if (saved->ground_mass) {
+    chunk.ground_mass = *saved->ground_mass;
     return &chunk;
   }
   for (const auto& [brick, ignored] : chunk.bricks) chunk.ground_mass += ground_of(chunk, brick);

@@ -17,9 +17,8 @@ Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues he
   KeyframeReader reader(database);
   reader.header_ = std::move(header);
   for (const char* table : {"keyframe_states", "keyframe_chunks", "keyframe_pieces"}) {
-    const auto has = database.has_table(table);
-    if (!has) return tl::unexpected(has.error());
-    if (!*has) return reader;
+    const auto has = TRY(database.has_table(table));
+    if (!has) return reader;
   }
   reader.exists_ = true;
   const std::pair<Statement*, std::string> statements[] = {
@@ -27,9 +26,8 @@ Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues he
       {&reader.select_piece_, schema::select_from("keyframe_pieces")},
       {&reader.select_state_, schema::select_from("keyframe_states")}};
   for (const auto& [statement, sql] : statements) {
-    auto prepared = database.prepare(sql);
-    if (!prepared) return tl::unexpected(prepared.error());
-    *statement = std::move(*prepared);
+    auto prepared = TRY(database.prepare(sql));
+    *statement = std::move(prepared);
   }
   return reader;
 }
@@ -37,7 +35,7 @@ Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues he
 Result<uint64_t> KeyframeReader::count() {
   if (!exists_) return uint64_t{0};
   const auto count = database_->number("SELECT count(*) FROM keyframe_states");
-  if (!count) return tl::unexpected(count.error());
+  TRY(count);
   return static_cast<uint64_t>(count->value_or(0));
 }
 
@@ -45,7 +43,7 @@ Result<std::optional<Tick>> KeyframeReader::tick_before(Tick tick) {
   if (!exists_) return std::optional<Tick>();
   const auto latest =
       database_->number("SELECT max(tick) FROM keyframe_states WHERE tick <= " + std::to_string(tick));
-  if (!latest) return tl::unexpected(latest.error());
+  TRY(latest);
   return latest->has_value() ? std::optional(static_cast<Tick>(**latest)) : std::nullopt;
 }
 
@@ -57,9 +55,8 @@ Result<void> KeyframeReader::index() {
     indexed_ = std::max(indexed_, row[0]);
     return {};
   };
-  const auto latest = database_->number("SELECT max(id) FROM keyframe_chunks");
-  if (!latest) return tl::unexpected(latest.error());
-  if (latest->value_or(0) <= indexed_) return {};
+  const auto latest = TRY(database_->number("SELECT max(id) FROM keyframe_chunks"));
+  if (latest.value_or(0) <= indexed_) return {};
   // Without the blobs: from the index alone, unless few rows are new.
   const std::string since = indexed_ == 0 ? "" : " NOT INDEXED WHERE id > " + std::to_string(indexed_);
   if (auto read = database_->each_number("SELECT id, chunk, tick, hash FROM keyframe_chunks" + since, take);
@@ -83,10 +80,9 @@ const KeyframeReader::Row* KeyframeReader::latest(const std::vector<Row>& rows, 
 }
 
 Result<std::vector<BrickPatch>> KeyframeReader::read_chunk(const Row& row, ChunkCoord chunk) {
-  const auto data = database_->get(select_chunk_, static_cast<uint64_t>(row.id));
-  if (!data) return tl::unexpected(data.error());
-  if (!data->has_value()) return damaged("a chunk's row was dropped", row.tick);
-  auto bricks = decode_bricks(**data);
+  const auto data = TRY(database_->get(select_chunk_, static_cast<uint64_t>(row.id)));
+  if (!data.has_value()) return damaged("a chunk's row was dropped", row.tick);
+  auto bricks = decode_bricks(*data);
   if (!bricks) return damaged(bricks.error().message, row.tick);
   for (const BrickPatch& patch : *bricks)
     if (chunk_of(patch.coord) != chunk) return damaged("a brick is in another chunk's row", row.tick);
@@ -94,20 +90,19 @@ Result<std::vector<BrickPatch>> KeyframeReader::read_chunk(const Row& row, Chunk
 }
 
 Result<void> KeyframeReader::each_chunk(Tick tick, const TakeChunk& take) {
-  if (auto indexed = index(); !indexed) return indexed;
+  TRY(index());
   for (const auto& [key, rows] : chunks_) {
     const Row* const row = latest(rows, tick);
     if (row == nullptr) continue;
     const ChunkCoord chunk = world_schema::chunk_of_key(key);
-    const auto bricks = read_chunk(*row, chunk);
-    if (!bricks) return tl::unexpected(bricks.error());
-    if (auto taken = take(chunk, *bricks); !taken) return taken;
+    const auto bricks = TRY(read_chunk(*row, chunk));
+    TRY(take(chunk, bricks));
   }
   return {};
 }
 
 Result<bool> KeyframeReader::has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick) {
-  if (auto indexed = index(); !indexed) return tl::unexpected(indexed.error());
+  TRY(index());
   const auto rows = chunks_.find(world_schema::chunk_key(chunk));
   const Row* const row = rows == chunks_.end() ? nullptr : latest(rows->second, tick);
   return row != nullptr && row->hash == hash;
@@ -122,7 +117,7 @@ Result<std::vector<BrickPatch>> KeyframeReader::chunk(ChunkCoord chunk, uint64_t
 }
 
 Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known) {
-  if (auto indexed = index(); !indexed) return indexed;
+  TRY(index());
   for (const auto& [key, rows] : chunks_) {
     const Row* const row = latest(rows, tick);
     if (row == nullptr) continue;
@@ -131,9 +126,8 @@ Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const 
       parts.known_chunks.push_back(chunk);
       continue;
     }
-    const auto bricks = read_chunk(*row, chunk);
-    if (!bricks) return tl::unexpected(bricks.error());
-    parts.keyframe.bricks.insert(parts.keyframe.bricks.end(), bricks->begin(), bricks->end());
+    const auto bricks = TRY(read_chunk(*row, chunk));
+    parts.keyframe.bricks.insert(parts.keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
   std::ranges::sort(parts.keyframe.bricks, {}, &BrickPatch::coord);
   std::ranges::sort(parts.known_chunks);
@@ -148,11 +142,10 @@ Result<void> KeyframeReader::read_pieces(KeyframeParts& parts, const KnownParts&
       of_known.push_back(state);
       continue;
     }
-    const auto data = database_->get(select_piece_, state.id);
-    if (!data) return tl::unexpected(data.error());
-    if (!data->has_value())
+    const auto data = TRY(database_->get(select_piece_, state.id));
+    if (!data.has_value())
       return damaged("piece " + std::to_string(state.id) + " is missing", parts.keyframe.tick);
-    auto piece = decode_recorded_piece(**data);
+    auto piece = decode_recorded_piece(*data);
     if (!piece) return damaged(piece.error().message, parts.keyframe.tick);
     if (piece->id != state.id) return damaged("a piece is in another one's row", parts.keyframe.tick);
     piece->pose = state.pose;
@@ -168,17 +161,16 @@ Result<void> KeyframeReader::read_pieces(KeyframeParts& parts, const KnownParts&
 }
 
 Result<KeyframeParts> KeyframeReader::read(Tick tick, const KnownParts& known) {
-  const auto data = database_->get(select_state_, tick);
-  if (!data) return tl::unexpected(data.error());
-  if (!data->has_value()) return damaged("it is not there", tick);
-  auto keyframe = decode_recorded_keyframe(**data);
+  const auto data = TRY(database_->get(select_state_, tick));
+  if (!data.has_value()) return damaged("it is not there", tick);
+  auto keyframe = decode_recorded_keyframe(*data);
   if (!keyframe) return damaged(keyframe.error().message, tick);
   if (keyframe->tick != tick || !keyframe->bricks.empty() || !keyframe->pieces.empty())
     return damaged("it is another one's", tick);
   if (keyframe->settings.empty()) keyframe->settings = header_;
   KeyframeParts parts{std::move(*keyframe), {}};
-  if (auto read = read_chunks(parts, tick, known); !read) return tl::unexpected(read.error());
-  if (auto read = read_pieces(parts, known); !read) return tl::unexpected(read.error());
+  TRY(read_chunks(parts, tick, known));
+  TRY(read_pieces(parts, known));
   return parts;
 }
 

@@ -28,9 +28,8 @@ Result<KeyframeWriter> KeyframeWriter::create(Database& database, SettingValues 
       {&writer.put_piece_, schema::put_into("keyframe_pieces")},
       {&writer.put_state_, schema::put_into("keyframe_states")}};
   for (const auto& [statement, sql] : statements) {
-    auto prepared = database.prepare(sql);
-    if (!prepared) return tl::unexpected(prepared.error());
-    *statement = std::move(*prepared);
+    auto prepared = TRY(database.prepare(sql));
+    *statement = std::move(prepared);
   }
   return writer;
 }
@@ -57,7 +56,7 @@ Result<void> KeyframeWriter::bring_in(ChunkCoord chunk, PublishedState& state) {
   const std::string select =
       "SELECT tick, data, checksum FROM keyframe_chunks WHERE chunk = " + key_text(chunk) +
       " ORDER BY tick DESC, id DESC LIMIT 1";
-  if (auto read = database_->each(select, take); !read) return read;
+  TRY(database_->each(select, take));
   if (!bricks || !state.page_in(chunk, *bricks)) return damaged();
   return {};
 }
@@ -80,7 +79,7 @@ Result<void> KeyframeWriter::apply(const TickDelta& delta, PublishedState& state
     if (!changed_.insert(chunk).second) continue;
     const auto known = state.chunks().find(chunk);
     if (known == state.chunks().end() || known->second.is_whole()) continue;
-    if (auto in = bring_in(chunk, state); !in) return in;
+    TRY(bring_in(chunk, state));
   }
   state.apply(delta);
   page_out(state);
@@ -120,9 +119,8 @@ Result<void> KeyframeWriter::put_chunk(const PublishedState& state, ChunkCoord c
   std::vector<BrickView> bricks;
   std::vector<BrickPatch> read;
   if (!published.is_whole()) {
-    auto whole = read_whole(published, chunk);
-    if (!whole) return tl::unexpected(whole.error());
-    read = std::move(*whole);
+    auto whole = TRY(read_whole(published, chunk));
+    read = std::move(whole);
   }
   for (const BrickPatch& brick : read) bricks.push_back({brick.coord, &brick.brick, brick.paint});
   if (read.empty())
@@ -132,7 +130,7 @@ Result<void> KeyframeWriter::put_chunk(const PublishedState& state, ChunkCoord c
   const int64_t keys[] = {static_cast<int64_t>(state.tick()),
                           static_cast<int64_t>(world_schema::chunk_key(chunk)),
                           static_cast<int64_t>(published.hash)};
-  if (auto put = database_->put(insert_chunk_, keys, data); !put) return put;
+  TRY(database_->put(insert_chunk_, keys, data));
   written_[chunk] = published.hash;
   return {};
 }
@@ -142,15 +140,13 @@ Result<void> KeyframeWriter::put_piece(PieceId id, const PublishedPiece& piece) 
 }
 
 Result<void> KeyframeWriter::put(const PublishedState& state) {
-  for (const ChunkCoord chunk : changed_)
-    if (auto put = put_chunk(state, chunk); !put) return put;
+  for (const ChunkCoord chunk : changed_) TRY(put_chunk(state, chunk));
   changed_.clear();
   read_ = {};
   RecordedKeyframe keyframe;
   std::set<PieceId> alive;
   for (const auto& [id, piece] : state.pieces()) {
-    if (!pieces_.contains(id))
-      if (auto put = put_piece(id, piece); !put) return put;
+    if (!pieces_.contains(id)) TRY(put_piece(id, piece));
     alive.insert(alive.end(), id);
     keyframe.poses.push_back({id, piece.pose});
   }
@@ -167,9 +163,8 @@ Result<void> KeyframeWriter::drop_before(Tick tick, PieceId next_piece) {
   const std::string at = std::to_string(tick);
   std::string alive;
   const auto take = [&](uint64_t, std::span<const uint8_t> data, bool) -> Result<void> {
-    const auto keyframe = decode_recorded_keyframe(data);
-    if (!keyframe) return tl::unexpected(keyframe.error());
-    for (const PieceState& piece : keyframe->poses) {
+    const auto keyframe = TRY(decode_recorded_keyframe(data));
+    for (const PieceState& piece : keyframe.poses) {
       if (!alive.empty()) alive += ',';
       alive += std::to_string(piece.id);
     }

@@ -131,9 +131,8 @@ Recorder::~Recorder() {
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
                                                    RingLimit limit) {
-  auto writer = RecordingWriter::create(path, header, limit);
-  if (!writer) return tl::unexpected(writer.error());
-  return start(std::move(*writer), 0);
+  auto writer = TRY(RecordingWriter::create(path, header, limit));
+  return start(std::move(writer), 0);
 }
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, const RecordingHeader& header,
@@ -141,7 +140,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path, cons
   std::error_code ignored;
   auto writer = std::filesystem::exists(path, ignored) ? RecordingWriter::resume(path, header, from, limit)
                                                        : RecordingWriter::create(path, header, from, limit);
-  if (!writer) return tl::unexpected(writer.error());
+  TRY(writer);
   return start(std::move(*writer), from.keyframe.tick);
 }
 

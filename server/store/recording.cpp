@@ -12,9 +12,8 @@ RecordedHeader to_recorded(const RecordingHeader& header) {
 }
 
 Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
-  auto world = config_of(header);
-  if (!world) return tl::unexpected(world.error());
-  return RecordingHeader{header.program, std::move(*world), header.merge_burst_ticks};
+  auto world = TRY(config_of(header));
+  return RecordingHeader{header.program, std::move(world), header.merge_burst_ticks};
 }
 
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {

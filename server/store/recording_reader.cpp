@@ -50,12 +50,10 @@ struct RecordingReader::State {
 };
 
 Result<void> RecordingReader::State::read_header() {
-  auto select = database.prepare(schema::select_from("header"));
-  if (!select) return tl::unexpected(select.error());
-  const auto bytes_read = database.get(*select, 0);
-  if (!bytes_read) return tl::unexpected(bytes_read.error());
-  if (!bytes_read->has_value()) return fail(database.path() + ": damaged: it has no header");
-  const auto recorded = decode_recorded_header(**bytes_read);
+  auto select = TRY(database.prepare(schema::select_from("header")));
+  const auto bytes_read = TRY(database.get(select, 0));
+  if (!bytes_read.has_value()) return fail(database.path() + ": damaged: it has no header");
+  const auto recorded = decode_recorded_header(*bytes_read);
   if (!recorded) return fail(database.path() + ": damaged: " + recorded.error().message);
   if (recorded->format != recording_format)
     return fail(database.path() + ": damaged: its header is of format " + std::to_string(recorded->format));
@@ -68,9 +66,8 @@ Result<void> RecordingReader::State::read_header() {
 /// Without SQLite's log nobody writes, and who begins to would be kept out.
 Result<void> RecordingReader::State::hold() {
   if (holds || is_ended) return {};
-  const auto journal = database.text("PRAGMA journal_mode");
-  if (!journal) return tl::unexpected(journal.error());
-  if (*journal != "wal") return {};
+  const auto journal = TRY(database.text("PRAGMA journal_mode"));
+  if (journal != "wal") return {};
   auto begun = database.execute("BEGIN");
   holds = begun.has_value();
   return begun;
@@ -88,14 +85,12 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   if (!first->has_value() && without_ticks == WithoutTicks::awaited && !is_ended) return {};
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
   if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
-  const auto begun = state_up_to(static_cast<Tick>(**first - 1));
-  if (!begun) return tl::unexpected(begun.error());
-  if (*first != 1 && begun->has_value() &&
-      static_cast<Tick>(**first) - 1 - **begun > limits::unseen_ticks_max)
+  const auto begun = TRY(state_up_to(static_cast<Tick>(**first - 1)));
+  if (*first != 1 && begun.has_value() && static_cast<Tick>(**first) - 1 - *begun > limits::unseen_ticks_max)
     return fail(database.path() + ": damaged: its first tick is " + std::to_string(**first) +
-                ", too far from its state after tick " + std::to_string(**begun) +
+                ", too far from its state after tick " + std::to_string(*begun) +
                 " (limits.unseen_ticks_max)");
-  if ((*first != 1 && !begun->has_value()) || **last - **first != **count - 1)
+  if ((*first != 1 && !begun.has_value()) || **last - **first != **count - 1)
     return fail(database.path() + ": damaged: ticks are missing (" + std::to_string(**count) + " from " +
                 std::to_string(**first) + " to " + std::to_string(**last) + ")");
   first_tick = static_cast<Tick>(**first);
@@ -110,31 +105,26 @@ Result<void> RecordingReader::State::read_later_tables() {
     if (!*has) return tl::unexpected(has->error());
   has_end = *ended;
   if (*moments) {
-    auto select = database.prepare(schema::select_from("state_moments"));
-    if (!select) return tl::unexpected(select.error());
-    select_moment = std::move(*select);
+    auto select = TRY(database.prepare(schema::select_from("state_moments")));
+    select_moment = std::move(select);
   }
-  auto rows = KeyframeReader::open(database, print(header.world));
-  if (!rows) return tl::unexpected(rows.error());
-  keyframe_rows = std::move(*rows);
-  auto earlier = EarlierKeyframes::open(database);
-  if (!earlier) return tl::unexpected(earlier.error());
-  earlier_keyframes = std::move(*earlier);
-  auto log = EventReader::open(database);
-  if (!log) return tl::unexpected(log.error());
-  events = std::move(*log);
+  auto rows = TRY(KeyframeReader::open(database, print(header.world)));
+  keyframe_rows = std::move(rows);
+  auto earlier = TRY(EarlierKeyframes::open(database));
+  earlier_keyframes = std::move(earlier);
+  auto log = TRY(EventReader::open(database));
+  events = std::move(log);
   return {};
 }
 
 /// Who recorded says so, unless that was an earlier release: then the log beside the file was merged.
 Result<void> RecordingReader::State::read_end() {
   const auto journal = database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
-  if (!journal) return tl::unexpected(journal.error());
+  TRY(journal);
   is_ended = *journal != "wal";
   if (is_ended || !has_end) return {};
-  const auto row = database.number("SELECT count(*) FROM ended");
-  if (!row) return tl::unexpected(row.error());
-  is_ended = *row != 0;
+  const auto row = TRY(database.number("SELECT count(*) FROM ended"));
+  is_ended = row != 0;
   return {};
 }
 
@@ -159,24 +149,21 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::string
 
 Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const std::string& path,
                                                                           WithoutTicks without_ticks) {
-  if (auto looks = check_file(path, schema::recording); !looks) return tl::unexpected(looks.error());
-  auto database = Database::open(path);
-  if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database));
-  if (auto format = check_format(state->database, schema::recording); !format)
-    return tl::unexpected(format.error());
-  if (auto held = state->hold(); !held) return tl::unexpected(held.error());
-  if (auto whole = check_pages(state->database); !whole) return tl::unexpected(whole.error());
-  if (auto header = state->read_header(); !header) return tl::unexpected(header.error());
-  if (auto tables = state->read_later_tables(); !tables) return tl::unexpected(tables.error());
-  if (auto end = state->read_end(); !end) return tl::unexpected(end.error());
-  if (auto extent = state->read_extent(without_ticks); !extent) return tl::unexpected(extent.error());
+  TRY(check_file(path, schema::recording));
+  auto database = TRY(Database::open(path));
+  auto state = std::make_unique<State>(std::move(database));
+  TRY(check_format(state->database, schema::recording));
+  TRY(state->hold());
+  TRY(check_pages(state->database));
+  TRY(state->read_header());
+  TRY(state->read_later_tables());
+  TRY(state->read_end());
+  TRY(state->read_extent(without_ticks));
   for (const auto& [statement, table] :
        {std::pair(&state->select_frame, "frames"), std::pair(&state->select_commands, "commands"),
         std::pair(&state->select_state, "states")}) {
-    auto prepared = state->database.prepare(schema::select_from(table));
-    if (!prepared) return tl::unexpected(prepared.error());
-    *statement = std::move(*prepared);
+    auto prepared = TRY(state->database.prepare(schema::select_from(table)));
+    *statement = std::move(prepared);
   }
   std::error_code ignored;
   state->bytes = std::filesystem::file_size(path, ignored);
@@ -209,8 +196,8 @@ Result<void> RecordingReader::look_again() {
   State& state = *state_;
   if (state.is_ended) return {};
   let_go();
-  if (auto held = state.hold(); !held) return held;
-  if (auto end = state.read_end(); !end) return end;
+  TRY(state.hold());
+  TRY(state.read_end());
   const auto first = state.database.number("SELECT min(tick) FROM frames");
   const auto last = state.database.number("SELECT max(tick) FROM frames");
   for (const auto* number : {&first, &last})
@@ -235,27 +222,22 @@ uint64_t RecordingReader::bytes() const {
 
 /// The terrain is that of its tick's keyframe.
 Result<std::optional<RecordedState>> RecordingReader::State::state_of_moment(Tick tick) {
-  const auto row = database.get(select_moment, tick);
-  if (!row) return tl::unexpected(row.error());
-  if (!row->has_value()) return std::optional<RecordedState>();
-  auto value = decoded(decode_world(**row), tick);
-  if (!value) return tl::unexpected(value.error());
-  const auto at = keyframe_rows->tick_before(tick);
-  if (!at) return tl::unexpected(at.error());
-  if (*at != tick)
+  const auto row = TRY(database.get(select_moment, tick));
+  if (!row.has_value()) return std::optional<RecordedState>();
+  auto value = TRY(decoded(decode_world(*row), tick));
+  const auto at = TRY(keyframe_rows->tick_before(tick));
+  if (at != tick)
     return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has no terrain");
-  if (!value->bricks.empty())
+  if (!value.bricks.empty())
     return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has bricks");
-  return std::optional(RecordedState{std::move(*value), true});
+  return std::optional(RecordedState{std::move(value), true});
 }
 
 Result<std::optional<RecordedState>> RecordingReader::state(Tick tick) {
-  const auto whole = state_->database.get(state_->select_state, tick);
-  if (!whole) return tl::unexpected(whole.error());
-  if (whole->has_value()) {
-    auto value = state_->decoded(decode_world(**whole), tick);
-    if (!value) return tl::unexpected(value.error());
-    return std::optional(RecordedState{std::move(*value), false});
+  const auto whole = TRY(state_->database.get(state_->select_state, tick));
+  if (whole.has_value()) {
+    auto value = TRY(state_->decoded(decode_world(*whole), tick));
+    return std::optional(RecordedState{std::move(value), false});
   }
   return state_->select_moment ? state_->state_of_moment(tick) : std::optional<RecordedState>();
 }
@@ -276,26 +258,22 @@ Result<std::optional<Tick>> RecordingReader::State::state_up_to(Tick tick) {
   std::optional<Tick> latest;
   for (const char* table : {"states", "state_moments"}) {
     if (table == std::string_view("state_moments") && !select_moment) break;
-    const auto row = database.number("SELECT max(tick) FROM " + std::string(table) +
-                                     " WHERE tick >= 0 AND tick <= " + std::to_string(tick));
-    if (!row) return tl::unexpected(row.error());
-    if (row->has_value()) latest = std::max(latest.value_or(0), static_cast<Tick>(**row));
+    const auto row = TRY(database.number("SELECT max(tick) FROM " + std::string(table) +
+                                         " WHERE tick >= 0 AND tick <= " + std::to_string(tick)));
+    if (row.has_value()) latest = std::max(latest.value_or(0), static_cast<Tick>(*row));
   }
   return latest;
 }
 
 Result<Tick> RecordingReader::state_before(Tick tick) {
-  const auto latest = state_->state_up_to(tick);
-  if (!latest) return tl::unexpected(latest.error());
-  return latest->value_or(0);
+  const auto latest = TRY(state_->state_up_to(tick));
+  return latest.value_or(0);
 }
 
 Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
-  const auto rows = state_->keyframe_rows->tick_before(tick);
-  if (!rows) return tl::unexpected(rows.error());
-  const auto earlier = state_->earlier_keyframes->tick_before(tick);
-  if (!earlier) return tl::unexpected(earlier.error());
-  return std::max(rows->value_or(0), earlier->value_or(0));
+  const auto rows = TRY(state_->keyframe_rows->tick_before(tick));
+  const auto earlier = TRY(state_->earlier_keyframes->tick_before(tick));
+  return std::max(rows.value_or(0), earlier.value_or(0));
 }
 
 /// A ring that was gone on with, after it had been opened, may have dropped it.
@@ -309,10 +287,9 @@ tl::unexpected<Error> RecordingReader::State::missing(Tick tick) {
 
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
   CHECK(tick >= state_->first_tick && tick <= state_->last_tick);
-  const auto bytes = state_->database.get(state_->select_frame, tick);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (!bytes->has_value()) return state_->missing(tick);
-  auto frame = state_->decoded(decode_recorded_frame(**bytes), tick);
+  const auto bytes = TRY(state_->database.get(state_->select_frame, tick));
+  if (!bytes.has_value()) return state_->missing(tick);
+  auto frame = state_->decoded(decode_recorded_frame(*bytes), tick);
   if (frame && frame->tick != tick)
     return fail(path() + ": damaged: the frame of tick " + std::to_string(tick) + " says that it is tick " +
                 std::to_string(frame->tick));
@@ -321,12 +298,10 @@ Result<RecordedFrame> RecordingReader::frame(Tick tick) {
 
 Result<std::vector<Command>> RecordingReader::commands(Tick tick) {
   CHECK(tick <= state_->last_tick);
-  const auto bytes = state_->database.get(state_->select_commands, tick);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (!bytes->has_value()) return std::vector<Command>();
-  const auto recorded = state_->decoded(decode_recorded_commands(**bytes), tick);
-  if (!recorded) return tl::unexpected(recorded.error());
-  return *recorded;
+  const auto bytes = TRY(state_->database.get(state_->select_commands, tick));
+  if (!bytes.has_value()) return std::vector<Command>();
+  const auto recorded = TRY(state_->decoded(decode_recorded_commands(*bytes), tick));
+  return recorded;
 }
 
 std::optional<Tick> RecordingReader::events_from() const {
@@ -354,28 +329,23 @@ Result<std::optional<Tick>> RecordingReader::previous_event(Tick tick) {
 }
 
 Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick tick) {
-  auto parts = keyframe_before(tick, KnownParts());
-  if (!parts) return tl::unexpected(parts.error());
-  if (!parts->has_value()) return std::optional<RecordedKeyframe>();
-  return std::optional(std::move((*parts)->keyframe));
+  auto parts = TRY(keyframe_before(tick, KnownParts()));
+  if (!parts.has_value()) return std::optional<RecordedKeyframe>();
+  return std::optional(std::move(parts->keyframe));
 }
 
 Result<std::optional<KeyframeParts>> RecordingReader::keyframe_before(Tick tick, const KnownParts& known) {
   CHECK(tick <= state_->last_tick);
-  const auto at = state_->keyframe_rows->tick_before(tick);
-  if (!at) return tl::unexpected(at.error());
-  const auto earlier = state_->earlier_keyframes->tick_before(tick);
-  if (!earlier) return tl::unexpected(earlier.error());
-  if (!*at && !*earlier) return std::optional<KeyframeParts>();
-  if (*at >= *earlier) {
-    auto parts = state_->keyframe_rows->read(**at, known);
-    if (!parts) return tl::unexpected(parts.error());
-    return std::optional(std::move(*parts));
+  const auto at = TRY(state_->keyframe_rows->tick_before(tick));
+  const auto earlier = TRY(state_->earlier_keyframes->tick_before(tick));
+  if (!at && !earlier) return std::optional<KeyframeParts>();
+  if (at >= earlier) {
+    auto parts = TRY(state_->keyframe_rows->read(*at, known));
+    return std::optional(std::move(parts));
   }
-  auto whole = state_->earlier_keyframes->read_before(tick);
-  if (!whole) return tl::unexpected(whole.error());
-  if (!whole->has_value()) return std::optional<KeyframeParts>();  // somebody changes the file
-  return std::optional(KeyframeParts{std::move(**whole), {}});
+  auto whole = TRY(state_->earlier_keyframes->read_before(tick));
+  if (!whole.has_value()) return std::optional<KeyframeParts>();  // somebody changes the file
+  return std::optional(KeyframeParts{std::move(*whole), {}});
 }
 
 }  // namespace scree

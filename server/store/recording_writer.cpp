@@ -90,10 +90,9 @@ Result<void> RecordingWriter::State::found() {
       !done)
     return done;
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
-  auto insert_header = database.prepare(schema::insert_into("header"));
-  if (!insert_header) return tl::unexpected(insert_header.error());
+  auto insert_header = TRY(database.prepare(schema::insert_into("header")));
   const std::vector<uint8_t> bytes = encode(to_recorded(header));
-  if (auto done = database.put(*insert_header, 0, bytes); !done) return done;
+  TRY(database.put(insert_header, 0, bytes));
   return database.execute("COMMIT");
 }
 
@@ -103,21 +102,19 @@ Result<void> RecordingWriter::State::prepare() {
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = " +
       std::to_string(std::max<uint64_t>(1, log_bytes / limits::recording_page_bytes)) +
       "; PRAGMA journal_size_limit = " + std::to_string(log_bytes) + ";";
-  if (auto done = database.execute(settings); !done) return done;
+  TRY(database.execute(settings));
   const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
-    auto prepared = database.prepare(sql);
-    if (!prepared) return tl::unexpected(prepared.error());
-    statement = std::move(*prepared);
+    auto prepared = TRY(database.prepare(sql));
+    statement = std::move(prepared);
     return {};
   };
-  if (auto done = take(insert_frame, schema::insert_into("frames")); !done) return done;
-  if (auto done = take(insert_commands, schema::insert_into("commands")); !done) return done;
-  if (auto done = take(insert_events, schema::insert_into("events")); !done) return done;
-  if (auto done = take(put_machine_row, schema::put_into("machine")); !done) return done;
-  if (auto done = take(put_moment, schema::put_into("state_moments")); !done) return done;
-  auto writer = KeyframeWriter::create(database, print(header.world));
-  if (!writer) return tl::unexpected(writer.error());
-  keyframes = std::move(*writer);
+  TRY(take(insert_frame, schema::insert_into("frames")));
+  TRY(take(insert_commands, schema::insert_into("commands")));
+  TRY(take(insert_events, schema::insert_into("events")));
+  TRY(take(put_machine_row, schema::put_into("machine")));
+  TRY(take(put_moment, schema::put_into("state_moments")));
+  auto writer = TRY(KeyframeWriter::create(database, print(header.world)));
+  keyframes = std::move(writer);
   return {};
 }
 
@@ -125,7 +122,7 @@ Result<void> RecordingWriter::State::prepare() {
 Result<void> RecordingWriter::State::put_events(const TickDelta& delta, std::span<const Event> noted) {
   CHECK(deriver.has_value());
   if (const std::vector<Event> events = deriver->events_of(delta); !events.empty())
-    if (auto put = database.put(insert_events, delta.tick, encode(std::span(events))); !put) return put;
+    TRY(database.put(insert_events, delta.tick, encode(std::span(events))));
   machine.tick = delta.tick;
   machine.tick_us.push_back(static_cast<uint32_t>(std::lround(delta.times.total_ms() * us_per_ms)));
   for (const Event& event : noted)
@@ -165,15 +162,15 @@ Result<void> RecordingWriter::State::put_part(const WorldMoment& moment) {
   if (value.size() > limits::row_bytes_max)
     return fail(database.path() + ": the world's pieces take " + std::to_string(value.size()) +
                 " bytes, too many for one row of a recording (limits.row_bytes_max)");
-  if (auto put = keyframes->put(published); !put) return put;
-  if (auto put = database.put(put_moment, moment.tick, value); !put) return put;
+  TRY(keyframes->put(published));
+  TRY(database.put(put_moment, moment.tick, value));
   begin_events(published.settings());
   ring.begin({moment.tick, moment.next_piece}, bytes);
   return {};
 }
 
 Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
-  if (auto begun = begin(); !begun) return begun;
+  TRY(begin());
   keyframes->begin(start.keyframe, published, start.read);
   return put_part(start.moment);
 }
@@ -184,7 +181,7 @@ Result<void> RecordingWriter::State::count_bytes() {
       {&pages, "PRAGMA page_count"}, {&unused, "PRAGMA freelist_count"}, {&page_bytes, "PRAGMA page_size"}};
   for (const auto& [count, sql] : counts) {
     const auto number = database.number(sql);
-    if (!number) return tl::unexpected(number.error());
+    TRY(number);
     *count = static_cast<uint64_t>(number->value_or(0));
   }
   bytes = (pages - std::min(pages, unused)) * page_bytes;
@@ -209,9 +206,9 @@ Result<void> RecordingWriter::State::measure() {
 
 /// Those that the limit has no room for. Their pages are used again.
 Result<void> RecordingWriter::State::drop_parts() {
-  if (auto counted = count_bytes(); !counted) return counted;
+  TRY(count_bytes());
   while (const RecordingRing::Part* first = ring.first_to_stay(published.tick(), bytes))
-    if (auto dropped = drop_before(*first); !dropped) return dropped;
+    TRY(drop_before(*first));
   return {};
 }
 
@@ -222,12 +219,11 @@ Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part)
     sql += std::string("DELETE FROM ") + table + " WHERE tick <= " + tick + ";";
   for (const char* table : {"states", "state_moments", "keyframes"})
     sql += std::string("DELETE FROM ") + table + " WHERE tick < " + tick + ";";
-  const auto has_short = database.has_table("short_keyframes");
-  if (!has_short) return tl::unexpected(has_short.error());
-  if (*has_short) sql += "DELETE FROM short_keyframes WHERE tick < " + tick;
-  if (auto dropped = database.execute(sql); !dropped) return dropped;
-  if (auto dropped = keyframes->drop_before(part.tick, part.next_piece); !dropped) return dropped;
-  if (auto counted = count_bytes(); !counted) return counted;
+  const auto has_short = TRY(database.has_table("short_keyframes"));
+  if (has_short) sql += "DELETE FROM short_keyframes WHERE tick < " + tick;
+  TRY(database.execute(sql));
+  TRY(keyframes->drop_before(part.tick, part.next_piece));
+  TRY(count_bytes());
   ring.drop_before(part.tick, bytes);
   return {};
 }
@@ -246,9 +242,8 @@ RecordingWriter::~RecordingWriter() {
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::string& path,
                                                                  const RecordingHeader& header,
                                                                  RingLimit limit) {
-  auto database = Database::create(path);
-  if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database), header, limit);
+  auto database = TRY(Database::create(path));
+  auto state = std::make_unique<State>(std::move(database), header, limit);
   auto made = state->found();
   if (made) made = state->prepare();
   if (!made) {
@@ -282,41 +277,37 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
                                                                  const RecordingStart& start,
                                                                  RingLimit limit) {
   const Tick tick = start.keyframe.tick;
-  const auto recorded = header_to_resume(path, header, start.keyframe);
-  if (!recorded) return tl::unexpected(recorded.error());
-  auto database = Database::open(path);
-  if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database), *recorded, limit);
-  if (auto made = state->database.execute(schema::create_later_tables()); !made)
-    return tl::unexpected(made.error());
-  if (auto prepared = state->prepare(); !prepared) return tl::unexpected(prepared.error());
-  if (auto begun = state->begin(); !begun) return tl::unexpected(begun.error());
-  const auto has_short = state->database.has_table("short_keyframes");
-  if (!has_short) return tl::unexpected(has_short.error());
+  const auto recorded = TRY(header_to_resume(path, header, start.keyframe));
+  auto database = TRY(Database::open(path));
+  auto state = std::make_unique<State>(std::move(database), recorded, limit);
+  TRY(state->database.execute(schema::create_later_tables()));
+  TRY(state->prepare());
+  TRY(state->begin());
+  const auto has_short = TRY(state->database.has_table("short_keyframes"));
   std::vector<std::string> tables = {"frames",  "keyframes",       "commands",       "events",
                                      "machine", "keyframe_states", "keyframe_chunks"};
-  if (*has_short) tables.emplace_back("short_keyframes");
+  if (has_short) tables.emplace_back("short_keyframes");
   std::string sql = "DELETE FROM ended;";
   for (const std::string& table : tables)
     sql += "DELETE FROM " + table + " WHERE tick > " + std::to_string(tick) + ";";
   for (const char* table : {"states", "state_moments"})
     sql += std::string("DELETE FROM ") + table + " WHERE tick >= " + std::to_string(tick) + ";";
-  if (auto done = state->database.execute(sql); !done) return tl::unexpected(done.error());
-  if (auto taken = state->keyframes->take_up(); !taken) return tl::unexpected(taken.error());
+  TRY(state->database.execute(sql));
+  TRY(state->keyframes->take_up());
   state->ring.begin({0, 0}, 0);  // all that was there before
-  if (auto counted = state->count_bytes(); !counted) return tl::unexpected(counted.error());
-  if (auto put = state->put_start(start); !put) return tl::unexpected(put.error());
+  TRY(state->count_bytes());
+  TRY(state->put_start(start));
   return std::unique_ptr<RecordingWriter>(new RecordingWriter(std::move(state)));
 }
 
 Result<void> RecordingWriter::add_unseen(Tick tick, std::span<const Command> commands) {
-  if (auto begun = state_->begin(); !begun) return begun;
+  TRY(state_->begin());
   return state_->put_commands(tick, commands);
 }
 
 Result<void> RecordingWriter::begin_at(const TickDelta& keyframe, ReadChunk read) {
   State& state = *state_;
-  if (auto begun = state.begin(); !begun) return begun;
+  TRY(state.begin());
   state.keyframes->begin(keyframe, state.published, std::move(read));
   state.begin_events(keyframe.settings);
   return state.keyframes->put(state.published);
@@ -327,16 +318,16 @@ Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Comman
                                   const std::optional<std::vector<PlayerCursor>>& cursors) {
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
-  if (auto begun = state.begin(); !begun) return begun;
-  if (auto put = state.put_commands(delta.tick, commands); !put) return put;
+  TRY(state.begin());
+  TRY(state.put_commands(delta.tick, commands));
   // After its commands: by the frames a recording says how far it goes, also after an error.
   const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
   CHECK_DEBUG(decode_recorded_frame(frame).has_value());
-  if (auto put = state.database.put(state.insert_frame, delta.tick, frame); !put) return put;
+  TRY(state.database.put(state.insert_frame, delta.tick, frame));
   if (cursors) state.last_cursors = *cursors;
   if (cursors || state.machine.tick_us.empty()) state.add_cursors(delta.tick);
-  if (auto put = state.put_events(delta, noted); !put) return put;
-  if (auto applied = state.keyframes->apply(delta, state.published); !applied) return applied;
+  TRY(state.put_events(delta, noted));
+  TRY(state.keyframes->apply(delta, state.published));
   if (part != nullptr) return state.put_part(*part);
   return state.keyframes->is_due(state.published) ? state.keyframes->put(state.published) : Result<void>();
 }
@@ -347,10 +338,9 @@ PartWish RecordingWriter::wants_part() const {
 
 Result<void> RecordingWriter::commit() {
   if (!state_->in_transaction) return {};
-  if (state_->limit.is_on())
-    if (auto dropped = state_->drop_parts(); !dropped) return dropped;
+  if (state_->limit.is_on()) TRY(state_->drop_parts());
   state_->in_transaction = false;
-  if (auto committed = state_->database.execute("COMMIT"); !committed) return committed;
+  TRY(state_->database.execute("COMMIT"));
   return state_->measure();
 }
 
@@ -359,17 +349,16 @@ const RecordingSize& RecordingWriter::size() const {
 }
 
 Result<void> RecordingWriter::State::put_end() {
-  auto put_row = database.prepare(schema::put_into("ended"));
-  if (!put_row) return tl::unexpected(put_row.error());
+  auto put_row = TRY(database.prepare(schema::put_into("ended")));
   const std::array<uint8_t, 1> nothing_more{};
-  return database.put(*put_row, published.tick(), nothing_more);
+  return database.put(put_row, published.tick(), nothing_more);
 }
 
 Result<void> RecordingWriter::finish() {
-  if (auto begun = state_->begin(); !begun) return begun;
-  if (auto put = state_->put_machine(); !put) return put;
-  if (auto put = state_->put_end(); !put) return put;
-  if (auto committed = commit(); !committed) return committed;
+  TRY(state_->begin());
+  TRY(state_->put_machine());
+  TRY(state_->put_end());
+  TRY(commit());
   CHECK(!state_->in_transaction);
   auto merged = state_->database.execute("PRAGMA journal_mode = DELETE");
   return merged || !state_->database.is_busy() ? merged : Result<void>();

@@ -16,13 +16,12 @@ bool alike(const WorldConfig& a, const WorldConfig& b) {
 Result<std::optional<uint64_t>> hash_after(RecordingReader& recorded, Tick tick) {
   if (tick >= recorded.first_tick()) {
     const auto frame = recorded.frame(tick);
-    if (!frame) return tl::unexpected(frame.error());
+    TRY(frame);
     return std::optional(frame->state_hash);
   }
-  const auto keyframe = recorded.keyframe_before(tick);
-  if (!keyframe) return tl::unexpected(keyframe.error());
-  if (!keyframe->has_value() || (*keyframe)->tick != tick) return std::optional<uint64_t>();
-  return std::optional((*keyframe)->state_hash);
+  const auto keyframe = TRY(recorded.keyframe_before(tick));
+  if (!keyframe.has_value() || keyframe->tick != tick) return std::optional<uint64_t>();
+  return std::optional(keyframe->state_hash);
 }
 
 }  // namespace
@@ -30,20 +29,18 @@ Result<std::optional<uint64_t>> hash_after(RecordingReader& recorded, Tick tick)
 Result<RecordingHeader> header_to_resume(const std::string& path, const RecordingHeader& header,
                                          const TickDelta& start) {
   const Tick tick = start.tick;
-  const auto recorded = RecordingReader::open(path);
-  if (!recorded) return tl::unexpected(recorded.error());
+  const auto recorded = TRY(RecordingReader::open(path));
   const auto another = fail(path + " is the recording of another world: choose another name (--record)");
-  if (!alike((*recorded)->header().world, header.world)) return another;
-  if ((*recorded)->last_tick() < tick || (*recorded)->first_tick() > tick + 1)
-    return fail(path + " holds the ticks " + std::to_string((*recorded)->first_tick()) + " to " +
-                std::to_string((*recorded)->last_tick()) + ", and the world stands at " +
-                std::to_string(tick) + ": choose another name (--record)");
-  const auto hash = hash_after(**recorded, tick);
-  if (!hash) return tl::unexpected(hash.error());
+  if (!alike(recorded->header().world, header.world)) return another;
+  if (recorded->last_tick() < tick || recorded->first_tick() > tick + 1)
+    return fail(path + " holds the ticks " + std::to_string(recorded->first_tick()) + " to " +
+                std::to_string(recorded->last_tick()) + ", and the world stands at " + std::to_string(tick) +
+                ": choose another name (--record)");
+  const auto hash = TRY(hash_after(*recorded, tick));
   // Before its first tick a world is what its configuration says.
-  const bool same = *hash ? **hash == start.state_hash : tick == 0;
+  const bool same = hash ? *hash == start.state_hash : tick == 0;
   if (!same) return another;
-  return (*recorded)->header();
+  return recorded->header();
 }
 
 }  // namespace scree

@@ -49,11 +49,10 @@ Result<void> create_world(const std::string& path, const WorldHeader& header, Wo
   const ReadChunk read = reader_of(world);
   const auto each = [&](const WorldFile::PutChunk& put) -> Result<void> {
     for (const ChunkCoord chunk : world.field().edited_chunks()) {
-      auto bricks = read(chunk);
-      if (!bricks) return tl::unexpected(bricks.error());
-      const MassUnits ground = measured_ground(world.field().source(), *bricks).at(chunk);
-      const WorldChunk row{chunk, world.tick(), world.field().chunk_hash(chunk), std::move(*bricks), ground};
-      if (auto done = put(row); !done) return done;
+      auto bricks = TRY(read(chunk));
+      const MassUnits ground = measured_ground(world.field().source(), bricks).at(chunk);
+      const WorldChunk row{chunk, world.tick(), world.field().chunk_hash(chunk), std::move(bricks), ground};
+      TRY(put(row));
     }
     return {};
   };
@@ -73,7 +72,7 @@ Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, con
     field->add_out(chunk.chunk, *left);
     return {};
   });
-  if (!read) return tl::unexpected(read.error());
+  TRY(read);
   return field;
 }
 

@@ -80,15 +80,14 @@ struct WorldFile::State {
 
 Result<void> WorldFile::State::prepare() {
   const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
-    auto prepared = database.prepare(sql);
-    if (!prepared) return tl::unexpected(prepared.error());
-    statement = std::move(*prepared);
+    auto prepared = TRY(database.prepare(sql));
+    statement = std::move(prepared);
     return {};
   };
-  if (auto done = take(put_header, world_schema::put_into("header")); !done) return done;
-  if (auto done = take(put_moment, world_schema::put_into("moment")); !done) return done;
-  if (auto done = take(put_chunk, world_schema::put_into("chunks")); !done) return done;
-  if (auto done = take(put_piece, world_schema::put_into("pieces")); !done) return done;
+  TRY(take(put_header, world_schema::put_into("header")));
+  TRY(take(put_moment, world_schema::put_into("moment")));
+  TRY(take(put_chunk, world_schema::put_into("chunks")));
+  TRY(take(put_piece, world_schema::put_into("pieces")));
   return take(delete_piece, world_schema::delete_from("pieces"));
 }
 
@@ -112,11 +111,10 @@ Result<void> WorldFile::State::write(const WorldMoment& moment) {
   for (const KeptPiece& piece : moment.pieces) {
     alive.insert(piece.id);
     if (pieces.contains(piece.id)) continue;
-    if (auto done = put(put_piece, piece.id, encode(piece)); !done) return done;
+    TRY(put(put_piece, piece.id, encode(piece)));
   }
   for (const PieceId id : pieces)
-    if (!alive.contains(id))
-      if (auto done = database.run(delete_piece, id); !done) return done;
+    if (!alive.contains(id)) TRY(database.run(delete_piece, id));
   return put(put_moment, 0, encode(moment));
 }
 
@@ -130,8 +128,7 @@ WorldFile::~WorldFile() = default;
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
                                                      const WorldSnapshot& world, bool durable) {
   const auto each = [&](const PutChunk& put) -> Result<void> {
-    for (const WorldChunk& chunk : chunks_of(world))
-      if (auto done = put(chunk); !done) return done;
+    for (const WorldChunk& chunk : chunks_of(world)) TRY(put(chunk));
     return {};
   };
   return create(path, header, world.moment, each, durable);
@@ -140,23 +137,22 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
 Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, const WorldHeader& header,
                                                      const WorldMoment& moment, const EachChunk& each,
                                                      bool durable) {
-  if (auto free = check_free(path); !free) return tl::unexpected(free.error());
+  TRY(check_free(path));
   std::error_code error;
   const std::string unfinished = path + "-new";
   std::filesystem::remove(unfinished, error);
   const auto made = [&]() -> Result<void> {
-    auto database = Database::create(unfinished);
-    if (!database) return tl::unexpected(database.error());
-    State state(std::move(*database));
+    auto database = TRY(Database::create(unfinished));
+    State state(std::move(database));
     Database& file = state.database;
     if (auto done = file.execute("PRAGMA page_size = 4096; PRAGMA synchronous = " + synchronous(durable) +
                                  "; BEGIN;" + world_schema::create_tables());
         !done)
       return done;
-    if (auto done = state.prepare(); !done) return done;
-    if (auto done = state.put(state.put_header, 0, encode(header)); !done) return done;
+    TRY(state.prepare());
+    TRY(state.put(state.put_header, 0, encode(header)));
     if (auto done = each([&](const WorldChunk& chunk) { return state.write(chunk); }); !done) return done;
-    if (auto done = state.write(moment); !done) return done;
+    TRY(state.write(moment));
     return file.execute("COMMIT");
   }();
   if (!made) {
@@ -172,13 +168,12 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
 }
 
 Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
-  if (auto looks = check_file(path, world_schema::world); !looks) return tl::unexpected(looks.error());
-  auto database = Database::open(path);
-  if (!database) return tl::unexpected(database.error());
-  auto state = std::make_unique<State>(std::move(*database));
+  TRY(check_file(path, world_schema::world));
+  auto database = TRY(Database::open(path));
+  auto state = std::make_unique<State>(std::move(database));
   auto usable = check_format(state->database, world_schema::world);
   if (usable) usable = state->database.execute(world_schema::bound_page_cache());
-  if (!usable) return tl::unexpected(usable.error());
+  TRY(usable);
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
 }
 
@@ -188,10 +183,10 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
     if (auto whole = check_pages(file); !whole) lost->reasons.push_back(whole.error().message);
     return WorldReading(file, lost).run(true);
   }
-  if (auto whole = check_pages(file); !whole) return tl::unexpected(whole.error());
-  if (auto begun = file.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+  TRY(check_pages(file));
+  TRY(file.execute("BEGIN"));
   auto rows = WorldReading(file, nullptr).run(true);
-  if (auto ended = file.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
+  TRY(file.execute("COMMIT"));
   return rows;
 }
 
@@ -213,20 +208,19 @@ Result<WorldRows> WorldFile::read_moment(LostRows* lost) {
 Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take,
                                        LostRows* lost) {
   WorldReading reading(state_->database, lost);
-  if (auto read = reading.chunks(take); !read) return tl::unexpected(read.error());
+  TRY(reading.chunks(take));
   return reading.bytes();
 }
 
 Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {
   State& s = *state_;
   if (s.get_chunk == nullptr) {
-    auto prepared = s.database.prepare(world_schema::one_of("chunks"));
-    if (!prepared) return tl::unexpected(prepared.error());
-    s.get_chunk = std::move(*prepared);
+    auto prepared = TRY(s.database.prepare(world_schema::one_of("chunks")));
+    s.get_chunk = std::move(prepared);
   }
   const uint64_t key = world_schema::chunk_key(chunk);
   const auto row = s.database.get(s.get_chunk, key);
-  if (!row) return tl::unexpected(row.error());
+  TRY(row);
   if (!row->has_value()) return std::optional<WorldChunk>();
   auto decoded = chunk_of_row(key, **row);
   if (!decoded)
@@ -236,10 +230,9 @@ Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {
 }
 
 Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
-  auto row = read_chunk(chunk);
-  if (!row) return tl::unexpected(row.error());
-  if (!row->has_value()) return fail(path() + " does not have a chunk any more");
-  return std::move((*row)->bricks);
+  auto row = TRY(read_chunk(chunk));
+  if (!row.has_value()) return fail(path() + " does not have a chunk any more");
+  return std::move(row->bricks);
 }
 
 /// The log, the statements, and which pieces the file has, once.
@@ -247,12 +240,12 @@ Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
   const std::string settings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = " + synchronous(durable) +
                                "; PRAGMA wal_autocheckpoint = " + std::to_string(limits::wal_pages_max) + ";";
-  if (auto done = database.execute(settings); !done) return done;
+  TRY(database.execute(settings));
   const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
     pieces.insert(id);
     return {};
   };
-  if (auto done = database.each(world_schema::all_of("pieces"), has_row); !done) return done;
+  TRY(database.each(world_schema::all_of("pieces"), has_row));
   return prepare();
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 template <typename T>
 Result<void> put_into(T& to, Result<T> decoded) {
-  if (!decoded) return tl::unexpected(decoded.error());
+  TRY(decoded);
   to = std::move(*decoded);
   return {};
 }
@@ -50,7 +50,7 @@ Result<WorldRows> WorldReading::run(bool with_chunks) {
       rows_.chunks.push_back(std::move(decoded));
       return Result<void>();
     };
-    if (auto done = chunks(keep); !done) return tl::unexpected(done.error());
+    TRY(chunks(keep));
   }
   std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
   if (!has_moment_) begin_anew();
@@ -59,9 +59,8 @@ Result<WorldRows> WorldReading::run(bool with_chunks) {
 
 Result<void> WorldReading::chunks(const TakeChunk& take) {
   return every("chunks", [&](uint64_t key, auto data) -> Result<void> {
-    auto decoded = chunk_of_row(key, data);
-    if (!decoded) return tl::unexpected(decoded.error());
-    return take(std::move(*decoded));
+    auto decoded = TRY(chunk_of_row(key, data));
+    return take(std::move(decoded));
   });
 }
 
@@ -114,14 +113,13 @@ Result<void> WorldReading::lose(const std::string& what) {
 }
 
 Result<void> WorldReading::piece(uint64_t key, Bytes data) {
-  auto decoded = decode_kept_piece(data);
-  if (!decoded) return tl::unexpected(decoded.error());
-  if (decoded->id != key) return fail("it is another piece's");
-  voxels_ += decoded->volume->window.codes.size();
+  auto decoded = TRY(decode_kept_piece(data));
+  if (decoded.id != key) return fail("it is another piece's");
+  voxels_ += decoded.volume->window.codes.size();
   if (voxels_ > limits::piece_voxels_max)
     return fail("pieces of more than " + std::to_string(limits::piece_voxels_max) +
                 " voxels (limits.piece_voxels_max)");
-  rows_.world.moment.pieces.push_back(std::move(*decoded));
+  rows_.world.moment.pieces.push_back(std::move(decoded));
   return {};
 }
 

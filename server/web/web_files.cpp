@@ -117,20 +117,18 @@ Result<std::shared_ptr<const WebFiles>> WebFiles::load(const std::string& folder
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
   if (error || !fs::is_directory(root, error)) return fail(folder + " is no folder (--web)");
-  const auto paths = paths_in(root);
-  if (!paths) return tl::unexpected(paths.error());
+  const auto paths = TRY(paths_in(root));
   auto files = std::make_shared<WebFiles>();
   size_t room = limits::web_bytes_max;
   std::map<std::string, std::shared_ptr<const std::string>> gzips;
-  for (const fs::path& path : *paths) {
-    auto bytes = read(root / path, room);
-    if (!bytes) return tl::unexpected(bytes.error());
+  for (const fs::path& path : paths) {
+    auto bytes = TRY(read(root / path, room));
     const std::string name = path.generic_string();
     if (name.ends_with(compressed)) {
-      gzips[name.substr(0, name.size() - compressed.size())] = *bytes;
+      gzips[name.substr(0, name.size() - compressed.size())] = bytes;
       continue;
     }
-    files->files_[name] = {*bytes, nullptr, type_of(path), etag_of(**bytes),
+    files->files_[name] = {bytes, nullptr, type_of(path), etag_of(*bytes),
                            holds_hash(path.filename().string())};
   }
   for (auto& [name, bytes] : gzips)

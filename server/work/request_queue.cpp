@@ -34,7 +34,7 @@ RequestQueue::RequestQueue(float client_us_per_s) : client_us_per_s_(client_us_p
 
 Result<void> RequestQueue::push(WaitingRequest request) {
   CHECK(request.cost_us >= 0.0F);
-  if (Result<void> may = may_wait(request); !may) return may;
+  TRY(may_wait(request));
   const uint64_t party_id = party_of(request.command), session_id = request.command.session;
   Party& party = parties_[party_id];
   const uint64_t cost_ns = in_ns(request.cost_us);

@@ -20,8 +20,8 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.ground = header.ground;
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
-  if (Result<void> known = set_all(config, header.settings); !known) return tl::unexpected(known.error());
-  if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
+  TRY(set_all(config, header.settings));
+  TRY(validate(config));
   return config;
 }
 

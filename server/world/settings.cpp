@@ -186,9 +186,9 @@ Result<void> set_all(WorldConfig& config, const SettingValues& values) {
   for (auto value = values.begin(); value != values.end(); ++value) {
     if (std::ranges::find(values.begin(), value, value->name, &SettingValue::name) != value)
       return fail(value->name + " is set twice");
-    if (Result<void> done = set(changed, *value); !done) return done;
+    TRY(set(changed, *value));
   }
-  if (Result<void> good = check_together(changed); !good) return good;
+  TRY(check_together(changed));
   config = changed;
   return {};
 }

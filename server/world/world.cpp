@@ -116,8 +116,8 @@ void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
 }  // namespace
 
 Result<std::unique_ptr<World>> World::create(const WorldConfig& config, size_t threads) {
-  if (Result<void> valid = validate(config); !valid) return tl::unexpected(valid.error());
-  if (Result<void> there = check_ground(config); !there) return tl::unexpected(there.error());
+  TRY(validate(config));
+  TRY(check_ground(config));
   return std::make_unique<World>(config, threads);
 }
 

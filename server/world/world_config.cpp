@@ -37,7 +37,7 @@ Result<void> check(const Bounded& bounded) {
 }  // namespace
 
 Result<void> validate(const WorldConfig& config) {
-  if (Result<void> known = validate_kind(config.terrain.kind, "kind of terrain"); !known) return known;
+  TRY(validate_kind(config.terrain.kind, "kind of terrain"));
   const Bounded all[] = {
       {.value = config.terrain.voxel_size_m,
        .min = limits::voxel_size_min_m,
@@ -76,8 +76,7 @@ Result<void> validate(const WorldConfig& config) {
        .limits = "limits.merges_per_tick_max_max",
        .option = "WorldConfig"},
   };
-  for (const Bounded& bounded : all)
-    if (Result<void> within = check(bounded); !within) return within;
+  for (const Bounded& bounded : all) TRY(check(bounded));
   return check_together(config);
 }
 

@@ -40,7 +40,7 @@ class Restoring {
     using Step = Result<void> (Restoring::*)();
     for (const Step step : {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::bodies,
                             &Restoring::ledger, &Restoring::places, &Restoring::waiting, &Restoring::cuts})
-      if (Result<void> done = (this->*step)(); !done) return done;
+      TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
     s_.buried = {m_.buried.begin(), m_.buried.end()};
@@ -88,19 +88,17 @@ class Restoring {
     return from.each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
       if (bricks.empty() || s_.field.has_edits(chunk)) return fail("a chunk comes twice, or without bricks");
       if (s_.field.bricks_in() < from.bricks_max) return enter(bricks);
-      const auto left = paged_of(chunk, bricks);
-      if (!left) return tl::unexpected(left.error());
+      const auto left = TRY(paged_of(chunk, bricks));
       for (const BrickPatch& patch : bricks)
         if (!in_world(patch.coord)) return fail("a brick lies outside the world");
-      s_.field.add_out(chunk, *left);
+      s_.field.add_out(chunk, left);
       return {};
     });
   }
 
   Result<void> terrain() {
-    if (Result<void> entered = enter(value_.bricks); !entered) return entered;
-    if (paged_ != nullptr)
-      if (Result<void> entered = enter_paged(*paged_); !entered) return entered;
+    TRY(enter(value_.bricks));
+    if (paged_ != nullptr) TRY(enter_paged(*paged_));
     if (!measure_ && s_.field.hash() != m_.field_hash)
       return fail("its terrain is not the one that was saved");
     return {};
@@ -207,7 +205,7 @@ class Restoring {
     for (const PendingCut& cut : m_.cuts) {
       if (cut.pieces < 2 || cut.pieces > limits::seeds_max)
         return fail("a piece is to be cut into none, or too many");
-      if (Result<void> valid = validate_shatter_pattern(cut.pattern); !valid) return valid;
+      TRY(validate_shatter_pattern(cut.pattern));
       if (cut.thrown_by != nullptr && !is_valid(s_, {0, 0, *cut.thrown_by}))
         return fail("a cut's pieces are thrown by what is no carve");
       s_.cuts.push_back(cut);
@@ -227,8 +225,8 @@ Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_
                                                const GroundMasses& ground, const PagedTerrain* paged,
                                                bool measure) {
   const auto config = config_of(value.moment.config);
-  if (!config) return tl::unexpected(config.error());
-  if (Result<void> there = check_ground(*config); !there) return tl::unexpected(there.error());
+  TRY(config);
+  TRY(check_ground(*config));
   auto state = std::make_unique<World::State>(*config, threads);
   if (Result<void> done = Restoring(*state, value, ground, paged, measure).run(); !done)
     return fail("the world cannot go on: " + done.error().message);
@@ -239,17 +237,15 @@ Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_
 
 Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, size_t threads,
                                               const GroundMasses& ground) {
-  auto state = state_of(value, threads, ground, nullptr, false);
-  if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+  auto state = TRY(state_of(value, threads, ground, nullptr, false));
+  return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }
 
 Result<std::unique_ptr<World>> World::restore(const WorldSnapshot& value, const PagedTerrain& terrain,
                                               size_t threads, const GroundMasses& ground) {
   CHECK(value.bricks.empty());
-  auto state = state_of(value, threads, ground, &terrain, false);
-  if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+  auto state = TRY(state_of(value, threads, ground, &terrain, false));
+  return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }
 
 Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value) {
@@ -275,9 +271,8 @@ Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedT
   }
   moment.pieces = std::move(pieces);
   moment.motion.bodies = std::move(bodies);
-  auto state = state_of(value, 1, ground, terrain, true);
-  if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<World>(new World(Made{}, std::move(*state)));
+  auto state = TRY(state_of(value, 1, ground, terrain, true));
+  return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }
 
 WorldMoment World::moment() const {

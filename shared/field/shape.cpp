@@ -106,7 +106,7 @@ float reach_of(const Shape& shape) {
 }
 
 Result<void> validate(const Shape& shape) {
-  if (Result<void> known = validate_kind(shape.kind, "kind of shape"); !known) return known;
+  TRY(validate_kind(shape.kind, "kind of shape"));
   if (!finite(shape.a) || !finite(shape.b)) return fail("the shape's position is not a finite number");
   if (!std::isfinite(shape.radius_m)) return fail("the radius is not a finite number");
   if (shape.radius_m < 0.0F) return fail("the radius is negative");

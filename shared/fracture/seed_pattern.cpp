@@ -7,7 +7,7 @@ Result<void> validate_carve_pattern(SeedPattern pattern) {
 }
 
 Result<void> validate_shatter_pattern(SeedPattern pattern) {
-  if (Result<void> known = validate_kind(pattern, "seed pattern"); !known) return known;
+  TRY(validate_kind(pattern, "seed pattern"));
   if (is_drawn(pattern)) return {};
   return fail("a piece that breaks has no points for the seed pattern " + std::string(name_of(pattern)));
 }

@@ -195,7 +195,7 @@ Result<void> validate_new_ids(PieceIds made, const PieceTable& pieces) {
 }
 
 Result<void> validate_seeds(Cutter cutter, uint32_t seeds, PieceId first_piece) {
-  if (Result<void> valid = validate_kind(cutter, "cutter"); !valid) return valid;
+  TRY(validate_kind(cutter, "cutter"));
   if (seeds == 0) return fail("a carve needs at least one seed");
   if (seeds > limits::seeds_max)
     return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
@@ -229,7 +229,7 @@ Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) 
     return fail("the method " + std::string(name_of(op.method)) + " merges one piece at a time");
   std::vector<StampedPiece> group{{op.piece, op.pose}};
   for (const StampedPiece& other : op.others) {
-    if (Result<void> valid = known(other.piece, pieces); !valid) return valid;
+    TRY(known(other.piece, pieces));
     if (std::ranges::find(group, other.piece, &StampedPiece::piece) != group.end())
       return fail("piece " + std::to_string(other.piece) + " is stamped twice");
     if (!in_world(dequantise(other.pose).position_m))
@@ -255,21 +255,21 @@ struct Validator {
   float voxel_size_m;
 
   Result<void> operator()(const CarveOperation& op) const {
-    if (Result<void> valid = validate_edit(op.shape); !valid) return valid;
+    TRY(validate_edit(op.shape));
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
-    if (Result<void> valid = validate_carve_pattern(op.pattern); !valid) return valid;
-    if (Result<void> valid = validate_authored(op); !valid) return valid;
+    TRY(validate_carve_pattern(op.pattern));
+    TRY(validate_authored(op));
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const FillOperation& op) const { return validate_edit(op.shape); }
   Result<void> operator()(const PaintOperation& op) const {
-    if (Result<void> valid = validate_kind(op.material, "material"); !valid) return valid;
+    TRY(validate_kind(op.material, "material"));
     return validate_edit(op.shape);
   }
   Result<void> operator()(const StampOperation& op) const {
-    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
-    if (Result<void> valid = validate_kind(op.method, "stamp's method"); !valid) return valid;
+    TRY(known(op.piece, pieces));
+    TRY(validate_kind(op.method, "stamp's method"));
     if (std::abs(op.shift) > stamp_shift_max)
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
     if (!in_world(dequantise(op.pose).position_m))
@@ -279,9 +279,9 @@ struct Validator {
   }
   Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
   Result<void> operator()(const ShatterOperation& op) const {
-    if (Result<void> valid = known(op.piece, pieces); !valid) return valid;
+    TRY(known(op.piece, pieces));
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
-    if (Result<void> valid = validate_shatter_pattern(op.pattern); !valid) return valid;
+    TRY(validate_shatter_pattern(op.pattern));
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {
@@ -302,7 +302,7 @@ struct Validator {
 }  // namespace
 
 Result<void> validate_edit(const Shape& shape) {
-  if (Result<void> valid = validate(shape); !valid) return valid;
+  TRY(validate(shape));
   const float reach = reach_of(shape);
   if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
     return fail("reach " + std::to_string(reach) + " m is over the limit of " +
@@ -356,7 +356,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
 }
 
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
-  if (Result<void> valid = std::visit(Validator{pieces, voxel_size_m}, operation); !valid) return valid;
+  TRY(std::visit(Validator{pieces, voxel_size_m}, operation));
   return validate_new_ids(ids_made_by(operation), pieces);
 }
 

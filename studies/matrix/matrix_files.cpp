@@ -79,7 +79,7 @@ Result<void> write_ranking(const MatrixResults& results, const std::vector<Matri
 
 Result<void> write_matrix_files(const MatrixResults& results, const std::string& folder) {
   const std::vector<MatrixScore> scores = scores_of(results);
-  if (Result<void> best = write_best(results, scores, folder + "/best.json"); !best) return best;
+  TRY(write_best(results, scores, folder + "/best.json"));
   return write_ranking(results, scores, folder + "/ranking.csv");
 }
 

@@ -114,8 +114,7 @@ class MatrixRun {
   /// In turns, so that all see the same machine; each one's least times count.
   Result<void> measure_drawings() {
     for (int round = 1; round <= results_.draw_rounds; ++round)
-      for (const MethodEntry& entry : all_methods())
-        if (Result<void> done = measure_drawing(entry, round); !done) return done;
+      for (const MethodEntry& entry : all_methods()) TRY(measure_drawing(entry, round));
     return {};
   }
 
@@ -132,9 +131,7 @@ class MatrixRun {
           return measure_drawn(stage(), entry, Simulated{}, plan_, {.judged = true, .picture = &image});
         });
     if (!drawn) return fail(drawn.error().message);
-    if (image.width > 0)
-      if (Result<void> written = write_png(options_.folder + "/matrix/" + name + ".png", image); !written)
-        return written;
+    if (image.width > 0) TRY(write_png(options_.folder + "/matrix/" + name + ".png", image));
     const auto known = std::ranges::find(results_.drawings, name, &MeasuredDrawing::drawing);
     if (known == results_.drawings.end())
       results_.drawings.push_back({name, *drawn});
@@ -146,8 +143,7 @@ class MatrixRun {
   /// As often as the drawings that they are compared with.
   Result<void> measure_wholes() {
     for (int round = 1; round <= results_.draw_rounds; ++round)
-      for (size_t i = 0; i < whole_count(); ++i)
-        if (Result<void> done = measure_whole(i, round); !done) return done;
+      for (size_t i = 0; i < whole_count(); ++i) TRY(measure_whole(i, round));
     return {};
   }
 

@@ -83,8 +83,7 @@ Result<void> run_sweep(Stage& stage, const Plan& plan, Sweep& sweep, const Progr
   double done = 0.0;
   for (int round = 0; round < plan.rounds; ++round)
     for (const auto& [setting, found] : sweep.settings) {
-      if (Result<void> ran = run_setting(stage, plan, setting, **method, pool, method_bytes, *found); !ran)
-        return ran;
+      TRY(run_setting(stage, plan, setting, **method, pool, method_bytes, *found));
       progress(++done / static_cast<double>(sweep.settings.size() * static_cast<size_t>(plan.rounds)));
     }
   stage.renderer->set_grid({});

@@ -67,8 +67,7 @@ std::vector<uint64_t> to_clients(const peers::Luanti& luanti) {
 
 /// Starts so many clients and waits until the server has let them in.
 Result<void> join(peers::Luanti& luanti, size_t count) {
-  for (size_t i = 0; i < count; ++i)
-    if (auto added = luanti.add_client(); !added) return added;
+  for (size_t i = 0; i < count; ++i) TRY(luanti.add_client());
   if (!holds_within(joined_within_s, [&] { return luanti.told().joined >= luanti.clients(); }))
     return fail(fmt::format("{} of {} Luanti clients joined within {:.0f} s", luanti.told().joined,
                             luanti.clients(), joined_within_s));
@@ -79,10 +78,9 @@ Result<void> join(peers::Luanti& luanti, size_t count) {
 /// As many as were asked for, or, when none were, until the machine is full.
 Result<void> fill(peers::Luanti& luanti, size_t wanted) {
   const size_t most = wanted == 0 ? viewers_max : wanted;
-  if (auto joined = join(luanti, 1); !joined) return joined;
+  TRY(join(luanti, 1));
   while (luanti.clients() < most) {
-    if (auto joined = join(luanti, std::min(viewers_a_batch, most - luanti.clients())); !joined)
-      return joined;
+    TRY(join(luanti, std::min(viewers_a_batch, most - luanti.clients())));
     if (wanted == 0 && busy_share(1.5) > busy_max) break;
   }
   return {};

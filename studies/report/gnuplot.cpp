@@ -265,21 +265,19 @@ Result<void> run_gnuplot(const std::string& script) {
   auto child = ChildProcess::start({"gnuplot"},
                                    "which draws the plots: install Debian's package gnuplot-nox "
                                    "(./scree setup --bench does)");
-  if (!child) return tl::unexpected(child.error());
+  TRY(child);
   const double until_s = steady_now_s() + gnuplot_s_max;
   const auto late = [&] { return steady_now_s() > until_s; };
   std::span<const uint8_t> left(reinterpret_cast<const uint8_t*>(script.data()), script.size());
   while (!left.empty()) {
-    const auto taken = (*child)->give(left, gnuplot_pause_ms);
-    if (!taken) return tl::unexpected(taken.error());
-    left = left.subspan(*taken);
+    const auto taken = TRY((*child)->give(left, gnuplot_pause_ms));
+    left = left.subspan(taken);
     if (late()) return fail("gnuplot does not read its script");
   }
   (*child)->end_input();
   for (;;) {
-    const auto ended = (*child)->wait(gnuplot_pause_ms);
-    if (!ended) return tl::unexpected(ended.error());
-    if (*ended) return {};
+    const auto ended = TRY((*child)->wait(gnuplot_pause_ms));
+    if (ended) return {};
     if (late()) return fail("gnuplot does not come to an end");
   }
 }

@@ -49,9 +49,9 @@ Result<void> check_report(const StudyReport& report) {
     return fail("the report's name '" + report.name + "' has other characters than a-z, 0-9 and -");
   std::set<std::string> names;
   for (const ReportSection& section : report.sections) {
-    if (auto fits = check_tables(section); !fits) return fits;
+    TRY(check_tables(section));
     for (const Plot& plot : section.plots) {
-      if (auto fits = check_plot(plot); !fits) return fits;
+      TRY(check_plot(plot));
       if (!names.insert(plot.name).second) return fail("two plots are named " + plot.name);
     }
   }
@@ -93,7 +93,7 @@ Result<void> check_plots_can_be_drawn() {
 
 Result<void> write_report(const StudyReport& report, const std::string& folder) {
   namespace fs = std::filesystem;
-  if (auto fits = check_report(report); !fits) return fits;
+  TRY(check_report(report));
   const fs::path plots = fs::path(folder) / report.name;
   std::error_code error;
   fs::create_directories(plots, error);
@@ -101,16 +101,14 @@ Result<void> write_report(const StudyReport& report, const std::string& folder) 
   std::vector<std::string> svgs;
   for (const ReportSection& section : report.sections)
     for (const Plot& plot : section.plots) {
-      if (auto written = write_text_file(plots / (plot.name + ".csv"), plot_csv(plot)); !written)
-        return written;
+      TRY(write_text_file(plots / (plot.name + ".csv"), plot_csv(plot)));
       Result<std::string> svg = draw_svg(plot, plots / (plot.name + ".svg"));
-      if (!svg) return tl::unexpected(svg.error());
+      TRY(svg);
       svgs.push_back(std::move(*svg));
     }
   const Machine machine = this_machine();
   const std::string base = (fs::path(folder) / report.name).string();
-  if (auto written = write_text_file(base + ".md", report_markdown(report, machine)); !written)
-    return written;
+  TRY(write_text_file(base + ".md", report_markdown(report, machine)));
   return write_text_file(base + ".html", report_html(report, machine, svgs));
 }
 

@@ -32,9 +32,8 @@ double carves_of(const CarvedGround& ground) {
 Result<void> weigh_carved(Axis& axis, const std::vector<CarvedGround>& grounds,
                           const std::vector<std::string>& paths) {
   for (size_t i = 0; i < paths.size(); ++i) {
-    const auto joined = join_cost(paths[i], grounds[i].config, carved_interest_m);
-    if (!joined) return tl::unexpected(joined.error());
-    axis.curve("bytes of a join", measure::size_mib).add(carves_of(grounds[i]), joined->kib / 1024.0);
+    const auto joined = TRY(join_cost(paths[i], grounds[i].config, carved_interest_m));
+    axis.curve("bytes of a join", measure::size_mib).add(carves_of(grounds[i]), joined.kib / 1024.0);
     axis.curve("file", measure::size_mib)
         .add(carves_of(grounds[i]), static_cast<double>(std::filesystem::file_size(paths[i])) / 1048576.0);
   }
@@ -46,12 +45,11 @@ Result<void> probe_carved(Axis& axis, const ScaleRun& run, const std::vector<Car
   std::vector<OpenedWorld> worlds;
   std::vector<GroundProbe> probes;
   for (size_t i = 0; i < paths.size(); ++i) {
-    auto opened = open_world(paths[i], grounds[i].config);
-    if (!opened) return tl::unexpected(opened.error());
-    axis.curve("memory", measure::size_mib).add(carves_of(grounds[i]), opened->heap_mib);
-    axis.curve("start", measure::time_ms).add(carves_of(grounds[i]), opened->start_ms);
-    probes.emplace_back(*opened->world, beside_m, 0.0F);
-    worlds.push_back(std::move(*opened));
+    auto opened = TRY(open_world(paths[i], grounds[i].config));
+    axis.curve("memory", measure::size_mib).add(carves_of(grounds[i]), opened.heap_mib);
+    axis.curve("start", measure::time_ms).add(carves_of(grounds[i]), opened.start_ms);
+    probes.emplace_back(*opened.world, beside_m, 0.0F);
+    worlds.push_back(std::move(opened));
   }
   const int rounds = run.quick ? 3 : 16;
   for (int round = 0; round < rounds; ++round) {
@@ -68,7 +66,7 @@ Result<void> draw_carved(Axis& axis, const ScaleRun& run) {
   const std::vector<int> counts =
       run.quick ? std::vector<int>{100, 1024} : std::vector<int>{100, 1024, 10000, 99856};
   for (const int carves : counts) {
-    if (auto added = frames.add(carves, terrain, carves, drawn_radius_m); !added) return added;
+    TRY(frames.add(carves, terrain, carves, drawn_radius_m));
     run.progress(0.6 + 0.3 * carves / counts.back());
   }
   auto measured = frames.measure(axis, run.quick ? 3 : 15);
@@ -83,13 +81,11 @@ Result<Axis> measure_carves_axis(const ScaleRun& run) {
   std::vector<CarvedGround> grounds;
   for (const uint32_t side : {1U, 3U, 10U, 32U, 100U, 316U})
     if (!run.quick || side <= 32) grounds.push_back(dense_ground(side));
-  const auto paths = kept_worlds(run.worlds, grounds);
-  if (!paths) return tl::unexpected(paths.error());
-  if (auto done = weigh_carved(axis, grounds, *paths); !done) return tl::unexpected(done.error());
+  const auto paths = TRY(kept_worlds(run.worlds, grounds));
+  TRY(weigh_carved(axis, grounds, paths));
   run.progress(0.3);
-  if (auto done = probe_carved(axis, run, grounds, *paths); !done) return tl::unexpected(done.error());
-  if (run.stage != nullptr)
-    if (auto done = draw_carved(axis, run); !done) return tl::unexpected(done.error());
+  TRY(probe_carved(axis, run, grounds, paths));
+  if (run.stage != nullptr) TRY(draw_carved(axis, run));
   axis.curve("tick with pieces", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");
   axis.curve("memory", measure::size_mib).limit(4096.0, "`memory-max` as it is unless set, 4,096 MB");
   axis.curve("start", measure::time_ms).limit(10000.0, "a start of 10 s");

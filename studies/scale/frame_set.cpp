@@ -17,9 +17,8 @@ constexpr float carved_half_width_m = 40.0F;
 FrameSet::FrameSet(Stage& stage) : stage_(stage), software_(is_software(stage.renderer->description())) {}
 
 Result<void> FrameSet::add(double size, const TerrainSource& terrain, int carves, float radius_m) {
-  auto method = method_named("raymarch")->make(stage_.pool, frame_view_radius_m);
-  if (!method) return tl::unexpected(method.error());
-  auto drawing = std::make_unique<Drawing>(stage_, terrain, std::move(*method));
+  auto method = TRY(method_named("raymarch")->make(stage_.pool, frame_view_radius_m));
+  auto drawing = std::make_unique<Drawing>(stage_, terrain, std::move(method));
   drawing->camera.eye_m = {0.0F, 16.0F, 46.0F};
   drawing->camera.pitch = -0.38F;
   drawing->finish();
@@ -40,9 +39,8 @@ Result<void> FrameSet::measure(Axis& axis, int rounds) {
   for (int round = 0; round < rounds; ++round)
     for (const Sized& one : drawings_) {
       const double before_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
-      const auto ms = one.drawing->frame_ms(frame_width, frame_height, frames_at_once);
-      if (!ms) return tl::unexpected(ms.error());
-      clock.add(one.size, *ms);
+      const auto ms = TRY(one.drawing->frame_ms(frame_width, frame_height, frames_at_once));
+      clock.add(one.size, ms);
       // With the frame that warms up.
       if (software_)
         curve(axis).add(one.size, (cpu_s(CLOCK_PROCESS_CPUTIME_ID) - before_s) * 1e3 / (frames_at_once + 1));

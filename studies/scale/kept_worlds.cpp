@@ -28,8 +28,7 @@ Result<void> follow(Connection& connection, Mirror& mirror) {
   double acknowledge_s = 0.0;
   while (steady_now_s() < end_s) {
     for (const Received& received : connection.wait(std::chrono::milliseconds(5)))
-      if (const auto applied = mirror.apply(received.message); !applied)
-        return tl::unexpected(applied.error());
+      TRY(mirror.apply(received.message));
     const auto& status = mirror.status();
     if (status && status->tick == mirror.tick() && status->chunks_waiting == 0 && mirror.field().hash() != 0)
       return {};
@@ -65,8 +64,7 @@ Result<std::vector<std::string>> kept_worlds(const std::string& folder,
   std::vector<std::thread> threads;
   for (unsigned i = 0; i < usable_cores(); ++i) threads.emplace_back(work);
   for (std::thread& thread : threads) thread.join();
-  for (const Result<void>& one : written)
-    if (!one) return tl::unexpected(one.error());
+  for (const Result<void>& one : written) TRY(one);
   return paths;
 }
 
@@ -75,7 +73,7 @@ Result<OpenedWorld> open_world(const std::string& path, const WorldConfig& confi
   const size_t heap_before = heap_bytes();
   const double before_s = thread_cpu_s();
   auto kept = SavedWorld::open(path, config, 1, {});
-  if (!kept) return tl::unexpected(kept.error());
+  TRY(kept);
   opened.kept = std::move(*kept);
   opened.world = opened.kept->take_world();
   opened.start_ms = (thread_cpu_s() - before_s) * 1e3;
@@ -92,21 +90,20 @@ Result<JoinCost> join_cost(const std::string& path, const WorldConfig& config, f
   LiveConfig live;
   live.world = config;
   live.world_path = copy;
-  auto server = LiveServer::start(live);
-  if (!server) return tl::unexpected(server.error());
+  auto server = TRY(LiveServer::start(live));
   ServerEndpoint endpoint;
-  endpoint.port = (*server)->port();
+  endpoint.port = server->port();
   const glm::vec3 eye_m(0.0F, ground_height_m(config.terrain, 0.0F, 0.0F) + 2.0F, 0.0F);
   const double begin_s = steady_now_s();
   auto connection =
       Connection::connect(endpoint, {protocol_version, "scale", eye_m, interest_m}, std::chrono::seconds(10));
   if (!connection) return fail(connection.error().message);
   Mirror mirror((*connection)->welcome());
-  if (auto followed = follow(**connection, mirror); !followed) return tl::unexpected(followed.error());
+  TRY(follow(**connection, mirror));
   JoinCost cost{static_cast<double>((*connection)->counters().received_bytes) / 1024.0,
                 steady_now_s() - begin_s, mirror.held_chunks().size()};
   (*connection)->leave();
-  if (auto stopped = (*server)->stop(); !stopped) return tl::unexpected(stopped.error());
+  TRY(server->stop());
   return cost;
 }
 

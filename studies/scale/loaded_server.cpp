@@ -97,40 +97,39 @@ Result<ServedLoad> serve_load(const ServerLoad& load) {
                                .seconds_per_carve = 1.0,
                                .radius_m = bot_radius_m,
                                .seeds = bot_seeds});
-  if (!bots) return tl::unexpected(bots.error());
+  TRY(bots);
   const auto times = std::make_unique<TickTimes>();  // of another process: nobody looks at ages
   const std::vector<HelloMessage> hellos(
       load.viewers, {protocol_version, "viewer", {0.0F, ground_m, 0.0F}, viewer_interest_m});
-  auto viewers = Drains::connect(server->port(), hellos, *times);
-  if (!viewers) return tl::unexpected(viewers.error());
+  auto viewers = TRY(Drains::connect(server->port(), hellos, *times));
   ServerEndpoint endpoint;
   endpoint.port = server->port();
   const auto watcher = Connection::connect(
       endpoint, {protocol_version, "watcher", {1000.0F, ground_m, 1000.0F}, 1.0F}, std::chrono::seconds(10));
   if (!watcher) return fail(watcher.error().message);
-  (*viewers)->start();
+  viewers->start();
   (*bots)->start();
   wait_s(load.warm_s);
   const Moment before(*server);
   (*watcher)->poll();
   (*bots)->count(true);
-  (*viewers)->count(true);
+  viewers->count(true);
   const double ticks_per_s = watch_ticks(**watcher, load.seconds);
   (*bots)->count(false);
-  (*viewers)->count(false);
+  viewers->count(false);
   const Moment after(*server);
   wait_for_answers(**bots);
   (*bots)->stop();
-  (*viewers)->stop();
+  viewers->stop();
   ServedLoad served;
   served.ticks_per_s = ticks_per_s;
   served.server_ms_s = (after.server_s - before.server_s) * 1e3 / load.seconds;
   served.simulation_ms_s = (after.simulation_s - before.simulation_s) * 1e3 / load.seconds;
   served.clients_ms_s = (after.clients_s - before.clients_s) * 1e3 / load.seconds;
   served.resident_mib = server->memory_mib("VmRSS");
-  served.kbit_s_viewer = static_cast<double>((*viewers)->bytes()) * 8e-3 / load.seconds /
+  served.kbit_s_viewer = static_cast<double>(viewers->bytes()) * 8e-3 / load.seconds /
                          static_cast<double>(std::max<size_t>(1, load.viewers));
-  served.lost = (*bots)->lost() + (*viewers)->lost();
+  served.lost = (*bots)->lost() + viewers->lost();
   note_replies((*bots)->times(), load, served);
   if (server->end(SIGTERM) != 0) return fail("the server did not end well");
   return served;

@@ -64,10 +64,9 @@ class MachineMeasure {
 
 Result<const LoadRow*> MachineMeasure::serve(size_t bots, size_t viewers, unsigned cores) {
   const ServerLoad load{bots, viewers, cores, run_.quick ? 1.0 : 2.5, seconds_};
-  const auto served = serve_load(load);
-  if (!served) return tl::unexpected(served.error());
+  const auto served = TRY(serve_load(load));
   run_.progress(std::min(0.98, 0.05 + 0.03 * static_cast<double>(++served_)));
-  return &rows_.emplace_back(LoadRow{load, *served});
+  return &rows_.emplace_back(LoadRow{load, served});
 }
 
 /// Costs of light loads on one core, by processor time: that is the same when ticks are late.
@@ -78,14 +77,13 @@ Result<void> MachineMeasure::fit() {
                                             {0, 900}, {2, 300}, {5, 300}, {9, 100}, {2, 900}};
   std::vector<const LoadRow*> carried_out;
   for (const MachineLoad& load : loads) {
-    const auto row = serve(static_cast<size_t>(load.bots), static_cast<size_t>(load.viewers), 1);
-    if (!row) return tl::unexpected(row.error());
-    if ((*row)->served.carried_out())
-      carried_out.push_back(*row);
+    const auto row = TRY(serve(static_cast<size_t>(load.bots), static_cast<size_t>(load.viewers), 1));
+    if (row->served.carried_out())
+      carried_out.push_back(row);
     else
       left_out_.push_back(fmt::format("{:.0f} bots with {:.0f} viewers", load.bots, load.viewers));
   }
-  if (auto fitted = fit_costs(carried_out); !fitted) return fitted;
+  TRY(fit_costs(carried_out));
   fit_sizes();
   return {};
 }
@@ -151,9 +149,8 @@ MachineModel MachineMeasure::with_clients() const {
 /// Searched from below what is expected until a load fails, so that what is found does not depend on that.
 Result<MostHeld> MachineMeasure::most_bots(double expected, unsigned cores) {
   const auto holds = [&](size_t bots) -> Result<bool> {
-    const auto row = serve(bots, 0, cores);
-    if (!row) return tl::unexpected(row.error());
-    return (*row)->served.holds();
+    const auto row = TRY(serve(bots, 0, cores));
+    return row->served.holds();
   };
   const auto start = static_cast<size_t>(std::max(1L, std::lround(search_below * expected)));
   return most_held(run_.quick ? HeldSearch{.start = start, .most = start} : HeldSearch{.start = start},
@@ -163,7 +160,7 @@ Result<MostHeld> MachineMeasure::most_bots(double expected, unsigned cores) {
 /// How much of a core can be used: the most that the server took of one with a load that held.
 Result<void> MachineMeasure::check_one_core() {
   const auto most = most_bots(model_.bots_held(0.0, limits(1.0)).most, 1);
-  if (!most) return tl::unexpected(most.error());
+  TRY(most);
   on_one_core_ = most->holds;
   double used_ms_s = 0.0;
   for (const auto& [load, served] : rows_)
@@ -179,12 +176,11 @@ Result<void> MachineMeasure::check_two_cores() {
     return {};
   }
   const Held expected = with_clients().bots_held(0.0, limits(2.0));
-  const auto on_two = most_bots(expected.most, 2);
-  if (!on_two) return tl::unexpected(on_two.error());
+  const auto on_two = TRY(most_bots(expected.most, 2));
   const auto shown = serve(4, run_.quick ? 100 : 600, 2);
-  if (!shown) return tl::unexpected(shown.error());
+  TRY(shown);
   const double measured_ms = (*shown)->served.server_ms_s, model_ms = model_.ms_s((*shown)->size());
-  const auto bots = static_cast<double>(on_two->holds);
+  const auto bots = static_cast<double>(on_two.holds);
   study_.figures.metric("machine_bots_on_two_cores", bots);
   study_.figures.metric("machine_bots_on_two_cores_expected", expected.most);
   const auto within = [](double measured, double model) {
@@ -199,12 +195,12 @@ Result<void> MachineMeasure::check_two_cores() {
         fmt::format("{:.0f} ms a second, {:.0f} by the model, wanted within 25 %", measured_ms, model_ms));
   }
   const std::string fails =
-      on_two->fails ? fmt::format("{} do not hold", *on_two->fails) : std::string("more were not tried");
+      on_two.fails ? fmt::format("{} do not hold", *on_two.fails) : std::string("more were not tried");
   study_.section.text.push_back(fmt::format(
       "On one core {} bots hold. By that and the costs below two cores hold {:.1f} bots whose clients share "
       "them, and the first limit is {}; measured are **{}**, and {}. A load of 4 bots and {} viewers takes "
       "{:.0f} ms a second of two cores, by the model {:.0f} ms.",
-      on_one_core_, expected.most, name_of(expected.limit), on_two->holds, fails, (*shown)->load.viewers,
+      on_one_core_, expected.most, name_of(expected.limit), on_two.holds, fails, (*shown)->load.viewers,
       measured_ms, model_ms));
   return {};
 }
@@ -326,12 +322,11 @@ void MachineMeasure::tell() {
 }
 
 Result<MachineStudy> MachineMeasure::measure() {
-  Result<SimulationCosts> simulation = measure_simulation(run_.quick);
-  if (!simulation) return tl::unexpected(simulation.error());
-  model_.simulation = std::move(*simulation);
+  SimulationCosts simulation = TRY(measure_simulation(run_.quick));
+  model_.simulation = std::move(simulation);
   for (const auto step :
        {&MachineMeasure::fit, &MachineMeasure::check_one_core, &MachineMeasure::check_two_cores})
-    if (auto done = (this->*step)(); !done) return tl::unexpected(done.error());
+    TRY((this->*step)());
   tell();
   const LoadCosts& others = model_.others;
   study_.figures.metric("machine_bots_simulated", model_.simulation.bots_most);

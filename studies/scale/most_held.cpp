@@ -23,7 +23,7 @@ Result<MostHeld> most_held(const HeldSearch& search, const std::function<Result<
   while (load > found.holds && load <= search.most) {
     Result<bool> held = holds(load);
     if (held && !*held) held = holds(load);
-    if (!held) return tl::unexpected(held.error());
+    TRY(held);
     (*held ? found.holds : found.fails.emplace()) = load;
     if (!found.fails) {
       load = times(load, search.growth);

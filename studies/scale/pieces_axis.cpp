@@ -74,13 +74,12 @@ struct HeapTicks {
 };
 
 Result<HeapTicks> step_heaps(const WorldSnapshot& value, size_t threads) {
-  auto world = World::restore(value, threads);
-  if (!world) return tl::unexpected(world.error());
+  auto world = TRY(World::restore(value, threads));
   std::vector<double> cpu_ms, clock_ms, bodies_ms;
   HeapTicks ticks;
   for (Tick tick = 0; tick < warm_ticks + measured_ticks; ++tick) {
     const double before_s = thread_cpu_s();
-    const auto delta = (*world)->step({});
+    const auto delta = world->step({});
     ticks.state_hash = delta->state_hash;
     if (tick < warm_ticks) continue;
     cpu_ms.push_back((thread_cpu_s() - before_s) * 1e3);
@@ -142,17 +141,16 @@ struct Shown {
 };
 
 Result<Shown> show_heaps(const WorldSnapshot& value) {
-  auto world = World::restore(value);
-  if (!world) return tl::unexpected(world.error());
-  Onlooker viewer((*world)->config());
-  if (!viewer.join((*world)->keyframe())) return fail("a viewer does not get all pieces");
+  auto world = TRY(World::restore(value));
+  Onlooker viewer(world->config());
+  if (!viewer.join(world->keyframe())) return fail("a viewer does not get all pieces");
   const auto volume_bytes = [&] { return viewer.stats().chunk_bytes + viewer.stats().piece_bytes; };
   Shown shown;
   shown.join_mib = static_cast<double>(viewer.stats().sent_bytes) / 1048576.0;
   shown.join_s = static_cast<double>(viewer.ticks()) / measured_at_hz;
-  for (Tick tick = 0; tick < warm_ticks; ++tick) viewer.show(*(*world)->step({}));
+  for (Tick tick = 0; tick < warm_ticks; ++tick) viewer.show(*world->step({}));
   const uint64_t sent_before = viewer.stats().sent_bytes, volumes_before = volume_bytes();
-  for (Tick tick = 0; tick < measured_ticks; ++tick) viewer.show(*(*world)->step({}));
+  for (Tick tick = 0; tick < measured_ticks; ++tick) viewer.show(*world->step({}));
   const double seconds = static_cast<double>(measured_ticks) / measured_at_hz;
   shown.kbit_s = static_cast<double>(viewer.stats().sent_bytes - sent_before) * 8e-3 / seconds;
   shown.volume_bytes = volume_bytes() - volumes_before;
@@ -184,12 +182,11 @@ Result<void> step_all(Axis& axis, const ScaleRun& run, std::vector<Built>& sizes
 Result<void> show_all(Axis& axis, const std::vector<Built>& sizes) {
   uint64_t volume_bytes = 0;
   for (const Built& built : sizes) {
-    const auto shown = show_heaps(built.value);
-    if (!shown) return tl::unexpected(shown.error());
-    axis.curve("sent to a viewer", "kbit/s").add(built.pieces, shown->kbit_s);
-    axis.curve("bytes of a join", measure::size_mib).add(built.pieces, shown->join_mib);
-    axis.curve("join", "time of a join, s").add(built.pieces, shown->join_s);
-    volume_bytes += shown->volume_bytes;
+    const auto shown = TRY(show_heaps(built.value));
+    axis.curve("sent to a viewer", "kbit/s").add(built.pieces, shown.kbit_s);
+    axis.curve("bytes of a join", measure::size_mib).add(built.pieces, shown.join_mib);
+    axis.curve("join", "time of a join, s").add(built.pieces, shown.join_s);
+    volume_bytes += shown.volume_bytes;
   }
   axis.checks.push_back(
       {"pieces_sent_by_motions_alone", volume_bytes == 0,
@@ -214,8 +211,8 @@ Result<Axis> measure_pieces_axis(const ScaleRun& run) {
     sizes.push_back({std::move(value), pieces});
     run.progress(0.3 * static_cast<double>(sizes.size()) / static_cast<double>(plan.size()));
   }
-  if (auto done = step_all(axis, run, sizes); !done) return tl::unexpected(done.error());
-  if (auto done = show_all(axis, sizes); !done) return tl::unexpected(done.error());
+  TRY(step_all(axis, run, sizes));
+  TRY(show_all(axis, sizes));
   axis.checks.push_back({"pieces_same_on_all_cores", std::ranges::all_of(sizes, &Built::same_hashes),
                          "hashes after the last tick on one thread and on all"});
   axis.curve("tick on one core", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");

@@ -51,7 +51,7 @@ struct Recorded {
 Result<std::vector<uint64_t>> record(Axis& axis, const ScaleRun& run, std::vector<Recorded>& recordings) {
   for (Recorded& one : recordings) {
     auto writer = RecordingWriter::create(one.path, {"bench", WorldConfig()});
-    if (!writer) return tl::unexpected(writer.error());
+    TRY(writer);
     one.writer = std::move(*writer);
   }
   World world{WorldConfig()};
@@ -68,7 +68,7 @@ Result<std::vector<uint64_t>> record(Axis& axis, const ScaleRun& run, std::vecto
     hashes.push_back(delta->field_hash);
     for (Recorded& one : recordings) {
       if (!one.writer) continue;
-      if (auto added = one.writer->add(*delta, commands); !added) return tl::unexpected(added.error());
+      TRY(one.writer->add(*delta, commands));
       const bool ends = tick == static_cast<Tick>(one.minutes * ticks_a_minute);
       if (auto done = ends                         ? one.writer->finish()
                       : tick % ticks_a_commit == 0 ? one.writer->commit()
@@ -86,16 +86,15 @@ Result<std::vector<uint64_t>> record(Axis& axis, const ScaleRun& run, std::vecto
 
 Result<void> seek_in(Axis& axis, const Recorded& recording, const std::vector<uint64_t>& hashes) {
   const double before_s = thread_cpu_s();
-  auto source = ReplaySource::open(recording.path);
-  if (!source) return tl::unexpected(source.error());
+  auto source = TRY(ReplaySource::open(recording.path));
   axis.curve("opened", measure::processor_ms).add(recording.minutes, (thread_cpu_s() - before_s) * 1e3);
   Random random(3);
   std::vector<double> cpu_ms;
   size_t wrong = 0;
   for (size_t i = 0; i < seeks; ++i) {
-    const Tick to = 1 + random.below(static_cast<uint32_t>((*source)->last_tick()));
+    const Tick to = 1 + random.below(static_cast<uint32_t>(source->last_tick()));
     const double seek_s = thread_cpu_s();
-    const auto jumped = (*source)->jump(to);
+    const auto jumped = source->jump(to);
     cpu_ms.push_back((thread_cpu_s() - seek_s) * 1e3);
     wrong += jumped && (*jumped)->field_hash == hashes[to - 1] ? 0 : 1;
   }
@@ -107,11 +106,10 @@ Result<void> seek_in(Axis& axis, const Recorded& recording, const std::vector<ui
 }
 
 Result<void> verify_it(Axis& axis, const Recorded& recording) {
-  const auto reader = RecordingReader::open(recording.path);
-  if (!reader) return tl::unexpected(reader.error());
+  const auto reader = TRY(RecordingReader::open(recording.path));
   const double before_s = thread_cpu_s();
-  const auto verified = verify(**reader);
-  if (!verified) return tl::unexpected(verified.error());
+  const auto verified = verify(*reader);
+  TRY(verified);
   axis.curve("verified", "processor time, s").add(recording.minutes, thread_cpu_s() - before_s);
   axis.checks.push_back(
       {fmt::format("recording_{}_verifies", metric_name(figure(recording.minutes))), verified->agrees(),
@@ -128,15 +126,14 @@ Result<Axis> measure_recording_axis(const ScaleRun& run) {
   for (const double minutes :
        run.quick ? std::vector<double>{0.1, 0.25, 0.5} : std::vector<double>{1, 2, 5, 12, 27, 60})
     recordings.push_back({minutes, scratch / fmt::format("{}", minutes), nullptr});
-  const auto hashes = record(axis, run, recordings);
-  if (!hashes) return tl::unexpected(hashes.error());
+  const auto hashes = TRY(record(axis, run, recordings));
   double done = 0.0, all_minutes = 0.0;
   for (const Recorded& one : recordings) all_minutes += one.minutes;
   for (const Recorded& one : recordings) {
     axis.curve("file", measure::size_mib)
         .add(one.minutes, static_cast<double>(std::filesystem::file_size(one.path)) / 1048576.0);
-    if (auto sought = seek_in(axis, one, *hashes); !sought) return tl::unexpected(sought.error());
-    if (auto verified = verify_it(axis, one); !verified) return tl::unexpected(verified.error());
+    TRY(seek_in(axis, one, hashes));
+    TRY(verify_it(axis, one));
     run.progress(0.5 + 0.5 * (done += one.minutes) / all_minutes);
   }
   axis.curve("seek, 99th percentile", measure::processor_ms).limit(100.0, "100 ms");

@@ -171,7 +171,7 @@ Result<StudyResult> run_scale_study(const StudyOptions& options) {
   // Other builds may carve otherwise, so that their worlds are others.
   const auto worlds =
       BuildFolder::take((std::filesystem::path(options.folder) / "scale-worlds").string(), this_build());
-  if (!worlds) return tl::unexpected(worlds.error());
+  TRY(worlds);
   // Servers that the study starts within this process would tell of each session.
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::err);

@@ -143,7 +143,7 @@ Result<SimulationCosts> measure_simulation(bool quick) {
   const auto most =
       most_held({.start = search_from, .growth = quick ? 2.0 : 1.4, .within = quick ? 0.5 : 0.06},
                 [&](size_t bots) { return Result<bool>(simulate(bots).served.holds()); });
-  if (!most) return tl::unexpected(most.error());
+  TRY(most);
   SimulationCosts costs;
   costs.bots_most = static_cast<double>(most->holds);
   for (const auto& [bots, simulated] : found)

@@ -30,7 +30,7 @@ Check linear_check(const Curve& fan_out, bool quick) {
 
 Result<void> add_audience(Axis& axis, size_t viewers, double seconds) {
   const auto shown = show_storm({.viewers = viewers, .mirrors = 0, .seconds = seconds});
-  if (!shown) return tl::unexpected(shown.error());
+  TRY(shown);
   const auto size = static_cast<double>(viewers);
   axis.curve("fan-out", measure::processor_ms).add(size, shown->net_cpu_ms);
   axis.curve("simulation", measure::processor_ms).add(size, shown->tick_cpu_ms);
@@ -54,7 +54,7 @@ Result<Axis> measure_viewers_axis(const ScaleRun& run) {
   double done = 0.0;
   for (const size_t viewers : counts) {
     const auto added = add_audience(axis, viewers, run.quick ? 2.0 : 5.0);
-    if (!added) return tl::unexpected(added.error());
+    TRY(added);
     run.progress(++done / static_cast<double>(counts.size()));
   }
   Curve& fan_out = axis.curve("fan-out", measure::processor_ms);

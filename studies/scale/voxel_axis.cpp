@@ -48,13 +48,11 @@ Result<void> join_voxels(Axis& axis, const ScaleRun& run, const std::vector<floa
     grounds.push_back({.config = {}, .carves_a_side = 4, .spacing_m = 8.0F, .radius_m = 2.0F});
     grounds.back().config.terrain = terrain_of(voxel_m);
   }
-  const auto paths = kept_worlds(run.worlds, grounds);
-  if (!paths) return tl::unexpected(paths.error());
-  for (size_t i = 0; i < paths->size(); ++i) {
-    const auto joined = join_cost((*paths)[i], grounds[i].config, voxel_interest_m);
-    if (!joined) return tl::unexpected(joined.error());
+  const auto paths = TRY(kept_worlds(run.worlds, grounds));
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const auto joined = TRY(join_cost(paths[i], grounds[i].config, voxel_interest_m));
     axis.curve("bytes of a join", measure::size_mib)
-        .add(static_cast<double>(voxels_m[i]), joined->kib / 1024.0);
+        .add(static_cast<double>(voxels_m[i]), joined.kib / 1024.0);
   }
   return {};
 }
@@ -95,11 +93,10 @@ Result<Axis> measure_voxel_axis(const ScaleRun& run) {
   const std::vector<float> voxels_m = run.quick
                                           ? std::vector<float>{1.0F, 0.5F, 0.25F}
                                           : std::vector<float>{1.0F, 0.7F, 0.5F, 0.35F, 0.25F, 0.2F, 0.15F};
-  if (auto done = probe_voxels(axis, run, voxels_m); !done) return tl::unexpected(done.error());
-  if (auto done = join_voxels(axis, run, voxels_m); !done) return tl::unexpected(done.error());
+  TRY(probe_voxels(axis, run, voxels_m));
+  TRY(join_voxels(axis, run, voxels_m));
   run.progress(0.75);
-  if (run.stage != nullptr)
-    if (auto done = draw_voxels(axis, run, voxels_m); !done) return tl::unexpected(done.error());
+  if (run.stage != nullptr) TRY(draw_voxels(axis, run, voxels_m));
   axis.curve("carve", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");
   axis.curve("tick with pieces", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");
   axis.curve("islands", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");

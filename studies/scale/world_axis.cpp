@@ -28,9 +28,8 @@ CarvedGround wide_ground(int side_m) {
 Result<void> weigh_worlds(Axis& axis, const ScaleRun& run, const std::vector<int>& sides_m,
                           const std::vector<std::string>& paths) {
   for (size_t i = 0; i < paths.size(); ++i) {
-    const auto joined = join_cost(paths[i], wide_ground(sides_m[i]).config, world_interest_m);
-    if (!joined) return tl::unexpected(joined.error());
-    axis.curve("bytes of a join", measure::size_mib).add(sides_m[i], joined->kib / 1024.0);
+    const auto joined = TRY(join_cost(paths[i], wide_ground(sides_m[i]).config, world_interest_m));
+    axis.curve("bytes of a join", measure::size_mib).add(sides_m[i], joined.kib / 1024.0);
     axis.curve("file", measure::size_mib)
         .add(sides_m[i], static_cast<double>(std::filesystem::file_size(paths[i])) / 1048576.0);
   }
@@ -43,12 +42,11 @@ Result<void> probe_worlds(Axis& axis, const ScaleRun& run, const std::vector<int
   std::vector<OpenedWorld> worlds;
   std::vector<GroundProbe> probes;
   for (size_t i = 0; i < paths.size(); ++i) {
-    auto opened = open_world(paths[i], wide_ground(sides_m[i]).config);
-    if (!opened) return tl::unexpected(opened.error());
-    axis.curve("memory", measure::size_mib).add(sides_m[i], opened->heap_mib);
-    axis.curve("start", measure::time_ms).add(sides_m[i], opened->start_ms);
-    probes.emplace_back(*opened->world, 0.0F, 0.0F);
-    worlds.push_back(std::move(*opened));
+    auto opened = TRY(open_world(paths[i], wide_ground(sides_m[i]).config));
+    axis.curve("memory", measure::size_mib).add(sides_m[i], opened.heap_mib);
+    axis.curve("start", measure::time_ms).add(sides_m[i], opened.start_ms);
+    probes.emplace_back(*opened.world, 0.0F, 0.0F);
+    worlds.push_back(std::move(opened));
   }
   const int rounds = run.quick ? 3 : 16;
   for (int round = 0; round < rounds; ++round) {
@@ -67,11 +65,10 @@ Result<Axis> measure_world_axis(const ScaleRun& run) {
       run.quick ? std::vector<int>{64, 128, 256, 512} : std::vector<int>{64, 128, 256, 512, 1024, 2048, 4096};
   std::vector<CarvedGround> grounds;
   for (const int side_m : sides_m) grounds.push_back(wide_ground(side_m));
-  const auto paths = kept_worlds(run.worlds, grounds);
-  if (!paths) return tl::unexpected(paths.error());
+  const auto paths = TRY(kept_worlds(run.worlds, grounds));
   run.progress(0.4);
-  if (auto done = weigh_worlds(axis, run, sides_m, *paths); !done) return tl::unexpected(done.error());
-  if (auto done = probe_worlds(axis, run, sides_m, *paths); !done) return tl::unexpected(done.error());
+  TRY(weigh_worlds(axis, run, sides_m, paths));
+  TRY(probe_worlds(axis, run, sides_m, paths));
   for (const char* name : {"carve", "merge", "islands"})
     axis.curve(name, measure::time_ms).flat(flat_exponent_max);
   axis.curve("tick with pieces", measure::time_ms).limit(1000.0 / 60.0, "a tick of 16.6 ms");

@@ -19,7 +19,7 @@ Result<MirrorChanges> send(Mirror& mirror, const ServerMessage& message) {
   const std::vector<uint8_t> framed = encode(message);
   const Result<ServerMessage> decoded =
       decode_server(std::span<const uint8_t>(framed).subspan(length_prefix_bytes));
-  if (!decoded) return tl::unexpected(decoded.error());
+  TRY(decoded);
   return mirror.apply(*decoded);
 }
 

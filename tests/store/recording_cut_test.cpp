@@ -16,9 +16,8 @@ namespace {
 class RecordingCutTest : public RecordingTest {
  protected:
   Result<CutReport> cut_to(const std::string& name, Tick first, Tick last) {
-    const auto reader = RecordingReader::open(path);
-    if (!reader) return tl::unexpected(reader.error());
-    return cut(**reader, (folder / name).string(), first, last, {});
+    const auto reader = TRY(RecordingReader::open(path));
+    return cut(*reader, (folder / name).string(), first, last, {});
   }
   void expect_verifies_from(const std::string& file, Tick first, Tick last) const {
     const auto reader = RecordingReader::open(file);

@@ -59,8 +59,7 @@ TEST(paged_world, is_restored_with_as_much_terrain_as_there_is_memory_for) {
   terrain.read = shelf.reader();
   terrain.bricks_max = 40;
   terrain.each = [&](const PagedTerrain::Take& take) -> Result<void> {
-    for (const auto& [chunk, bricks] : shelf.chunks)
-      if (auto taken = take(chunk, bricks); !taken) return taken;
+    for (const auto& [chunk, bricks] : shelf.chunks) TRY(take(chunk, bricks));
     return {};
   };
   const auto restored = World::restore(value, terrain, 1, {});

@@ -74,8 +74,7 @@ class CellRows {
   /// `z`: of the voxels, from the box's first. In voxels.
   Result<void> add(int z, std::span<const float> surface) {
     const int cell = cell_of(z);
-    if (cell != cell_)
-      if (auto taken = end_row(); !taken) return taken;
+    if (cell != cell_) TRY(end_row());
     cell_ = cell;
     for (size_t x = 0; x < surface.size(); ++x) {
       float& height_m = row_[static_cast<size_t>(cell_of(static_cast<int>(x)))];
@@ -149,7 +148,7 @@ Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, cons
         return tl::unexpected(added.error());
   }
   progress(1.0);
-  if (auto ended = rows.end_row(); !ended) return tl::unexpected(ended.error());
+  TRY(rows.end_row());
   if (rows.sums().lowest_m > rows.sums().highest_m) return fail("there is no rock in the box");
   return rows.sums();
 }

@@ -106,9 +106,8 @@ Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::s
   if (mesh.triangles.empty()) return fail("there is no rock in the box, or nothing else");
   split_pinches(mesh);
   const float voxel_m = field.source().voxel_size_m;
-  const auto bytes = write_surface(mesh, path, voxel_m / surface_steps_per_voxel);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return MeshExported{mesh.points.size(), mesh.triangles.size(), *bytes, volume_of(mesh, voxel_m)};
+  const auto bytes = TRY(write_surface(mesh, path, voxel_m / surface_steps_per_voxel));
+  return MeshExported{mesh.points.size(), mesh.triangles.size(), bytes, volume_of(mesh, voxel_m)};
 }
 
 }  // namespace scree

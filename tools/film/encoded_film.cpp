@@ -103,9 +103,8 @@ class EncodedFilm final : public FrameSink {
     std::span<const uint8_t> left(frame.rgb);
     while (!left.empty()) {
       if (stopped_()) return fail("stopped");
-      const auto taken = encoder_->give(left, limits::encoder_pause_ms);
-      if (!taken) return tl::unexpected(taken.error());
-      left = left.subspan(*taken);
+      const auto taken = TRY(encoder_->give(left, limits::encoder_pause_ms));
+      left = left.subspan(taken);
     }
     return {};
   }
@@ -114,9 +113,8 @@ class EncodedFilm final : public FrameSink {
     encoder_->end_input();
     const double until_s = steady_now_s() + limits::encoder_finish_s_max;
     for (;;) {
-      const auto ended = encoder_->wait(limits::encoder_pause_ms);
-      if (!ended) return tl::unexpected(ended.error());
-      if (*ended) break;
+      const auto ended = TRY(encoder_->wait(limits::encoder_pause_ms));
+      if (ended) break;
       if (stopped_()) return fail("stopped");
       if (steady_now_s() > until_s) return fail("ffmpeg does not come to an end");
     }
@@ -149,12 +147,11 @@ Result<std::unique_ptr<FrameSink>> open_encoded_film(const FilmFormat& format, S
     return fail(fmt::format("the sides of a film in {} are even: {}x{} is none", encoding->ending,
                             format.width, format.height));
   std::string partial = format.file + "." + std::to_string(::getpid()) + ".partial";
-  auto encoder = ChildProcess::start(
+  auto encoder = TRY(ChildProcess::start(
       command_of(*encoding, format, partial),
       "which encodes films: install Debian's package of that name (./scree setup does), or write a folder of "
-      "PNGs (-o FOLDER/)");
-  if (!encoder) return tl::unexpected(encoder.error());
-  return std::make_unique<EncodedFilm>(format.file, std::move(partial), std::move(*encoder),
+      "PNGs (-o FOLDER/)"));
+  return std::make_unique<EncodedFilm>(format.file, std::move(partial), std::move(encoder),
                                        std::move(stopped));
 }
 

@@ -48,13 +48,11 @@ Result<std::optional<PlayerCursor>> cursor_at(double tick, PersonSearch& person,
                                               RecordingReader& recording) {
   const auto whole = static_cast<Tick>(tick);
   const auto part = static_cast<float>(tick - static_cast<double>(whole));
-  const auto there = cursors.at(recording, whole);
-  if (!there) return tl::unexpected(there.error());
-  auto now = person.among(*there);
+  const auto there = TRY(cursors.at(recording, whole));
+  auto now = person.among(there);
   if (!now || part == 0.0F || whole == recording.last_tick()) return now;
-  const auto then = cursors.at(recording, whole + 1);
-  if (!then) return tl::unexpected(then.error());
-  if (const auto next = person.among(*then)) {
+  const auto then = TRY(cursors.at(recording, whole + 1));
+  if (const auto next = person.among(then)) {
     now->eye_m = glm::mix(now->eye_m, next->eye_m, part);
     now->aim_m = glm::mix(now->aim_m, next->aim_m, part);
   }
@@ -79,12 +77,11 @@ Result<EyeShot> EyeShot::of(const std::string& name, RecordingReader& recording,
   RecordedCursors cursors;
   std::optional<Camera> camera;
   for (const double tick : ticks) {
-    const auto cursor = cursor_at(tick, person, cursors, recording);
-    if (!cursor) return tl::unexpected(cursor.error());
-    if (cursor->has_value()) {
+    const auto cursor = TRY(cursor_at(tick, person, cursors, recording));
+    if (cursor.has_value()) {
       const bool is_first = !camera;
       if (is_first) camera.emplace();
-      see(**cursor, *camera);
+      see(*cursor, *camera);
       if (is_first) std::ranges::fill(shot.frames_, *camera);
     }
     shot.frames_.push_back(camera.value_or(Camera()));

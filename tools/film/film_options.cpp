@@ -143,14 +143,13 @@ Result<void> FilmOptionParser::understand_camera() {
   if (const auto camera = if_given<Camera>(camera_, parse_camera)) options_.order.camera = *camera;
   if (!eye_.empty()) options_.order.camera = PersonsEye{eye_};
   if (path_.empty()) return {};
-  auto path = CameraPath::read(path_);
-  if (!path) return tl::unexpected(path.error());
-  options_.order.camera = std::move(*path);
+  auto path = TRY(CameraPath::read(path_));
+  options_.order.camera = std::move(path);
   return {};
 }
 
 Result<FilmOptions> FilmOptionParser::understand() {
-  if (auto camera = understand_camera(); !camera) return tl::unexpected(camera.error());
+  TRY(understand_camera());
   options_.order.from = if_given<TickOrTime>(from_, parse_tick_or_time);
   options_.order.to = if_given<TickOrTime>(to_, parse_tick_or_time);
   DrawChoice& drawn = options_.drawn;

@@ -75,7 +75,7 @@ Result<Event> find_event(const WhichEvent& which, RecordingReader& recording, co
   EventSearch search(which);
   const auto read =
       each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.take(event); });
-  if (!read) return tl::unexpected(read.error());
+  TRY(read);
   auto found = search.found();
   if (!found) return fail(recording.path() + ": " + found.error().message);
   return found;
@@ -129,9 +129,8 @@ Result<Shot> eye_shot(const PersonsEye& eye, const FilmOrder& order, const FilmS
                       RecordingReader& recording) {
   std::vector<double> ticks;
   for (size_t frame = 0; frame < span.frames; ++frame) ticks.push_back(span.tick(frame));
-  auto shot = EyeShot::of(eye.person, recording, ticks, order.frames_per_s);
-  if (!shot) return tl::unexpected(shot.error());
-  return std::move(*shot);
+  auto shot = TRY(EyeShot::of(eye.person, recording, ticks, order.frames_per_s));
+  return shot;
 }
 
 Result<Shot> shot_of(const FilmOrder& order, const std::optional<Event>& event, const FilmSpan& span,
@@ -139,9 +138,8 @@ Result<Shot> shot_of(const FilmOrder& order, const std::optional<Event>& event, 
   if (const auto* camera = std::get_if<Camera>(&order.camera)) return *camera;
   if (const auto* path = std::get_if<CameraPath>(&order.camera)) return *path;
   if (const auto* eye = std::get_if<PersonsEye>(&order.camera)) return eye_shot(*eye, order, span, recording);
-  const auto field = field_at(recording.path(), static_cast<Tick>(span.from_tick), ground);
-  if (!field) return tl::unexpected(field.error());
-  return Orbit::around(*event, **field, static_cast<double>(span.frames) / order.frames_per_s);
+  const auto field = TRY(field_at(recording.path(), static_cast<Tick>(span.from_tick), ground));
+  return Orbit::around(*event, *field, static_cast<double>(span.frames) / order.frames_per_s);
 }
 
 }  // namespace
@@ -155,20 +153,16 @@ Result<WhichEvent> parse_event(const std::string& text) {
 }
 
 Result<FilmPlan> plan_film(const FilmOrder& order, const std::string& path, const GroundGiver& ground) {
-  const auto recording = RecordingReader::open(path);
-  if (!recording) return tl::unexpected(recording.error());
+  const auto recording = TRY(RecordingReader::open(path));
   FilmPlan plan;
   if (const auto* which = std::get_if<WhichEvent>(&order.camera)) {
-    const auto event = find_event(*which, **recording, ground);
-    if (!event) return tl::unexpected(event.error());
-    plan.event = *event;
+    const auto event = TRY(find_event(*which, *recording, ground));
+    plan.event = event;
   }
-  const auto span = span_of(order, plan.event, **recording);
-  if (!span) return tl::unexpected(span.error());
-  plan.span = *span;
-  auto shot = shot_of(order, plan.event, plan.span, **recording, ground);
-  if (!shot) return tl::unexpected(shot.error());
-  plan.shot = std::move(*shot);
+  const auto span = TRY(span_of(order, plan.event, *recording));
+  plan.span = span;
+  auto shot = TRY(shot_of(order, plan.event, plan.span, *recording, ground));
+  plan.shot = std::move(shot);
   return plan;
 }
 

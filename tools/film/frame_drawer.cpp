@@ -11,14 +11,12 @@ namespace scree {
 
 Result<std::unique_ptr<FrameDrawer>> FrameDrawer::create(const DrawChoice& drawn,
                                                          const TerrainSource& terrain) {
-  auto context = EglContext::create(false);
-  if (!context) return tl::unexpected(context.error());
-  auto renderer = Renderer::create(drawn.view_radius_m);
-  if (!renderer) return tl::unexpected(renderer.error());
-  (*renderer)->set_fineness(traits_of(drawn.quality).fineness);
-  (*renderer)->set_terrain(terrain);
-  std::unique_ptr<FrameDrawer> drawer(new FrameDrawer(drawn, std::move(*context), std::move(*renderer)));
-  if (auto chosen = drawer->methods_.choose(*drawn.method); !chosen) return tl::unexpected(chosen.error());
+  auto context = TRY(EglContext::create(false));
+  auto renderer = TRY(Renderer::create(drawn.view_radius_m));
+  renderer->set_fineness(traits_of(drawn.quality).fineness);
+  renderer->set_terrain(terrain);
+  std::unique_ptr<FrameDrawer> drawer(new FrameDrawer(drawn, std::move(context), std::move(renderer)));
+  TRY(drawer->methods_.choose(*drawn.method));
   return drawer;
 }
 
@@ -33,7 +31,7 @@ FrameDrawer::FrameDrawer(const DrawChoice& drawn, std::unique_ptr<EglContext> co
 Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                   const Stopped& stopped) {
   const Scene shown{scene.field(), scene.pieces()};
-  if (auto followed = methods_.follow(changes, shown, camera); !followed) return followed;
+  TRY(methods_.follow(changes, shown, camera));
   const double until_s = steady_now_s() + limits::film_frame_s_max;
   while (!methods_.complete()) {
     if (stopped()) return fail("stopped");
@@ -42,15 +40,14 @@ Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& cha
                   std::to_string(static_cast<int>(limits::film_frame_s_max)) +
                   " s (limits.film_frame_s_max)");
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::film_pause_ms));
-    if (auto followed = methods_.follow({}, shown, camera); !followed) return followed;
+    TRY(methods_.follow({}, shown, camera));
   }
   return {};
 }
 
 Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                 const Stopped& stopped) {
-  if (auto prepared = prepare(scene, changes, camera, stopped); !prepared)
-    return tl::unexpected(prepared.error());
+  TRY(prepare(scene, changes, camera, stopped));
   renderer_->set_contacts(contacts_of(scene.pieces(), scene.field().source().voxel_size_m, camera.eye_m));
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
   return renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height);

@@ -21,17 +21,15 @@ constexpr double ticks_to_know_speeds = 3.0;
 /// Begins so early that all dust of the first moment is raised on the way there.
 Result<std::unique_ptr<RecordedScene>> RecordedScene::open(const std::string& path, double from_tick,
                                                            const GroundGiver& ground) {
-  auto source = ReplaySource::open(path, 0, ground);
-  if (!source) return tl::unexpected(source.error());
-  CHECK(from_tick >= static_cast<double>((*source)->first_tick()) &&
-        from_tick <= static_cast<double>((*source)->last_tick()));
-  const double dust_ticks = double{limits::particle_seconds_max} * (*source)->header().world.tick_rate_hz;
-  const auto start = static_cast<Tick>(std::max(static_cast<double>((*source)->first_tick()),
+  auto source = TRY(ReplaySource::open(path, 0, ground));
+  CHECK(from_tick >= static_cast<double>(source->first_tick()) &&
+        from_tick <= static_cast<double>(source->last_tick()));
+  const double dust_ticks = double{limits::particle_seconds_max} * source->header().world.tick_rate_hz;
+  const auto start = static_cast<Tick>(std::max(static_cast<double>(source->first_tick()),
                                                 std::floor(from_tick - dust_ticks) - ticks_to_know_speeds));
-  if (auto sought = (*source)->seek(start); !sought) return tl::unexpected(sought.error());
-  auto state = state_at_start(**source);
-  if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<RecordedScene>(new RecordedScene(std::move(*source), std::move(*state)));
+  TRY(source->seek(start));
+  auto state = TRY(state_at_start(*source));
+  return std::unique_ptr<RecordedScene>(new RecordedScene(std::move(source), std::move(state)));
 }
 
 RecordedScene::RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_ptr<const TickDelta> state)
@@ -45,12 +43,11 @@ Result<MirrorChanges> RecordedScene::go_to(double tick) {
   CHECK(tick >= moment_ && tick <= static_cast<double>(source_->last_tick()));
   const auto whole = static_cast<Tick>(tick);
   while (now_->tick < whole) {
-    if (auto read = look_ahead(); !read) return tl::unexpected(read.error());
+    TRY(look_ahead());
     take(std::exchange(ahead_, nullptr), unseen_);
   }
   const double part = tick - static_cast<double>(whole);
-  if (part > 0.0)
-    if (auto read = look_ahead(); !read) return tl::unexpected(read.error());
+  if (part > 0.0) TRY(look_ahead());
   move_pieces(static_cast<float>(part));
   moment_ = tick;
   return std::exchange(unseen_, {});
@@ -59,7 +56,7 @@ Result<MirrorChanges> RecordedScene::go_to(double tick) {
 Result<void> RecordedScene::look_ahead() {
   if (ahead_ != nullptr) return {};
   auto next = source_->next();
-  if (!next) return tl::unexpected(next.error());
+  TRY(next);
   CHECK(*next != nullptr);  // the caller stays within the recording
   CHECK_EQ((*next)->tick, now_->tick + 1);
   ahead_ = std::move(*next);

@@ -45,7 +45,7 @@ Result<VoxelBox> box_of(const std::vector<std::unique_ptr<Solid>>& solids, float
     box = box ? hull_of(*box, solid->box()) : solid->box();
   }
   if (!box) return fail("there is nothing to import");
-  if (auto layout = layout_around(*box, voxel_size_m); !layout) return tl::unexpected(layout.error());
+  TRY(layout_around(*box, voxel_size_m));
   return *box;
 }
 
@@ -247,7 +247,7 @@ Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const 
                                                  const BricksImport& how) {
   HeightLayout layout = grounds.bare.heights->layout();
   auto writer = GroundWriter::create(path, layout, how.on != nullptr ? how.on->header().zero_m : 0.0F);
-  if (!writer) return tl::unexpected(writer.error());
+  TRY(writer);
   if (how.on != nullptr) {
     (*writer)->copy_heights(*how.on);
   } else {
@@ -268,26 +268,21 @@ Result<BricksImported> import_bricks(const std::vector<std::unique_ptr<Solid>>& 
   if (on_bricks && how.on->bricks()->voxel_size_m != voxel_size_m)
     return fail(fmt::format("the bricks of the ground below have voxels of {} m, not {} m",
                             how.on->bricks()->voxel_size_m, voxel_size_m));
-  const auto box = box_of(solids, voxel_size_m);
-  if (!box) return tl::unexpected(box.error());
-  auto grounds = grounds_of(how, solids, *box, voxel_size_m);
-  if (!grounds) return tl::unexpected(grounds.error());
-  Importer importer(solids, how, std::move(*grounds));
-  auto level = importer.finest(*box, progress);
-  if (!level) return tl::unexpected(level.error());
-  auto writer = begin_file(path, importer.grounds(), how);
-  if (!writer) return tl::unexpected(writer.error());
+  const auto box = TRY(box_of(solids, voxel_size_m));
+  auto grounds = TRY(grounds_of(how, solids, box, voxel_size_m));
+  Importer importer(solids, how, std::move(grounds));
+  auto level = TRY(importer.finest(box, progress));
+  auto writer = TRY(begin_file(path, importer.grounds(), how));
   BricksImported imported;
-  imported.chunks = level->size();
+  imported.chunks = level.size();
   imported.volume_m3 = importer.volume_m3();
-  ChunkPyramid pyramid(importer.grounds().bare, std::move(*level));
-  (*writer)->begin_chunks(pyramid.layout());
-  pyramid.write(**writer);
+  ChunkPyramid pyramid(importer.grounds().bare, std::move(level));
+  writer->begin_chunks(pyramid.layout());
+  pyramid.write(*writer);
   progress(1.0);
-  const auto header = (*writer)->finish();
-  if (!header) return tl::unexpected(header.error());
-  imported.header = *header;
-  imported.bytes = (*writer)->bytes();
+  const auto header = TRY(writer->finish());
+  imported.header = header;
+  imported.bytes = writer->bytes();
   return imported;
 }
 

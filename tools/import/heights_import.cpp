@@ -28,7 +28,7 @@ Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::funct
   Survey found;
   std::vector<double> row(static_cast<size_t>(shape.columns));
   for (int z = 0; z < shape.rows; ++z) {
-    if (Result<void> read = raster.read_row(z, row); !read) return tl::unexpected(read.error());
+    TRY(raster.read_row(z, row));
     for (const double height : row) {
       if (!std::isfinite(height)) {
         ++found.nodata;
@@ -61,9 +61,8 @@ class Resampled {
     const auto [first, weight] = place(z, layout_.rows, shape_.rows);
     std::array<const std::vector<double>*, 4> rows{};
     for (int k = 0; k < 4; ++k) {
-      const auto row = source(std::clamp(first + k, 0, shape_.rows - 1));
-      if (!row) return tl::unexpected(row.error());
-      rows[static_cast<size_t>(k)] = *row;
+      const auto row = TRY(source(std::clamp(first + k, 0, shape_.rows - 1)));
+      rows[static_cast<size_t>(k)] = row;
     }
     for (size_t i = 0; i < heights_m.size(); ++i) {
       double sum = 0.0;
@@ -96,7 +95,7 @@ class Resampled {
     const auto found = rows_.find(z);
     if (found != rows_.end()) return &found->second;
     std::vector<double> cells(static_cast<size_t>(shape_.columns));
-    if (Result<void> read = raster_.read_row(z, cells); !read) return tl::unexpected(read.error());
+    TRY(raster_.read_row(z, cells));
     for (double& height : cells) height = std::isfinite(height) ? height * scale_ : nodata_m_;
     std::vector<double> row(static_cast<size_t>(layout_.columns));
     for (int x = 0; x < layout_.columns; ++x) {
@@ -188,36 +187,32 @@ void note(HeightsImported& imported, const HeightLayout& layout, int z, std::spa
 
 Result<HeightsImported> import_heights(Raster& raster, const std::string& path, const HeightsImport& how,
                                        const std::function<void(double)>& progress) {
-  auto layout = layout_of(raster.shape(), how);
-  if (!layout) return tl::unexpected(layout.error());
-  const auto found = survey(raster, how, progress);
-  if (!found) return tl::unexpected(found.error());
-  const auto zero_m = zero_of(*found, how);
-  if (!zero_m) return tl::unexpected(zero_m.error());
-  layout->layers.soil_below_m = static_cast<float>(how.soil_below_m.value_or(limits::world_half_height_m));
-  layout->layers.ice_above_m = static_cast<float>(how.ice_above_m.value_or(limits::world_half_height_m));
-  if (Result<void> valid = validate(*layout); !valid) return tl::unexpected(valid.error());
-  auto writer = GroundWriter::create(path, *layout, static_cast<float>(*zero_m));
-  if (!writer) return tl::unexpected(writer.error());
+  auto layout = TRY(layout_of(raster.shape(), how));
+  const auto found = TRY(survey(raster, how, progress));
+  const auto zero_m = zero_of(found, how);
+  TRY(zero_m);
+  layout.layers.soil_below_m = static_cast<float>(how.soil_below_m.value_or(limits::world_half_height_m));
+  layout.layers.ice_above_m = static_cast<float>(how.ice_above_m.value_or(limits::world_half_height_m));
+  TRY(validate(layout));
+  auto writer = TRY(GroundWriter::create(path, layout, static_cast<float>(*zero_m)));
   HeightsImported imported;
-  Resampled resampled(raster, *layout, how.vertical_scale, how.nodata_m.value_or(found->lowest_m));
-  std::vector<double> row(static_cast<size_t>(layout->columns));
+  Resampled resampled(raster, layout, how.vertical_scale, how.nodata_m.value_or(found.lowest_m));
+  std::vector<double> row(static_cast<size_t>(layout.columns));
   std::vector<int32_t> heights(row.size());
-  for (int z = 0; z < layout->rows; ++z) {
-    if (Result<void> read = resampled.row(z, row); !read) return tl::unexpected(read.error());
+  for (int z = 0; z < layout.rows; ++z) {
+    TRY(resampled.row(z, row));
     std::ranges::transform(row, heights.begin(),
                            [&](double height_m) { return quantised(height_m - *zero_m); });
-    (*writer)->add_row(heights);
-    note(imported, *layout, z, heights);
-    progress(0.3 + 0.7 * (z + 1) / layout->rows);
+    writer->add_row(heights);
+    note(imported, layout, z, heights);
+    progress(0.3 + 0.7 * (z + 1) / layout.rows);
   }
-  const auto header = (*writer)->finish();
-  if (!header) return tl::unexpected(header.error());
-  imported.header = *header;
-  imported.bytes = (*writer)->bytes();
-  imported.nodata = found->nodata;
-  imported.lowest_m = found->lowest_m;
-  imported.highest_m = found->highest_m;
+  const auto header = TRY(writer->finish());
+  imported.header = header;
+  imported.bytes = writer->bytes();
+  imported.nodata = found.nodata;
+  imported.lowest_m = found.lowest_m;
+  imported.highest_m = found.highest_m;
   return imported;
 }
 

@@ -25,15 +25,14 @@ Result<void> carry_out(World& world, const BuildStep& step) {
 }  // namespace
 
 Result<void> build_scene(World& world, const SceneSetup& setup) {
-  for (const BuildStep& step : setup.build)
-    if (auto done = carry_out(world, step); !done) return done;
+  for (const BuildStep& step : setup.build) TRY(carry_out(world, step));
   return {};
 }
 
 Result<std::unique_ptr<World>> scene_world(const SceneSetup& setup, size_t threads) {
   auto world = World::create(setup.config, threads);
   if (!world) return world;
-  if (auto built = build_scene(**world, setup); !built) return tl::unexpected(built.error());
+  TRY(build_scene(**world, setup));
   return world;
 }
 
@@ -48,11 +47,10 @@ void build_scene(Field& field, const SceneSetup& setup) {
 }
 
 Result<void> make_scene_file(const SceneSetup& setup, const std::string& path, uint64_t number) {
-  auto world = scene_world(setup);
-  if (!world) return tl::unexpected(world.error());
-  WorldHeader header{.world = number, .config = (*world)->moment().config};
+  auto world = TRY(scene_world(setup));
+  WorldHeader header{.world = number, .config = world->moment().config};
   header.config.program = "scree-scene " SCREE_VERSION;
-  return create_world(path, header, **world);
+  return create_world(path, header, *world);
 }
 
 }  // namespace scree

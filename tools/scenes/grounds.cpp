@@ -17,7 +17,7 @@ void no_progress(double) {}
 /// The ground of that file, and a place to look at it from.
 Result<SceneSetup> on_file(const std::string& path, glm::vec3 eye_m, glm::vec3 target_m) {
   SceneSetup setup;
-  if (auto taken = take_ground(path, setup.config); !taken) return tl::unexpected(taken.error());
+  TRY(take_ground(path, setup.config));
   setup.eye_m = eye_m;
   setup.target_m = target_m;
   return setup;
@@ -41,9 +41,8 @@ Result<SceneSetup> city_scene(const std::string& folder) {
   for (const HousePlan& plan : block_of_houses) {
     TriangleMesh mesh = house(plan, voxel_m);
     const MeshRepair repair = turn_inside_in(mesh);
-    auto solid = solid_of_mesh(std::move(mesh), repair.open_edges == 0, voxel_m);
-    if (!solid) return tl::unexpected(solid.error());
-    houses.push_back(std::move(*solid));
+    auto solid = TRY(solid_of_mesh(std::move(mesh), repair.open_edges == 0, voxel_m));
+    houses.push_back(std::move(solid));
   }
   const std::string path = folder + "/city.ground";
   const auto imported = import_bricks(houses, path, {.level_m = 0.0}, no_progress);
@@ -61,10 +60,9 @@ Result<SceneSetup> city_scene(const std::string& folder) {
 }
 
 Result<SceneSetup> maunga_whau_scene(const std::string& folder) {
-  auto raster = open_raster(SCREE_DATA_DIR "/maunga_whau.asc");
-  if (!raster) return tl::unexpected(raster.error());
+  auto raster = TRY(open_raster(SCREE_DATA_DIR "/maunga_whau.asc"));
   const std::string path = folder + "/maunga-whau.ground";
-  const auto imported = import_heights(**raster, path, {}, no_progress);
+  const auto imported = import_heights(*raster, path, {}, no_progress);
   if (!imported) return fail(path + ": " + imported.error().message);
   auto setup = on_file(path, {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F});
   if (!setup) return setup;

@@ -32,7 +32,7 @@ Result<std::pair<double, Camera>> key_of(const Json& json) {
 }  // namespace
 
 Result<CameraPath> CameraPath::parse(const std::string& text) {
-  if (Result<void> shallow = check_json_depth(text); !shallow) return tl::unexpected(shallow.error());
+  TRY(check_json_depth(text));
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) return fail("it is not JSON");
   const Json keys = json.is_object() ? json.value("keys", Json()) : Json();

@@ -210,7 +210,7 @@ Result<void> understand_pattern(const std::string& name, ViewerOptions& options)
 }
 
 Result<void> understand(const Texts& texts, ViewerOptions& options) {
-  if (Result<void> placed = understand_place(texts.size, texts.camera, options); !placed) return placed;
+  TRY(understand_place(texts.size, texts.camera, options));
   options.method = method_named(texts.method);
   if (options.method == nullptr)
     return fail("--method: there is no '" + texts.method + "'; there are\n" + describe_methods());
@@ -220,8 +220,8 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
       return fail("--quality: there is no '" + texts.quality + "'; there are auto, " +
                   listed(kind_names<Quality>));
   }
-  if (Result<void> pattern = understand_pattern(texts.pattern, options); !pattern) return pattern;
-  if (Result<void> grid = understand_grid(texts.grid_spacing, options.grid); !grid) return grid;
+  TRY(understand_pattern(texts.pattern, options));
+  TRY(understand_grid(texts.grid_spacing, options.grid));
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
     if (!order) return fail(order.error().message);

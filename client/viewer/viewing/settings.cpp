@@ -79,7 +79,7 @@ std::string settings_file() {
 }
 
 Result<Settings> parse_settings(const std::string& text) {
-  if (Result<void> shallow = check_json_depth(text); !shallow) return tl::unexpected(shallow.error());
+  TRY(check_json_depth(text));
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return fail("it is no JSON object");
   Settings settings;

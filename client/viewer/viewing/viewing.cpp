@@ -60,7 +60,7 @@ Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<Vi
 }
 
 Result<void> Viewing::step(double now_s) {
-  if (Result<void> stepped = Visit::step(now_s); !stepped) return stepped;
+  TRY(Visit::step(now_s));
   if (session.mirror() != nullptr) sounds_.step(events(), camera, now_s);
   return check_gl_errors();
 }
@@ -72,7 +72,7 @@ Result<void> Viewing::check_gl_errors() {
 }
 
 Result<void> Viewing::finish() {
-  if (Result<void> heard = sounds_.finish(); !heard) return heard;
+  TRY(sounds_.finish());
   return trace ? trace->write(options.trace_file) : Result<void>{};
 }
 
@@ -104,7 +104,7 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
 Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
   const Result<Image> image = picture(now_s);
   if (!image) return fail(image.error().message);
-  if (Result<void> written = write_png(order.file, *image); !written) return written;
+  TRY(write_png(order.file, *image));
   // Standard output is for figures only.
   std::fprintf(stderr, "wrote %s\n", order.description().c_str());
   if (options.reference.empty()) return {};
@@ -118,8 +118,7 @@ Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
 
 Result<void> Viewing::take_due(double now_s) {
   if (screenshots.empty()) return {};
-  for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s)))
-    if (Result<void> taken = take(order, now_s); !taken) return taken;
+  for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s))) TRY(take(order, now_s));
   return {};
 }
 

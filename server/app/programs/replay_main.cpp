@@ -79,9 +79,9 @@ Result<Sums> sum_up(RecordingReader& recording) {
   Sums sums;
   for (Tick tick = recording.first_tick(); tick <= recording.last_tick(); ++tick) {
     auto frame = recording.frame(tick);
-    if (!frame) return tl::unexpected(frame.error());
+    TRY(frame);
     const auto commands = recording.commands(tick);
-    if (!commands) return tl::unexpected(commands.error());
+    TRY(commands);
     sums.commands += commands->size();
     for (const Operation& operation : frame->operations) {
       ++sums.operations[operation];
@@ -100,11 +100,10 @@ Result<Json> count_events(RecordingReader& recording) {
     for (const Event& event : events) ++counts[static_cast<size_t>(event.kind)];
   };
   const auto events = recording.events(recording.first_tick(), recording.last_tick());
-  if (!events) return tl::unexpected(events.error());
+  TRY(events);
   count(*events);
-  const auto rows = recording.machine(recording.first_tick(), recording.last_tick());
-  if (!rows) return tl::unexpected(rows.error());
-  for (const RecordedMachine& row : *rows) count(row.events);
+  const auto rows = TRY(recording.machine(recording.first_tick(), recording.last_tick()));
+  for (const RecordedMachine& row : rows) count(row.events);
   Json json = Json::object();
   for (const EventKind kind : all_kinds<EventKind>)
     if (const uint64_t n = counts[static_cast<size_t>(kind)]; n > 0) json[std::string(name_of(kind))] = n;
@@ -202,7 +201,7 @@ Result<void> write_lines(const std::string& path, const WriteLines& write) {
     if (file == nullptr) return fail(std::strerror(errno));
     return write_lines_to(file.get(), path, write);
   });
-  if (!written) return tl::unexpected(written.error());
+  TRY(written);
   return {};
 }
 

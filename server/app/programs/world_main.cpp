@@ -94,7 +94,7 @@ Json describe(const std::string& path, const WorldRows& rows, const ChunkSums& s
 
 /// What is read from now on is of one moment.
 Result<WorldRows> moment_of(WorldFile& file) {
-  if (auto held = file.hold_moment(); !held) return tl::unexpected(held.error());
+  TRY(file.hold_moment());
   return file.read_moment();
 }
 
@@ -105,7 +105,7 @@ Result<ChunkSums> sum_up(WorldFile& file) {
     sums.bricks += chunk.bricks.size();
     return {};
   });
-  if (!bytes) return tl::unexpected(bytes.error());
+  TRY(bytes);
   sums.bytes = *bytes;
   return sums;
 }
@@ -124,7 +124,7 @@ int info(const Options& options) {
 /// The rows with the ground that they name.
 Result<void> find_ground_of(WorldRows& rows, const Options& options) {
   const auto ground = ground_giver(options.path, options.ground);
-  if (!ground) return tl::unexpected(ground.error());
+  TRY(ground);
   RecordedHeader& config = rows.world.moment.config;
   if (auto given = give_ground(config.ground, config.terrain, *ground); !given)
     return fail(options.path + ": " + given.error().message);
@@ -147,24 +147,22 @@ constexpr size_t checked_bricks_max = size_t{1} << 16;
 
 /// Everything that a server's start checks, and what that takes from the rows, chunk by chunk.
 Result<void> check_file(const Options& options) {
-  const auto opened = WorldFile::open(options.path);
-  if (!opened) return tl::unexpected(opened.error());
-  WorldFile& file = **opened;
-  auto rows = moment_of(file);
-  if (!rows) return tl::unexpected(rows.error());
-  if (auto found = find_ground_of(*rows, options); !found) return found;
+  const auto opened = TRY(WorldFile::open(options.path));
+  WorldFile& file = *opened;
+  auto rows = TRY(moment_of(file));
+  TRY(find_ground_of(rows, options));
   GroundMasses ground;
   PagedTerrain terrain = terrain_of(
       file, [&](ChunkCoord chunk) { return file.read_bricks(chunk); }, ground, checked_bricks_max);
   Result<void> weighed;
   terrain.each = [&, each = terrain.each](const PagedTerrain::Take& take) {
     return each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
-      if (auto taken = take(chunk, bricks); !taken) return taken;  // it lies in the world
-      if (weighed) weighed = weigh_ground(rows->world.moment.config.terrain, chunk, bricks, ground);
+      TRY(take(chunk, bricks));  // it lies in the world
+      if (weighed) weighed = weigh_ground(rows.world.moment.config.terrain, chunk, bricks, ground);
       return {};
     });
   };
-  const auto world = World::restore(rows->world, terrain, 1, ground);
+  const auto world = World::restore(rows.world, terrain, 1, ground);
   if (!world) return fail(options.path + ": damaged: " + world.error().message);
   if (!weighed) return fail(options.path + ": damaged: " + weighed.error().message);
   return {};
@@ -202,20 +200,18 @@ struct Repaired {
 
 /// A new file of what is whole in a copy, chunk by chunk.
 Result<void> repair_copy(const std::string& copy, const Options& options, Repaired& repaired) {
-  const auto opened = WorldFile::open(copy);
-  if (!opened) return tl::unexpected(opened.error());
-  WorldFile& file = **opened;
-  auto rows = file.read_moment(&repaired.lost);
-  if (!rows) return tl::unexpected(rows.error());
-  if (auto found = find_ground_of(*rows, options); !found) return found;
-  WorldMoment& moment = rows->world.moment;
+  const auto opened = TRY(WorldFile::open(copy));
+  WorldFile& file = *opened;
+  auto rows = TRY(file.read_moment(&repaired.lost));
+  TRY(find_ground_of(rows, options));
+  WorldMoment& moment = rows.world.moment;
   if (moment.tick == 0) {  // lost, perhaps: ticks that were given away are not given again
     LostRows told_later;
     const auto newest = [&](const WorldChunk& chunk) {
       moment.tick = std::max(moment.tick, chunk.version);
       return Result<void>();
     };
-    if (const auto read = file.each_chunk(newest, &told_later); !read) return tl::unexpected(read.error());
+    TRY(file.each_chunk(newest, &told_later));
   }
   repaired.before = moment;
   GroundMasses ground;
@@ -225,7 +221,7 @@ Result<void> repair_copy(const std::string& copy, const Options& options, Repair
   terrain.each = [&](const PagedTerrain::Take& take) -> Result<void> {
     const auto bytes = file.each_chunk(
         [&](const WorldChunk& chunk) -> Result<void> {
-          if (auto taken = take(chunk.chunk, chunk.bricks); !taken) return taken;  // it lies in the world
+          TRY(take(chunk.chunk, chunk.bricks));  // it lies in the world
           ground[chunk.chunk] = measured_ground(moment.config.terrain, chunk.bricks).at(chunk.chunk);
           ++repaired.chunks_kept;
           return {};
@@ -233,10 +229,10 @@ Result<void> repair_copy(const std::string& copy, const Options& options, Repair
         &repaired.lost);
     return bytes ? Result<void>() : tl::unexpected(bytes.error());
   };
-  const auto world = World::salvage(rows->world, terrain, ground);
-  if (!world) return tl::unexpected(world.error());
+  const auto world = World::salvage(rows.world, terrain, ground);
+  TRY(world);
   repaired.after = (*world)->moment();
-  return create_world(options.to, rows->header, **world);
+  return create_world(options.to, rows.header, **world);
 }
 
 /// Keeps what is whole in a new file; the damaged one stays as it is, for it is read from a copy: reading a

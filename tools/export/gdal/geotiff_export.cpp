@@ -36,23 +36,22 @@ Result<ElevationSums> write(Field& field, const ChunkBox& box, const std::string
                             const ElevationGrid& grid, double zero_m,
                             const std::function<void(double)>& progress) {
   CPLErrorReset();
-  auto file = create(path, grid);
-  if (!file) return tl::unexpected(file.error());
+  auto file = TRY(create(path, grid));
   std::vector<float> row(static_cast<size_t>(grid.columns));
   int rows = 0;
   const auto take = [&](std::span<const float> heights_m) -> Result<void> {
     std::ranges::transform(heights_m, row.begin(), [&](float height_m) {
       return std::isnan(height_m) ? geotiff_nodata : height_m + static_cast<float>(zero_m);
     });
-    if ((*file)->GetRasterBand(1)->RasterIO(GF_Write, 0, rows++, grid.columns, 1, row.data(), grid.columns, 1,
-                                            GDT_Float32, 0, 0, nullptr) != CE_None)
+    if (file->GetRasterBand(1)->RasterIO(GF_Write, 0, rows++, grid.columns, 1, row.data(), grid.columns, 1,
+                                         GDT_Float32, 0, 0, nullptr) != CE_None)
       return fail(gdal_words("no reason is given"));
     return {};
   };
   const auto sums = each_elevation_row(field, box, grid, take, progress);
   if (!sums) return sums;
-  (*file)->FlushCache(true);
-  file->reset();
+  file->FlushCache(true);
+  file.reset();
   if (CPLGetLastErrorType() == CE_Failure) return fail(gdal_words("no reason is given"));
   return sums;
 }
@@ -63,16 +62,14 @@ Result<GeotiffExported> export_geotiff(Field& field, const ChunkBox& box, const 
                                        const GeotiffExport& how,
                                        const std::function<void(double)>& progress) {
   prepare_gdal();
-  const auto grid = elevation_grid(box, field.source().voxel_size_m, how.cell_m);
-  if (!grid) return tl::unexpected(grid.error());
-  GeotiffExported exported{*grid, {}, 0};
+  const auto grid = TRY(elevation_grid(box, field.source().voxel_size_m, how.cell_m));
+  GeotiffExported exported{grid, {}, 0};
   const auto bytes = write_whole(path, [&](const std::string& unfinished) -> Result<void> {
-    const auto sums = write(field, box, unfinished, *grid, how.zero_m, progress);
-    if (!sums) return tl::unexpected(sums.error());
-    exported.sums = *sums;
+    const auto sums = TRY(write(field, box, unfinished, grid, how.zero_m, progress));
+    exported.sums = sums;
     return {};
   });
-  if (!bytes) return tl::unexpected(bytes.error());
+  TRY(bytes);
   exported.bytes = *bytes;
   return exported;
 }

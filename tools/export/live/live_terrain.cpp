@@ -56,7 +56,7 @@ class Fetcher {
   Fetcher& operator=(const Fetcher&) = delete;
 
   Result<LiveTerrain> fetch(const std::function<void(double)>& progress) {
-    if (auto joined = join({}); !joined) return tl::unexpected(joined.error());
+    TRY(join({}));
     return how_.box ? fetch_box(progress) : fetch_all(progress);
   }
 
@@ -79,9 +79,8 @@ class Fetcher {
   /// Applies what comes, and asks for what is missing.
   Result<void> follow() {
     for (const Received& received : connection_->wait(message_wait)) {
-      if (auto taken = rejoin_.before(received.message, *mirror_); !taken) return taken;
-      if (const auto applied = mirror_->apply(received.message); !applied)
-        return tl::unexpected(applied.error());
+      TRY(rejoin_.before(received.message, *mirror_));
+      TRY(mirror_->apply(received.message));
       rejoin_.after(received.message, *mirror_, *connection_);
       while (const auto repair = mirror_->take_repair_request()) connection_->send(*repair);
       if (std::holds_alternative<StatusMessage>(received.message)) compare();
@@ -148,7 +147,7 @@ class Fetcher {
   Result<void> complete_ground(const std::vector<ChunkBox>& parts,
                                const std::function<void(double)>& progress) {
     for (size_t i = 0; i < parts.size(); ++i) {
-      if (auto ground = complete_ground(parts[i]); !ground) return ground;
+      TRY(complete_ground(parts[i]));
       progress(static_cast<double>(i + 1) / static_cast<double>(parts.size()));
     }
     return {};
@@ -167,15 +166,14 @@ class Fetcher {
 
   Result<LiveTerrain> fetch_box(const std::function<void(double)>& progress) {
     const auto box = how_.box(MapField(mirror_->terrain()));
-    if (!box) return tl::unexpected(box.error());
+    TRY(box);
     const std::vector<ChunkBox> parts = parts_of(*box, part_side());
     LiveTerrain terrain = taken(*box);
     for (size_t i = 0; i < parts.size(); ++i) {
       const ChunkCoord sum = parts[i].lo + parts[i].hi;
-      if (auto joined = join(0.5F * chunk_m() * glm::vec3(sum.x, sum.y, sum.z)); !joined)
-        return tl::unexpected(joined.error());
-      if (auto edits = complete_edits(); !edits) return tl::unexpected(edits.error());
-      if (auto ground = complete_ground(parts[i]); !ground) return tl::unexpected(ground.error());
+      TRY(join(0.5F * chunk_m() * glm::vec3(sum.x, sum.y, sum.z)));
+      TRY(complete_edits());
+      TRY(complete_ground(parts[i]));
       copy_edits(mirror_->field(), parts[i], *terrain.field);
       progress(static_cast<double>(i + 1) / static_cast<double>(parts.size()));
     }
@@ -186,19 +184,17 @@ class Fetcher {
 
   Result<LiveTerrain> fetch_all(const std::function<void(double)>& progress) {
     if (const auto middle = spawn_of(mirror_->terrain()); middle && *middle != glm::vec3{})
-      if (auto joined = join(*middle); !joined) return tl::unexpected(joined.error());
-    if (auto edits = complete_edits(); !edits) return tl::unexpected(edits.error());
+      TRY(join(*middle));
+    TRY(complete_edits());
     if (!has_all_edits_)
       return fail(fmt::format(
           "edits lie farther than {:.0f} m from the middle of the world: --box says which part is wanted",
           connection_->welcome().interest_radius_m));
-    auto box = whole_of(mirror_->field());
-    if (!box) return tl::unexpected(box.error());
-    if (auto few = check_count(*box); !few) return tl::unexpected(few.error());
-    LiveTerrain terrain = taken(*box);
-    copy_edits(mirror_->field(), *box, *terrain.field);
-    if (auto ground = complete_ground(parts_of(*box, part_side()), progress); !ground)
-      return tl::unexpected(ground.error());
+    auto box = TRY(whole_of(mirror_->field()));
+    TRY(check_count(box));
+    LiveTerrain terrain = taken(box);
+    copy_edits(mirror_->field(), box, *terrain.field);
+    TRY(complete_ground(parts_of(box, part_side()), progress));
     return terrain;
   }
 

@@ -47,34 +47,29 @@ struct Exported {
 
 /// A recording's terrain after a tick; as of a world, its pieces are no rock of the terrain.
 Result<std::unique_ptr<Field>> field_of_recording(const Options& options) {
-  const auto giver = ground_giver(options.from, options.ground);
-  if (!giver) return tl::unexpected(giver.error());
-  return field_at(options.from, *options.tick, *giver);
+  const auto giver = TRY(ground_giver(options.from, options.ground));
+  return field_at(options.from, *options.tick, giver);
 }
 
 /// A world's terrain with its edits.
 Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
-  auto file = WorldFile::open(options.from);
-  if (!file) return tl::unexpected(file.error());
-  if (auto held = (*file)->hold_moment(); !held) return tl::unexpected(held.error());
-  auto rows = (*file)->read_moment();
-  if (!rows) return tl::unexpected(rows.error());
-  const auto giver = ground_giver(options.from, options.ground);
-  if (!giver) return tl::unexpected(giver.error());
-  RecordedHeader& config = rows->world.moment.config;
-  if (auto given = give_ground(config.ground, config.terrain, *giver); !given)
+  auto file = TRY(WorldFile::open(options.from));
+  TRY(file->hold_moment());
+  auto rows = TRY(file->read_moment());
+  const auto giver = TRY(ground_giver(options.from, options.ground));
+  RecordedHeader& config = rows.world.moment.config;
+  if (auto given = give_ground(config.ground, config.terrain, giver); !given)
     return fail(options.from + ": " + given.error().message);
-  return stored_field(std::move(*file), config.terrain, limits::export_bricks_max);
+  return stored_field(std::move(file), config.terrain, limits::export_bricks_max);
 }
 
 Result<std::unique_ptr<Field>> field_of(const Options& options) {
   if (options.tick) return field_of_recording(options);
   if (!options.from.ends_with(".ground")) return field_of_world(options);
-  auto file = GroundFile::open(options.from);
-  if (!file) return tl::unexpected(file.error());
+  auto file = TRY(GroundFile::open(options.from));
   TerrainSource source;
-  source.heights = *file;
-  if (const auto& bricks = (*file)->bricks()) source.voxel_size_m = bricks->voxel_size_m;
+  source.heights = file;
+  if (const auto& bricks = file->bricks()) source.voxel_size_m = bricks->voxel_size_m;
   return std::make_unique<MapField>(source);
 }
 
@@ -86,18 +81,17 @@ Result<ChunkBox> given_box(const Options& options, float voxel_size_m) {
       return fail(
           "--box is x,y,z of its lowest corner, then of its highest, in metres, within 8192 of the origin");
   const ChunkBox box = chunks_of({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, voxel_size_m);
-  if (auto few = check_count(box); !few) return tl::unexpected(few.error());
+  TRY(check_count(box));
   return box;
 }
 
 Result<Exported> read_file(const Options& options) {
-  auto field = field_of(options);
-  if (!field) return tl::unexpected(field.error());
+  auto field = TRY(field_of(options));
   const auto box =
-      options.box_m.empty() ? whole_of(**field) : given_box(options, (*field)->source().voxel_size_m);
+      options.box_m.empty() ? whole_of(*field) : given_box(options, field->source().voxel_size_m);
   if (!box) return fail(options.from + ": " + box.error().message);
   if (auto few = check_count(*box); !few) return fail(options.from + ": " + few.error().message);
-  return Exported{std::move(*field), *box};
+  return Exported{std::move(field), *box};
 }
 
 Result<Exported> read_server(const Options& options, Json& line) {
@@ -105,25 +99,23 @@ Result<Exported> read_server(const Options& options, Json& line) {
   if (!options.box_m.empty())
     fetch.box = [&](const Field& field) { return given_box(options, field.source().voxel_size_m); };
   auto terrain = with_bar([&](const Progress& progress) { return fetch_terrain(fetch, progress); });
-  if (!terrain) return tl::unexpected(terrain.error());
+  TRY(terrain);
   line["tick"] = terrain->tick;
   line["sessions"] = terrain->sessions;
   return Exported{std::move(terrain->field), terrain->box};
 }
 
 Result<Json> write_vdb(const Options& options, const Exported& what, const Progress& progress) {
-  const auto exported = export_vdb(*what.field, what.box, options.out, progress);
-  if (!exported) return tl::unexpected(exported.error());
-  return Json{{"active_voxels", exported->active_voxels}, {"bytes", exported->bytes}};
+  const auto exported = TRY(export_vdb(*what.field, what.box, options.out, progress));
+  return Json{{"active_voxels", exported.active_voxels}, {"bytes", exported.bytes}};
 }
 
 Result<Json> write_mesh(const Options& options, const Exported& what, const Progress& progress) {
-  const auto exported = export_mesh(*what.field, what.box, options.out, progress);
-  if (!exported) return tl::unexpected(exported.error());
-  return Json{{"points", exported->points},
-              {"triangles", exported->triangles},
-              {"volume_m3", exported->volume_m3},
-              {"bytes", exported->bytes}};
+  const auto exported = TRY(export_mesh(*what.field, what.box, options.out, progress));
+  return Json{{"points", exported.points},
+              {"triangles", exported.triangles},
+              {"volume_m3", exported.volume_m3},
+              {"bytes", exported.bytes}};
 }
 
 /// The ground file knows the height that its source has at y = 0; a server does not say it.
@@ -131,18 +123,17 @@ Result<Json> write_elevation(const Options& options, const Exported& what, const
   GeotiffExport how{.cell_m = options.cell_m};
   if (const auto* file = dynamic_cast<const GroundFile*>(what.field->source().heights.get()))
     how.zero_m = static_cast<double>(file->header().zero_m);
-  const auto exported = export_geotiff(*what.field, what.box, options.out, how, progress);
-  if (!exported) return tl::unexpected(exported.error());
-  return Json{{"columns", exported->grid.columns},
-              {"rows", exported->grid.rows},
-              {"cell_m", exported->grid.cell_m},
-              {"empty_cells", exported->sums.empty_cells},
-              {"lowest_m", exported->sums.lowest_m},
-              {"highest_m", exported->sums.highest_m},
+  const auto exported = TRY(export_geotiff(*what.field, what.box, options.out, how, progress));
+  return Json{{"columns", exported.grid.columns},
+              {"rows", exported.grid.rows},
+              {"cell_m", exported.grid.cell_m},
+              {"empty_cells", exported.sums.empty_cells},
+              {"lowest_m", exported.sums.lowest_m},
+              {"highest_m", exported.sums.highest_m},
               {"zero_m", how.zero_m},
-              {"volume_m3", exported->sums.volume_m3},
+              {"volume_m3", exported.sums.volume_m3},
               {"georeference", nullptr},
-              {"bytes", exported->bytes}};
+              {"bytes", exported.bytes}};
 }
 
 using Write = Result<Json> (*)(const Options& options, const Exported& what, const Progress& progress);
@@ -159,12 +150,12 @@ Result<void> run(const Options& options) {
     return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
   const std::array files{NamedFile{"what is exported", options.from, false, true},
                          NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
-  if (auto distinct = check_distinct(files); !distinct) return distinct;
+  TRY(check_distinct(files));
   if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
   Json line{{"file", options.out}};
   if (options.tick) line["tick"] = *options.tick;
   const auto what = options.live ? read_server(options, line) : read_file(options);
-  if (!what) return tl::unexpected(what.error());
+  TRY(what);
   line["chunks"] = what->box.count();
   const auto written = with_bar([&](const Progress& progress) -> Result<Json> {
     try {
@@ -173,7 +164,7 @@ Result<void> run(const Options& options) {
       return fail(unreadable.what());
     }
   });
-  if (!written) return tl::unexpected(written.error());
+  TRY(written);
   line.update(*written);
   std::printf("%s\n", line.dump().c_str());
   return {};

@@ -176,9 +176,8 @@ Result<VdbExported> export_vdb(Field& field, const ChunkBox& box, const std::str
   grids.surface->pruneGrid();
   grids.material->pruneGrid();
   const uint64_t active_voxels = grids.surface->activeVoxelCount();
-  const auto bytes = write(grids, path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return VdbExported{active_voxels, *bytes};
+  const auto bytes = TRY(write(grids, path));
+  return VdbExported{active_voxels, bytes};
 }
 
 }  // namespace scree

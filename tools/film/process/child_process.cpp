@@ -91,9 +91,8 @@ Result<size_t> ChildProcess::give(std::span<const uint8_t> bytes, int within_ms)
   // It is about to end, if it has not yet; then its status says more.
   end_input();
   for (int i = 0; i < pauses_to_end; ++i) {
-    const auto ended = wait(within_ms);
-    if (!ended) return tl::unexpected(ended.error());
-    if (*ended) break;
+    const auto ended = TRY(wait(within_ms));
+    if (ended) break;
   }
   return fail(program_ + " takes no more input");
 }

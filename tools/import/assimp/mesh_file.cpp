@@ -57,14 +57,14 @@ Result<void> collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4
     const aiMesh& from = *scene.mMeshes[node.mMeshes[i]];
     const std::string own = from.mName.C_Str(), outer = node.mName.C_Str();
     auto mesh = mesh_of(scene, from, transform, own.empty() ? outer : own, place);
-    if (!mesh) return tl::unexpected(mesh.error());
+    TRY(mesh);
     weld(*mesh);
     if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
     if (meshes.size() > limits::import_meshes_max)
       return fail(fmt::format("more than {} meshes (limits.import_meshes_max)", limits::import_meshes_max));
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
-    if (Result<void> done = collect(scene, *node.mChildren[i], transform, place, meshes); !done) return done;
+    TRY(collect(scene, *node.mChildren[i], transform, place, meshes));
   return {};
 }
 
@@ -84,14 +84,12 @@ Result<void> check_ply(const std::string& path) {
 Result<std::vector<TriangleMesh>> meshes_in(const std::string& path, const Placement& place) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return fail("there is no such file");
-  if (path.ends_with(".ply") || path.ends_with(".PLY"))
-    if (Result<void> good = check_ply(path); !good) return tl::unexpected(good.error());
+  if (path.ends_with(".ply") || path.ends_with(".PLY")) TRY(check_ply(path));
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
   if (scene == nullptr || scene->mRootNode == nullptr) return fail(importer.GetErrorString());
   std::vector<TriangleMesh> meshes;
-  if (Result<void> done = collect(*scene, *scene->mRootNode, aiMatrix4x4(), place, meshes); !done)
-    return tl::unexpected(done.error());
+  TRY(collect(*scene, *scene->mRootNode, aiMatrix4x4(), place, meshes));
   if (meshes.empty()) return fail("it holds no triangle");
   return meshes;
 }

@@ -26,7 +26,7 @@ std::string ending_of(const std::string& path) {
 
 Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone, SolidsRead& read) {
   auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m});
-  if (!vdb) return tl::unexpected(vdb.error());
+  TRY(vdb);
   read.said.push_back(fmt::format(
       "{}: grid '{}', {}", file, vdb->grid,
       vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {}", how.density)));
@@ -70,15 +70,11 @@ Result<SolidsRead> read_solids(const std::vector<std::string>& files, const Soli
   SolidsRead read;
   for (const std::string& file : files) {
     if (ending_of(file) == ".vdb") {
-      if (Result<void> done = read_vdb_file(file, how, files.size() == 1, read); !done)
-        return tl::unexpected(done.error());
+      TRY(read_vdb_file(file, how, files.size() == 1, read));
       continue;
     }
-    auto meshes = read_meshes(file, how.place);
-    if (!meshes) return tl::unexpected(meshes.error());
-    for (TriangleMesh& mesh : *meshes)
-      if (Result<void> done = take_mesh(file, std::move(mesh), how.voxel_size_m, read); !done)
-        return tl::unexpected(done.error());
+    auto meshes = TRY(read_meshes(file, how.place));
+    for (TriangleMesh& mesh : meshes) TRY(take_mesh(file, std::move(mesh), how.voxel_size_m, read));
   }
   return read;
 }

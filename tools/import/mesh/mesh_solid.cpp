@@ -63,8 +63,7 @@ class MeshSolid final : public Solid {
 
   /// Before all else that reads the mesh.
   Result<void> prepare() {
-    if (auto layout = layout_around(box_, static_cast<float>(voxel_m_)); !layout)
-      return tl::unexpected(layout.error());
+    TRY(layout_around(box_, static_cast<float>(voxel_m_)));
     size_t touched = closed_ ? 0 : count_chunks(box_);
     for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
       const VoxelBox box = voxels_of(mesh_.triangles[i]).grown(band_around);
@@ -174,7 +173,7 @@ class MeshSolid final : public Solid {
 
 Result<std::unique_ptr<Solid>> solid_of_mesh(TriangleMesh mesh, bool closed, float voxel_size_m) {
   auto solid = std::make_unique<MeshSolid>(std::move(mesh), closed, voxel_size_m);
-  if (Result<void> prepared = solid->prepare(); !prepared) return tl::unexpected(prepared.error());
+  TRY(solid->prepare());
   return solid;
 }
 

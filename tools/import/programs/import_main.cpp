@@ -115,17 +115,16 @@ Result<void> run_heights(const Options& options) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) return fail("of elevation models one at a time is imported");
   if (!options.on.empty()) return fail(file + ": an elevation model stands on no other ground (--on)");
-  auto raster = open_raster(file);
-  if (!raster) return tl::unexpected(raster.error());
+  auto raster = TRY(open_raster(file));
   const auto imported = with_bar(
-      [&](const auto& progress) { return import_heights(**raster, options.out, options.how, progress); });
+      [&](const auto& progress) { return import_heights(*raster, options.out, options.how, progress); });
   if (!imported) return fail(file + ": " + imported.error().message);
   if (!options.preview.empty()) {
     const std::vector<uint8_t> pixels = shaded_relief(*imported);
     const int columns = imported->preview_columns;
     const auto written =
         write_grey_png(options.preview, columns, static_cast<int>(pixels.size()) / columns, pixels);
-    if (!written) return tl::unexpected(written.error());
+    TRY(written);
   }
   print(options, *imported, seconds_since(began));
   return {};
@@ -172,9 +171,8 @@ Result<void> run_solids(const Options& options) {
   if (!options.preview.empty()) return fail("--preview draws elevation models alone");
   std::shared_ptr<const GroundFile> on;
   if (!options.on.empty()) {
-    auto file = GroundFile::open(options.on);
-    if (!file) return tl::unexpected(file.error());
-    on = std::move(*file);
+    auto file = TRY(GroundFile::open(options.on));
+    on = std::move(file);
     if (options.level_m) return fail("--level is of solids that stand on no ground (--on)");
   }
   SolidsImport solids = options.solids;
@@ -182,15 +180,13 @@ Result<void> run_solids(const Options& options) {
     solids.voxel_size_m = *options.voxel_size_m;
   else if (on != nullptr && on->bricks())
     solids.voxel_size_m = on->bricks()->voxel_size_m;
-  const auto read = read_solids(options.files, solids);
-  if (!read) return tl::unexpected(read.error());
-  for (const std::string& said : read->said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
-  const auto how = bricks_import_of(options, solids.voxel_size_m, on, *read);
-  if (!how) return tl::unexpected(how.error());
-  const auto imported = with_bar(
-      [&](const auto& progress) { return import_bricks(read->solids, options.out, *how, progress); });
+  const auto read = TRY(read_solids(options.files, solids));
+  for (const std::string& said : read.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
+  const auto how = TRY(bricks_import_of(options, solids.voxel_size_m, on, read));
+  const auto imported =
+      with_bar([&](const auto& progress) { return import_bricks(read.solids, options.out, how, progress); });
   if (!imported) return fail(options.files.front() + ": " + imported.error().message);
-  print(options, *imported, *read, seconds_since(began));
+  print(options, *imported, read, seconds_since(began));
   return {};
 }
 

@@ -50,8 +50,7 @@ class GridSolid final : public Solid {
   Result<void> survey() {
     find_box();
     if (box_.empty()) return fail("it has no rock at all");
-    if (auto layout = layout_around(box_, static_cast<float>(voxel_m_)); !layout)
-      return tl::unexpected(layout.error());
+    TRY(layout_around(box_, static_cast<float>(voxel_m_)));
     find_surface();
     if (touched_ > limits::solid_surface_max)
       return fail("it is too large for voxels of " + std::to_string(voxel_m_) +
@@ -228,7 +227,7 @@ Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openv
                                              const GridSide& side, const Placement& place,
                                              float voxel_size_m) {
   auto solid = std::make_unique<GridSolid>(std::move(grid), std::move(materials), side, place, voxel_size_m);
-  if (Result<void> done = solid->survey(); !done) return tl::unexpected(done.error());
+  TRY(solid->survey());
   return solid;
 }
 

@@ -99,13 +99,12 @@ Result<openvdb::GridPtrVec> grids_in(const std::string& path) {
 }
 
 Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
-  const auto grids = grids_in(path);
-  if (!grids) return tl::unexpected(grids.error());
-  const auto grid = grid_of(*grids, how.grid);
-  if (!grid) return tl::unexpected(grid.error());
-  if (Result<void> good = check_values(**grid); !good) return tl::unexpected(good.error());
+  const auto grids = TRY(grids_in(path));
+  const auto grid = grid_of(grids, how.grid);
+  TRY(grid);
+  TRY(check_values(**grid));
   openvdb::Int32Grid::Ptr materials;
-  for (const auto& other : *grids)
+  for (const auto& other : grids)
     if (other->getName() == vdb_names::material) materials = openvdb::gridPtrCast<openvdb::Int32Grid>(other);
   VdbSolid solid;
   solid.grid = (*grid)->getName();
@@ -115,9 +114,8 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
       solid.is_level_set ? GridSide{0.0F, 1.0F} : GridSide{static_cast<float>(how.density), -1.0F};
   if (side.sign * ((*grid)->background() - side.iso) < 0.0F)
     return fail("all around the grid is rock, without end: its background must be outside");
-  auto made = solid_of_grid(*grid, materials, side, how.place, how.voxel_size_m);
-  if (!made) return tl::unexpected(made.error());
-  solid.solid = std::move(*made);
+  auto made = TRY(solid_of_grid(*grid, materials, side, how.place, how.voxel_size_m));
+  solid.solid = std::move(made);
   take_told(**grid, how, solid);
   return solid;
 }
