@@ -28,7 +28,7 @@ std::vector<Layer> bench_layers() {
       {"bench/wire/", {"bench/support/"}},
       {"bench/results/", {"bench/support/"}},
       {"bench/programs/", {"bench/results/"}},
-      {"studies/report/", {"tools/film/process/"}},
+      {"studies/report/", {"tools/film/process/", "bench/support/"}},
       {"studies/support/", {"studies/report/", "bench/support/"}},
       {"studies/paper/", {"studies/support/", "bench/peers/"}},
       {"studies/matrix/", {"studies/support/"}},
