@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-/// Of TLS 1.2; those of 1.3 are all of this kind.
+/// The ciphers of TLS 1.2. Those of 1.3 are all of this kind.
 constexpr const char* aead_ciphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
 /// Hex digits of a SHA-256.

@@ -1,6 +1,6 @@
 // Writes a ground file from rows of heights, north to south, or from the tiles of another ground; then the
-// chunks that it stores, fine ones first. Of each level it keeps the rows of one tile and the hashes that
-// wait for their parent, so that its memory is bounded by the model's width; of each stored chunk, its place.
+// chunks that it stores, fine ones first. It keeps, for each level, the rows of one tile and the hashes that
+// wait for their parent, and the place of each stored chunk. So the model's width bounds its memory.
 //
 // The file is written under another name and renamed at the end: no half of one is left behind.
 #pragma once

@@ -34,8 +34,8 @@ struct CursorsMessage {
   std::vector<PlayerCursor> cursors;
 };
 
-/// Of a replay: the cursors of those who were there at its moment, wherever they were. The sessions are those
-/// of the recorded server.
+/// In a replay: the cursors of the persons who were there at its moment, wherever they were. The sessions are
+/// those of the recorded server.
 struct RecordedCursorsMessage {
   std::vector<PlayerCursor> cursors;
 

@@ -96,7 +96,7 @@ struct KickSession {
   uint64_t session = 0;
   std::string reason;  ///< told to who is sent away; may be empty
 };
-/// An address, or that of a session; whoever is there is sent away.
+/// An address, or that of a session; the sessions from there end.
 struct BanAddress {
   uint64_t session = 0;  ///< 0: the address says who
   std::string address;   ///< numeric, IPv4 or IPv6
@@ -194,8 +194,8 @@ struct FrameMessage {
   std::vector<uint8_t> transforms;         ///< packed poses (proto/transforms.h), for who does not predict
   std::vector<uint8_t> motions;            ///< proto/motion_codec.h; empty: nothing moved, or it is not told
   bool has_check = false;
-  /// Of the sum of the hashes of all chunks that operations and patches of this frame changed: the high half
-  /// xor the low half.
+  /// The high half xor the low half of the sum of the hashes of all chunks that this frame's operations and
+  /// patches changed.
   uint32_t check = 0;
 };
 

@@ -101,7 +101,7 @@ glm::ivec3 code(Coder& coder, SignedModel& model, glm::ivec3 v) {
   return {x, y, code(coder, model, v.z)};
 }
 
-/// Of three numbers of a correction, not all zero as a rule.
+/// Models of a correction's three numbers, which are usually not all zero.
 struct CorrectionModel {
   /// By heat; by the numbers before (there is none, all are zero, else); by axis.
   std::array<std::array<std::array<BitModel, 3>, 3>, heat_classes> some;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* subject = "operation";
 
-/// Of an operation's kind: its place in the variant.
+/// The number of an operation's kind: its place in the variant.
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;

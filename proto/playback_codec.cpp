@@ -29,7 +29,7 @@ std::vector<uint8_t> pack(const std::vector<Mark>& marks, uint32_t from) {
   return bytes;
 }
 
-/// Of one kind, which is known.
+/// The columns of one kind, which is known.
 void unpack_columns(ByteReader& reader, EventKind kind, uint32_t from, std::vector<Mark>& marks) {
   const uint64_t columns = reader.varint("columns", limits::mark_columns_max);
   if (columns == 0) reader.refuse("a kind without columns");

@@ -1,8 +1,9 @@
 // The poses of many pieces as packed bytes: FrameMessage::transforms.
 //
-// Ordered by id, strictly ascending. Per piece: id as a varint difference to the one before, position as
-// three zigzag varint differences to the one before (neighbours were often cut from the same rock), 32 bits
-// of rotation: 11 bytes where neighbours are within 8 m. Layout: proto/scree.proto, Frame.transforms.
+// Ordered by id, strictly ascending. For each piece: the id as a varint difference to the piece before; the
+// position as three zigzag varint differences to the piece before, since neighbours were often cut from the
+// same rock; 32 bits of rotation. These are 11 bytes where neighbours are within 8 m. Layout:
+// proto/scree.proto, Frame.transforms.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The counts of a WorkStatus by name, for whoever prints them.
+// The counts of a WorkStatus by name, for programs that print them.
 #pragma once
 
 #include <array>

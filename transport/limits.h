@@ -21,8 +21,8 @@ inline constexpr size_t websocket_chunk_bytes = (size_t{16} << 10) - 16;
 inline constexpr double bare_frames_per_second_max = 20.0;
 inline constexpr double bare_frames_burst_max = 100.0;
 
-/// Of a simulated link: bytes that are delayed together; and what waits at the bottleneck if not said
-/// otherwise, in seconds of its rate, within the bounds that may be said. Above: nothing more is taken.
+/// A simulated link: the bytes that are delayed together, and the default length of the bottleneck's queue,
+/// in seconds of its rate, with its bounds. Above: nothing more is taken.
 inline constexpr size_t link_packet_bytes = 1200;
 inline constexpr double link_buffer_s = 0.1;
 inline constexpr double link_buffer_min_bytes = 2e3;

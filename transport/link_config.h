@@ -33,10 +33,10 @@ struct LinkConfig {
 /// Bytes that wait at the bottleneck, at most: as given, or those of limits::link_buffer_s.
 size_t buffer_of(const LinkWay& way);
 
-/// Of "delay=50ms,jitter=20ms,rate=1Mbit,buffer=16kB,cut=100000,half-open=50000,seed=7": any of them, in any
-/// order, each once. All but the seed hold for both directions, or for one: "down.rate=100kbit",
-/// "up.cut=2000", which stands over what is said of both. The error names the part that is wrong, and how it
-/// is written.
+/// Reads "delay=50ms,jitter=20ms,rate=1Mbit,buffer=16kB,cut=100000,half-open=50000,seed=7": any of them, in
+/// any order, each once. All but the seed hold for both directions, or for one: "down.rate=100kbit",
+/// "up.cut=2000", which overrides the value for both. The error names the part that is wrong, and how it is
+/// written.
 Result<LinkConfig> read_link(std::string_view text);
 
 }  // namespace scree

@@ -1,6 +1,6 @@
 // A server's end of a stream whose client chooses between the protocol's bytes and HTTP, both plainly or
-// within TLS: its first bytes tell, and within TLS the first of those. Whoever is written to before its first
-// bytes came is written to plainly, and stays so. A stream of HTTP is given away.
+// within TLS: its first bytes tell, and within TLS the first of those. An end that is written to before its
+// first bytes came is written to plainly, and stays so. A stream of HTTP is given away.
 #pragma once
 
 #include <array>

@@ -27,8 +27,8 @@ class TcpTransport final : public Transport, public std::enable_shared_from_this
 
  private:
   asio::ip::tcp::socket socket_;
-  /// Of the first write that failed. The kernel tells once that a connection is lost; who reads after it was
-  /// told to a write sees the end of a stream that ended in order.
+  /// The error of the first write that failed. The kernel tells once that a connection is lost; who reads
+  /// after it was told to a write sees the end of a stream that ended in order.
   asio::error_code broke_;
   std::string address_ = "unknown";
   uint16_t port_ = 0;

@@ -14,7 +14,7 @@
 namespace scree {
 
 enum class Refusal : uint8_t {
-  // Of a request, by the world.
+  // The world refuses a request.
   carve_invalid,
   fill_invalid,
   paint_invalid,
@@ -26,24 +26,24 @@ enum class Refusal : uint8_t {
   memory_max,
   terrain_unreadable,
   session_over,
-  // Of a request, by the network side.
+  // The network side refuses a request.
   replay,
   requests_per_second,
   commands_waiting,
   no_admin_token,
   role,
   admin_invalid,
-  // Of an HTTP request.
+  // The network side refuses an HTTP request.
   http_malformed,
   http_too_long,
   http_late,
   http_requests_per_second,
   origin_foreign,
-  // Of a connection, which is closed at once.
+  // A connection is closed at once.
   connects_per_second,
   connections_per_address,
   outsiders_max,
-  // Of a session.
+  // A session is refused or ended.
   sessions_max,
   idle_made_room,
   protocol_version,
@@ -70,7 +70,7 @@ enum class Refusal : uint8_t {
   kicked,
   banned,
   server_stops,
-  // Of a session, cut off for not reading.
+  // A session is cut off because it does not read.
   outbox_full,
   reading_stalled,
   count_

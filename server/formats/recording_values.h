@@ -41,7 +41,7 @@ void write(recorded::Ledger& to, const Ledger& from);
 Ledger read(const recorded::Ledger& from);
 
 void write(recorded::Header& to, const RecordedHeader& from);
-/// Of another format nothing but its number: there the fields may have another meaning.
+/// Reads nothing but the number of another format, whose fields may have another meaning.
 RecordedHeader read(const recorded::Header& from, FieldChecker& check);
 
 }  // namespace scree

@@ -112,7 +112,7 @@ SCREE_INLINE void extend(Extent& extent, glm::vec3 p) {
 }
 
 /// Where the hull misses most of the shape: the end of a line, 2 · line for its greatest coordinates, one
-/// more for its least, and by how much. Of several ends the first.
+/// more for its least, and by how much. The first where several are equally far.
 struct Miss {
   float most = -1.0F;
   int end = 0;

@@ -34,7 +34,7 @@ class FairTurns {
   /// Leaves the next one out until bring_back().
   void pass_over();
   void bring_back();
-  /// Of all that wait, passed over or not.
+  /// How many wait, passed over or not.
   size_t waiting() const { return turns_.size() + passed_over_.size(); }
   /// All of it; who was passed over waits as the others do, as he will in the next tick anyway.
   TurnsValue value() const;

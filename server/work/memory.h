@@ -1,6 +1,6 @@
-// What a server takes in memory, by a model: edited bricks in the field and in the published state, the
-// regions of OpenVDB's tree that hold them, what is left of chunks that are out, generated chunks, and what
-// does not depend on the terrain (limits::fixed_memory_bytes). Which chunks are in memory depends on the
+// A model of the server's memory. It counts edited bricks in the field and in the published state, the
+// regions of OpenVDB's tree that hold them, the remains of chunks that are out, generated chunks, and a part
+// that does not depend on the terrain (limits::fixed_memory_bytes). Which chunks are in memory depends on the
 // disk's speed, so the simulation never asks.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace scree {
 
-/// Of memory's megabytes, 2^20.
+/// Bytes of a megabyte of memory: 2^20.
 inline constexpr double bytes_per_mb = 1024.0 * 1024.0;
 
-/// Of a field that pages.
+/// Figures of a field that pages.
 struct TerrainMemory {
   size_t bricks = 0;          ///< edited ones, in memory
   size_t regions = 0;         ///< of OpenVDB's tree with some of them

@@ -1,6 +1,6 @@
 // Whose pieces are alive, and how many a carve may add. A party (command.h) that is alone may have all that
 // there is room for. Where several have pieces, or ask, each may hold as many as are still free (dynamic
-// thresholds: Choudhury and Hahne 1998): n parties that take all they get hold 1/(n + 1) each, and as much
+// thresholds: Choudhury and Hahne 1998). So n parties that take all they get hold 1/(n + 1) each, and as much
 // stays free for one more. Part of the simulation: deterministic. Not thread-safe.
 #pragma once
 
@@ -24,7 +24,7 @@ struct PieceGrant {
   bool contested = false;  ///< other parties have pieces, or ask for some
   bool may_wait = false;   ///< none, but others hold more than this party: room is coming
   /// Where none: what it may make when it has waited a little in vain, because it holds less than its part of
-  /// the limit of pieces. Else a few with large pieces keep out whoever has small ones.
+  /// the limit of pieces. Otherwise a few parties with large pieces would keep out those with small ones.
   uint32_t pieces_at_last = 0;
   uint32_t pieces_most = 0;  ///< where none: the most that the party would have been granted a part of
 };

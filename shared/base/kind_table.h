@@ -6,9 +6,9 @@
 // a name. Codecs, validation, options and shaders iterate over the table or ask it; none of them names the
 // last kind.
 //
-// To add a kind: an enumerator, its row, its place in the functions that switch over the kind (the compiler
-// names them), and its value in proto/scree.proto, if it has one there (proto/wire_values.cpp
-// compares how many there are, a test the names).
+// To add a kind, add an enumerator, its row, and its case in the functions that switch over the kind; the
+// compiler names these. A kind that crosses the wire also has a value in proto/scree.proto:
+// proto/wire_values.cpp compares their number, a test their names.
 #pragma once
 
 #include <algorithm>

@@ -32,7 +32,7 @@ inline constexpr std::array latency_stages{LatencyStageRow{"waiting", &ServerLat
                                            LatencyStageRow{"tick", &ServerLatency::tick_us},
                                            LatencyStageRow{"sending", &ServerLatency::sending_us}};
 
-/// Of the requests that the ticks of the last second answered.
+/// The latency of the requests that the ticks of the last second answered.
 struct LatencyStatus {
   ServerLatency median;
   ServerLatency worst;

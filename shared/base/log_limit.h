@@ -1,5 +1,5 @@
-// Lines of a log by kind: a few a second of each, so that whoever causes them cannot fill a disk. What is
-// left out is counted and told with the next line of its kind. Time is an argument (seconds). Not
+// Limits the lines of a log: a few a second of each kind, so that nobody can fill a disk by causing them.
+// What is left out is counted and told with the next line of its kind. Time is an argument (seconds). Not
 // thread-safe.
 #pragma once
 

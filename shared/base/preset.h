@@ -1,9 +1,8 @@
 // Presets: one word for a kind of machine, instead of an option for each choice. One table says their values
 // by the names of the options of server and viewer, as text: each option's own parser checks them.
 //
-// What a flag, the environment or a configuration file says stands over a preset; a preset stands over the
-// defaults, and over the choices that the viewer kept of earlier runs. It is for the start alone: settings
-// change later as if it had never been.
+// A flag, the environment or a configuration file overrides a preset. A preset overrides the defaults and the
+// viewer's choices of earlier runs. It is for the start alone: settings change later as if it had never been.
 #pragma once
 
 #include <array>
@@ -49,7 +48,7 @@ struct PresetOption {
   constexpr std::string_view of(Preset preset) const { return values[static_cast<size_t>(preset)]; }
 };
 
-// Of the server. None is without another that it needs, so that any one may be said otherwise.
+// Options of the server. None is without another that it needs, so that any one may be said otherwise.
 inline constexpr std::array server_preset_options{
     PresetOption{"tick-rate", {"30", "60", "60"}},
     PresetOption{"pieces-max", {"500", "2000", "5000"}},
@@ -67,7 +66,7 @@ inline constexpr std::array server_preset_options{
     PresetOption{"dents", {"false", "true", "true"}},
 };
 
-// Of the viewer; those that draw nothing have no values.
+// Options of the viewer. A preset that draws nothing has no values for them.
 inline constexpr std::array viewer_preset_options{
     PresetOption{"method", {"mesh", "mesh", ""}},
     PresetOption{"quality", {"low", "high", ""}},

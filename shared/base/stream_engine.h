@@ -1,6 +1,5 @@
-// One end of a stream of bytes within another stream, such as TLS over TCP, as bytes in and bytes out,
-// without sockets: whoever carries the bytes feeds what arrived, and sends what output holds. Not
-// thread-safe.
+// One end of a stream of bytes within another stream, such as TLS over TCP. It has no sockets: its user feeds
+// the bytes that arrived, and sends those that output holds. Not thread-safe.
 //
 // Every error is final; output may then hold the reason for the other end. What the other end sends is never
 // trusted. An owner that feeds only when it wants to read, and stops while it cannot send, bounds what an

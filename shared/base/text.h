@@ -1,7 +1,7 @@
-// Text from outside that people will read, in logs, on terminals and screens: valid UTF-8 without control
-// characters (C0, DEL, C1), without those that set its direction, by which a text can be made to read as
-// another, and without invisible ones, by which two texts can look alike. Those that shape the character
-// before them may stay where there is one.
+// Text from outside that people read in logs, on terminals and on screens. It must be valid UTF-8 without
+// control characters (C0, DEL, C1). Characters that set its direction could make it read as another text, and
+// invisible ones could make two texts look alike: both are refused. Those that shape the character before
+// them may stay where there is one.
 #pragma once
 
 #include <cstddef>

@@ -12,10 +12,10 @@
 #define SCREE_VECTOR_CLONES
 #endif
 
-/// Of a function that a clone calls: it becomes part of the clone, and so is compiled for its processor.
-/// Vectors are passed by reference: those calls would differ from one processor to the other.
+/// Marks a function that a clone calls. It becomes part of the clone, so that it is compiled for the clone's
+/// processor. Vectors are passed by reference: those calls would differ from one processor to the other.
 #define SCREE_INLINE inline __attribute__((always_inline))
 
-/// Of a struct that holds vectors of 32 bytes: g++ aligns them to 16 where it compiles for any x86-64, but
-/// the clone for AVX2 takes them to be aligned to 32.
+/// Marks a struct that holds vectors of 32 bytes. g++ aligns them to 16 where it compiles for any x86-64, but
+/// the clone for AVX2 expects them at multiples of 32.
 #define SCREE_CLONES_ALIGNMENT 32

@@ -37,7 +37,8 @@ Workers::~Workers() {
   for (std::thread& helper : helpers_) helper.join();
 }
 
-/// Whoever comes late finds no parts left, and does no harm: only who helps at the end is waited for.
+/// A thread that comes late finds no parts left and does no harm. The owner waits only for threads that still
+/// help at the end.
 void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
   CHECK(owner_.is_the_same());
   CHECK(!at_work_);

@@ -1,6 +1,7 @@
-// Ground, for the searches that ask which terrain is held up: a chunk is ground when it was never edited and
-// lies below the terrain's floor, where unedited terrain is only rock (floor_m); or when it lies below the
-// surface of its own column of chunks, and nothing was edited from there down to the floor: rock holds it up.
+// Ground, for the searches that ask which terrain is held up. A chunk is ground in two cases. It was never
+// edited and lies below the terrain's floor, where unedited terrain is only rock (floor_m). Or it lies below
+// the surface of its own column of chunks, and nothing was edited from there down to the floor, so that rock
+// holds it up.
 #pragma once
 
 #include <map>

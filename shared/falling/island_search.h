@@ -9,10 +9,10 @@
 //
 // Hierarchical: deep chunks are ground as a whole, and bricks are flooded 64 voxels at a time. All floods
 // start at the change and grow in turn; a flood ends when it meets the ground, and two that meet become one.
-// A flood goes down first, brick by brick from its lowest one, and sideways or up only where bricks were read
-// anyway, or where it goes no deeper: what stands on the ground is found to stand by reading one column. So
-// the cost depends on the size of the loose terrain and on the depth of the ground, not on the world.
-// Deterministic, also in the order of the islands. Not thread-safe.
+// A flood goes down first, brick by brick from its lowest one. It goes sideways or up only where bricks were
+// read anyway, or where it goes no deeper. So terrain that stands on the ground is known to stand after one
+// column was read. So the cost depends on the size of the loose terrain and on the depth of the ground, not
+// on the world. Deterministic, also in the order of the islands. Not thread-safe.
 //
 // What is read counts in bricks; an unedited chunk, whose terrain may have to be generated, counts besides as
 // SearchLimits::bricks_per_chunk. Whether it was generated before makes no difference.

@@ -1,7 +1,7 @@
 // The load in a network of supports that reaches the ground: nodes with a load each, links with a capacity
 // each way, and nodes that stand on the ground. Where the capacities are too small, the overloaded nodes are
-// those beyond the least cut: their load is more than their links to the rest can carry, and no other set of
-// nodes has a larger excess (max-flow and min-cut, Ford and Fulkerson 1956).
+// those beyond the least cut (max-flow and min-cut, Ford and Fulkerson 1956). Their load is more than their
+// links to the rest can carry, and no other set of nodes has a larger excess.
 //
 // Push-relabel (Goldberg and Tarjan 1988), highest label first, starting from the true distances to the
 // ground: a load that can flow straight down takes one push a link. Integers, so exact. Invariant: loads are

@@ -103,7 +103,7 @@ glm::vec3 middle_m(const SupportPart& part, float voxel_size_m) {
   return {mean(at.x, box.lo.x, box.hi.x), mean(at.y, box.lo.y, box.hi.y), mean(at.z, box.lo.z, box.hi.z)};
 }
 
-/// Of a box of so many, and the number of one of them.
+/// The number of cells in a box of that size.
 template <typename C>
 size_t cells(C size) {
   return static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z);

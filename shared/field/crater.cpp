@@ -145,7 +145,7 @@ void write_cube(const Shape& ball, const glm::vec3* places, int taken, int side,
   const float x0 = static_cast<float>(window.box.lo.x), y0 = static_cast<float>(window.box.lo.y),
               z0 = static_cast<float>(window.box.lo.z);
   const float most = 1.125F * static_cast<float>(side) * steps_per_voxel, most2 = most * most;
-  // Of points a side apart; of others about a voxel.
+  // This scale holds for points a side apart, and roughly for others.
   const float scale = 0.5F / (static_cast<float>(side) * steps_per_voxel * steps_per_voxel);
   for (int x = cube.lo.x; x < cube.hi.x; ++x)
     for (int y = cube.lo.y; y < cube.hi.y; ++y)

@@ -86,8 +86,8 @@ class Field {
     return below_ == nullptr ? edited_bricks_ : below_->edited_brick_count() + edited_bricks_;
   }
 
-  /// From now on edited chunks may be out; `read` gives their bricks. Whoever reads or writes one that is out
-  /// waits for `read`; ChunkUnreadable is thrown when it fails, or gives other bricks than were dropped.
+  /// From now on edited chunks may be out; `read` gives their bricks. A read or write of a chunk that is out
+  /// waits for `read`. It throws ChunkUnreadable when that fails, or gives other bricks than were dropped.
   void page_by(ReadChunk read);
   bool pages() const { return read_ != nullptr; }
   /// Drops the codes and paint of an edited chunk that is in.
@@ -106,7 +106,7 @@ class Field {
   bool is_idle(ChunkCoord chunk, uint64_t turns) const;
   /// As if somebody had asked for a chunk that is in now: it is not idle.
   void keep(ChunkCoord chunk);
-  /// Of a field that pages: edited chunks in memory, in any order, and their edited bricks.
+  /// In a field that pages: the edited chunks in memory, in any order, and the number of their edited bricks.
   const std::unordered_set<ChunkCoord, CoordHash>& chunks_in() const { return in_; }
   size_t bricks_in() const { return bricks_in_; }
   size_t chunks_out() const { return edited_.size() - in_.size(); }

@@ -16,7 +16,7 @@ struct GeneratedChunk {
   std::array<const Brick*, chunk_brick_count> bricks;
   std::unique_ptr<Brick[]> storage;
   uint32_t stored = 0;  ///< bricks in storage
-  /// Of each brick 0, or 1 + the material that the ground stores for it; 0: its layers' (material.h).
+  /// For each brick 1 + the material that the ground stores for it; 0: that of its layers (material.h).
   std::array<uint8_t, chunk_brick_count> materials{};
   /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
   bool exact = true;
@@ -31,7 +31,7 @@ GeneratedChunk uniform_chunk(const Brick& brick);
 /// The chunk's part of the window, which must hold it.
 GeneratedChunk split_into_bricks(const Window& window, ChunkCoord coord);
 
-/// Of those bricks, of which uniform ones are replaced by the shared ones.
+/// Makes a chunk of those bricks; shared bricks replace uniform ones.
 GeneratedChunk chunk_of_bricks(const std::array<Brick, chunk_brick_count>& bricks);
 
 /// Another one that is the same.

@@ -2,10 +2,10 @@
 //
 // Level k of the pyramid has every 2^k-th sample of the model in x (east) and z (south), smoothed; a tile is
 // a square of tile_samples² of them, and the coarsest level is one tile. The surface is the uniform cubic
-// B-spline with the samples as its control points: its curvature is continuous, so that cells larger than
-// voxels show neither terraces nor creases; its weights are not negative, so that it never leaves the span of
-// the samples around; and it has the volume of the samples. It rounds a single sharp sample off.
-// Beyond the model the ground goes on as high as at its edge: no side is open, and nothing can fall off.
+// B-spline with the samples as its control points. Its curvature is continuous, so that cells larger than
+// voxels show neither terraces nor creases. Its weights are not negative, so that it never leaves the span of
+// the samples around. It has the samples' volume. It rounds a single sharp sample off. Beyond the model the
+// ground goes on as high as at its edge: no side is open, and nothing can fall off.
 //
 // Doubles, but only + − × ÷, so that the bits are the same everywhere. Heights are in 1/256 m.
 #pragma once
@@ -84,7 +84,7 @@ struct HeightLayout {
   float half_depth_m() const { return static_cast<float>(rows - 1) * 0.5F * cell_m; }     ///< in z
 };
 
-/// Of a tile of heights.
+/// The tile of heights above that one.
 constexpr TileKey parent_of(TileKey key) {
   return {key.level + 1, key.x >> 1, key.z >> 1};
 }

@@ -1,7 +1,7 @@
 // Edited chunks that a field does not hold in memory, and where their bricks come from.
 //
-// A chunk that is out leaves its hash, its mass, and which of its bricks are edited. Whoever reads or writes
-// one of its bricks brings it in, so paging changes no result, only where codes lie meanwhile.
+// A chunk that is out leaves its hash, its mass, and which of its bricks are edited. A read or write of one
+// of its bricks brings it in. So paging changes no result, only the place of codes in between.
 #pragma once
 
 #include <cstdint>

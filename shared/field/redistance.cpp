@@ -22,9 +22,9 @@ constexpr float far_voxels = band_voxels + 1.0F;
 constexpr int passes_of_levels = 6;
 constexpr int passes_of_codes = 4;
 
-/// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis.
-/// glm::min and glm::max give the same bits as std's, but take values. std's take references: under
-/// AddressSanitizer what they refer to stays in memory, and clang makes no vectors of the loop below.
+/// Godunov's upwind solution of |∇u| = 1 at unit spacing from the smaller neighbour along each axis. glm::min
+/// and glm::max give the same bits as std's, but take values. With std's references the values stay in memory
+/// under AddressSanitizer, and clang does not vectorise the loop below.
 inline float upwind(float p, float q, float r) {
   const float a = glm::min(p, glm::min(q, r));
   const float c = glm::max(p, glm::max(q, r));

@@ -58,8 +58,9 @@ inline Shape crater(glm::vec3 centre_m, float radius_m) {
 /// The shape with every length divided by the voxel size.
 Shape in_voxels(const Shape& shape, float voxel_size_m);
 
-/// Signed distance from p to the shape's surface, negative inside; exact, in the shape's own unit. Of a
-/// crater that to its ball, in which it lies: where its wall is depends on the grid (codes_of).
+/// Signed distance from p to the shape's surface, negative inside; exact, in the shape's own unit. For a
+/// crater it is the distance to its ball, in which it lies: the place of its wall depends on the grid
+/// (codes_of).
 float distance(const Shape& shape, glm::vec3 p);
 
 /// The voxels within the shape (in voxels) or less than the narrow band away from it.
@@ -67,8 +68,8 @@ VoxelBox band_box(const Shape& shape_voxels);
 
 /// Centre of the shape's bounds; in the shape's unit.
 glm::vec3 centre_of(const Shape& shape);
-/// Half the longest extent of the shape's bounds, from its lengths alone: the place does not round it. Of a
-/// capsule, whose ends are places, it is as exact as they are.
+/// Half the longest extent of the shape's bounds, from its lengths alone: the place does not round it. For a
+/// capsule it is as exact as the places of its ends.
 float reach_of(const Shape& shape);
 
 /// Refuses what no world can take: an unknown kind, numbers that are not finite, radii that are negative,

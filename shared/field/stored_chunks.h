@@ -4,7 +4,7 @@
 //
 // They are an octree: a chunk of level k has voxels 2^k times as large, and the bricks of level k + 1 show
 // those of level k from afar. Above the coarsest level stands a root, which stores no bricks; each tile names
-// those below it that are stored, so that whoever has the tile above knows whether there is one.
+// those below it that are stored, so that the tile above tells whether there is one.
 #pragma once
 
 #include <array>
@@ -71,7 +71,7 @@ class GroundModel : public HeightModel {
 };
 
 /// The tiles that decide a chunk of the ground, for voxels of that size: of the elevation model, and of the
-/// stored chunks the chunk itself, or the one that tells that it is not stored. Of a model that is complete.
+/// stored chunks the chunk itself, or the one that tells that it is not stored. For a model that is complete.
 std::vector<TileKey> tiles_of(const GroundModel& model, ChunkCoord chunk, float voxel_size_m);
 
 /// The key that a chunk of voxels of that size is stored by; nothing where none can be.

@@ -8,8 +8,8 @@
 
 namespace scree {
 
-/// The part of a closed mesh of triangles in each cell (voronoi_cells.h), computed directly from the two: the
-/// triangles near the cell are cut to the cell, and each face of the cell is cut to the solid, along the line
+/// The part of a closed mesh of triangles in each cell (voronoi_cells.h), computed directly from the two. The
+/// triangles near the cell are cut to the cell. Each face of the cell is cut to the solid, along the line
 /// where the surface crosses the face. A cell that no triangle comes near is a part as a whole, or empty.
 ///
 /// Parts are closed except for rounding: the corners of each face are computed separately.

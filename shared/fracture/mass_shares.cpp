@@ -37,7 +37,7 @@ struct RowPlaces {
         step_x(static_cast<size_t>(whole.size().y) * static_cast<size_t>(whole.size().z)),
         step_y(static_cast<size_t>(whole.size().z)) {}
 
-  /// Of a row's first voxel.
+  /// The index of a row's first voxel.
   size_t index(VoxelCoord first) const {
     const VoxelCoord off = first - low;
     return static_cast<size_t>(off.x) * step_x + static_cast<size_t>(off.y) * step_y +

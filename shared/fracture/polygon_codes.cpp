@@ -83,7 +83,8 @@ class ColumnCrossings {
     }
   }
 
-  /// Height of the face over (x, y). Of an upright face any of its heights will do: the column runs along it.
+  /// Height of the face over (x, y). For an upright face any of its heights will do, since the column runs
+  /// along it.
   static double height(const Plane& plane, const PolygonBounds& bounds, double x, double y) {
     constexpr double upright = 1e-12;
     const double slope = plane.normal.z;

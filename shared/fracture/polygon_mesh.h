@@ -77,7 +77,7 @@ PolygonMoments moments_of(const PolygonMesh& mesh);
 
 /// Cuts off the part of a closed mesh beyond a plane, and caps the hole (paper, 2.3) with a face of the given
 /// neighbour. The mesh stays closed whatever rounding does, also where the plane grazes vertices, edges or
-/// faces: each vertex is on one side (beyond, or not), each edge is cut once for both its faces, and the cap
+/// faces. Each vertex is on one side (beyond, or not), and each edge is cut once for both its faces. The cap
 /// consists of the reverses of the edges that closed the faces. Not thread-safe: it keeps its memory.
 class Slicer {
  public:

@@ -53,7 +53,7 @@ constexpr bool asks_no_points(SeedPattern pattern) {
   return !is_given(pattern);
 }
 
-/// Patterns for a piece that shatters, and for whoever has no points to give: a hand that carves.
+/// Patterns that need no points: for a piece that shatters, and for a person who carves.
 inline constexpr auto drawn_patterns = kinds_that<SeedPattern, is_drawn>;
 inline constexpr auto pointless_patterns = kinds_that<SeedPattern, asks_no_points>;
 

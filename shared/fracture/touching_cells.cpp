@@ -63,7 +63,7 @@ std::array<ptrdiff_t, 13> steps_ahead(ptrdiff_t step_x, ptrdiff_t step_y) {
   return steps;
 }
 
-/// Of many cells: neighbour by neighbour.
+/// For many cells: neighbour by neighbour.
 void touch_one_by_one(const Window& volume, const std::vector<CellLabel>& labels, TouchMatrix& touch) {
   const VoxelCoord size = volume.box.size();
   const ptrdiff_t step_y = size.z, step_x = step_y * size.y;
@@ -109,7 +109,7 @@ SCREE_VECTOR_CLONES void look_ahead(size_t count, ptrdiff_t step_y, const uint64
   }
 }
 
-/// Of at most as many cells as a word has bits: sets of cells are joined, without looking which they are.
+/// For at most as many cells as a word has bits: joins sets of cells without asking for their members.
 /// Neighbours' cells differ as often as not, so branches would be mispredicted half the time.
 void touch_by_words(const Window& volume, const std::vector<CellLabel>& labels, TouchMatrix& touch) {
   const VoxelCoord size = volume.box.size();

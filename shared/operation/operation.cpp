@@ -170,7 +170,7 @@ Applied apply_paint(const PaintOperation& op, Field& field) {
   return applied;
 }
 
-/// Of the stamp's pieces, all of which must be in the table.
+/// The volumes of the stamp's pieces, all of which must be in the table.
 VoxelBox box_of(const StampOperation& op, const PieceTable& pieces, float voxel_size_m) {
   const auto one = [&](PieceId piece, const QuantisedPose& pose) {
     const auto found = pieces.find(piece);

@@ -87,9 +87,8 @@ int ceil_to_int(float x) {
   return -floor_to_int(-x);
 }
 
-/// A volume's codes by cells: where a cell lies between eight voxels, its four in one plane of x are one
-/// word, (y, z) lowest, then (y, z + 1), (y + 1, z), (y + 1, z + 1), and the other four are the next plane's
-/// word.
+/// A volume's codes by cells. A cell lies between eight voxels. Its four in one plane of x are one word, (y,
+/// z) lowest, then (y, z + 1), (y + 1, z), (y + 1, z + 1). The other four are the next plane's word.
 struct Cells {
   int lo_x, lo_y, lo_z;
   int last_x, last_y, last_z;  ///< of the cells; a cell's far corner must lie in the window, too

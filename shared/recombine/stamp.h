@@ -1,10 +1,11 @@
 // Recombination by stamp: a piece's posed volume becomes terrain again.
 //
 // terrain := terrain ∪ volume; gaps between the two closed, interior seams filled, the neighbourhood
-// redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile too light in its
-// clefts: so the mass is met there first, by rounding edges or filling clefts, and only the remaining mass
-// by moving the whole surface; the last units by moving voxels by single codes, all over it. Pieces merged
-// where they were thus restore the surface that they had (bench seams; docs/architecture.md, The cycle).
+// redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile is too light in
+// its clefts. So the mass is met there first, by rounding edges or filling clefts. Moving the whole surface
+// meets the remaining mass. Moving voxels by single codes, all over the surface, meets the last units. Pieces
+// merged where they were thus restore the surface that they had (bench seams; docs/architecture.md, The
+// cycle).
 #pragma once
 
 #include <cstdint>
@@ -41,7 +42,7 @@ constexpr StampMethodRow row_of(StampMethod method) {
   return {};
 }
 
-/// Of a known method.
+/// The method must be known.
 constexpr bool lays(StampMethod method) {
   return traits_of(method).lays;
 }

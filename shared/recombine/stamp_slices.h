@@ -18,9 +18,9 @@ std::vector<uint8_t> draw_slices(const Volume& volume, const QuantisedPose& pose
                                  const VoxelBox& box);
 
 /// Between a pixel of rock and one of air, the surface runs in the middle at shift 0, through the pixel of
-/// rock at −stamp_shift_max and through that of air at stamp_shift_max; each voxel's code steps
-/// at a different shift, so that the mass changes in small steps. At −stamp_shift_max nothing changes.
-/// `window` must cover stamp_box().
+/// rock at −stamp_shift_max, and through that of air at stamp_shift_max. Each voxel's code steps at a
+/// different shift, so that the mass changes in small steps. At −stamp_shift_max nothing changes. `window`
+/// must cover stamp_box().
 void stamp_slices(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
                   int shift);
 

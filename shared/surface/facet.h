@@ -18,9 +18,9 @@ struct Facet {
 };
 
 /// The facet of the face nearest to the point. Near an edge of the rock the differences to the two sides of
-/// the point differ, and along each axis only one of them belongs to that face. Of the eight choices this
-/// takes the one that most points around agree with, fitted to these. The window must hold the 26 points
-/// around, too.
+/// the point differ, and along each axis only one of them belongs to that face. This takes that one of the
+/// eight choices with which most points around agree, fitted to these points. The window must hold the 26
+/// points around, too.
 Facet facet_at(const Window& window, VoxelCoord point);
 
 }  // namespace scree

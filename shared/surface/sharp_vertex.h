@@ -2,11 +2,10 @@
 //
 // Flat faces are found from the codes around a cell (rock_faces.h). If some of these, all convex or all
 // concave, explain the codes, and meet in the cell, the vertex is that point. Faces are compared with codes
-// on the side where the distance to an edge is exact: in rock, where it is the largest of the planes'
-// distances, or in air, where it is the smallest; on the other side distances are rounded. So both faces at
-// an edge through the cell are found, even if one of them crosses no edge of the cell; the edges of cubes are
-// exact within 0.05 voxel. Elsewhere the vertex is the least-squares solution over the planes at the
-// crossings.
+// on the side where the distance to an edge is exact. In rock it is the largest of the planes' distances, in
+// air the smallest. On the other side distances are rounded. So both faces at an edge through the cell are
+// found, even if one of them crosses no edge of the cell; the edges of cubes are exact within 0.05 voxel.
+// Elsewhere the vertex is the least-squares solution over the planes at the crossings.
 //
 // Not thread-safe: it caches facets. Units: voxels.
 #pragma once

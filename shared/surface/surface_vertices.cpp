@@ -120,7 +120,7 @@ SCREE_INLINE void mean_crossing(const Rows& rows, const Ints& edges, Vector3& f)
 }
 
 /// Central differences at the corners, interpolated: twice the step that a cell's own differences would have,
-/// so half the noise of the 8 bits. Of unit length; straight up where the codes are all the same.
+/// so half the noise of the 8 bits. A normal of unit length; straight up where the codes are all the same.
 SCREE_INLINE void normal_at(const Rows& rows, const Vector3& f, Vector3& normal) {
   const Lanes gx = 1.0F - f.x, gy = 1.0F - f.y, gz = 1.0F - f.z;
   Lanes across[2][2], slope[2][2], x_sum[2][2], y_sum[2][2];

@@ -47,7 +47,7 @@ class Welder {
   WeldedSurface& welded() { return welded_; }
 
  private:
-  /// Of the rock half a voxel below the surface.
+  /// The material of the rock half a voxel below the surface.
   Material material_beneath(const Point& point, const SurfaceVertex& vertex) const {
     const glm::vec3 out = glm::vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / 127.0F;
     const glm::vec3 at = glm::vec3(point[0], point[1], point[2]) / surface_steps_per_voxel - 0.5F * out;

@@ -5,9 +5,9 @@
 
 namespace scree {
 
-/// Where sheets of a surface meet in a point, or along an edge, the points are doubled, each sheet with its
-/// own; and where one sheet meets itself along an edge, the edge is doubled, with a point in its middle. Then
-/// every edge has two triangles. Each edge must have as many triangles on the one side as on the other.
+/// Where sheets of a surface meet in a point, or along an edge, the points are doubled, so that each sheet
+/// has its own. Where one sheet meets itself along an edge, the edge is doubled, with a point in its middle.
+/// Then every edge has two triangles. Each edge must have as many triangles on the one side as on the other.
 /// Returns how many points were added. 16 bytes a triangle lie in memory meanwhile.
 size_t split_pinches(WeldedSurface& surface);
 

@@ -12,9 +12,9 @@ namespace scree {
 
 class EyeShot {
  public:
-  /// Of the person of that name, or of who has none by number or as called(), at each of these ticks, one a
-  /// frame. Where the person is not there, the camera waits where it was, or where the person will come. The
-  /// error names those who are there.
+  /// The shot by the eye of the person of that name, or of a nameless one by number or as called(), at each
+  /// of these ticks, one a frame. Where the person is not there, the camera waits where it was, or where the
+  /// person will come. The error names those who are there.
   static Result<EyeShot> of(const std::string& person, RecordingReader& recording,
                             std::span<const double> ticks, double frames_per_s);
 

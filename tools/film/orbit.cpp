@@ -23,7 +23,7 @@ constexpr float speed_per_s = 12.0F * radians_per_degree;
 constexpr float distance_least_m = 9.0F;
 constexpr float distance_per_radius = 4.0F;
 constexpr float distance_most_m = 150.0F;
-/// Of an event without a volume, as a fill.
+/// The radius of an event without a volume, such as a fill.
 constexpr float radius_least_m = 1.0F;
 
 constexpr std::array heights = {18.0F * radians_per_degree, 30.0F * radians_per_degree,

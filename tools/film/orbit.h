@@ -11,9 +11,9 @@ namespace scree {
 
 class Orbit {
  public:
-  /// Round an event that has a place, for so many seconds: as far away as its volume asks for, as low as rock
-  /// leaves it in sight, and, where the orbit is less than a whole one, on the side from which it is seen
-  /// best. `field` is the terrain as it stands before the event.
+  /// An orbit round an event that has a place, for so many seconds. It is as far away as the event's volume
+  /// asks for, and as low as rock leaves the event in sight. Where the orbit is not a whole one, it is on the
+  /// side with the best view. `field` is the terrain as it stands before the event.
   static Orbit around(const Event& event, Field& field, double seconds);
 
   /// `time_s`: from the film's start.

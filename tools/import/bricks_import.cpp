@@ -215,8 +215,8 @@ class Importer {
       if (solids.codes[i] != code_air) ground.codes[i] = std::min(united.codes[i], ground.codes[i]);
   }
 
-  /// Of the bricks in which the solids have rock, or their surface within rounding; all, if there is no
-  /// window of them.
+  /// The bricks in which the solids have rock, or their surface within rounding; all, if there is no window
+  /// of them.
   void put_materials(GeneratedChunk& chunk, ChunkCoord at, const Window* solids) const {
     for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
       const BrickCoord brick = brick_in_chunk(at, i);

@@ -108,7 +108,7 @@ class Fetcher {
     return {};
   }
 
-  /// Of a status that has just come: it is about the mirror as it is.
+  /// The status has just come, so it is about the mirror as it is.
   void compare() {
     const StatusMessage& status = *mirror_->status();
     const MirrorCounters& counted = mirror_->counters();

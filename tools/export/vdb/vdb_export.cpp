@@ -88,7 +88,7 @@ void add_chunk(Field& field, ChunkCoord chunk, Grids& grids) {
   }
 }
 
-/// Makes the walls where the box cuts rock off a part of the narrow band, so that whoever looks at active
+/// Makes the faces where the box cuts the rock a part of the narrow band, so that a program that reads active
 /// voxels alone sees a closed surface. No value in the box changes.
 void close_walls(const VoxelBox& box, FloatGrid& grid) {
   auto voxels = grid.getAccessor();
@@ -135,7 +135,8 @@ class CountingBuffer final : public std::streambuf {
   uint64_t bytes_ = 0;
 };
 
-/// Of a file with these grids, which are written as to a stream: that takes no other number of bytes.
+/// The bytes of a file with these grids. They are written as to a stream, which takes the same number of
+/// bytes.
 uint64_t bytes_of(const openvdb::GridCPtrVec& grids) {
   CountingBuffer buffer;
   std::ostream stream(&buffer);

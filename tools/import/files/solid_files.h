@@ -23,7 +23,7 @@ struct SolidsRead {
   /// Sentences on each: what was found, and what was repaired.
   std::vector<std::string> said;
   double meshes_volume_m3 = 0.0;  ///< the sum of the meshes' own
-  /// Of a single file that was exported from a world (VdbSolid).
+  /// For a single file that was exported from a world (VdbSolid).
   std::optional<BricksImport::Exact> exact{};
   std::optional<double> level_m{};
   std::optional<MaterialHeights> layers{};

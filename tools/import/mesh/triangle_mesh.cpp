@@ -43,7 +43,7 @@ std::vector<std::vector<size_t>> parts_of(const TriangleMesh& mesh) {
   return list;
 }
 
-/// Of each edge, triangles in one direction less those in the other.
+/// For each edge, the triangles in one direction less those in the other.
 size_t count_open_edges(const TriangleMesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (const Triangle& t : mesh.triangles)

@@ -1,5 +1,6 @@
 // How often a surface winds around a place: 1 inside a closed mesh, 0 outside, and in between where the mesh
-// has holes (Jacobson et al. 2013), by a tree whose far nodes count as one dipole (Barill et al. 2018).
+// has holes (Jacobson et al. 2013). A tree whose far nodes count as one dipole makes it fast (Barill et al.
+// 2018).
 #pragma once
 
 #include "tools/import/mesh/triangle_mesh.h"
