@@ -74,7 +74,7 @@ class PageReader {
       return end_paragraph();
     }
     if (fenced_ || (line.starts_with("    ") && paragraph_.empty())) return;
-    if (line.empty() || line.starts_with('#')) return end_paragraph();
+    if (line.empty() || line.starts_with('#') || line.starts_with('<')) return end_paragraph();
     if (line.starts_with('|')) return table_row(line);
     static const std::regex item(R"(^ *([-*]|[0-9]+\.) +)");
     std::smatch match;
