@@ -4,7 +4,7 @@
 // redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile too light in its
 // clefts: so the mass is met there first, by rounding edges or filling clefts, and only the remaining mass
 // by moving the whole surface; the last units by moving voxels by single codes, all over it. Pieces merged
-// where they were thus restore the surface that they had (bench seams; docs/architecture.md, The cycle).
+// where they were thus restore the surface that they had (bench seams; docs/design/simulation.md).
 #pragma once
 
 #include <cstdint>

@@ -1,35 +1,13 @@
 // The pages are written in plain English, as far as a program can tell; and the rules catch samples that are
 // not.
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
 
+#include "tests/style/pages.h"
 #include "tests/style/prose_rules.h"
 
 namespace scree::style {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// README.md and all pages of docs/, but for reports, which programs write, and plain files beside them.
-std::vector<SourceFile> pages() {
-  const fs::path root = SCREE_SOURCE_DIR;
-  std::vector<SourceFile> found;
-  const auto add = [&](const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    found.push_back({fs::relative(path, root).generic_string(), text.str()});
-  };
-  add(root / "README.md");
-  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
-    const std::string path = fs::relative(entry.path(), root).generic_string();
-    if (path.ends_with(".md") && !path.starts_with("docs/report/")) add(entry.path());
-  }
-  return found;
-}
 
 std::string joined(const Complaints& complaints) {
   std::string text;
@@ -38,15 +16,15 @@ std::string joined(const Complaints& complaints) {
 }
 
 TEST(Prose, pages_are_plain_english) {
-  EXPECT_GE(pages().size(), 10U);
-  for (const SourceFile& page : pages()) {
+  EXPECT_GE(documentation_pages().size(), 10U);
+  for (const SourceFile& page : documentation_pages()) {
     const Complaints complaints = check_page(page);
     EXPECT_TRUE(complaints.empty()) << joined(complaints);
   }
 }
 
 TEST(Prose, the_readme_is_short) {
-  const std::string text = pages().front().text;
+  const std::string text = documentation_pages().front().text;
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 150);
 }
 
