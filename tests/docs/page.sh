@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034  # the variables are for the scripts that source this
 # Reads the commands of a page in Markdown; for run.sh and options.sh, which source this file.
 #
 # A page shows commands in blocks indented by four spaces. A comment before each block, which readers do not see, says
