@@ -25,7 +25,8 @@ ln -s "$source/data" data
 printf '#!/usr/bin/env bash\nexec "%s/scree_shim.sh" "%s" "%s" "$@"\n' "$here" "$source" "$bin" >scree
 chmod +x scree
 unset DISPLAY WAYLAND_DISPLAY "${!SCREE_@}" "${!XDG_@}"
-export HOME=$folder/home SCREE_LOG=warn
+export HOME=$folder/home SCREE_LOG=warn SCREE_QUALITY=low SCREE_SIZE=96x54
+TIMEFORMAT='    %U + %S s of the processor'
 
 die() {
   printf '%s: %s\n' "$page" "$*" >&2
@@ -107,7 +108,7 @@ on_command() {
   elif [[ $mark == 'run: together' ]]; then
     run_beside "$command"
   else
-    timeout 100 bash -c "$command" >output 2>&1 </dev/null || status=$?
+    time timeout 100 bash -c "$command" >output 2>&1 </dev/null || status=$?
     ((status == wanted)) || die "ended with $status, not with $wanted: $command: $(tail -n 5 output)"
   fi
 }

@@ -7,11 +7,11 @@ shift 2
 # shellcheck source=page.sh
 source "$(dirname "$(readlink -f "$0")")/page.sh"
 
-# small ARGUMENTS…: sets small_arguments, with a small size in place of that which is given.
+# small ARGUMENTS…: sets small_arguments, with a small size and a usual range of view in place of those given.
 small() {
   small_arguments=()
   while (($#)); do
-    if [[ $1 == --size ]]; then shift; else small_arguments+=("$1"); fi
+    if [[ $1 == --size || $1 == --view-radius ]]; then shift; else small_arguments+=("$1"); fi
     shift
   done
   small_arguments+=(--size 96x54)
@@ -28,7 +28,6 @@ case $program in
     small "$@"
     # Without a window, a picture shows that the viewer comes in.
     [[ " $* " == *' --offscreen '* ]] || small_arguments+=(--offscreen --screenshot "$PWD/window.png")
-    export SCREE_QUALITY=${SCREE_QUALITY:-low}
     set -- "${small_arguments[@]}"
     ;;
   scree-render)
