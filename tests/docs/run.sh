@@ -24,7 +24,7 @@ cd "$folder/page"
 ln -s "$source/data" data
 printf '#!/usr/bin/env bash\nexec "%s/scree_shim.sh" "%s" "%s" "$@"\n' "$here" "$source" "$bin" >scree
 chmod +x scree
-unset DISPLAY WAYLAND_DISPLAY "${!SCREE_@}" "${!XDG_@}"
+unset DISPLAY WAYLAND_DISPLAY "${!SCREE_@}" "${!XDG_@}" http_proxy all_proxy
 export HOME=$folder/home SCREE_LOG=warn SCREE_QUALITY=low SCREE_SIZE=96x54
 TIMEFORMAT='    %U + %S s of the processor'
 
@@ -71,13 +71,19 @@ for_test() {
   printf '%s' "$command"
 }
 
-# clients: how many the server has, or nothing where nobody may ask.
-clients() { "$bin/scree-admin" status --json 2>/dev/null | sed -n 's/.*"clients": *\([0-9]*\).*/\1/p'; }
+# clients: how many the server has.
+clients() {
+  local said
+  said=$("$bin/scree-admin" status --json)
+  said=${said#*\"clients\": }
+  printf '%s' "${said%%[!0-9]*}"
+}
 
 # Starts a command beside others, and waits until it has joined the server, so that it sees what the next one does.
 run_beside() {
   local before deadline=$((SECONDS + 60))
   before=$(clients)
+  [[ -n $before ]] || die 'the server does not say how many clients it has'
   timeout 100 bash -c "$1" >>output 2>&1 </dev/null &
   waiting+=($!)
   until (($(clients) > before)) || ! kill -0 $! 2>/dev/null; do
