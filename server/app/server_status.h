@@ -1,4 +1,4 @@
-// status.json, what operators see of a running server in a browser (docs/web.md).
+// status.json, what operators see of a running server in a browser (docs/browser.md).
 #pragma once
 
 #include <cstdint>

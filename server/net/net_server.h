@@ -80,7 +80,7 @@ struct NetConfig {
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
   WebConfig web;
-  /// status.json for operators (docs/web.md); on the network thread. Empty, or an empty text: there is none.
+  /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is none.
   std::function<std::string(const NetFigures&)> status;
 };
 

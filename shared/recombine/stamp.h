@@ -4,8 +4,7 @@
 // redistanced. A sampled piece is too heavy at its convex edges, by up to 15 %, and a pile is too light in
 // its clefts. So the mass is met there first, by rounding edges or filling clefts. Moving the whole surface
 // meets the remaining mass. Moving voxels by single codes, all over the surface, meets the last units. Pieces
-// merged where they were thus restore the surface that they had (bench seams; docs/architecture.md, The
-// cycle).
+// merged where they were thus restore the surface that they had (bench seams; docs/design/simulation.md).
 #pragma once
 
 #include <cstdint>
@@ -42,7 +41,7 @@ constexpr StampMethodRow row_of(StampMethod method) {
   return {};
 }
 
-/// The method must be known.
+/// Of a known method.
 constexpr bool lays(StampMethod method) {
   return traits_of(method).lays;
 }

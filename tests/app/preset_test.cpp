@@ -119,13 +119,13 @@ TEST(Preset, its_settings_change_while_the_world_runs) {
   EXPECT_EQ(world.config().work_percent, 40U) << "the rest stays the preset's";
 }
 
-/// The rows of the README's table: the option, and a value by each preset.
+/// The rows of the table in docs/host.md: the option, and a value by each preset.
 std::vector<std::vector<std::string>> stated_presets() {
-  std::ifstream readme(SCREE_SOURCE_DIR "/README.md");
+  std::ifstream page(SCREE_SOURCE_DIR "/docs/host.md");
   std::string line;
-  while (std::getline(readme, line) && line != "| option | `laptop` | `desktop` | `dedicated` |") continue;
+  while (std::getline(page, line) && line != "| option | `laptop` | `desktop` | `dedicated` |") continue;
   std::vector<std::vector<std::string>> rows;
-  for (std::getline(readme, line); std::getline(readme, line) && line.starts_with("| ");) {
+  for (std::getline(page, line); std::getline(page, line) && line.starts_with("| ");) {
     std::vector<std::string>& row = rows.emplace_back();
     for (size_t at = 2; at < line.size();) {
       const size_t end = line.find(" |", at);
@@ -137,7 +137,7 @@ std::vector<std::vector<std::string>> stated_presets() {
   return rows;
 }
 
-TEST(Preset, the_readme_says_every_value) {
+TEST(Preset, the_page_states_every_value) {
   std::vector<std::vector<std::string>> wanted;
   const auto add = [&](const std::string& whose, std::span<const PresetOption> options) {
     for (const PresetOption& option : options) {

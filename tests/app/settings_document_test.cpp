@@ -1,4 +1,4 @@
-// The README's table of settings names each setting and its values.
+// The table of settings in docs/host.md names each setting and its values.
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -19,12 +19,12 @@ struct StatedSetting {
 
 std::vector<StatedSetting> stated_settings() {
   static const std::regex row(R"(\| `([^`]+)` \| ([^|]+) \| .+ \|)");
-  std::ifstream readme(SCREE_SOURCE_DIR "/README.md");
+  std::ifstream page(SCREE_SOURCE_DIR "/docs/host.md");
   std::vector<StatedSetting> rows;
   std::string line;
-  while (std::getline(readme, line) && line != "| setting | values | decides |") continue;
+  while (std::getline(page, line) && line != "| setting | values | decides |") continue;
   std::smatch match;
-  for (std::getline(readme, line); std::getline(readme, line) && std::regex_match(line, match, row);)
+  for (std::getline(page, line); std::getline(page, line) && std::regex_match(line, match, row);)
     rows.push_back({match[1], match[2]});
   return rows;
 }
@@ -39,7 +39,7 @@ std::vector<std::string> quoted(const std::string& values) {
   return words;
 }
 
-TEST(SettingsDocument, the_readme_names_every_setting_and_its_values) {
+TEST(SettingsDocument, the_page_names_every_setting_and_its_values) {
   const std::vector<StatedSetting> stated = stated_settings();
   ASSERT_EQ(stated.size(), settings().size());
   for (size_t i = 0; i < stated.size(); ++i) {

@@ -140,38 +140,13 @@ std::map<std::string, std::string> rows_of(const std::string& text, const std::r
 }
 
 /// A reason that begins with "tests: " keeps a package from all but ./scree test: npm alone brings hundreds.
-TEST(Style, the_readme_names_every_package_with_its_reason) {
-  const std::string text = text_of("packages.txt"), readme = text_of("README.md");
+TEST(Style, every_package_has_a_reason) {
+  const std::string text = text_of("packages.txt");
   const auto packages = rows_of(text, std::regex(R"(([a-z0-9.+-]+) +# (.+))"));
   const auto lines = std::ranges::count(text, '\n');
   const auto comments = static_cast<ptrdiff_t>(rows_of(text, std::regex("(# .*)()")).size());
   EXPECT_EQ(static_cast<ptrdiff_t>(packages.size()), lines - comments) << "a line has no reason";
-  EXPECT_EQ(packages, rows_of(readme.substr(readme.find("| package | for |")),
-                              std::regex(R"(\| `([^`]+)` \| (.+) \|)")));
   for (const char* name : {"nodejs", "npm", "xvfb"}) EXPECT_TRUE(packages.at(name).starts_with("tests: "));
-}
-
-/// A path in it is one from the root that ends in a file's name, of which `*` stands for any end, or in a
-/// folder's.
-TEST(Style, the_paths_in_the_architecture_exist) {
-  namespace fs = std::filesystem;
-  static const std::regex quoted("`([a-z_]+/[A-Za-z0-9_./*-]+)`");
-  const fs::path root = SCREE_SOURCE_DIR;
-  const std::string text = text_of("docs/architecture.md");
-  size_t found = 0;
-  for (std::sregex_iterator it(text.begin(), text.end(), quoted), end; it != end; ++it) {
-    const std::string path = (*it)[1];
-    if (!fs::is_directory(root / path.substr(0, path.find('/')))) continue;  // of a client, of a build
-    ++found;
-    const fs::path folder = (root / path).parent_path();
-    const std::string start = path.substr(path.rfind('/') + 1, path.find('*') - path.rfind('/') - 1);
-    const bool any_end =
-        path.ends_with('*') && fs::is_directory(folder) &&
-        std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                    [&](const auto& entry) { return entry.path().filename().string().starts_with(start); });
-    EXPECT_TRUE(any_end || fs::exists(root / path)) << path;
-  }
-  EXPECT_GT(found, 30U);
 }
 
 // ---- the rules

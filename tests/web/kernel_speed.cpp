@@ -1,6 +1,6 @@
 // How long a client's kernels take: prints "name milliseconds" of each, the median of some places.
 // Built twice, as native code and as WebAssembly, so that the two can be compared
-// (docs/web_client.md).
+// (docs/browser.md).
 #include <algorithm>
 #include <cstdio>
 #include <functional>

@@ -4,8 +4,9 @@
 # leaves before.png, blast.png and settled.png, and browser.png where Chromium can draw the page. Either way a summary of the session follows.
 set -euo pipefail
 
-root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
-readonly root bin="$root/build/release/bin"
+root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
+# A test of the documentation runs the demo with the programs of its own build tree.
+readonly root bin=${SCREE_PROGRAMS:-$root/build/release/bin}
 # Seconds. A software renderer on two busy cores is slow; nothing here should come near these.
 readonly start_s_max=60 session_s_max=600
 # Where the bot carves, metres: between the cliff and the arch, all of it before the camera. A scene has places of its own.
@@ -155,6 +156,7 @@ draw_pictures() {
 
 # The page as a browser shows it, where ./scree web has built it and ./scree test has installed the modules that drive Chromium.
 draw_page() {
+  [[ -z ${SCREE_PROGRAMS:-} ]] || return 0 # tests of the page draw it
   [[ -e $root/build/web/dist/index.html && -e $root/build/page/node_modules/.installed ]] && command -v chromium >/dev/null || return 0
   say "drawing browser.png in Chromium"
   "$root/tests/page/run.sh" "$root/build/page" draw.js "$page#camera=$camera&quality=low" "$out/browser.png" "$size" >"$out/browser.log" 2>&1 ||

@@ -4,7 +4,7 @@
 # target fails, log/NAME.log libFuzzer's output.
 set -euo pipefail
 
-root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
 readonly root targets="$root/tests/fuzz/targets" corpora="$root/tests/fuzz/corpus" built="$root/build/fuzz"
 # Seconds for one input, and megabytes: above, the input is a finding. An input takes milliseconds, as a rule.
 readonly input_s_max=60 memory_mb_max=4096

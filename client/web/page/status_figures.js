@@ -1,4 +1,4 @@
-// What the status page says of /status.json (docs/web.md), as texts and parts. Without elements.
+// What the status page says of /status.json (docs/browser.md), as texts and parts. Without elements.
 import { bytes, ms, span, whole } from './words.js';
 
 /** The large figures, each with a curve: name, value, what it is beside, the curve's number (`by_change`: how it grows), and whether it is bad. */

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# The commands that pages name in a line, or show but cannot run in a test, have only options that their program's --help
+# knows; and so have the options and variables that pages name by themselves.
+# usage: options.sh SOURCE_FOLDER PROGRAM_FOLDER PAGE…
+set -euo pipefail
+readonly source=$1 bin=$2
+shift 2
+# shellcheck source=page.sh
+source "$(dirname "$(readlink -f "$0")")/page.sh"
+
+faults=0 page='' checked=0
+fault() {
+  printf '%s: %s\n' "$page" "$*" >&2
+  faults=$((faults + 1))
+}
+
+# names_in TEXT: the options and variables in it, each between spaces.
+names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
+
+# help_of COMMAND [SUBCOMMAND]: sets help to the names that --help prints for both, from a cache.
+declare -A helps
+help_of() {
+  local key="$1 ${2:-}" own text
+  if [[ -z ${helps[$key]:-} ]]; then
+    if program_of "$@"; then
+      if [[ ! -x $bin/$program && $program == scree-studies ]]; then # ./scree bench builds it, and nothing else
+        help=unbuilt
+        return
+      fi
+      text=$("$bin/$program" "${subcommand[@]}" --help)
+      # Where the second word is a subcommand, it has options of its own.
+      own=${2:-}
+      if [[ $own =~ ^[a-z]+$ && $consumed == 1 ]]; then text+=$("$bin/$program" "$own" --help 2>/dev/null || true); fi
+    else
+      text=$("$source/scree" "$1" --help)
+    fi
+    helps[$key]=$(names_in "$text")
+  fi
+  help=${helps[$key]}
+}
+
+# check WORDS…: a command without ./scree.
+check() {
+  local word
+  [[ $1 != --help ]] || return 0
+  [[ " $commands " == *" $1 "* ]] || { fault "there is no command ./scree $1" && return; }
+  help_of "$1" "${2:-}"
+  [[ $help != unbuilt ]] || return 0
+  for word in "${@:2}"; do
+    [[ $word == --?* ]] || continue
+    checked=$((checked + 1))
+    [[ $help == *" ${word%%=*} "* ]] || fault "./scree $1 ${2:-} has no option ${word%%=*}"
+  done
+}
+
+on_fault() { :; } # run.sh tells
+on_file() { :; }
+on_command() {
+  [[ $1 == 'not run: '* ]] || return 0
+  local -a words
+  read -ra words <<<"${2//$'\n'/ }"
+  [[ ${words[0]} != ./scree ]] || check "${words[@]:1}"
+}
+
+# What every program prints of its options.
+all_help() {
+  local name
+  for name in server viewer bot replay world scene import export admin token bench pictures 'replay render' 'replay control'; do
+    # shellcheck disable=SC2086  # two words
+    program_of $name && "$bin/$program" "${subcommand[@]}" --help
+  done
+  for name in 'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' \
+    'admin ban' 'admin kick' 'admin set' 'token new' 'token show' 'bench run' 'bench all' 'bench compare'; do
+    "$bin/scree-${name% *}" "${name#* }" --help
+  done
+  for name in setup build test fuzz demo web; do "$source/scree" "$name" --help; done
+}
+
+# known NAME: whether a program or the build has it.
+known() {
+  checked=$((checked + 1))
+  [[ $all == *" $1 "* ]] || fault "nothing has the option or variable $1"
+}
+
+commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
+all=$(names_in "$(all_help) $(<"$source/CMakeLists.txt")")
+readonly commands all
+for page in "$@"; do
+  read_page "$source/$page"
+  # shellcheck disable=SC2016  # backticks of the page
+  text=$(sed '/^```/,/^```$/d' "$source/$page")
+  while IFS= read -r span; do
+    read -ra words <<<"$span"
+    check "${words[@]:1}"
+  done < <(grep -oP '(?<=`)\./scree [^`]+(?=`)' <<<"$text" || true)
+  while IFS= read -r name; do known "$name"; done < <(grep -oP '(?<=`)(--[a-z][a-z-]*|SCREE_[A-Z_]+(?=[`=]))' <<<"$text" | sort -u || true)
+done
+# The variables of the container are options of the server.
+page=docker/compose.yaml
+while IFS= read -r name; do known "$name"; done < <(sed -n 's/^ *\(SCREE_[A-Z_]*\):.*/\1/p' "$source/$page")
+((checked > 0)) || fault 'no option was found'
+((faults == 0)) || exit 1
+printf '%s options are known\n' "$checked"
