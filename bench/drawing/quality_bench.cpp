@@ -30,7 +30,7 @@ struct Times {
   std::vector<double> processor_ms;
 };
 
-/// Of all threads.
+/// The processor time of all threads.
 double processor_now_ms() {
   return static_cast<double>(std::clock()) * 1000.0 / static_cast<double>(CLOCKS_PER_SEC);
 }

@@ -9,8 +9,9 @@
 
 namespace scree::peers {
 
-/// Of a fragment shader that finds the pixel's ray in `v_direction` (from the eye, of any length), and the
-/// pass in `u_eye`, `u_sun`, `u_reach_m` and `u_view_projection`. All calls need the GL context current.
+/// A program with a fragment shader that finds the pixel's ray in `v_direction` (from the eye, of any
+/// length), and the pass in `u_eye`, `u_sun`, `u_reach_m` and `u_view_projection`. All calls need the GL
+/// context current.
 class ScreenProgram {
  public:
   /// `peer` is named in the error.

@@ -12,7 +12,8 @@ namespace {
 
 constexpr float step_s = 1.0F / 60.0F;
 constexpr float gravity_m_s2 = 9.81F;
-/// Of rubble and of the ground, as ours (BodiesConfig): materials are no matter of solver or sleeping.
+/// The values of rubble and of the ground, like ours (BodiesConfig): materials are no matter of solver or
+/// sleeping.
 constexpr float restitution = 0.05F;
 constexpr float ground_friction = 0.7F;
 

@@ -11,7 +11,8 @@ struct VoroCell {
   std::vector<int> faces;       ///< each a count and that many corners
 };
 
-/// Of the seeds within a box that they lie in; any unit. Cells that voro++ does not find are left out.
+/// The cells of the seeds within a box in which they lie; any unit. Cells that voro++ does not find are left
+/// out.
 std::vector<VoroCell> voro_cells(glm::vec3 lo, glm::vec3 hi, const std::vector<glm::vec3>& seeds);
 
 double volume_of(const VoroCell& cell);

@@ -16,7 +16,7 @@ struct MetricSense {
   double floor = 0.0;
 };
 
-/// Of peers' figures, and of counts that only say how much was done, the sense is unknown.
+/// The sense of peers' figures is unknown, and so is that of counts that only say how much was done.
 MetricSense sense_of(std::string_view metric);
 
 }  // namespace scree

@@ -21,7 +21,7 @@ using nlohmann::json;
 constexpr uint32_t runs_max = 1000;
 constexpr size_t text_bytes_max = 2000;  ///< of one text; longer ones are cut
 
-/// Of four significant digits; JSON has no number for what is not finite.
+/// A number of four significant digits; JSON has no number for what is not finite.
 json rounded(double number) {
   if (!std::isfinite(number)) return nullptr;
   char text[32];

@@ -77,7 +77,7 @@ struct FightTime {
   double ticks = 0.0;
 };
 
-/// Of the ticks with fighting_wanted pieces and more.
+/// The time of the ticks with fighting_wanted pieces and more.
 FightTime time_of(const Fight& fight) {
   FightTime sum;
   for (size_t tick = 0; tick < fight.times.size(); ++tick) {

@@ -47,10 +47,10 @@ struct BenchOptions {
   bool quick = false;    ///< fewer rounds, only to show that it runs
   double minutes = 0.0;  ///< of the session, for benches that have one; 0: as many as fit into some minutes
   std::function<void(double fraction)> progress = [](double) {};
-  /// Of benches that take a scene (tools/scenes/scene.h): that one; null: the bench's own ground.
+  /// For benches that take a scene (tools/scenes/scene.h): that one; null: the bench's own ground.
   std::shared_ptr<const SceneSetup> scene{};
 
-  // Of benches that have parts.
+  // For benches that have parts.
   std::string part{};    ///< this one alone; empty: all
   std::string folder{};  ///< where worlds that take long to make are kept for later runs; empty: nowhere
   std::optional<uint32_t> world_mb{};  ///< of a world larger than memory

@@ -9,7 +9,7 @@
 
 namespace scree {
 
-/// Of every stage and of the whole tick ("total"), `when`_stage_median_ms and `when`_stage_p99_ms.
+/// Reports, for every stage and for the whole tick ("total"), `when`_stage_median_ms and `when`_stage_p99_ms.
 void report_stages(BenchReport& report, const std::string& when, std::span<const StageTimes> ticks);
 
 }  // namespace scree

@@ -47,7 +47,7 @@ class Watcher {
   void predict(bool on) { session_->predict(on); }
   bool joined() const { return session_->joined(steady_now_s()); }
   uint64_t mismatches() { return session_->mirror() == nullptr ? 0 : session_->mirror()->mismatches(); }
-  /// Of the strikes since the last call.
+  /// The frames of the strikes since the last call.
   std::vector<double> take_frames() { return std::exchange(frames_, {}); }
   size_t unpredicted() const { return unpredicted_; }
 

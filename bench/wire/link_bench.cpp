@@ -92,7 +92,7 @@ class BytesBefore {
     for (const Arrival& arrival : recent_)
       if (arrival.at_s > before_s) bytes_[arrival.kind] += static_cast<double>(arrival.bytes);
   }
-  /// Of a kind, before a frame on average.
+  /// The bytes of a kind before a frame, on average.
   double mean_bytes(size_t kind) const {
     return frames_ == 0 ? 0.0 : bytes_[kind] / static_cast<double>(frames_);
   }

@@ -23,7 +23,7 @@ constexpr float voxel_size_m = 0.25F;
 constexpr double bits_wanted = 3.0, position_wanted_mm = 2.0, rotation_wanted_deg = 0.5;
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
-/// Of this thread, so that other work of the machine does not count.
+/// The time of this thread, so that other work of the machine does not count.
 double now_ns() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -42,7 +42,7 @@ struct Errors {
   }
 };
 
-/// Of one way to send a scene's poses.
+/// The figures of one way to send a scene's poses.
 struct Sent {
   size_t bytes = 0, body_ticks = 0, body_steps = 0;
   double follow_ns = 0.0, encode_ns = 0.0, decode_ns = 0.0;

@@ -41,7 +41,7 @@ std::string sessions_lines(const std::vector<SessionRow>& sessions);
 Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish);
 std::string playback_json(const PlaybackMessage& playback);
 std::string playback_lines(const PlaybackMessage& playback);
-/// Of a wish for a tick that the recording has not, or not any more: that, and where it went; empty: it went
+/// Says that the recording does not have the wished tick, or no longer, and where it went; empty: it went
 /// there.
 std::string went_elsewhere(const ControlReplay& wish, const PlaybackMessage& playback);
 

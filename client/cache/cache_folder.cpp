@@ -31,7 +31,7 @@ std::string hex(uint64_t number) {
   return text;
 }
 
-/// Of an address, as the beginning of a file's name.
+/// An address as the beginning of a file's name.
 std::string name_of_address(const std::string& address) {
   std::string name = address.substr(0, limits::cache_name_bytes_max);
   for (char& c : name)

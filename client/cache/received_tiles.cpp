@@ -190,7 +190,7 @@ bool ReceivedTiles::has_near(glm::vec3 eye_m, float radius_m) const {
   return std::ranges::all_of(near(eye_m, radius_m), [this](TileKey key) { return has(key); });
 }
 
-/// Of each tile that is wanted the tile itself, or the first above it whose name is known.
+/// For each wanted tile, the tile itself or the first above it whose name is known.
 std::set<TileKey> ReceivedTiles::nameable(glm::vec3 eye_m, float radius_m) const {
   std::vector<TileKey> wanted = near(eye_m, radius_m);
   {

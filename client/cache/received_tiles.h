@@ -48,7 +48,7 @@ class ReceivedTiles final : public GroundModel {
     std::vector<uint8_t> packed;
     size_t bytes() const;
   };
-  /// Of the walk from the root to a stored chunk: the last key whose tile is there or wanted.
+  /// The end of the walk from the root to a stored chunk: the last key whose tile is there or wanted.
   struct Found {
     TileKey key;
     const Held* held = nullptr;  ///< null: it is not there

@@ -122,7 +122,8 @@ struct Renderer::Parts {
         view_radius_m(radius_m),
         description(describe()) {}
 
-  /// Of a picture of `shown` pixels along a side. Above 1, methods that draw pixel by pixel do so themselves.
+  /// The pixels that are drawn for a picture of `shown` pixels along a side. Above 1, methods that draw pixel
+  /// by pixel do so themselves.
   int drawn(int shown) const {
     const float pixels = static_cast<float>(shown) * std::min(fineness.render_scale, 1.0F);
     return std::max(static_cast<int>(pixels + 0.5F), 1);

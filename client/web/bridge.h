@@ -38,7 +38,7 @@ void scree_leave();
 
 /// What is to be done with the socket; ask after every frame. 0: nothing. 1: open one; asked once for each
 /// attempt, and never while one is open or opening: whether and when to try again is decided here. 2: close
-/// it. Of a socket that was closed by 2, or replaced, nothing may be passed on any more.
+/// it. After 2, or when a socket is replaced, nothing of the old socket may be passed on.
 int scree_socket_wish();
 /// The socket is open: the hello waits in scree_outgoing().
 void scree_socket_opened();

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// Of one frame.
+/// The intents of one frame.
 struct PageIntents {
   FlyInput fly;
   float wheel = 0.0F;

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of a socket whose welcome has come.
+/// The channel of a socket whose welcome has come.
 class SocketChannel final : public ServerChannel {
  public:
   explicit SocketChannel(PageSocket& socket) : socket_(socket), welcome_(*socket.intake().welcome()) {}

@@ -15,8 +15,8 @@ std::string named_file(const CLI::Option& config);
 /// What is wrong with an entry, taken alone; empty: nothing.
 using EntryCheck = std::function<std::string(const CLI::ConfigItem&)>;
 
-/// Of a file that was refused, the first entry that is at fault, with file and line; empty if none is by
-/// itself, or there is no such file.
+/// The first entry at fault of a refused file, with file and line; empty if no entry is at fault by itself,
+/// or there is no such file.
 std::string fault_in_file(const std::string& path, const EntryCheck& fault_of);
 
 }  // namespace scree

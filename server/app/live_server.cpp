@@ -188,7 +188,7 @@ void LiveServer::State::count(TickSchedule::Delay delay) {
               "tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
 }
 
-/// Of a tick that took `length` of a tick's length.
+/// Governs by a tick that took `length` of a tick's length.
 void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
   if (!governor) return;
   const uint32_t percent = feed->world()->config().work_percent;

@@ -16,8 +16,8 @@ ChunkCoord chunk_at(glm::vec3 place_m, float voxel_size_m);
 
 class PieceOutlook {
  public:
-  /// Of the tick that ended: each piece is looked at every limits::piece_look_ticks ticks. A chunk may come
-  /// more than once.
+  /// The chunks ahead of pieces after the tick that ended; each piece is examined every
+  /// limits::piece_look_ticks ticks. A chunk may come more than once.
   const std::vector<ChunkCoord>& look(const TickDelta& delta, float voxel_size_m);
 
  private:

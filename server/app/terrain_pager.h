@@ -33,19 +33,18 @@ Result<ReadChunk> chunk_reader(const std::string& path);
 
 class TerrainPager {
  public:
-  /// Of the world's file, from which the field's chunks can be read again. `bricks_max`: edited bricks in
-  /// memory; 0: as many as memory_max_mb allows.
-  /// `clients`: supplies their copies, on the network thread; it is started.
-  /// `resident_bytes` tells what the process has in RAM, by which terrain gives way to what the model does
-  /// not know of; null: to nothing.
+  /// Opens the world's file, from which the field's chunks can be read again. `bricks_max`: edited bricks in
+  /// memory; 0: as many as memory_max_mb allows. `clients`: supplies their copies, on the network thread; it
+  /// is started. `resident_bytes` tells what the process has in RAM, by which terrain gives way to what the
+  /// model does not know of; null: to nothing.
   static Result<std::unique_ptr<TerrainPager>> open(const std::string& path, Field& field,
                                                     std::shared_ptr<ChunkFetcher> clients, size_t bricks_max,
                                                     std::function<double()> resident_bytes = {});
 
   /// Puts chunks in that were read, before a tick.
   void begin_tick();
-  /// Of the tick that ended: `saved`: the tick up to which the file has everything. `soon`: chunks that
-  /// pieces will touch.
+  /// Ends the tick. `saved` is the tick up to which the file has everything. `soon`: chunks that pieces will
+  /// touch.
   void end_tick(const TickDelta& delta, Tick saved, std::span<const glm::vec3> eyes_m,
                 std::span<const ChunkCoord> soon, uint32_t memory_max_mb);
   /// Chunks that nobody needs would go out if they were saved.

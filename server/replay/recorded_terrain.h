@@ -20,7 +20,7 @@ class RecordedTerrain {
 
   /// The world of the state after a tick, whose value is given; its ground is there.
   Result<std::unique_ptr<World>> restore(const RecordedState& state);
-  /// Of a world that begins untouched.
+  /// Adopts a world that begins untouched.
   void adopt(World& world);
   /// After each tick of such a world: lets chunks go when there are too many.
   void make_room(World& world);

@@ -25,7 +25,7 @@ void append(TickDelta& to, const TickDelta& next) {
   to.spawned.insert(to.spawned.end(), next.spawned.begin(), next.spawned.end());
   std::ranges::stable_sort(to.spawned, {}, &SpawnedPiece::id);
   std::vector<BrickState> bricks;
-  // Of a brick that both changed, the first is taken: the later one.
+  // Where both changed a brick, the first one counts, which is the later.
   std::ranges::set_union(next.bricks, to.bricks, std::back_inserter(bricks), {}, &BrickState::coord,
                          &BrickState::coord);
   to.bricks = std::move(bricks);

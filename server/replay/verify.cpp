@@ -20,7 +20,7 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   auto state = recording.state(world->tick());
   TRY(state);
   if (!state->has_value() || !report.difference.empty()) return false;
-  // Of terrain that comes chunk by chunk, the value has the hash.
+  // Where terrain comes chunk by chunk, the value has its hash.
   const std::vector<uint8_t> own =
       encode((*state)->has_chunks ? WorldSnapshot{world->moment(), {}} : world->snapshot());
   const std::vector<uint8_t> said = encode((*state)->value);

@@ -29,7 +29,7 @@ struct ChunkFetcher::State {
 
   std::unique_ptr<WorldFile> file;  ///< of the thread
 
-  // Of whoever asks.
+  // Members of the asking thread.
   std::unordered_set<ChunkCoord, CoordHash> asked;
   std::unordered_map<ChunkCoord, Failure, CoordHash> failed;
 

@@ -1,4 +1,4 @@
-// Reads chunks of a world's file on a thread of its own, for whoever does not hold them in memory.
+// Reads chunks of a world's file on a thread of its own, for users that do not hold them in memory.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ class ChunkFetcher final : public ChunkSupply {
   void allow_bricks(size_t bricks) { bricks_max_.store(bricks, std::memory_order_relaxed); }
   void saved_up_to(Tick tick) { saved_.store(tick, std::memory_order_release); }
   uint64_t chunks_read() const { return read_.load(std::memory_order_relaxed); }
-  /// Whether the chunk could not be read lately, and why; of whoever calls ask().
+  /// Whether the chunk could not be read lately, and why; from the thread that calls ask().
   std::optional<std::string> unreadable(ChunkCoord chunk) const;
 
  private:

@@ -1,7 +1,7 @@
-// Derives the world's events from ticks. Of a simulated tick all follow, in the operations' order; a replay's
-// ticks do not say which stage applied an operation: there dents and crushes count as carves, and a large
-// carve's further cuts as breaks. A burst of merges is told when its time is over; those that are open when a
-// process ends, or goes on from a saved value, are nobody's. One thread at a time.
+// Derives the world's events from ticks. A simulated tick gives all events, in the operations' order; a
+// replay's ticks do not say which stage applied an operation: there dents and crushes count as carves, and a
+// large carve's further cuts as breaks. A burst of merges is told when its time is over; those that are open
+// when a process ends, or goes on from a saved value, are nobody's. One thread at a time.
 #pragma once
 
 #include <vector>

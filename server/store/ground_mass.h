@@ -15,10 +15,11 @@ namespace scree {
 /// By index_in_chunk(). A brick weighs at most 512 · 254 units.
 using MassByBrick = std::array<int32_t, chunk_bricks * chunk_bricks * chunk_bricks>;
 
-/// Of every brick of a chunk. Generates it.
+/// The masses of every brick of a chunk. Generates it.
 MassByBrick ground_masses(const TerrainSource& ground, ChunkCoord chunk);
 
-/// Of these bricks, by chunk. Generates each chunk. Bricks of a chunk may come in any order, each once.
+/// The masses of these bricks, by chunk. Generates each chunk. Bricks of a chunk may come in any order, each
+/// once.
 GroundMasses measured_ground(const TerrainSource& ground, std::span<const BrickPatch> bricks);
 
 }  // namespace scree

@@ -61,7 +61,7 @@ class KeyframeReader {
   Result<void> index();
   Result<void> read_chunks(KeyframeParts& parts, Tick tick, const KnownParts& known);
   Result<std::vector<BrickPatch>> read_chunk(const Row& row, ChunkCoord chunk);
-  /// Of a chunk, the latest row up to the tick; null when there is none.
+  /// The latest row of a chunk up to the tick; null when there is none.
   static const Row* latest(const std::vector<Row>& rows, Tick tick);
   Result<void> read_pieces(KeyframeParts& parts, const KnownParts& known);
   tl::unexpected<Error> damaged(const std::string& what, Tick tick) const;

@@ -55,7 +55,7 @@ inline constexpr size_t unsaved_chunks_max = 256;
 inline constexpr size_t chunks_between_saves_max = 256;
 
 /// Chunks that wait for the thread that reads them, or to be taken, for the simulation and for clients each:
-/// at most 4.5 MiB when all were read. Above: whoever wants more asks again.
+/// at most 4.5 MiB when all were read. Above: the asking side asks again later.
 inline constexpr size_t chunks_asked_max = 128;
 
 /// What SQLite keeps of a file's pages for one connection, KiB: rows are read once, only the upper pages of

@@ -70,7 +70,8 @@ class RecordingReader {
   /// The first tick that the log of events covers; nothing when the recording has none, as those of earlier
   /// releases.
   std::optional<Tick> events_from() const;
-  /// What happened in a tick that the log covers; most ticks have nothing. Of the machine: machine().
+  /// What happened in a tick that the log covers; most ticks have nothing. The machine's events are those of
+  /// machine().
   Result<std::vector<Event>> events(Tick tick);
   /// The world's events of the ticks from … to, in order; and what is recorded of the machine there.
   Result<std::vector<Event>> events(Tick from, Tick to);

@@ -13,7 +13,7 @@
 namespace scree {
 
 namespace limits {
-/// Of a ring; less would begin parts all the time, and says little of what happened. A ring of bytes keeps as
+/// Bounds of a ring. A shorter one would begin parts all the time and tell little. A ring of bytes keeps as
 /// many seconds, whatever they take. More seconds are refused as mistaken.
 inline constexpr double ring_seconds_min = 10.0, ring_seconds_max = 1.0e7;
 /// A minute of a storm of ten carves a second takes 50 MB (bench replay): less keeps next to nothing, and is
@@ -29,7 +29,7 @@ struct RingLimit {
   bool is_on() const { return seconds > 0.0 || bytes > 0; }
   double part_seconds() const { return (seconds > 0.0 ? seconds : limits::ring_seconds_min) / 8.0; }
   uint64_t part_bytes() const { return bytes / 8; }
-  /// Of SQLite's log beside the file, which counts, too; of all recordings.
+  /// The bytes of SQLite's log beside the file, which count, too; for all recordings.
   uint64_t log_bytes() const;
   bool operator==(const RingLimit&) const = default;
 };

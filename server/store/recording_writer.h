@@ -36,8 +36,8 @@ class RecordingWriter {
   /// Commits, and ignores errors.
   ~RecordingWriter();
 
-  /// Of a recording that has no tick yet, but a start: the commands of the next tick, which is recorded by
-  /// them alone. After the last such tick begin_at() takes the state.
+  /// For a recording that has a start, but no tick yet: adds the commands of the next tick, which is recorded
+  /// by them alone. After the last such tick begin_at() takes the state.
   Result<void> add_unseen(Tick tick, std::span<const Command> commands);
   /// `keyframe` and `read`: as RecordingStart has them; the next tick follows.
   Result<void> begin_at(const TickDelta& keyframe, ReadChunk read = {});

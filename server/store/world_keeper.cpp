@@ -74,13 +74,13 @@ struct WorldKeeper::State {
   KeeperConfig config;
   Tick period = 0;
 
-  // Of the caller's thread.
+  // Members of the caller's thread.
   ChangedBricks gathered;
   std::unordered_set<ChunkCoord, CoordHash> gathered_chunks;  ///< of those bricks
   Tick next_due = 0;                                          ///< 0: none by the clock
   bool over = false;                                          ///< nothing is saved any more, nor gathered
 
-  // Of the storage thread.
+  // Members of the storage thread.
   std::unique_ptr<WorldFile> file;
   KeptTerrain terrain;  ///< what the next save has to write; reads `file`
   std::thread thread;

@@ -65,7 +65,7 @@ struct KeeperStatus {
 
 /// The edited bricks of a chunk as the world has them now; empty: it does not have them.
 using ChunkNow = std::function<std::vector<BrickState>(ChunkCoord)>;
-/// Of a world's field, which has what changed until it is saved.
+/// Reads chunks of a world's field, which has the changed bricks until they are saved.
 ChunkNow chunk_now(Field& field);
 
 class WorldKeeper {

@@ -59,7 +59,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   /// As of Door.
   const std::string& address() const { return address_; }
   bool encrypted() const { return stream_->encrypted(); }
-  /// Of the last request, as HttpRequest says.
+  /// Whether a proxy relayed the last request (HttpRequest).
   bool relayed() const { return relayed_; }
   /// Between requests, or lingering: nobody waits for it.
   bool is_idle() const { return phase_ == Phase::lingering || (phase_ == Phase::head && !begun_); }

@@ -18,7 +18,7 @@ struct SuppliedChunk {
 class ChunkSupply {
  public:
   virtual ~ChunkSupply() = default;
-  /// Edited bricks that whoever asks may keep, but for those that are not saved yet.
+  /// Edited bricks that the asking side may keep, but for those that are not saved yet.
   virtual size_t bricks_max() = 0;
   /// Chunks whose last change was in this tick, or earlier, can be had.
   virtual Tick saved_tick() = 0;

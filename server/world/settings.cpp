@@ -98,8 +98,8 @@ constexpr std::array table{
         {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
 };
 
-/// Each member is bound by name: a new member that is not in the table does not compile. Of a WorldConfig,
-/// the terrain, the tick's length and merges_per_tick_max are fixed from the start.
+/// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
+/// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
                service, ground] = world;

@@ -56,7 +56,7 @@ class World {
   /// The same of a value without bricks, whose terrain is `terrain`.
   static Result<std::unique_ptr<World>> salvage(WorldSnapshot value, const PagedTerrain& terrain,
                                                 const GroundMasses& ground);
-  /// Of a configuration that validate() takes: it is checked.
+  /// The configuration must pass validate(), which is CHECKed.
   explicit World(const WorldConfig& config, size_t threads = 1);
   ~World();
   World(const World&) = delete;
@@ -84,7 +84,7 @@ class World {
   /// The edited bricks of a chunk, in order. One that is out is read, and stays out.
   std::vector<BrickPatch> chunk(ChunkCoord chunk);
   /// One delta that takes an empty PublishedState to this world: every edited brick, every piece and every
-  /// setting, without operations. Of chunks that are out, what is known of them.
+  /// setting, without operations. For chunks that are out, it has what is known of them.
   TickDelta keyframe();
   /// The same without bricks: of every chunk, what is known of one that is out.
   TickDelta outline();

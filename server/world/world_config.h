@@ -1,5 +1,5 @@
-// What a world is made from. May come from a command line, a file or a recording: whoever takes one in asks
-// validate().
+// What a world is made from. May come from a command line, a file or a recording: the code that reads one
+// calls validate().
 #pragma once
 
 #include <functional>
@@ -35,8 +35,8 @@ struct WorldConfig {
 /// shared/base/limits.h) and the way out.
 Result<void> validate(const WorldConfig& config);
 
-/// Refuses a terrain that is named but not there: a file names its ground, and whoever reads it has to find
-/// that first.
+/// Refuses a terrain that is named but not there: a file names its ground, and its reader has to find that
+/// first.
 Result<void> check_ground(const WorldConfig& config);
 /// Whether both are of one terrain; grounds of files are compared by their names.
 bool is_same_terrain(const WorldConfig& a, const WorldConfig& b);

@@ -23,7 +23,7 @@ struct Simulated {
 /// "field hull field facets radial": in the order of the members.
 std::string text_of(const Simulated& simulated);
 
-/// Every one. Of the patterns those that need no points: `authored` is no method, but points that somebody
+/// Every one. The patterns are those that need no points: `authored` is no method, but points that somebody
 /// sends.
 std::vector<Simulated> all_simulated();
 

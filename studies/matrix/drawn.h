@@ -34,7 +34,7 @@ class SessionDrawer {
 
   /// Takes in what changed since the last call, and draws all of it.
   Result<DrawnFrame> frame(MatrixSession& session);
-  /// Of the method, on the CPU's side and on the GPU's.
+  /// The memory of the method, on the CPU's side and on the GPU's.
   double memory_mib() const;
   Result<Image> picture();
   /// RMS distance of the drawn terrain from the field, along rays, in voxels, 3 at most, without outlines;

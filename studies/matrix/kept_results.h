@@ -16,7 +16,7 @@ namespace scree {
 /// A result's numbers, by name.
 using NamedFigures = std::map<std::string, double>;
 
-/// Of which runs results may be used together.
+/// Tells which runs' results may be used together.
 struct ResultsIdentity {
   std::string build;  ///< this_build() (studies/support/this_build.h)
   std::string machine;

@@ -13,7 +13,7 @@ BenchReport matrix_figures(const MatrixResults& results);
 /// with their scores and conditions, and ranking.csv, all combinations from the best balanced to the worst.
 Result<void> write_matrix_files(const MatrixResults& results, const std::string& folder);
 
-/// Of the wholes, how far each lies from what its parts foretell, as a share of it: the median.
+/// The median over the wholes of how far each lies from the sum of its parts, as a share of it.
 double foretelling_error(const MatrixResults& results);
 
 }  // namespace scree

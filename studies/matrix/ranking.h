@@ -24,14 +24,14 @@ inline constexpr std::array matrix_criteria{
 /// A combination's values, in the order of the criteria.
 using MatrixScore = std::array<double, matrix_criteria.size()>;
 
-/// Of each criterion, the share of all others that are better, 0 (none) to 1: equal values have equal ranks.
+/// For each criterion, the share of all others that are better, 0 (none) to 1: equal values have equal ranks.
 std::vector<MatrixScore> ranks_of(const std::vector<MatrixScore>& scores);
 
 /// Those than which none is as good in every criterion and better in one, in ascending order.
 std::vector<size_t> pareto_front(const std::vector<MatrixScore>& scores);
 
-/// Of the front, that whose worst rank is the least; of several, that with the least sum of ranks, and then
-/// the first. `scores` must not be empty.
+/// The member of the front whose worst rank is the least; among several, that with the least sum of ranks,
+/// and then the first. `scores` must not be empty.
 size_t balanced_choice(const std::vector<MatrixScore>& scores);
 
 /// The least in one criterion; of several, that which is least in the sum of its ranks.

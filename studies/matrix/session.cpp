@@ -33,8 +33,8 @@ CarveRequest blow_number(uint32_t number, SeedPattern pattern, uint32_t seeds) {
   return blow;
 }
 
-/// Of a piece's surface and of its body's, as if both were balls: a ball of radius r whose volume is off by a
-/// share e has its surface off by r·e/3.
+/// The distance of a piece's surface from its body's, as if both were balls: a ball of radius r whose volume
+/// is off by a share e has its surface off by r·e/3.
 double body_distance_voxels(const SpawnedPiece& piece, Simplifier simplifier, float voxel_size_m) {
   constexpr double ball = 4.18879;  // volume of radius 1
   const PieceHull hull = make_hull(piece.id, *piece.volume, voxel_size_m, simplifier);

@@ -21,9 +21,9 @@ struct CutFigures {
 
 Result<CutFigures> measure_cut(Cutter cutter, SeedPattern pattern, uint32_t seeds);
 
-/// Of the same pieces, merged each at a place of its own: RMS distance of the terrain from the union of
-/// terrain and piece; mean error of the mass gained, in percent of a piece. Recombination::off merges
-/// nothing: no error.
+/// The same pieces, merged each at a place of its own: RMS distance of the terrain from the union of terrain
+/// and piece; mean error of the mass gained, in percent of a piece. Recombination::off merges nothing: no
+/// error.
 struct MergeFigures {
   double rms_voxels = 0.0;
   double mass_percent = 0.0;

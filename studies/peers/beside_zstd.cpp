@@ -49,7 +49,7 @@ class Zstd {
   ZSTD_DCtx* decompressor_;
 };
 
-/// Of one carve.
+/// The sizes of one carve.
 struct Sizes {
   double operation = 0.0, chunk_codec = 0.0;
   double each_brick = 0.0, one_frame = 0.0, one_frame_high = 0.0, pieces = 0.0;

@@ -27,7 +27,7 @@ struct Comparison {
   std::vector<double> ratios() const;
   /// Their median; 0: there are none.
   double ratio() const;
-  /// Of the ratios, in percent; of the side that has something where there are none.
+  /// The spread of the ratios, in percent; where there are none, that of the side that has values.
   double spread() const;
 };
 
@@ -46,7 +46,7 @@ struct PeerFindings {
   /// The figure of that name, made if need be by the first run.
   Comparison& figure(const std::string& name, const std::string& what, double noise_percent,
                      bool more_is_better = false);
-  /// Of all runs: what failed once has failed.
+  /// A check over all runs: it fails if it failed once.
   void check(const std::string& check_name, bool passed, const std::string& detail);
 };
 

@@ -23,7 +23,7 @@ constexpr int height_px = 460;
 constexpr double gnuplot_s_max = 60.0;
 constexpr int gnuplot_pause_ms = 20;
 
-/// Of Okabe and Ito: people with any kind of colour vision tell them apart, on white.
+/// The colours of Okabe and Ito: people with any kind of colour vision tell them apart, on white.
 constexpr std::array<std::string_view, 7> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#000000"};
 /// gnuplot's numbers of filled marks: disc, square, triangle, diamond, …

@@ -43,7 +43,7 @@ std::string cells(const std::vector<std::string>& texts, std::string_view elemen
 /// beside its letters: in DejaVu Sans, which is a wide font.
 constexpr size_t page_px = 952, letter_px = 9, cell_px = 13;
 
-/// Of the longest word, which a browser does not break.
+/// The length of the longest word, which a browser does not break.
 size_t longest_word(const std::string& text) {
   size_t longest = 0, letters = 0;
   for (const char c : text) {

@@ -52,7 +52,7 @@ class Curve {
   /// they do not lie.
   std::vector<double> spreads() const;
   std::optional<PowerLaw> law() const { return fit_power_law(points()); }
-  /// Of the last three sizes, where fixed costs count least.
+  /// The law of the last three sizes, where fixed costs count least.
   std::optional<PowerLaw> law_at_end() const;
 
  private:

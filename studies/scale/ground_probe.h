@@ -20,7 +20,7 @@ struct ProbeTimes {
   double idle = 0.0;     ///< a tick when all lies still, the median
 };
 
-/// Of what happened, to be compared with other worlds.
+/// Counts of events, to be compared with other worlds.
 struct ProbeCounts {
   size_t pieces = 0;
   size_t merged = 0;

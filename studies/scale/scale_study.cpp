@@ -106,7 +106,7 @@ std::string place_of(const Wall& wall) {
                      wall.x_unit);
 }
 
-/// Of an axis's walls the one that is met first on its way; null when none is met.
+/// The wall of an axis that is met first; null when none is met.
 const Wall* first_of(const std::vector<Wall>& walls, const std::string& axis) {
   const Wall* first = nullptr;
   const bool shrinks = axis == "Voxel size";

@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// Of the seconds that count.
+/// The load of the seconds that count.
 struct ServedLoad {
   double server_ms_s = 0.0;      ///< processor time of the server's process, milliseconds a second
   double simulation_ms_s = 0.0;  ///< of it the simulation's thread; its helpers are not in this

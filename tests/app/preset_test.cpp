@@ -1,4 +1,4 @@
-// Presets of the server's options: what each gives, and what stands over it.
+// Presets of the server's options: what each gives, and what overrides it.
 #include "shared/base/preset.h"
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ std::variant<ServerOptions, int> parse_preset(std::vector<std::string> arguments
   return parse_server_options(static_cast<int>(pointers.size()), pointers.data());
 }
 
-/// Of options that must be taken.
+/// The configuration by options that must be accepted.
 LiveConfig live_by(const std::vector<std::string>& arguments) {
   const auto parsed = parse_preset(arguments);
   const auto* options = std::get_if<ServerOptions>(&parsed);

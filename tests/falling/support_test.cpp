@@ -37,7 +37,7 @@ bool any_by_load(const SupportFound& found) {
   return std::ranges::any_of(found.overloads, [](const Overload& one) { return !one.by_leverage; });
 }
 
-/// Of the layers along y within the box, the least count of solid voxels.
+/// The least count of solid voxels of a layer along y within the box.
 int64_t least_section(Field& field, const VoxelBox& box) {
   const Window window = gather(field, box);
   int64_t least = INT64_MAX;

@@ -1,4 +1,4 @@
-// Chunks out of memory: what is left of them, and that whoever needs one does not notice.
+// Chunks out of memory: what is left of them, and that a user of one does not notice.
 #include <gtest/gtest.h>
 
 #include "server/field/vdb_field.h"

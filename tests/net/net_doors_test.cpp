@@ -1,4 +1,4 @@
-// Crowds, floods and guesses on loopback: whoever behaves comes in and stays.
+// Crowds, floods and guesses on loopback: clients that behave come in and stay.
 #include <gtest/gtest.h>
 #include <set>
 #include <string>

@@ -1,5 +1,5 @@
 // Clients that come back with chunks that they have kept: those that are as they were are not sent again, and
-// whoever does not tell the truth harms himself alone.
+// a client that lies harms itself alone.
 #include <gtest/gtest.h>
 
 #include "tests/support/net_server_fixture.h"

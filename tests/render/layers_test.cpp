@@ -46,7 +46,7 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
     return draw();
   }
 
-  /// Of the wall between two depths, m below the ground.
+  /// The colour of the wall between two depths, m below the ground.
   Colour wall(const Image& image, float from_m, float to_m) const {
     const float half = std::tan(camera_.field_of_view * 0.5F);
     const auto row = [&](float depth_m) {
@@ -64,7 +64,7 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
     return {sum.red / n, sum.green / n, sum.blue / n};
   }
 
-  /// For whoever wants to look: SCREE_PICTURES names a folder.
+  /// To look at the pictures: SCREE_PICTURES names a folder.
   void keep(const Image& image, const std::string& name) {
     const char* folder = std::getenv("SCREE_PICTURES");
     if (folder == nullptr) return;

@@ -22,7 +22,7 @@ class Raymarch : public OffscreenTest {
     }
     pieces_.clear();
   }
-  /// Of a method that never saw any edit, only the field as it is now.
+  /// The picture of a method that never saw any edit, only the field as it is now.
   Image draw_afresh() {
     const std::unique_ptr<DrawMethod> fresh = make_method();
     finish(*fresh);

@@ -28,7 +28,7 @@ TEST(PowerLaw, a_law_is_found_again_exactly) {
   }
 }
 
-/// Of many fits to noisy points about 95 in 100 have the true exponent in their interval.
+/// About 95 in 100 fits to noisy points have the true exponent in their interval.
 TEST(PowerLaw, the_interval_holds_the_exponent_as_often_as_it_says) {
   Random random(3);
   int held = 0;

@@ -39,7 +39,7 @@ std::vector<Layer> bench_layers() {
   };
 }
 
-/// Of the programs, and of the tests.
+/// The layers of the programs and of the tests.
 std::vector<Layer> other_layers() {
   return {
       {"cmake/", {}},  // precompiled headers of libraries

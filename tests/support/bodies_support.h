@@ -19,7 +19,7 @@ inline void step(Bodies& bodies, int ticks) {
   for (int i = 0; i < ticks; ++i) bodies.step();
 }
 
-/// Takes a ball out of the ground, and tells whoever is given.
+/// Takes a ball out of the ground, and tells the given bodies.
 template <typename... Listener>
 void dig(Field& field, glm::vec3 centre_m, float radius_m, Listener&... listeners) {
   CarveOperation carve;

@@ -60,7 +60,7 @@ TEST(Layout, what_has_room_gets_what_it_wants) {
       << "a small one does not shrink for a large one";
 }
 
-/// Of a session in which everything happens at once.
+/// Facts of a session in which everything happens at once.
 HudFacts crowded_facts() {
   HudFacts facts;
   facts.connection = "a-server-with-a-long-name.example.org:40000, as administrator";
@@ -95,7 +95,7 @@ HudFacts crowded_facts() {
   return facts;
 }
 
-/// Of a replay that somebody else controls, with events of all kinds.
+/// The timeline of a replay that somebody else controls, with events of all kinds.
 Timeline crowded_timeline() {
   Timeline timeline;
   timeline.begin(60.0);

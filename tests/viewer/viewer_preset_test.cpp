@@ -1,4 +1,4 @@
-// Presets of the viewer's options: what each gives, and what stands over it.
+// Presets of the viewer's options: what each gives, and what overrides it.
 #include <cstdlib>
 #include <gtest/gtest.h>
 

@@ -61,7 +61,7 @@ double carve_ms(int place, uint32_t pieces) {
   return watch.lap_ms();
 }
 
-/// Of one piece, of those of a carve, where they were cut.
+/// The time to merge one piece of a carve where it was cut.
 double merge_ms(int place) {
   MapField field(terrain);
   PieceTable table;

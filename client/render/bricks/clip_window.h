@@ -30,7 +30,8 @@ struct ClipEntry {
   static constexpr unsigned paint_shift = 32 - paint_bits;
   static constexpr uint32_t before_kind_max = (1U << (paint_shift - 24U)) - 1U;
 
-  /// Of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a brick.
+  /// The kind of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a
+  /// brick.
   enum BeforeKind : uint32_t { same = 0, mixed = 1, air = 2, rock = 3 };
   static_assert(rock <= before_kind_max, "the paint number leaves no room for the kind");
 

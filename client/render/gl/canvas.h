@@ -20,8 +20,8 @@ struct Canvas {
 
 class Canvases {
  public:
-  /// Of that size; `samples` as many as the driver has, at most. Fails if it cannot make them so large. What
-  /// is there already of the size stays.
+  /// Makes a canvas of that size; `samples` are at most as many as the driver has. Fails if it cannot make
+  /// them so large. What is there already of the size stays.
   Result<void> prepare(int width, int height, int samples);
 
   /// Whether the last prepare() made them.

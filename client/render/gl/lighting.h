@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// Of the program in use. Binds the shadow map to that texture unit.
+/// Sets the uniforms of the program in use. Binds the shadow map to that texture unit.
 void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_unit);
 
 }  // namespace scree

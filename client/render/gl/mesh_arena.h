@@ -30,7 +30,7 @@ class MeshArena {
   /// In their order. Returns the number of GL draw calls: one, but one a mesh with OpenGL ES.
   size_t draw(std::span<const Slot> slots);
 
-  /// Of the meshes that are in here.
+  /// The bytes of the meshes that are in here.
   size_t bytes() const;
 
  private:

@@ -3,7 +3,7 @@
 
 namespace scree {
 
-/// Of the bound array object and buffer.
+/// Describes the vertices of the bound array object and buffer.
 void describe_surface_vertices();
 
 }  // namespace scree

@@ -26,7 +26,7 @@ class GridPoints {
   size_t gpu_bytes() const;
 
  private:
-  /// Of one axis: its points, metres, and the level of detail that is read at each.
+  /// One axis: its points, metres, and the level of detail that is read at each.
   struct Line {
     std::vector<int> voxels;
     std::vector<int> levels;

@@ -13,11 +13,11 @@
 namespace scree {
 namespace {
 
-/// Of the field as generated: from here on, looks are those of a cut (client/shaders/bricks.glsl).
+/// A code of the field as generated: from here on, looks are those of a cut (client/shaders/bricks.glsl).
 constexpr Code cut_begins = -10;
 /// From here on, on either side, nothing of the weathered ground is left.
 constexpr Code worn_all = 58;
-/// Of the same above a surface: from here on, it faces another way than the generated one.
+/// A code of the same above a surface: from here on, it faces another way than the generated one.
 constexpr int turned_begins = 44;
 /// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
 constexpr float probe_voxels = 2.75F;

@@ -18,7 +18,8 @@ struct BlockWindows {
   std::map<BrickCoord, Material> paint;
   TerrainSource source;
 
-  /// Of the cells in the mask alone, if there is one, and with vertices at those places (surface_nets.h).
+  /// The mesh of the cells in the mask alone, if there is one, with vertices at those places
+  /// (surface_nets.h).
   SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;

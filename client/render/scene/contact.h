@@ -14,7 +14,7 @@ struct Contact {
   float radius_m = 0.0F;
 };
 
-/// Of the pieces, at most limits::contacts_max: those nearest to the eye.
+/// The contacts of at most limits::contacts_max pieces, those nearest to the eye.
 std::vector<Contact> contacts_of(const ScenePieces& pieces, float voxel_m, glm::vec3 eye_m);
 
 }  // namespace scree

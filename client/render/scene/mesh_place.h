@@ -14,7 +14,7 @@ struct MeshPlace {
   float step;
 };
 
-/// Of a mesh in samples of the level.
+/// The place of a mesh in samples of the level.
 inline MeshPlace place_of(VoxelCoord origin, int level) {
   const auto side = static_cast<float>(1 << level);
   const glm::vec3 at(static_cast<float>(origin.x), static_cast<float>(origin.y),

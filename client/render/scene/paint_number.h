@@ -19,12 +19,13 @@ inline constexpr uint8_t paint_in_cuts = 1U << paint_material_bits;
 inline constexpr unsigned paint_bits = paint_material_bits + 1;
 static_assert(kind_count<Material> < paint_in_cuts, "more materials than paint_material_bits can tell");
 
-/// Of a brick painted with the material, if it is painted.
+/// The number of a brick painted with the material, if it is painted.
 constexpr uint8_t paint_number(std::optional<Material> paint) {
   return paint ? static_cast<uint8_t>(1 + static_cast<int>(*paint)) : uint8_t{0};
 }
 
-/// Of a layer that shows where a cut lays it bare. A cut through rock shows fresh rock, which is no paint.
+/// The number of a layer that shows where a cut lays it bare. A cut through rock shows fresh rock, which is
+/// no paint.
 constexpr uint8_t layer_number(Material layer) {
   return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>(paint_number(layer) | paint_in_cuts);
 }
@@ -34,13 +35,13 @@ constexpr uint8_t layer_number(Material layer) {
 inline constexpr float layer_step_m = 0.02F;
 inline constexpr int layer_steps_max = 255 / paint_in_cuts;
 
-/// Of a vertex: the number of the brick's paint, and metres within the ground's layer.
+/// The byte of a vertex: the number of the brick's paint, and metres within the ground's layer.
 constexpr uint8_t vertex_paint(uint8_t brick_paint, float layer_m) {
   const auto steps = static_cast<int>(layer_m / layer_step_m + 0.5F);
   return static_cast<uint8_t>(brick_paint + paint_in_cuts * std::clamp(steps, 0, layer_steps_max));
 }
 
-/// Of a piece's vertices, by its paint number. The place it comes from tells which layer it is of.
+/// The byte of a piece's vertices, by its paint number. The place it comes from tells which layer it is of.
 constexpr uint8_t vertex_paint(uint8_t piece_paint) {
   return piece_paint < paint_in_cuts ? piece_paint : vertex_paint(0, 1.0F);
 }

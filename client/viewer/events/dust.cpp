@@ -40,7 +40,7 @@ constexpr Throw throw_of(PieceEventKind kind) {
   return {};
 }
 
-/// Of the dust; rock as generated is sandstone (client/shaders/rock.glsl).
+/// The colour of the dust; rock as generated is sandstone (client/shaders/rock.glsl).
 glm::vec3 colour_of(Material material) {
   if (material == Material::rock) return {0.58F, 0.37F, 0.21F};
   const auto& [r, g, b] = traits_of(material).albedo;

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// Of one frame.
+/// The input of one frame.
 struct FlyInput {
   glm::vec3 move{0.0F};  ///< right, up, forward, as parts of the full speed; together at most that
   bool fast = false;

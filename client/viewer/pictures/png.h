@@ -13,7 +13,7 @@ Result<void> write_png(const std::string& file, const Image& image);
 /// The picture of that frame in a folder: 000000.png is the first.
 Result<void> write_frame(const std::string& folder, size_t frame, const Image& image);
 
-/// Of at most limits::image_side_max pixels a side; transparency is lost.
+/// Reads a picture of at most limits::image_side_max pixels a side; transparency is lost.
 Result<Image> read_png(const std::string& file);
 
 }  // namespace scree

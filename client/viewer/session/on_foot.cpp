@@ -10,7 +10,7 @@
 namespace scree {
 namespace {
 
-/// Of the eye's height over the feet, in a second: steps are climbed without a jolt.
+/// How fast the eye's height over the feet changes, so that steps are climbed without a jolt.
 constexpr float rise_m_s = 3.0F;
 
 }  // namespace

@@ -107,14 +107,14 @@ class ViewerSession {
   bool gave_up() const { return gave_up_; }
   /// Seconds until the next attempt; nothing while there is a connection, or an attempt.
   std::optional<double> next_try_s(double now_s) const;
-  /// Of the connection; nothing without one.
+  /// The counters of the connection; nothing without one.
   std::optional<ConnectionCounters> traffic() const;
-  /// Of the connection; null without one.
+  /// The welcome of the connection; null without one.
   const WelcomeMessage* welcome() const { return connection_ ? &connection_->welcome() : nullptr; }
   /// The longest time that a message took to be applied, milliseconds.
   double apply_worst_ms() const { return apply_worst_ms_; }
   double received_bytes_per_s() const { return bytes_per_s_; }
-  /// Of the world's time; and its rate.
+  /// The pace of the world's time, and its rate.
   const Pace& pace() const { return pace_; }
   double tick_rate_hz() const { return tick_rate_hz_; }
   /// Whether the server plays a recording; and where it stands, known from its first word of that on.

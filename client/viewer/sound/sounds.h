@@ -18,7 +18,7 @@ class Sounds {
   /// `aloud`: by the device, if there is one; `file`: a WAV, empty: none. Fails if that cannot be written.
   static Result<Sounds> begin(bool aloud, const std::string& file);
 
-  /// Of what happened, the greatest impulse first; the first limits::sounds_per_step_max are heard.
+  /// Plays the events, the greatest impulse first; the first limits::sounds_per_step_max are heard.
   void step(std::vector<PieceEvent> events, const Camera& camera, double now_s);
   /// Whether nobody hears anything: then step() costs nothing.
   bool silent() const { return !speaker_ && !file_; }

@@ -26,8 +26,8 @@ class Synthesiser {
   /// No sample is beyond it, however much happens at once.
   static constexpr float peak_max = 0.95F;
 
-  /// Sounds from the next sample on, later by its way to the ears. Of more than limits::voices_max the
-  /// quietest end.
+  /// Sounds from the next sample on, later by its way to the ears. Beyond limits::voices_max, the quietest
+  /// voices end.
   void add(const PieceEvent& event, const Ears& ears);
   /// The next `frames` samples of both channels, left and right in turn, −1 to 1. Zeroes while nothing
   /// sounds.

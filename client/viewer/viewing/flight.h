@@ -19,7 +19,7 @@ class Flight {
   /// Drawn so far.
   size_t frames() const { return frame_; }
 
-  /// One line of JSON (frame_times.h). Of a flight that is over.
+  /// One line of JSON (frame_times.h). The times of a flight that is over.
   std::string times(const Viewing& viewing) const;
 
  private:

@@ -19,7 +19,7 @@
 
 namespace scree {
 
-/// Of --quality and the settings, beside the presets' names: by the first frames.
+/// A value of --quality and the settings, beside the presets' names: the first frames decide.
 inline constexpr std::string_view auto_name = "auto";
 
 struct ViewerOptions : ServerEndpoint {

@@ -28,7 +28,7 @@ class Viewing : public Visit {
 
   const ViewerOptions& options;
   ScreenshotQueue screenshots;
-  /// Of the picture compared with --reference.
+  /// The difference of the picture to --reference.
   std::optional<double> difference;
 
  private:

@@ -6,7 +6,7 @@
 namespace scree {
 namespace {
 
-/// Of the shape in the person's hand.
+/// The colour of the shape in the person's hand.
 LineColour preview_colour(const Tool& tool) {
   constexpr uint8_t opacity = 150;
   switch (tool.use) {

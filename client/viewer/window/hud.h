@@ -49,8 +49,8 @@ class Hud {
   /// Below everything: a method that is being made ready, and what there is to say now, a line each; where
   /// there is no room for all lines, the last ones. Nothing when there is nothing.
   void messages(const HudFacts& facts, const std::vector<std::string>& lines);
-  /// Of a replay, below everything else: its events, where it stands, and by what to move it. Nothing before
-  /// it is known.
+  /// Below everything else, in a replay: its events, where it stands, and the controls that move it. Nothing
+  /// before it is known.
   void timeline(Timeline& timeline, double now_s);
   /// The persons' names, over their figures in the picture, but for one through whose eye one looks.
   void names(const Figures& figures, const glm::mat4& view_projection,

@@ -19,7 +19,7 @@ class HudPanels {
   void begin(PanelPlace place);
   void end();
 
-  /// Of the panels begun in this frame; empty where there is none, or none seen yet.
+  /// The rectangles of the panels begun in this frame; empty where there is none, or none seen yet.
   const PanelRectangles& rectangles() const { return seen_; }
   /// Whether the panel there had less height than it wants, in this frame; or less width, which hides the
   /// ends of its lines.

@@ -12,7 +12,7 @@ class HudScreen {
  public:
   /// Needs the window's GL context current, as all calls then do.
   explicit HudScreen(const AppWindow& window);
-  /// Of that size, pixels; what is drawn goes nowhere.
+  /// A screen of that size, pixels; its drawing goes nowhere.
   explicit HudScreen(glm::vec2 size);
   ~HudScreen();
   HudScreen(const HudScreen&) = delete;

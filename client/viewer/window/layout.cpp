@@ -21,7 +21,7 @@ float gap(float a, float b) {
   return a > 0.0F && b > 0.0F ? panel_margin : 0.0F;
 }
 
-/// Of the left and the right column, as wanted.
+/// The widths of the left and the right column, as wanted.
 std::pair<float, float> column_widths(const PanelSizes& wanted) {
   const auto width = [&](PanelPlace above, PanelPlace below) {
     return std::max(wanted[index_of(above)].x, wanted[index_of(below)].x);

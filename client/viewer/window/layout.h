@@ -41,7 +41,7 @@ inline constexpr float strip_share_max = 0.25F;
 /// less than it wants, it scrolls.
 PanelRectangles lay_out(glm::vec2 screen, const PanelSizes& wanted);
 
-/// Of both columns as wanted, with the margins.
+/// The width of both columns as wanted, with the margins.
 float columns_width(const PanelSizes& wanted);
 
 bool intersect(const Rectangle& a, const Rectangle& b);

@@ -58,7 +58,7 @@ int complain(const Error& error) {
   return failed;
 }
 
-/// Of the rows of chunks.
+/// Sums over the rows of chunks.
 struct ChunkSums {
   uint64_t chunks = 0, bricks = 0, bytes = 0;
 };

@@ -40,7 +40,7 @@ PlotSeries draw_series(const SessionFound& session, double from_s, double until_
   return series;
 }
 
-/// Of the user, who did the same in both sessions.
+/// The events of the user, who did the same in both sessions.
 std::vector<PlotEvent> user_events(const SessionFound& session, double from_s, double until_s) {
   std::vector<PlotEvent> events;
   for (const SessionTick& tick : session.ticks) {

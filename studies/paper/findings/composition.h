@@ -24,7 +24,7 @@ struct FigureText {
 ReportSection figure_section(const FigureText& text, std::vector<Plot> plots,
                              std::vector<ReportTable> tables = {});
 
-/// Of the paper's list of carves (bench/peers/csg_list.h), wherever it stands beside the atlas.
+/// A note on the paper's list of carves (bench/peers/csg_list.h), wherever it stands beside the atlas.
 inline constexpr std::string_view list_draws_otherwise =
     "The list draws a terrain of its own noise, by a plain sun and without pieces: how much slower it gets "
     "can "

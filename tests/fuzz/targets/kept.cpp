@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::span<const uint8_t>;
 
-/// Of a value that is restored; those beyond are decoded alone.
+/// The sizes of a value that is restored; larger ones are only decoded.
 constexpr size_t pieces_max = 8, bricks_max = 64;
 constexpr int ticks = 3;
 constexpr int32_t samples_max = 300;  ///< of a ground, a side

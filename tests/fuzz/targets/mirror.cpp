@@ -148,7 +148,7 @@ ChunkMessage any_chunk(FuzzInput& input) {
   return chunk;
 }
 
-/// Of chunks that the mirror offered, as if.
+/// A note on chunks, as if the mirror had offered them.
 KeptMessage any_kept(FuzzInput& input) {
   KeptMessage kept;
   for (uint32_t count = input.below(4); count > 0; --count) {

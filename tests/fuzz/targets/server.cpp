@@ -67,7 +67,7 @@ HelloMessage any_hello(FuzzInput& input, FuzzServer& server) {
   return hello;
 }
 
-/// Of chunks in order, which the client need not have.
+/// An offer of chunks in order, which the client need not have.
 OfferMessage any_offer(FuzzInput& input, FuzzServer& server) {
   const FuzzClient* const client = any_client(input, server);
   OfferMessage offer{client == nullptr ? 1 : client->world, any_chunks(input), {}};

@@ -11,7 +11,7 @@
 namespace scree {
 namespace {
 
-/// Of all limits of a message's content together: 4,096 bricks, or a volume, and small things beside.
+/// All limits of a message's content together: 4,096 bricks, or a volume, and small things beside.
 constexpr size_t decoded_bytes_max = size_t{64} << 20;
 
 }  // namespace

@@ -107,7 +107,7 @@ class Ends {
   void step(FuzzInput& input) {
     const uint32_t kind = input.below(16);
     if (kind == 0) client_.write(input.number<uint16_t>() % 9000);
-    // Whoever is written to first is written to plainly.
+    // An end that is written to first is written to plainly.
     if (kind == 1 && client_.received() + server_.received() > 0)
       server_.write(input.number<uint16_t>() % 9000);
     if (kind == 2 && !plain_) damage_ = input.byte();
