@@ -1,15 +1,22 @@
 // What stands at the beginning of a .ground file: an elevation model without its tiles, the place of the
 // chunks that are stored, and the hash by which the ground is named.
 //
-// A file, little-endian: the header, of header_bytes: 8 bytes "SCREEGND", u32 version, u32 columns, u32 rows,
-// f32 cell (metres), i32 lowest and highest sample, f32 soil below and ice above (metres), f32 the height
-// that y = 0 has in the source (metres), 32 bytes SHA-256 of the coarsest tile; u32 1 if there are stored
-// chunks, else 0, f32 their voxels (metres), i32 x, y and z of their box's first chunk and of that beyond its
-// last, 32 bytes SHA-256 of their root; 32 bytes SHA-256 of all this, the ground's name; u64 where the index
-// begins and u64 where that of stored chunks does, zeros. Then the tiles (proto/ground.proto, TILE and
-// CHUNK); then the index: for each tile, by level, z and x, u64 where it begins and u32 its bytes; then the
-// index of stored chunks: u32 how many, and for each i32 level, x, y and z, u64 where it begins and u32 its
-// bytes.
+// A file is little-endian. It begins with a header of header_bytes:
+//   8 bytes   "SCREEGND"
+//   u32       version, columns, rows
+//   f32       cell (metres)
+//   i32       lowest and highest sample
+//   f32       soil below and ice above (metres), the height that y = 0 has in the source (metres)
+//   32 bytes  SHA-256 of the coarsest tile
+//   u32       1 if there are stored chunks, else 0
+//   f32       their voxels (metres)
+//   i32       x, y and z of their box's first chunk, and of the one beyond its last
+//   32 bytes  SHA-256 of their root
+//   32 bytes  SHA-256 of all this, the ground's name
+//   u64       where the index begins, and where that of stored chunks does; then zeros
+// The tiles follow (proto/ground.proto, TILE and CHUNK). Then the index has for each tile, by level, z and x,
+// its beginning (u64) and its bytes (u32). The index of stored chunks ends the file: their number (u32), and
+// for each its level, x, y and z (i32), its beginning (u64) and its bytes (u32).
 #pragma once
 
 #include <optional>

@@ -168,7 +168,7 @@ Result<LinkConfig> read_link(std::string_view text) {
   LinkConfig link;
   if (text.empty()) return link;
   const auto parts = TRY(read_parts(text));
-  for (const bool of_one_way : {false, true})  // it stands over what is said of both, whichever comes first
+  for (const bool of_one_way : {false, true})  // it overrides the value for both, whichever comes first
     for (const Part& part : parts) {
       if (part.way.empty() == of_one_way) continue;
       const Result<void> read = part.name == "seed" ? read_seed(part, link) : read_property(part, link);

@@ -3,10 +3,10 @@
 // frames means nothing.
 //
 // The other end is refused, with the close code in brackets, for frames without a mask, reserved bits and
-// opcodes, fragments out of order (1002), text (1003), closing reasons that are no UTF-8 (1007), more frames
-// without payload than limits::bare_frames_per_second_max (1008), and frames over the limit (1009); by a
-// close without a code, for lengths in a longer form than needed, and control frames that are long or cut.
-// Pings are answered, and so is its close.
+// opcodes, fragments out of order (1002), text (1003) and closing reasons that are no UTF-8 (1007). So are
+// more frames without payload than limits::bare_frames_per_second_max (1008), and frames over the limit
+// (1009). A close without a code refuses lengths in a longer form than needed, and control frames that are
+// long or cut. Pings are answered, and so is its close.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// What recordings cost while they are written, and how fast they are read: ticks with and without recording,
-// bytes of a minute, keyframes of a world of 10,000 edited chunks, a long session of eight bots that is
-// sought in and verified.
+// The cost of writing recordings, and the speed of reading them. It measures ticks with and without
+// recording, bytes of a minute, and keyframes of a world of 10,000 edited chunks. It seeks in and verifies a
+// long session of eight bots.
 #include <algorithm>
 #include <fmt/format.h>
 #include <thread>

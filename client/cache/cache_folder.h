@@ -2,9 +2,9 @@
 // that neither a crash nor two clients at once leave half of one: who writes last is read next. It is only a
 // cache: a file that cannot be written or read is as none. Used by one thread at a time.
 //
-// A file, little-endian: u64 a number that says what it is, u64 world, f32 voxel size (metres); then for each
-// chunk, the one used last at the end: u32 bytes of its bricks, i32 x, y, z, u64 hash, the bricks as in
-// Chunk.bricks (proto/scree.proto).
+// A file is little-endian. It begins with a number that says what it is (u64), the world (u64) and the voxel
+// size in metres (f32). Then it has for each chunk the bytes of its bricks (u32), x, y and z (i32), its hash
+// (u64), and the bricks as in Chunk.bricks (proto/scree.proto). The chunk used last is at the end.
 #pragma once
 
 #include <cstdint>

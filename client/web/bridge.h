@@ -36,9 +36,9 @@ void scree_leave();
 
 // ---- the WebSocket: path /session of the page's own server, binary messages
 
-/// What is to be done with the socket; ask after every frame. 0: nothing. 1: open one; asked once for each
-/// attempt, and never while one is open or opening: whether and when to try again is decided here. 2: close
-/// it. After 2, or when a socket is replaced, nothing of the old socket may be passed on.
+/// What is to be done with the socket; ask after every frame. 0: nothing. 1: open one. It is asked once for
+/// each attempt, and never while one is open or opening; this side decides whether and when to try again. 2:
+/// close it. After 2, or when a socket is replaced, nothing of the old socket may be passed on.
 int scree_socket_wish();
 /// The socket is open: the hello waits in scree_outgoing().
 void scree_socket_opened();

@@ -14,8 +14,8 @@ struct PastWorld {
   std::string before;  ///< file of what the world was until then; empty for a new one
 };
 
-/// Makes a new file of the world after a tick of the recording, its last unless said otherwise. The ticks up
-/// to there are simulated again, and their hashes compared.
+/// Makes a new file of the world after a tick of the recording, by default its last. The ticks up to there
+/// are simulated again, and their hashes compared.
 Result<PastWorld> world_of_recording(const std::string& path, const std::string& recording,
                                      std::optional<Tick> tick, const GroundGiver& ground);
 

@@ -22,9 +22,9 @@ inline constexpr float contact_slack_m = 0.02F;
 /// neighbours that merged. A deeper point is buried.
 inline constexpr float overlap_shallow_m = 0.125F;
 
-/// Speeds at which overlaps are undone at most, metres a second, whatever the length of a step: of a shallow
-/// point with terrain, so slowly that it does not disturb pieces at rest (undone at once, a heap took twice
-/// as long to merge); of a buried point; and of two pieces.
+/// The highest speeds at which overlaps are undone, metres a second, whatever the length of a step. A shallow
+/// point in terrain is so slow that it does not disturb pieces at rest: undone at once, a heap took twice as
+/// long to merge. The others are of a buried point, and of two pieces.
 inline constexpr float undo_shallow_m_s = 0.24F;
 inline constexpr float undo_buried_m_s = 2.4F;
 inline constexpr float undo_pieces_m_s = 1.0F;

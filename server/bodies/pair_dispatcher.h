@@ -1,5 +1,5 @@
-// Bullet's dispatcher of pairs whose bounds meet, on several threads: contacts are found in any order, each
-// pair by one thread; manifolds, which all pairs share a pool and a list of, are made and released
+// Bullet's dispatcher of pairs whose bounds meet, on several threads. Contacts are found in any order, each
+// pair by one thread. All pairs share a pool and a list of manifolds, so these are made and released
 // afterwards, in the order of their bodies. So the result is the same for any number of threads. Private to
 // this folder.
 #pragma once

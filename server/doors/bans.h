@@ -18,8 +18,8 @@ struct Ban {
   std::string reason;
 };
 
-/// What is banned with an address: an IPv4 address itself, also where it is written as IPv6; of an IPv6
-/// address its network of 64 bits, because whoever has one has all of these. As text; an error for what is
+/// What is banned with an address: an IPv4 address itself, also where it is written as IPv6; an IPv6 address
+/// stands for its network of 64 bits, because who has one address has them all. As text; an error for what is
 /// neither.
 Result<std::string> ban_key(const std::string& address);
 

@@ -45,8 +45,8 @@ Door::Visitor& Door::visitor(const std::string& address, double now_s) {
   return found;
 }
 
-/// Of those without a connection: all that have been quiet for long; if that is too little, all that need not
-/// wait after a wrong token; and if that is too little, all.
+/// Forgets addresses without a connection: those that have been quiet for long; if these are too few, all
+/// that need not wait after a wrong token; if these are too few, all.
 void Door::forget_the_gone(double now_s) {
   const auto forget = [&](double quiet_s, double waits_until_s) {
     if (visitors_.size() < limits::door_addresses_max) return;

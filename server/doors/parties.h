@@ -1,8 +1,8 @@
 // Which sessions share the server as one party (server/command/command.h): those with the same token, or,
-// without one, of the same address. By more connections nobody gets more. Programs on the server's own
-// machine are a party each, as many as are there at once; who comes next takes over the party, and with it
-// the debts, that was left last, so that nobody gains by coming and going. A party is known by the number of
-// its first session, so recordings hold neither addresses nor tokens. Not thread-safe.
+// without one, of the same address. By more connections nobody gets more. Each program on the server's own
+// machine is a party, as long as it is there. The next program takes over the party that was left last, with
+// its debts, so that nobody gains by coming and going. A party is known by the number of its first session,
+// so recordings hold neither addresses nor tokens. Not thread-safe.
 #pragma once
 
 #include <cstdint>

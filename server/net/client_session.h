@@ -98,7 +98,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Handed to the transport.
   uint64_t sent_bytes() const { return sent_bytes_; }
   size_t backlog_bytes() const { return backlog_bytes_; }
-  /// Of a slow client, with what its socket has taken and not sent: a fast one's is soon gone.
+  /// For a slow client it includes the bytes that its socket has taken and not sent; a fast one's are soon
+  /// gone.
   Backlog backlog() const {
     Backlog backlog{backlog_bytes_, pace_.bytes_max()};
     if (backlog.is_slow()) backlog.bytes += transport_->unsent_bytes();
@@ -106,8 +107,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   }
   /// Why it was cut off, if it was.
   std::optional<Refusal> cut_for() const { return cut_for_; }
-  /// Of a closed one: whether it had joined, was not refused and did not leave; and whether its connection
-  /// ended by itself, in order or not, rather than by the server.
+  /// For a closed session: whether it had joined, was not refused and did not leave, and whether its
+  /// connection ended by itself, in order or not, rather than by the server.
   bool may_go_on() const { return may_go_on_; }
   bool was_lost() const { return was_lost_; }
 

@@ -1,7 +1,7 @@
 // Decides which sessions' queued messages are sent with a tick: all, as long as that is quick. When it takes
 // much of a tick, each session's are sent with every second tick, or third, or fourth, those of several ticks
-// by one write; the sessions take turns, so that each tick has as many writes as the others, and a frame
-// waits for its session's turn, but not for the writes to all the others. Not thread-safe; no clock.
+// by one write. The sessions take turns, so that each tick has as many writes as the others. A frame waits
+// for its session's turn, but not for the writes to all the others. Not thread-safe; no clock.
 #pragma once
 
 #include <algorithm>

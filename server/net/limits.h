@@ -19,9 +19,9 @@ inline constexpr double hello_seconds_max = 5.0;
 /// Seconds that a refused client has to read the refusal before its connection is closed.
 inline constexpr double linger_seconds_max = 2.0;
 
-/// Connections that are no sessions (they have not said hello, or were refused and may still read why), all
-/// together; above: the oldest of them is closed for the newest, so that whoever says hello at once always
-/// comes in.
+/// All connections that are no sessions: they have not said hello, or were refused and may still read why.
+/// Above: the oldest of them is closed for the newest, so that a client that says hello at once always comes
+/// in.
 inline constexpr size_t outsiders_max = 512;
 
 /// Descriptors that the process keeps for files and threads, beside connections.

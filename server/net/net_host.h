@@ -53,7 +53,7 @@ class NetHost final : public SessionHost, public EntranceHost, public HttpHost {
   void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.
   void take_access(std::shared_ptr<const Access> access);
-  /// Of the page, from now on.
+  /// The files of the page, from now on.
   void take_files(std::shared_ptr<const WebFiles> files);
   /// Hands all that is queued to the sockets.
   void flush();

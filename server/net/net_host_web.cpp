@@ -19,7 +19,7 @@ namespace {
 /// A client's message may be in one frame.
 constexpr uint64_t frame_bytes_max = limits::client_message_bytes_max + length_prefix_bytes;
 
-/// Of an Authorization; nothing when it is none.
+/// The token of an Authorization; nothing when it is none.
 std::optional<std::string> bearer_token(const std::string& authorization) {
   constexpr std::string_view scheme = "Bearer ";
   if (!authorization.starts_with(scheme)) return std::nullopt;

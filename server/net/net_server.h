@@ -80,7 +80,8 @@ struct NetConfig {
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
   WebConfig web;
-  /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is none.
+  /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is
+  /// none.
   std::function<std::string(const NetFigures&)> status;
 };
 
@@ -109,7 +110,7 @@ class NetServer {
 
   /// As of the last tick that was sent. From any thread.
   NetStats stats() const;
-  /// Of requests that a tick answered, since the start. From any thread.
+  /// The latency of requests that a tick answered, since the start. From any thread.
   LatencyCounts latency() const;
   /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;

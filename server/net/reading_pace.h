@@ -1,7 +1,7 @@
 // How many bytes may wait for a client so that it sees the present: as many as its link takes in
-// limits::outbox_wait_s, seen from what the socket takes. A socket that takes all it is offered says nothing
-// but that there may be more, and that only when it was offered about as much as may wait; one that is full
-// says by its pace how fast the link is. Time is an argument (seconds). Not thread-safe.
+// limits::outbox_wait_s, by the bytes that the socket takes. A socket that takes all it is offered tells only
+// that there may be more, and that only when it was offered about as much as may wait. One that is full tells
+// by its pace how fast the link is. Time is an argument (seconds). Not thread-safe.
 #pragma once
 
 #include <algorithm>

@@ -14,9 +14,9 @@ struct ChosenBricks {
   int next = 0;         ///< where to go on the next time
 };
 
-/// Of the bricks `lacking`, as many as a part of about so many bytes on the wire has
-/// (limits::patch_brick_bytes each), one at least; in turn from brick `first` (0 to 63) on, so that bricks
-/// that change again and again do not keep others back.
+/// Takes as many of the bricks `lacking` as a part of about so many bytes on the wire has
+/// (limits::patch_brick_bytes each), one at least. It takes them in turn from brick `first` (0 to 63) on, so
+/// that bricks that change again and again do not keep others back.
 ChosenBricks choose_bricks(uint64_t lacking, int first, size_t bytes);
 
 /// Those of the chunk's bricks, as a part of it; `more`: the client still lacks others.

@@ -161,7 +161,7 @@ class ClientView {
   std::unordered_map<ChunkCoord, uint64_t, CoordHash> stale_;
   ChunkSet wanted_;                                   ///< edited, within interest, not held
   boost::container::flat_map<PieceId, Known> known_;  ///< walked in every frame with poses, of every client
-  /// Of a client without kernels: the last whole pose of each piece that got one since it was cut.
+  /// For a client without kernels: the last whole pose of each piece that got one since it was cut.
   std::unordered_map<PieceId, QuantisedPose> sent_poses_;
   Tick stepped_ = 0;  ///< the last tick whose frame had poses
 };

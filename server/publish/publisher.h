@@ -5,8 +5,8 @@
 // anyway, by which it sees that time goes on. The frame of its tick comes
 // before a status.
 //
-// A slow client gets newer state, not a longer queue: chunks come to it in parts (chunk_part.h), and while
-// more waits for it than its link takes soon (Backlog), it gets no poses and no streaming; above
+// A slow client gets newer state, not a longer queue. Chunks come to it in parts (chunk_part.h). While more
+// waits for it than its link takes soon (Backlog), it gets no poses and no streaming; above
 // outbox_resync_bytes, no frames either. When it has read everything, a ResetMessage tells it to forget its
 // edits and pieces, and it joins anew.
 //

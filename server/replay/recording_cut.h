@@ -2,9 +2,9 @@
 // and compared with what was recorded, then the new file is verified.
 //
 // Bullet cannot be taken up in the middle of a movement (server/formats/world_value.h). So the new recording
-// begins with the latest state before its first tick from which the simulation gives the recorded hashes:
-// that of a tick without pieces, or one that the recording has; the commands from there on are kept without
-// their ticks.
+// begins with the latest state before its first tick from which the simulation gives the recorded hashes.
+// That is the state of a tick without pieces, or one that the recording has. The commands from there on are
+// kept without their ticks.
 #pragma once
 
 #include <functional>

@@ -122,7 +122,7 @@ Result<void> ReplayPlayer::look() {
   return source_->tick() < source_->first_tick() ? leave_dropped(before != 0) : Result<void>();
 }
 
-/// Once for each place where it begins: whoever drags a bar asks often.
+/// Once for each place where it begins: a person who drags a bar asks often.
 void ReplayPlayer::tell_dropped(Tick tick, const char* what, std::optional<Tick>& told) {
   const Tick first = source_->first_tick();
   if (!options_.tell || std::exchange(told, first) == first) return;

@@ -1,5 +1,5 @@
-// Plays a recording as those who control it want: one tick for each tick of the server's time, whose numbers
-// go on without a gap whatever the moment of the recording does, so that nobody who looks is reset or cut.
+// Plays a recording as those who control it want: one tick for each tick of the server's time. The numbers of
+// ticks go on without a gap whatever the moment of the recording does, so that no viewer is reset or cut off.
 //
 // take() may be called from any thread; all else from one.
 #pragma once

@@ -35,23 +35,23 @@ inline std::string create_later_tables() {
          "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
 }
 
-/// frames: one row for every tick, without a gap. commands: one row for each tick with commands, also of
-/// ticks before the first frame, back to the state from which these are simulated. header: one row, tick 0.
-/// checksum: XXH3 of the data.
+/// The table frames has one row for every tick, without a gap. The table commands has one row for each tick
+/// with commands, also for ticks before the first frame, back to the state from which these are simulated.
+/// The table header has one row, of tick 0. Each checksum is the XXH3 of the data.
 ///
-/// A keyframe, from which seeking starts, is what changed since the one before it. keyframe_states: all but
-/// terrain and pieces' volumes. keyframe_chunks: a chunk's edited bricks (as wire.Frame.patches), of the
-/// keyframe in which it differed from its row before; chunk: chunk_key(); hash: Σ of its bricks' hashes. The
-/// terrain is, of each chunk, the latest row up to the keyframe. keyframe_pieces: the volume of a piece, by
-/// its id, written once.
+/// A keyframe, from which seeking starts, holds the changes since the one before it. A row of keyframe_states
+/// has all but terrain and pieces' volumes. A row of keyframe_chunks has a chunk's edited bricks (as
+/// wire.Frame.patches), for the keyframe in which it differed from its row before. Its key is chunk_key(),
+/// its hash the sum of its bricks' hashes. The terrain of a keyframe is the latest row of each chunk up to
+/// it. A row of keyframe_pieces has the volume of a piece, by its id, written once.
 ///
-/// state_moments: the world's value after the tick, without its terrain, which is the keyframe's of that
-/// tick: the simulation of the next tick began from it, at the start of a recording, where another process
-/// went on with it, and where a part may begin when those before are dropped.
+/// A row of state_moments has the world's value after the tick, without its terrain, which the keyframe of
+/// that tick has. The simulation of the next tick began from it: at the start of a recording, where another
+/// process went on with it, and where a part may begin when those before are dropped.
 ///
-/// events: one row for each tick in which something happened that follows from the simulation; machine: one
-/// row a second or so, of the ticks since the last: how long they took, and what else happened to the server.
-/// ended: one row, of the last tick, when who recorded came to an end.
+/// The table events has one row for each tick with events that follow from the simulation. The table machine
+/// has about one row a second, with the durations of the ticks since the last row and the server's own
+/// events. The table ended has one row, of the last tick, when the recorder came to an end.
 ///
 /// Recordings of earlier releases may have none of the tables from keyframe_states on. They have instead:
 /// keyframes, whole ones; short_keyframes, of whose bricks those that changed since the last whole one, or

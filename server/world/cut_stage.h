@@ -1,5 +1,5 @@
-// Pieces that are still to be cut: a carve into more pieces than are made at once (pieces_at_once) makes
-// fewer, larger ones, which are cut on in the next ticks, as far as their budgets go, by shatters where they
+// Pieces that are still to be cut. A carve into more pieces than are made at once (pieces_at_once) makes
+// fewer, larger ones. The next ticks cut these on, as far as their budgets go, by shatters where the pieces
 // are then.
 #pragma once
 

@@ -1,9 +1,9 @@
 // The table of settings: names, values and help of the members of WorldConfig that may change while a server
 // runs. The server's flags, its configuration file, the environment, requests to change settings, recordings
-// and reports all use it. To add a setting: a member (methods.h: a choice between methods; world_config.h: a
-// number of the simulation, with its bounds in limits.h; service_limits.h: a limit of clients), and a row in
-// settings.cpp; where something else keeps the value, change() in request_stage.cpp hands it on. The tests of
-// determinism take each value in turn.
+// and reports all use it. To add a setting, add a member and a row in settings.cpp. The member is a choice
+// between methods (methods.h), a number of the simulation (world_config.h, with its bounds in limits.h) or a
+// limit of clients (service_limits.h). Where something else keeps the value, change() in request_stage.cpp
+// hands it on. The tests of determinism take each value in turn.
 #pragma once
 
 #include <span>

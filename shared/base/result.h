@@ -31,8 +31,8 @@ void value_of_try(const tl::expected<T, E>&) {}
 }  // namespace scree
 
 /// Returns from the function with the error of a Result, or of any tl::expected with an error of the
-/// function's own type; otherwise it is the value: `const Token token = TRY(read_token(text));`. Of a result
-/// that has a name it tests only: `TRY(read);`. A GNU statement expression, which g++ and clang have.
+/// function's own type; otherwise it is the value: `const Token token = TRY(read_token(text));`. With a named
+/// result it only tests: `TRY(read);`. A GNU statement expression, which g++ and clang have.
 #define TRY(...)                                                            \
   ({                                                                        \
     auto&& try_result = (__VA_ARGS__);                                      \

@@ -116,7 +116,7 @@ class IslandSearch {
   Field& field_;
   Ground ground_;
   SearchLimits limits_;
-  /// Of sites_: a search of 60,000 bricks that must begin again is thrown away within a tick.
+  /// A pool for sites_: a search of 60,000 bricks that must begin again is thrown away within a tick.
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<BrickCoord, Site, CoordHash> sites_{&memory_};
   std::unordered_set<ChunkCoord, CoordHash> chunks_;  ///< unedited, with sites

@@ -8,10 +8,12 @@
 
 namespace scree {
 
-/// uniform: anywhere in the volume. radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
-/// clustered: density ∝ 1/d² from the nearest of a few places in the volume, one for every eight seeds, 64 at
-/// most. authored: at the points that come with the request. even: far from each other, so that the pieces
-/// are of like size (server/fracture/even_seeds.h).
+/// - uniform: anywhere in the volume.
+/// - radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
+/// - clustered: density ∝ 1/d² from the nearest of a few places in the volume, one for every eight seeds, 64
+///   at most.
+/// - authored: at the points that come with the request.
+/// - even: far from each other, so that the pieces are of like size (server/fracture/even_seeds.h).
 enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, authored = 3, even = 4 };
 
 /// drawn: by everyone who applies the operation, from its random seed. given: points that come with the

@@ -41,7 +41,7 @@ constexpr StampMethodRow row_of(StampMethod method) {
   return {};
 }
 
-/// Of a known method.
+/// Whether several pieces may merge at once by this method, which must be known.
 constexpr bool lays(StampMethod method) {
   return traits_of(method).lays;
 }

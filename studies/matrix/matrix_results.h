@@ -49,11 +49,10 @@ Combination combination_of(const MatrixResults& results, size_t number);
 /// Its number, or combinations_of() where it was not measured.
 size_t number_of(const MatrixResults& results, const std::string& drawing, const Simulated& simulated);
 
-/// Drawing and session measured apart and added up: frame = tick + update + drawing; memory = the world's
-/// heap + the method's memory; mass error = the mass moved that is dust at the end; surface error = root of
-/// the sum of the squares of five: how far the pieces are cut from their cells, the terrain lies from the
-/// exact union after a merge, pieces lie in rock, bodies are from their pieces, and the drawn surface from
-/// the field.
+/// Drawing and session are measured apart and added up. Frame = tick + update + drawing. Memory = the world's
+/// heap + the method's memory. Mass error = the moved mass that is dust at the end. Surface error = the root
+/// of the sum of five squares. These are the distances of pieces from their cells, of merged terrain from the
+/// exact union, of pieces into rock, of bodies from their pieces, and of the drawn surface from the field.
 MatrixScore score_of(const MatrixResults& results, size_t number);
 std::vector<MatrixScore> scores_of(const MatrixResults& results);
 

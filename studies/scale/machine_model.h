@@ -6,10 +6,10 @@
 // - The simulation's thread. What it takes by number of bots is a curve, not a line: when bodies fill the
 //   budget of a tick (server/work/work.h), carves get fewer pieces and these merge sooner, so that more bots
 //   take little more. The curve is that of a simulation alone, times a factor for what the thread takes more
-//   within a server. Of it the bodies' step is shared by all cores, the rest is one thread's.
+//   within a server. All cores share the bodies' step; the rest is one thread's.
 // - All other threads, which share any number of cores: idle + a·bots + b·onlookers + c·bots·onlookers, where
-//   bots and viewers look on: what the server does for nobody, what a bot's carves take to store and to
-//   encode, what an onlooker takes whatever happens, and what it takes to show him a bot's doing.
+//   bots and viewers look on. The terms are the server's work for nobody, the storing and encoding of a bot's
+//   carves, an onlooker's cost whatever happens, and the cost of showing him a bot's carves.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// TLS over loopback: sessions over it are sessions like any other, on the port of those without; what a
-// client must not trust it does not, and says why; files are read again while sessions go on; old protocols
-// and ciphers are refused.
+// TLS over loopback. Sessions over it are sessions like any other, on the port of those without. A client
+// refuses what it must not trust, and says why. Files are read again while sessions go on. Old protocols and
+// ciphers are refused.
 #include <fstream>
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>

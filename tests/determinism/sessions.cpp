@@ -1,7 +1,7 @@
-// Plays one session under every value of every setting, one varied at a time, each twice side by side in this
-// process, on one thread and on two, or once with the argument `once`; prints the hashes, a line for every so
-// many ticks and one over all of them. The output must be the same from every compiler at every optimisation
-// (tests/determinism/CMakeLists.txt).
+// Plays one session under every value of every setting, one varied at a time. Each runs twice side by side in
+// this process, on one thread and on two, or once with the argument `once`. It prints the hashes: a line for
+// every so many ticks, and one over all of them. The output must be the same from every compiler at every
+// optimisation (tests/determinism/CMakeLists.txt).
 //
 // Fails when two worlds with the same commands part, when the session lacks something that methods are for,
 // and when a value of a setting makes no difference: then it says nothing about that method.

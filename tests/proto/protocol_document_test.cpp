@@ -1,6 +1,5 @@
-// The examples of docs/protocol.md, decoded by the real codecs: what the document says of their bytes is so,
-// each kind of message has an example, numbers that the document names are those of the limits, and its
-// refusals are the server's.
+// The examples of docs/protocol.md, decoded by the real codecs. The document is right about their bytes, each
+// kind of message has an example, its numbers are those of the limits, and its refusals are the server's.
 //
 // An example is a fenced block "```example KIND", its lines "bytes: …" in hexadecimal, then the lines that
 // the bytes decode to, word for word.

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/style/comment_rules.h"
 #include "tests/style/style_rules.h"
 
 namespace scree::style {
@@ -96,6 +97,9 @@ void expect_clean(const Complaints& complaints) {
 
 TEST(Style, the_tree_is_found) {
   EXPECT_GE(source_files().size(), 50U) << "in " << SCREE_SOURCE_DIR;
+}
+TEST(Style, comments_are_plain_english) {
+  expect_clean(over_tree(check_comments, false));
 }
 TEST(Style, files_are_short) {
   expect_clean(over_tree(check_file_length, false));

@@ -1,5 +1,5 @@
-// The paper's grid-based marching cubes (section 2.2): points of a grid around the camera (grid_shape.h),
-// each of which a geometry shader expands into the triangles of its cell, in every frame, from a copy of the
+// The paper's grid-based marching cubes (section 2.2): a geometry shader expands each point of a grid around
+// the camera (grid_shape.h) into the triangles of its cell. It does so in every frame, from a copy of the
 // field on the GPU (brick_world.h). There is no mesh of the terrain, so an edit is in the picture of the next
 // draw(). Blocks of points out of sight, or with nothing but air or rock about, are not drawn. Pieces are
 // meshes, made when they come.

@@ -35,10 +35,10 @@ inline constexpr float panel_margin = 8.0F;  ///< around each panel
 /// Part of the window's height, without margins, that a strip takes at most.
 inline constexpr float strip_share_max = 0.25F;
 
-/// A rectangle for each panel, of the size that it wants as far as there is room: strips first, then what
-/// remains is shared by the columns, and a column's height by its two panels, so that one that wants less
-/// than its half leaves the rest to the other. A panel that wants nothing gets nothing. Where a panel gets
-/// less than it wants, it scrolls.
+/// A rectangle for each panel, of the size that it wants as far as there is room. Strips come first, and the
+/// columns share the rest. A column's two panels share its height: one that wants less than half leaves the
+/// rest to the other. A panel that wants nothing gets nothing. Where a panel gets less than it wants, it
+/// scrolls.
 PanelRectangles lay_out(glm::vec2 screen, const PanelSizes& wanted);
 
 /// The width of both columns as wanted, with the margins.

@@ -1,9 +1,9 @@
 // One connection that speaks HTTP, and perhaps opens a WebSocket, whose stream is sent back: requests,
 // handshakes and frames as they should be, any bytes between them, carried as many at once as the input says.
 //
-// Holds: as long as the client keeps to the rules, what arrives by the WebSocket is what was sent; what the
-// server sends behind a handshake is frames without a mask and in order, and nothing behind a close; what a
-// head says is within its bounds.
+// These hold. As long as the client keeps to the rules, the bytes that arrive by the WebSocket are those that
+// were sent. Behind a handshake the server sends frames without a mask and in order, and nothing behind a
+// close. The values of a head are within their bounds.
 #include <algorithm>
 #include <array>
 #include <memory>
