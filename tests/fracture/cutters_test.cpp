@@ -140,8 +140,9 @@ TEST(Cutters, parts_add_up_to_the_whole) {
       for (const uint32_t count : {1U, 2U, 64U, rounds(300U, 65U)})
         for (const PolygonCutting& cutting : polygon_cutters) {
           const auto seeds = scatter_seeds(scene.volume, pattern, count, 5, c);
-          expect_conserved(cut_polygons(cutting, scene.volume, seeds),
-                           std::to_string(static_cast<int>(cutter)) + " of " + std::to_string(count));
+          expect_conserved(
+              cut_polygons(cutting, scene.volume, seeds),
+              std::string(cutting.closed ? "slice" : "conform") + " of " + std::to_string(count));
         }
   }
 }
@@ -204,7 +205,7 @@ TEST(Cutters, pieces_are_where_the_field_cutter_puts_them) {
   const Scene scene(TerrainKind::canyon, sphere(c, 8.0F));
   const auto seeds = scatter_seeds(scene.volume, SeedPattern::uniform, 24, 3, c);
   const Cut field = cut_volume(Cutter::field, scene.volume, scene.before, scene.after, seeds);
-  for (const PolygonCutting& cutting : polygon_cutters) {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
     const Cut cut = cut_volume(cutter, scene.volume, scene.before, scene.after, seeds);
     ASSERT_EQ(cut.pieces.size(), field.pieces.size());
     for (size_t i = 0; i < cut.pieces.size(); ++i) {
@@ -249,7 +250,7 @@ TEST(Cutters, a_volume_of_nothing_and_seeds_of_none_are_survived) {
   const glm::vec3 c = on_the_ground(TerrainKind::flat);
   const Scene air(TerrainKind::flat, sphere(c + glm::vec3(0.0F, 80.0F, 0.0F), 8.0F));
   const Scene ground(TerrainKind::flat, sphere(c, 4.0F));
-  for (const PolygonCutting& cutting : polygon_cutters) {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
     const Cut nothing = cut_volume(cutter, air.volume, air.before, air.after, {c});
     EXPECT_TRUE(nothing.pieces.empty());
     EXPECT_EQ(nothing.dust, 0);

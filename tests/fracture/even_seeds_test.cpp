@@ -9,6 +9,7 @@
 
 #include "shared/field/edit.h"
 #include "shared/fracture/cutter.h"
+#include "shared/fracture/seeds.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
