@@ -8,7 +8,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
-#include "shared/recombine/stamp.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
@@ -26,18 +26,28 @@ static_assert(kinds <= kind_mask + 1);
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
-/// What stands in the method's place: how pieces merge, and whether several do at once.
+/// A stamp has one of its method's two numbers: that for one piece, or that for several together.
 struct WireMethod {
   StampMethod method;
   bool together;
 
   bool operator==(const WireMethod&) const = default;
 };
-constexpr std::array wire_methods = {
-    WireMethod{StampMethod::stamp, false},  WireMethod{StampMethod::slices, false},
-    WireMethod{StampMethod::sphere, false}, WireMethod{StampMethod::stamp, true},
-    WireMethod{StampMethod::facets, false}, WireMethod{StampMethod::facets, true}};
-static_assert(wire_methods.size() == kind_count<StampMethod> + kinds_that<StampMethod, lays>.size());
+constexpr auto wire_methods = [] {
+  std::array<WireMethod, kind_count<StampMethod> + kinds_that<StampMethod, lays>.size()> methods{};
+  size_t places = 0;  // a bit for each number that a row has
+  const auto enter = [&](size_t number, WireMethod method) {
+    methods.at(number) = method;
+    places |= size_t{1} << number;
+  };
+  for (const StampMethod method : all_kinds<StampMethod>) {
+    enter(traits_of(method).wire, {method, false});
+    if (lays(method)) enter(traits_of(method).wire_together.value(), {method, true});
+  }
+  if (places + 1 != size_t{1} << methods.size())
+    throw "two methods of merging have one number";  // no compilation
+  return methods;
+}();
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
 

@@ -6,6 +6,7 @@
 
 #include "bench/support/benches.h"
 #include "bench/support/drawing.h"
+#include "client/render/grid/grid_shape.h"
 
 namespace scree {
 
@@ -50,16 +51,16 @@ void report_memory(const MethodEntry& entry, const MemoryCounts& counts, BenchRe
 
 /// At the paper's size, from near the ground, so that the smallest grid reaches it. Points cost no memory but
 /// for the blocks of them that are drawn; the field's copy has the rest.
-Result<void> measure_grids(Stage& stage, Drawing& drawing, bool quick, BenchReport& report) {
+Result<void> measure_grids(Drawing& drawing, bool quick, BenchReport& report) {
   glm::vec3& eye_m = drawing.camera.eye_m;
   eye_m.y = ground_height_m(drawing.field().source(), eye_m.x, eye_m.z) + 1.5F;
   drawing.finish();
   bool shown = true;
-  for (const GridSpacing spacing : grid_spacings)
+  for (const GridSpacing spacing : all_kinds<GridSpacing>)
     for (const int resolution : grid_resolutions) {
       if (quick && resolution > grid_resolutions[1]) break;
       const GridShape shape{resolution, 1, spacing};
-      stage.renderer->set_grid(shape);
+      drawing.method().set_options(values_of(shape));
       const Result<double> frame = drawing.frame_ms(full_width, full_height, quick ? 1 : 3);
       if (!frame) return fail(frame.error().message);
       const std::string name = fmt::format("grid_{}_{}_cells", name_of(spacing), resolution);
@@ -70,10 +71,16 @@ Result<void> measure_grids(Stage& stage, Drawing& drawing, bool quick, BenchRepo
       report.metric(name + "_reach_m", static_cast<double>(drawing.method().reach_m()));
       shown = shown && stats.triangles > 0;
     }
-  stage.renderer->set_grid({});
   report.check("grids_show_ground", shown, "every grid has triangles");
   return {};
 }
+
+/// Measurements of one method's own options, after those that all methods have.
+struct OptionSweep {
+  std::string_view method;
+  Result<void> (*measure)(Drawing& drawing, bool quick, BenchReport& report);
+};
+constexpr std::array option_sweeps{OptionSweep{"grid", measure_grids}};
 
 /// The scene of the options, or the canyon.
 std::unique_ptr<Drawing> drawing_of(Stage& stage, std::unique_ptr<DrawMethod> method,
@@ -110,7 +117,8 @@ Result<void> measure(Stage& stage, const MethodEntry& entry, const BenchOptions&
     if (percent == shares_percent.back()) check_target(entry, *frame, stage.renderer->description(), report);
   }
   report_memory(entry, drawing.method().stats().memory, report);
-  if (entry.name == "grid") return measure_grids(stage, drawing, quick, report);
+  for (const OptionSweep& sweep : option_sweeps)
+    if (sweep.method == entry.name) TRY(sweep.measure(drawing, quick, report));
   return {};
 }
 

@@ -80,7 +80,6 @@ class CsgList final : public CsgListMethod {
   CsgList(const CsgList&) = delete;
   CsgList& operator=(const CsgList&) = delete;
 
-  std::string_view name() const override { return "CSG list"; }
   void changed(const MirrorChanges&) override {}
   void update(const Scene&, const Camera&) override {}
   bool loaded() const override { return true; }

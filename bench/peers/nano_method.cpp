@@ -76,7 +76,6 @@ class NanoMethod final : public DrawMethod {
   NanoMethod(const NanoMethod&) = delete;
   NanoMethod& operator=(const NanoMethod&) = delete;
 
-  std::string_view name() const override { return "PNanoVDB"; }
   void changed(const MirrorChanges&) override {}
   void update(const Scene&, const Camera&) override {}
   bool loaded() const override { return true; }

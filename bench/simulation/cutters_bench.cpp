@@ -12,7 +12,9 @@
 #include "server/fracture/hull.h"
 #include "shared/base/timing.h"
 #include "shared/field/edit.h"
-#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/conform_cutter.h"
+#include "shared/fracture/seeds.h"
+#include "shared/fracture/slice_cutter.h"
 
 namespace scree {
 
@@ -103,7 +105,7 @@ struct Conservation {
   double median_ms = 0.0;
 };
 
-Conservation conservation_of(Cutter cutter, int carves) {
+Conservation conservation_of(const PolygonCutting& cutting, int carves) {
   const WorldConfig config;
   const float dx = config.terrain.voxel_size_m;
   ScatteredBlows blows(config.terrain, 50.0F, 2.0F, 64, 11);
@@ -118,7 +120,7 @@ Conservation conservation_of(Cutter cutter, int carves) {
     const Window volume = extract(before, codes_of(shape, before.box));
     const auto seeds = scatter_seeds(volume, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m / dx);
     Stopwatch watch;
-    const PolygonParts cut = cut_polygons(cutter, volume, seeds);
+    const PolygonParts cut = cut_polygons(cutting, volume, seeds);
     times_ms.push_back(watch.lap_ms());
     double sum = 0.0;
     for (const PolygonMesh& part : cut.parts) {
@@ -161,9 +163,10 @@ BenchReport run_cutters_bench(const BenchOptions& options) {
     report_method(report, methods[i], sums, carves);
     options.progress(static_cast<double>(i + 1) / static_cast<double>(methods.size() + 1));
   }
-  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
+  for (const auto& [cutter, cutting] :
+       {std::pair(Cutter::slice, slice_cutting), std::pair(Cutter::conform, conform_cutting)}) {
     const std::string_view name = name_of(cutter);
-    const Conservation conservation = conservation_of(cutter, carves);
+    const Conservation conservation = conservation_of(cutting, carves);
     report.metric(fmt::format("{}_polygons_median_ms", name), conservation.median_ms);
     report.metric(fmt::format("{}_polygon_vertices_per_part", name), conservation.vertices);
     report.metric(fmt::format("{}_polygon_volume_error", name), conservation.error);

@@ -110,7 +110,8 @@ Cycles stamp_cycles(const History& history) {
   return run_cycles(history, [&](Field& field, PieceTable& pieces, PieceId id, QuantisedPose pose) {
     const std::shared_ptr<const Volume> volume = pieces.at(id);
     const Window window = gather(field, stamp_box(*volume, pose, voxel_size_m));
-    const StampPlan plan = plan_stamp(window, *volume, pose, voxel_size_m, stamp_budget(volume->mass, dust));
+    const StampPlan plan =
+        plan_stamp(laying_rounded, window, *volume, pose, voxel_size_m, stamp_budget(volume->mass, dust));
     dust += volume->mass - apply(StampOperation{id, pose, plan.shift}, field, pieces).terrain_gain;
   });
 }

@@ -134,7 +134,6 @@ Result<void> ReceivedTiles::take(const TileMessage& message) {
 bool ReceivedTiles::read(TileKey key) {
   auto bytes = folder_.read(digests_.at(key));
   if (!bytes || !put(key, std::move(*bytes))) return false;
-  ++read_;
   untold_.push_back(key);
   return true;
 }

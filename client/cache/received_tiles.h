@@ -38,7 +38,6 @@ class ReceivedTiles final : public GroundModel {
   bool has_near(glm::vec3 eye_m, float radius_m) const;
 
   uint64_t tiles_received() const { return received_; }
-  uint64_t tiles_read() const { return read_; }  ///< from the cache
 
  private:
   struct Held {
@@ -73,7 +72,6 @@ class ReceivedTiles final : public GroundModel {
   std::set<TileKey> asked_;            ///< and not come yet
   std::vector<TileKey> untold_;        ///< held, and the server does not know
   uint64_t received_ = 0;
-  uint64_t read_ = 0;
   mutable std::mutex mutex_;  ///< guards the members below
   std::map<TileKey, Held> held_;
   size_t held_bytes_ = 0;

@@ -40,7 +40,7 @@ std::optional<Operation> operation_of(const Request& asked) {
                                                      .random_seed = carve.random_seed,
                                                      .impact_m = carve.impact_m,
                                                      .authored_m = carve.authored_m};
-                                 if (is_relaxed(made.pattern)) made.pattern = SeedPattern::uniform;
+                                 if (is_relaxed(made.pattern)) made.pattern = plain_pattern;
                                  return made;
                                },
                                [](const FillRequest& fill) -> Made { return FillOperation{fill.shape}; },

@@ -24,15 +24,27 @@ void MethodSwitch::forget_world() {
   shown_ = {};
 }
 
+const MethodSwitch::Slot* MethodSwitch::prepared() const {
+  if (next_.method) return &next_;
+  return shown_.method && !shown_.method->loaded() ? &shown_ : nullptr;
+}
+
 DrawMethod* MethodSwitch::preparing() {
-  if (next_.method) return next_.method.get();
-  return shown_.method && !shown_.method->loaded() ? shown_.method.get() : nullptr;
+  const Slot* slot = prepared();
+  return slot == nullptr ? nullptr : slot->method.get();
+}
+
+void MethodSwitch::set_options(const DrawOptionValues& values) {
+  options_ = values;
+  for (Slot* slot : {&shown_, &next_})
+    if (slot->method) slot->method->set_options(options_);
 }
 
 Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
   Result<std::unique_ptr<DrawMethod>> made = chosen_->make(pool_, view_radius_m_);
   if (!made) return fail(made.error().message);
   slot = {std::move(*made), chosen_, view_radius_m_};
+  slot.method->set_options(options_);
   // The method starts late: all pieces are new to it.
   MirrorChanges known;
   for (const auto& [id, piece] : scene.pieces) known.pieces_added.push_back(id);

@@ -20,6 +20,9 @@ class MethodSwitch {
   /// Draws so far from the next follow() on; what was drawn is drawn until the new range is loaded.
   void set_view_radius(float metres) { view_radius_m_ = metres; }
 
+  /// The values of the methods' own options from now on.
+  void set_options(const DrawOptionValues& values);
+
   /// Begins another mirror of the world: what was drawn is drawn until the new one is loaded.
   void begin_world();
   /// Draws nothing until begin_world() and follow() have made something.
@@ -29,8 +32,11 @@ class MethodSwitch {
 
   /// Null before the first world.
   DrawMethod* shown() { return shown_.method.get(); }
+  /// The name of the method that is shown; empty before the first world.
+  std::string_view shown_name() const { return name_of(shown_); }
   /// The method that loads beside the drawing one, or is not loaded yet; null when there is none.
   DrawMethod* preparing();
+  std::string_view preparing_name() const { return prepared() == nullptr ? "" : name_of(*prepared()); }
   /// Whether the newest world is shown by the chosen method, everywhere within the view radius.
   bool loaded() const { return fits(shown_) && !shown_is_past_ && !next_.method && shown_.method->loaded(); }
   /// The same, and in its newest state.
@@ -47,11 +53,18 @@ class MethodSwitch {
     return slot.method && slot.entry == chosen_ && slot.view_radius_m == view_radius_m_;
   }
 
+  static std::string_view name_of(const Slot& slot) {
+    return slot.entry == nullptr ? std::string_view() : slot.entry->name;
+  }
+
+  /// The slot of preparing(), or null.
+  const Slot* prepared() const;
   Result<void> begin(Slot& slot, const Scene& scene);
 
   WorkPool& pool_;
   float view_radius_m_;
   const MethodEntry* chosen_;
+  DrawOptionValues options_;
   Slot shown_;
   bool shown_is_past_ = false;  ///< of a world that is gone: it stands still
   Slot next_;                   ///< not yet loaded

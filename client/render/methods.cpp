@@ -4,6 +4,7 @@
 #include <array>
 
 #include "client/render/grid/grid_method.h"
+#include "client/render/grid/grid_shape.h"
 #include "client/render/mesh/mesh_method.h"
 #include "client/render/raymarch/raymarch_method.h"
 
@@ -23,13 +24,24 @@ constexpr std::array table{
     MethodEntry{"raymarch", "rays through an atlas of bricks, whatever was edited", nothing_missing,
                 make_raymarch_method},
     MethodEntry{"grid", "marching cubes by a geometry shader, from a grid of points about the camera",
-                grid_method_missing, make_grid_method},
+                grid_method_missing, make_grid_method, grid_options},
 };
 
 }  // namespace
 
 std::span<const MethodEntry> all_methods() {
   return table;
+}
+
+std::span<const DrawOption> options_of(const MethodEntry& entry) {
+  return entry.options == nullptr ? std::span<const DrawOption>() : entry.options();
+}
+
+std::vector<const DrawOption*> all_draw_options() {
+  std::vector<const DrawOption*> all;
+  for (const MethodEntry& entry : table)
+    for (const DrawOption& option : options_of(entry)) all.push_back(&option);
+  return all;
 }
 
 const MethodEntry* method_named(std::string_view name) {

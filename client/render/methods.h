@@ -1,11 +1,12 @@
-// All drawing methods, by name. A new one is a row of the table in methods.cpp, and nothing else in the
-// viewer.
+// All drawing methods, by name. A new one is a row of the table in methods.cpp, and nothing else outside its
+// folder.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/work_pool.h"
@@ -20,10 +21,17 @@ struct MethodEntry {
   std::optional<std::string> (*missing)();
   /// `pool` must outlive the method. Needs the context current. Fails when a shader or a buffer does.
   Result<std::unique_ptr<DrawMethod>> (*make)(WorkPool& pool, float view_radius_m);
+  /// Of its own; null: none.
+  std::span<const DrawOption> (*options)() = nullptr;
 };
 
 /// The first one is the default.
 std::span<const MethodEntry> all_methods();
+
+/// A method's own options.
+std::span<const DrawOption> options_of(const MethodEntry& entry);
+/// The options of all methods.
+std::vector<const DrawOption*> all_draw_options();
 
 /// Null if there is none of that name.
 const MethodEntry* method_named(std::string_view name);

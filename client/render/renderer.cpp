@@ -109,7 +109,6 @@ struct Renderer::Parts {
   bool asks_for_errors = true;
   GpuTimers timers;
   Trace* trace = nullptr;
-  GridShape grid;
   Canvases canvases;   ///< of the last picture, at its own resolution
   Canvases stretched;  ///< of the last image that was stretched
 
@@ -206,7 +205,6 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_CULL_FACE);
-  if (method != nullptr) method->shape_grid(grid);
   const float reach_m = method == nullptr ? view_radius_m : method->reach_m();
   DrawPass pass;
   pass.timers = &timers;
@@ -315,11 +313,6 @@ void Renderer::set_fineness(const Fineness& fineness) {
 
 void Renderer::set_view_radius(float metres) {
   parts_->view_radius_m = metres;
-}
-
-void Renderer::set_grid(const GridShape& shape) {
-  CHECK(is_valid(shape));
-  parts_->grid = shape;
 }
 
 void Renderer::set_trace(Trace* trace) {

@@ -68,8 +68,6 @@ class Renderer {
   void set_fineness(const Fineness& fineness);
   /// The distance about the camera in which shadows are cast, as far as the map reaches.
   void set_view_radius(float metres);
-  /// For methods that draw by a grid; a shape that is_valid().
-  void set_grid(const GridShape& shape);
   /// From now on, drawing is traced; null: no more. Must outlive the renderer or be taken away.
   void set_trace(Trace* trace);
   /// Whether each draw() asks GL for errors, as it does unless told otherwise. Asking waits for the GPU where

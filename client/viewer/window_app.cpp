@@ -40,7 +40,7 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
       hand_(kept.hand),
       overlay_(kept.overlay),
       tool_(kept.tool),
-      grid_(viewing.options.grid),
+      method_options_(viewing.options.method_options),
       particles_(viewing.options.particles),
       predict_(viewing.options.predict),
       quality_(viewing.options.quality) {
@@ -155,10 +155,11 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
 std::vector<std::string> WindowApp::messages(double now_s) const {
   if (window_.asks_to_end()) return {"End? Escape or Enter: yes. Any other key or button: no."};
   std::vector<std::string> lines = viewing_.session.conversation().lines(now_s, window_.writes().has_value());
-  if (const DrawMethod* shown = viewing_.view->methods().shown();
+  MethodSwitch& methods = viewing_.view->methods();
+  if (const DrawMethod* shown = methods.shown();
       shown != nullptr && shown->reach_m() < viewing_.view_radius_m())
     lines.push_back(
-        std::string(shown->name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
+        std::string(methods.shown_name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
         " m far, as far as its cells reach: the world goes on; the panel has more cells, and larger");
   if (eye().follows()) lines.push_back(eye().description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
@@ -188,7 +189,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
                      choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, overlay_, grid_, particles_, predict_, hand_, quality_});
+                          {tool_, overlay_, method_options_, particles_, predict_, hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
     hud_.timeline(viewing_.session.timeline(), now_s);
@@ -198,7 +199,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   screen_.end();
   viewing_.show_particles(particles_);
   viewing_.session.predict(predict_);
-  viewing_.view->renderer().set_grid(grid_);
+  viewing_.view->methods().set_options(method_options_);
   return picked == nullptr ? Result<void>() : choose(*picked);
 }
 
@@ -232,7 +233,7 @@ Settings WindowApp::settings() const {
   std::tie(settings.width, settings.height) = window_.window_size();
   settings.method = viewing_.view->methods().chosen().name;
   settings.quality = quality_;
-  settings.grid = grid_;
+  settings.method_options = method_options_;
   settings.hud = choice_;
   settings.hand = hand_;
   settings.overlay = overlay_;

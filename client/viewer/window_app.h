@@ -54,7 +54,7 @@ class WindowApp {
   OverlayChoice overlay_;
   Tool tool_;
   Whereabouts whereabouts_;
-  GridShape grid_;
+  DrawOptionValues method_options_;
   bool particles_;
   bool predict_;
   std::optional<Quality> quality_;  ///< as chosen; nothing: by the first frames

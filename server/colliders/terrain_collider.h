@@ -59,21 +59,8 @@ class TerrainCollider {
 };
 
 /// `field` must outlive the collider, and the collider must outlive its probes.
-std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind, Field& field);
-
-/// Tests the points against the field itself: the contact's normal is the field's gradient. Depths reach 3
-/// voxels, where codes saturate.
-std::unique_ptr<TerrainCollider> make_field_collider(Field& field);
-
-/// Tests the points against the triangles that are drawn (server/colliders/terrain_mesh.h); a block of them
-/// is made again when its terrain changes. The paper's grid does this ("Raymarching": the physics collides
-/// with the polygons). A point collides with the nearest triangle, unless it lies more than
-/// limits::mesh_depth_voxels behind it: then it falls.
-std::unique_ptr<TerrainCollider> make_mesh_collider(Field& field);
-
-/// The paper's method without polygons (same section): each body casts a few rays down onto the terrain in
-/// each tick, and the ground between rays is interpolated. Walls and overhangs are missed unless a ray meets
-/// them.
-std::unique_ptr<TerrainCollider> make_rays_collider(Field& field);
+inline std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind, Field& field) {
+  return traits_of(kind).make(field);
+}
 
 }  // namespace scree

@@ -8,7 +8,7 @@
 #include "shared/base/check.h"
 #include "shared/base/roots.h"
 #include "shared/field/mass.h"
-#include "shared/fracture/voronoi.h"
+#include "shared/fracture/seeds.h"
 
 namespace scree {
 
@@ -125,7 +125,7 @@ class Relaxation {
 
 std::vector<glm::vec3> even_seeds(const Window& volume, uint32_t count, uint32_t random_seed) {
   const std::vector<glm::vec3> start =
-      scatter_seeds(volume, SeedPattern::uniform, count, random_seed, glm::vec3(0.0F));
+      scatter_seeds(volume, plain_pattern, count, random_seed, glm::vec3(0.0F));
   if (start.empty()) return {};
   Relaxation relaxation(volume, start);
   for (int i = 0; i < rounds; ++i) relaxation.round();

@@ -5,6 +5,7 @@
 
 #include "server/fracture/hull_corners.h"
 #include "server/fracture/inertia.h"
+#include "server/fracture/point_spread.h"
 #include "server/fracture/surface_crossings.h"
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
@@ -12,27 +13,6 @@
 namespace scree {
 
 namespace {
-
-/// The points if their hull is thick enough to collide; else none.
-std::vector<glm::vec3> if_solid(std::vector<glm::vec3> points) {
-  if (points.size() < 4 || !is_thick(points)) points.clear();
-  return points;
-}
-
-std::vector<glm::vec3> simplified(const std::vector<glm::vec3>& surface, Simplifier simplifier) {
-  constexpr float least_spacing_voxels = 0.5F;
-  switch (simplifier) {
-    case Simplifier::none:
-      return if_solid(surface.size() <= whole_points_max
-                          ? surface
-                          : spread(surface, least_spacing_voxels, whole_points_max));
-    case Simplifier::merge:
-      return if_solid(merge_near(surface, merged_points_max));
-    case Simplifier::hull:
-      break;
-  }
-  return choose_corners(surface);
-}
 
 /// The block surrounded by air: rock at its edge has a surface half a voxel beyond.
 Window alone(const Window& window, const VoxelBox& block) {
@@ -119,7 +99,7 @@ PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simpli
   for (glm::vec3& p : candidates) p -= volume.centre_voxels;
   PieceHull hull;
   hull.id = id;
-  hull.corners_m = simplified(candidates, simplifier);
+  hull.corners_m = traits_of(simplifier).choose(candidates);
   CHECK_DEBUG(lie_in(volume, hull.corners_m));
   if (hull.corners_m.empty()) hull.corners_m = cube_of(volume.mass);
   for (glm::vec3& corner : hull.corners_m) corner *= voxel_size_m;

@@ -176,11 +176,12 @@ std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates) 
   return corners;
 }
 
-bool is_thick(const std::vector<glm::vec3>& points) {
+std::vector<glm::vec3> if_thick(std::vector<glm::vec3> points) {
   Extent extent;
   ExtremePoints extremes;
-  measure_points(points, extent, extremes);
-  return extent.is_solid();
+  if (points.size() >= 4) measure_points(points, extent, extremes);
+  if (points.size() < 4 || !extent.is_solid()) points.clear();
+  return points;
 }
 
 }  // namespace scree

@@ -1,4 +1,5 @@
-// Chooses the corners of a convex hull from the points of a shape's surface. Deterministic; voxels.
+// The simplifier `hull`: chooses the corners of a convex hull from the points of a shape's surface.
+// Deterministic; voxels.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -6,7 +7,7 @@
 
 namespace scree {
 
-/// Most corners of one hull by Simplifier::hull: GJK's cost grows with them, and 20 already follow a cell
+/// Most corners of one hull: GJK's cost grows with them, and 20 already follow a cell
 /// well.
 inline constexpr int hull_corners_max = 20;
 
@@ -14,7 +15,7 @@ inline constexpr int hull_corners_max = 20;
 /// Empty when their hull is too thin to collide.
 std::vector<glm::vec3> choose_corners(const std::vector<glm::vec3>& candidates);
 
-/// Whether the hull of the points is thick enough to collide.
-bool is_thick(const std::vector<glm::vec3>& points);
+/// The points if their hull is thick enough to collide; else none.
+std::vector<glm::vec3> if_thick(std::vector<glm::vec3> points);
 
 }  // namespace scree

@@ -1,5 +1,6 @@
 // Chooses the points of a piece's surface that its body keeps: every point costs time in each contact (paper,
-// 1.2.2: cut meshes are simplified by their convex hull or by merging vertices). Deterministic; voxels.
+// 1.2.2: cut meshes are simplified by their convex hull or by merging vertices). Each way is a row of one
+// table and a file of its own. The body is convex in each case. Deterministic; voxels.
 #pragma once
 
 #include <cstddef>
@@ -8,24 +9,35 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/base/kind_table.h"
+
 namespace scree {
 
-/// none: all points, up to a limit. hull: a few points whose convex hull is nearly that of all (hull.h).
-/// merge: points nearer than a tolerance become one. The body is convex in each case.
+/// The points that the body keeps of those of a surface; none if their hull is too thin to collide.
+using ChoosePoints = std::vector<glm::vec3>(const std::vector<glm::vec3>& surface);
+
+/// All points, up to whole_points_max (simplify_none.cpp).
+ChoosePoints choose_all;
+/// A few points whose convex hull is nearly that of all (hull_corners.h).
+ChoosePoints choose_corners;
+/// The means of points that are near each other (simplify_merge.cpp).
+ChoosePoints choose_means;
+
 enum class Simplifier : uint8_t { none = 0, hull = 1, merge = 2 };
 
 struct SimplifierRow {
   std::string_view name;
+  ChoosePoints* choose = nullptr;
 };
 
 constexpr SimplifierRow row_of(Simplifier simplifier) {
   switch (simplifier) {
     case Simplifier::none:
-      return {.name = "none"};
+      return {.name = "none", .choose = choose_all};
     case Simplifier::hull:
-      return {.name = "hull"};
+      return {.name = "hull", .choose = choose_corners};
     case Simplifier::merge:
-      return {.name = "merge"};
+      return {.name = "merge", .choose = choose_means};
   }
   return {};
 }
@@ -34,10 +46,6 @@ constexpr SimplifierRow row_of(Simplifier simplifier) {
 /// point of each cube of a grid, `merge` has a larger tolerance.
 inline constexpr size_t whole_points_max = 128;
 inline constexpr size_t merged_points_max = 48;
-
-/// The first point in each cube of a grid, in their order. The cubes' side begins at `side_voxels` and grows
-/// until at most `count_max` points are left. Both are positive.
-std::vector<glm::vec3> spread(const std::vector<glm::vec3>& points, float side_voxels, size_t count_max);
 
 /// The means of clusters of points: a point joins the cluster whose first point is nearer than the tolerance.
 /// That begins at a voxel and grows until at most `count_max` clusters, which is positive, are left.

@@ -35,14 +35,16 @@ struct Pricing {
 }  // namespace
 
 uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted) {
-  const float each = cuts_polygons(cutter) ? limits::polygons_piece_cost_us : limits::piece_cost_us;
-  const float left_us = limits::cut_at_once_us - limits::cut_cost_us - limits::cut_voxel_cost_us * voxels;
-  const auto paid = std::max(limits::cut_at_once_min, static_cast<uint32_t>(std::max(left_us, 0.0F) / each));
+  const CutPrice& least = traits_of(cheapest_cutter).price;
+  const float left_us = limits::cut_at_once_us - least.volume_us - least.voxel_us * voxels;
+  const float each_us = traits_of(cutter).price.piece_us;
+  const auto paid =
+      std::max(limits::cut_at_once_min, static_cast<uint32_t>(std::max(left_us, 0.0F) / each_us));
   return wanted <= paid + paid / 2 ? wanted : paid;
 }
 
 Cutter cutter_for(Cutter wanted, float voxels, float limit_us) {
-  return cut_price_us(wanted, voxels, 2) > limit_us ? Cutter::field : wanted;
+  return cut_price_us(wanted, voxels, 2) > limit_us ? cheapest_cutter : wanted;
 }
 
 float price_us(const Request& request, const Field& field, Cutter cutter) {

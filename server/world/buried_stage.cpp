@@ -98,7 +98,7 @@ void merge_buried(World::State& state, TickDelta& delta) {
   find_enclosed(state);
   find_stuck(state);
   std::vector<PieceId> now;
-  const bool merging = state.config.methods.recombine != Recombination::off;
+  const bool merging = merges(state.config.methods.recombine);
   for (const PieceId id : state.buried) {
     if (!state.bodies.contains(id)) continue;
     const float cost_us = merge_cost_us(state, id);

@@ -71,7 +71,7 @@ void cut_on_later(World::State& state, const Applied& applied, const CarveReques
   state.cut_at = state.tick;
   share_out(state, applied,
             {.pieces = wanted,
-             .pattern = is_drawn(request.pattern) ? request.pattern : SeedPattern::uniform,
+             .pattern = is_drawn(request.pattern) ? request.pattern : plain_pattern,
              .random_seed = request.random_seed,
              .impact_m = request.impact_m,
              .thrown_by = whole ? std::make_shared<const CarveRequest>(request) : nullptr});

@@ -13,26 +13,14 @@
 #include "shared/operation/price.h"
 #include "shared/operation/stamp_groups.h"
 #include "shared/recombine/posed_piece.h"
-#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
 namespace {
 
-/// `off` never merges, so its value does not matter.
-StampMethod method_of(Recombination recombination) {
-  switch (recombination) {
-    case Recombination::slices:
-      return StampMethod::slices;
-    case Recombination::sphere:
-      return StampMethod::sphere;
-    case Recombination::facets:
-      return StampMethod::facets;
-    case Recombination::stamp:
-    case Recombination::off:
-      break;
-  }
-  return StampMethod::stamp;
+/// How pieces merge. Where none merges, prices go by the plainest method.
+StampMethod merge_method(const World::State& state) {
+  return stamp_method_of(state.config.methods.recombine).value_or(smallest_stamp);
 }
 
 /// How many of the pieces, from the first on, merge in this tick: as many as the rest of its budget pays, or
@@ -48,16 +36,15 @@ size_t affordable(const World::State& state, const std::vector<PieceId>& ready) 
 }  // namespace
 
 float merge_cost_us(const World::State& state, PieceId id) {
-  return merge_price_us(method_of(state.config.methods.recombine),
-                        static_cast<float>(state.pieces.at(id)->window.codes.size()));
+  return merge_price_us(merge_method(state), static_cast<float>(state.pieces.at(id)->window.codes.size()));
 }
 
 float least_merge_cost_us(const World::State& state) {
-  return merge_price_us(method_of(state.config.methods.recombine), 0.0F);
+  return merge_price_us(merge_method(state), 0.0F);
 }
 
 void settle(World::State& state, TickDelta& delta) {
-  const bool merging = state.config.methods.recombine != Recombination::off;
+  const bool merging = merges(state.config.methods.recombine);
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
     if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
@@ -115,21 +102,21 @@ std::vector<PieceId> with_enclosed(const World::State& state, const std::vector<
   return order;
 }
 
-/// The settings' method, or the stamp where that method's window would be too large: the ball of a box.
+/// The settings' method, or another one where its window would be too large: the ball of a box.
 StampMethod method_for(const World::State& state, const StampedPiece& piece) {
-  const StampMethod wanted = method_of(state.config.methods.recombine);
+  const StampMethod wanted = merge_method(state);
   const VoxelBox box =
       stamp_box(wanted, *state.pieces.at(piece.piece), piece.pose, state.config.terrain.voxel_size_m);
-  return Window::count(box) <= limits::stamp_voxels_max ? wanted : StampMethod::stamp;
+  return Window::count(box) <= limits::stamp_voxels_max ? wanted : smallest_stamp;
 }
 
 /// The plan for one piece. Where redistancing would close gaps between earlier merges that hold more mass
-/// than the piece and all dust have, the piece merges as slices, which never gain too much.
+/// than the piece and all dust have, the piece merges by a method that never gains too much.
 PreparedStamp prepare_one(World::State& state, const StampedPiece& piece, MassUnits mass, MassUnits budget) {
   PreparedStamp prepared =
       prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, method_for(state, piece), budget);
   if (prepared.gain <= mass + state.ledger.dust) return prepared;
-  return prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, StampMethod::slices, budget);
+  return prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, bounded_stamp, budget);
 }
 
 /// The field gains the pieces' mass, and with it dust that earlier merges could not place.
@@ -139,7 +126,7 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   for (const StampedPiece& one : group) mass += state.pieces.at(one.piece)->mass;
   const MassUnits budget = stamp_budget(mass, state.ledger.dust);
   const StampedPiece& first = group.front();
-  const StampMethod method = method_of(state.config.methods.recombine);
+  const StampMethod method = merge_method(state);
   const PreparedStamp prepared = group.size() > 1
                                      ? prepare_group(state.field, state.pieces, group, method, budget)
                                      : prepare_one(state, first, mass, budget);
@@ -165,7 +152,7 @@ void merge_pieces(World::State& state, const std::vector<PieceId>& ids, TickDelt
   std::vector<StampedPiece> places;
   for (const PieceId id : with_enclosed(state, ids))
     places.push_back({id, quantise(state.bodies.state(id).pose)});
-  const bool grouping = state.config.methods.group_merges && lays(method_of(state.config.methods.recombine));
+  const bool grouping = state.config.methods.group_merges && lays(merge_method(state));
   if (!grouping) {
     for (const StampedPiece& one : places) merge_group(state, {one}, delta);
     return;

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "server/colliders/terrain_collider_kind.h"
 #include "server/fracture/simplify.h"
-#include "shared/fracture/voronoi.h"
+#include "shared/fracture/cutter.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
@@ -17,22 +19,33 @@ enum class Recombination : uint8_t { stamp = 0, slices = 1, sphere = 2, off = 3,
 
 struct RecombinationRow {
   std::string_view name;
+  std::optional<StampMethod> method;  ///< none: pieces at rest freeze
 };
 
 constexpr RecombinationRow row_of(Recombination recombination) {
+  constexpr auto by = [](StampMethod method) { return RecombinationRow{name_of(method), method}; };
   switch (recombination) {
     case Recombination::stamp:
-      return {.name = "stamp"};
+      return by(StampMethod::stamp);
     case Recombination::slices:
-      return {.name = "slices"};
+      return by(StampMethod::slices);
     case Recombination::sphere:
-      return {.name = "sphere"};
+      return by(StampMethod::sphere);
     case Recombination::off:
-      return {.name = "off"};
+      return {.name = "off", .method = std::nullopt};
     case Recombination::facets:
-      return {.name = "facets"};
+      return by(StampMethod::facets);
   }
   return {};
+}
+static_assert(kind_count<Recombination> == kind_count<StampMethod> + 1);
+
+/// Nothing: pieces at rest never become terrain.
+constexpr std::optional<StampMethod> stamp_method_of(Recombination recombination) {
+  return traits_of(recombination).method;
+}
+constexpr bool merges(Recombination recombination) {
+  return stamp_method_of(recombination).has_value();
 }
 
 struct Methods {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "server/fracture/even_seeds.h"
+#include "server/fracture/relaxed_seeds.h"
 #include "server/work/limits.h"
 #include "server/work/memory.h"
 #include "server/work/price.h"
@@ -91,12 +91,10 @@ CarveOperation operation_of(const World::State& state, const CarveRequest& reque
 /// Gives the operation of a relaxed pattern its points: as many as find room in what it cuts, and one in any
 /// case.
 void relax_seeds(World::State& state, CarveOperation& operation) {
-  static_assert(kinds_that<SeedPattern, is_relaxed>.size() == 1,
-                "each relaxed pattern places its own points");
   const float dx = state.config.terrain.voxel_size_m;
   operation.authored_m.clear();
-  for (const glm::vec3& seed :
-       even_seeds(carved_volume(state.field, operation.shape), operation.seeds, operation.random_seed))
+  for (const glm::vec3& seed : relaxed_seeds(operation.pattern, carved_volume(state.field, operation.shape),
+                                             operation.seeds, operation.random_seed))
     operation.authored_m.push_back(seed * dx);
   if (operation.authored_m.empty()) operation.authored_m.push_back(centre_of(operation.shape));
   operation.seeds = static_cast<uint32_t>(operation.authored_m.size());
@@ -110,7 +108,7 @@ uint32_t seeds_at_once(const World::State& state, const CarveRequest& request, c
   const uint32_t at_once = pieces_at_once(cutter, voxels, grant.pieces);
   const float price_us = limits::edit_voxel_cost_us * voxels + cut_price_us(cutter, voxels, at_once);
   const float most_us = std::max(limits::carve_at_once_us, state.work.budget_us());
-  return cutter == Cutter::field && price_us > most_us ? 1 : at_once;
+  return cutter == cheapest_cutter && price_us > most_us ? 1 : at_once;
 }
 
 /// Refuses what no wait could make valid.
@@ -123,7 +121,7 @@ struct Checking {
                     "the pattern " + std::string(name_of(request.pattern)) + " takes no points");
     if (Result<void> valid = validate(request.shape); !valid)  // its centre is asked for below
       return refuse(Refusal::carve_invalid, valid.error().message);
-    CarveOperation operation = operation_of(state, request, request.seeds, Cutter::field);
+    CarveOperation operation = operation_of(state, request, request.seeds, cheapest_cutter);
     if (is_relaxed(request.pattern))
       operation.authored_m.assign(std::min(request.seeds, limits::authored_seeds_max + 1),
                                   centre_of(request.shape));
@@ -176,8 +174,7 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
 /// Pieces that lie in a shape that is filled become terrain with it, so that they do not travel out of it.
 /// Returns their number, for the reply.
 uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& delta) {
-  const Recombination recombination = state.config.methods.recombine;
-  if (recombination == Recombination::off) return 0;
+  if (!merges(state.config.methods.recombine)) return 0;
   const Shape in_field = in_voxels(shape, state.config.terrain.voxel_size_m);
   const std::vector<PieceId> enclosed = pieces_within(
       state, band_box(in_field), [&](glm::vec3 p_voxels) { return distance(in_field, p_voxels) < 0.0F; });
@@ -204,8 +201,7 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
   CHECK(done);
   if (state.config != before) publish_settings(state, delta);
   CHECK(delta.settings.size() <= limits::settings_max);
-  if (before.methods.recombine == Recombination::off && state.config.methods.recombine != Recombination::off)
-    state.bodies.thaw_all();
+  if (!merges(before.methods.recombine) && merges(state.config.methods.recombine)) state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
   state.field.bound_generated(generated_bytes_within(state.config.memory_max_mb));
   state.work.allow(state.config.work_percent);

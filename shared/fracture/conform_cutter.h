@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "shared/fracture/polygon_cut.h"
 #include "shared/fracture/polygon_mesh.h"
 
 namespace scree {
@@ -14,5 +15,7 @@ namespace scree {
 ///
 /// Parts are closed except for rounding: the corners of each face are computed separately.
 std::vector<PolygonMesh> conform_cells(const PolygonMesh& mesh, const std::vector<PolygonMesh>& cells);
+
+inline constexpr PolygonCutting conform_cutting{.parts = conform_cells, .closed = false};
 
 }  // namespace scree

@@ -6,9 +6,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/fracture/cell_groups.h"
-#include "shared/fracture/conform_cutter.h"
 #include "shared/fracture/polygon_codes.h"
-#include "shared/fracture/slice_cutter.h"
 #include "shared/fracture/voronoi_cells.h"
 
 namespace scree {
@@ -83,10 +81,10 @@ std::vector<MassUnits> masses_by_volume(MassUnits total, const std::vector<Polyg
 /// Makes pieces from the parts of a cut.
 class PieceMaker {
  public:
-  PieceMaker(Cutter cutter, const PolygonParts& cut, const VoxelBox& box,
+  PieceMaker(bool closed, const PolygonParts& cut, const VoxelBox& box,
              const std::vector<PolygonMoments>& moments)
       : cut_(cut), box_(box), moments_(moments) {
-    if (cutter != Cutter::conform) return;
+    if (closed) return;
     in_whole_.resize(Window::count(box));
     mark_inside(cut.whole, box, in_whole_);
   }
@@ -137,7 +135,7 @@ class PieceMaker {
   const PolygonParts& cut_;
   const VoxelBox& box_;
   const std::vector<PolygonMoments>& moments_;
-  std::vector<uint8_t> in_whole_;  ///< for `conform`, whose parts are closed but for rounding
+  std::vector<uint8_t> in_whole_;  ///< where parts are not closed exactly
 };
 
 /// Faces between a voxel inside and one outside.
@@ -160,7 +158,8 @@ size_t faces_of(const Window& volume) {
 
 }  // namespace
 
-PolygonParts cut_polygons(Cutter cutter, const Window& volume, const std::vector<glm::vec3>& seeds_voxels) {
+PolygonParts cut_polygons(const PolygonCutting& cutting, const Window& volume,
+                          const std::vector<glm::vec3>& seeds_voxels) {
   PolygonParts cut;
   cut.whole = polygonise(volume);
   if (cut.whole.empty()) {
@@ -172,21 +171,19 @@ PolygonParts cut_polygons(Cutter cutter, const Window& volume, const std::vector
   room.lo -= cells_margin;
   room.hi += cells_margin;
   cut.cells = voronoi_cells(seeds_voxels, room);
-  cut.parts =
-      cutter == Cutter::slice ? slice_by_cells(cut.whole, cut.cells) : conform_cells(cut.whole, cut.cells);
+  cut.parts = cutting.parts(cut.whole, cut.cells);
   return cut;
 }
 
-Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const Window& after,
-               const std::vector<glm::vec3>& seeds_voxels) {
-  if (cutter == Cutter::field || faces_of(volume) > polygon_faces_max)
-    return cut_cells(volume, before, after, seeds_voxels);
+Cut cut_as_polygons(const PolygonCutting& cutting, const Window& volume, const Window& before,
+                    const Window& after, const std::vector<glm::vec3>& seeds_voxels) {
+  if (faces_of(volume) > polygon_faces_max) return cut_by_field(volume, before, after, seeds_voxels);
   CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
   const MassUnits total = mass_lost(before, after);
   cut.dust = total;
   if (seeds_voxels.empty() || total < limits::piece_mass_min) return cut;
-  const PolygonParts polygons = cut_polygons(cutter, volume, seeds_voxels);
+  const PolygonParts polygons = cut_polygons(cutting, volume, seeds_voxels);
   std::vector<PolygonMoments> moments;
   for (const PolygonMesh& part : polygons.parts) moments.push_back(moments_of(part));
   const std::vector<MassUnits> masses = masses_by_volume(total, moments);
@@ -200,7 +197,7 @@ Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const 
     cells[root].push_back(static_cast<uint32_t>(i));
     mass[root] += masses[i];
   }
-  const PieceMaker maker(cutter, polygons, volume.box, moments);
+  const PieceMaker maker(cutting.closed, polygons, volume.box, moments);
   for (size_t root = 0; root < cells.size(); ++root)
     if (!cells[root].empty()) {
       Volume piece = maker.make(cells[root], mass[root]);

@@ -1,12 +1,17 @@
-// How the seeds of a break lie in the volume that breaks.
+// How the seeds of a break lie in the volume that breaks: a row for each pattern.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <string_view>
+#include <vector>
 
 #include "shared/base/kind_table.h"
+#include "shared/field/coord.h"
 
 namespace scree {
+
+class Random;
 
 /// - uniform: anywhere in the volume.
 /// - radial: density ∝ 1/d² from the impact, the paper's "spiderweb" (1.2.2).
@@ -20,23 +25,30 @@ enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, autho
 /// request. relaxed: points that the server computes. Points travel in the operation, as many as seeds.
 enum class SeedSource : uint8_t { drawn, given, relaxed };
 
+/// Places in a volume, whose solid voxels are listed, about which `count` drawn seeds are dense.
+using DensePlaces = std::vector<glm::vec3>(uint32_t count, glm::vec3 impact_voxels,
+                                           const std::vector<VoxelCoord>& solid, Random& random);
+DensePlaces at_impact;
+DensePlaces at_clusters;
+
 struct SeedPatternRow {
   std::string_view name;
   SeedSource source;
+  DensePlaces* places = nullptr;  ///< of a drawn pattern; null: seeds lie anywhere
 };
 
 constexpr SeedPatternRow row_of(SeedPattern pattern) {
   switch (pattern) {
     case SeedPattern::uniform:
-      return {.name = "uniform", .source = SeedSource::drawn};
+      return {.name = "uniform", .source = SeedSource::drawn, .places = nullptr};
     case SeedPattern::radial:
-      return {.name = "radial", .source = SeedSource::drawn};
+      return {.name = "radial", .source = SeedSource::drawn, .places = at_impact};
     case SeedPattern::clustered:
-      return {.name = "clustered", .source = SeedSource::drawn};
+      return {.name = "clustered", .source = SeedSource::drawn, .places = at_clusters};
     case SeedPattern::authored:
-      return {.name = "authored", .source = SeedSource::given};
+      return {.name = "authored", .source = SeedSource::given, .places = nullptr};
     case SeedPattern::even:
-      return {.name = "even", .source = SeedSource::relaxed};
+      return {.name = "even", .source = SeedSource::relaxed, .places = nullptr};
   }
   return {};
 }
@@ -58,6 +70,9 @@ constexpr bool asks_no_points(SeedPattern pattern) {
 /// Patterns that need no points: for a piece that shatters, and for a person who carves.
 inline constexpr auto drawn_patterns = kinds_that<SeedPattern, is_drawn>;
 inline constexpr auto pointless_patterns = kinds_that<SeedPattern, asks_no_points>;
+
+/// Takes the place of a pattern whose points are missing, in later cuts and in predictions.
+inline constexpr SeedPattern plain_pattern = SeedPattern::uniform;
 
 /// Whether a carve, or a shatter, may have this pattern. Codecs and validate() ask the same function, so that
 /// no client refuses an operation that its server applies.

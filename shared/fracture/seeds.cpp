@@ -1,3 +1,5 @@
+#include "shared/fracture/seeds.h"
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -6,7 +8,6 @@
 #include "shared/base/random.h"
 #include "shared/field/eight_bytes.h"
 #include "shared/field/voxel_vector.h"
-#include "shared/fracture/voronoi.h"
 
 namespace scree {
 
@@ -110,30 +111,24 @@ constexpr uint32_t seeds_per_cluster = 8;
 /// Bounds the cost of a seed's draw.
 constexpr size_t clusters_max = 64;
 
-std::vector<glm::vec3> places_of(SeedPattern pattern, uint32_t count, glm::vec3 impact,
-                                 const std::vector<VoxelCoord>& solid, Random& random) {
-  std::vector<glm::vec3> places;
-  switch (pattern) {
-    case SeedPattern::radial:
-      places.push_back(impact);
-      break;
-    case SeedPattern::clustered:
-      for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
-        places.push_back(as_vector(solid[random.below(static_cast<uint32_t>(solid.size()))]));
-      break;
-    case SeedPattern::uniform:
-    case SeedPattern::authored:  // these two are never drawn (scatter_seeds)
-    case SeedPattern::even:
-      break;
-  }
-  return places;
-}
-
 int rounded(float x) {
   return floor_to_int(x + 0.5F);
 }
 
 }  // namespace
+
+std::vector<glm::vec3> at_impact(uint32_t /*count*/, glm::vec3 impact_voxels,
+                                 const std::vector<VoxelCoord>& /*solid*/, Random& /*random*/) {
+  return {impact_voxels};
+}
+
+std::vector<glm::vec3> at_clusters(uint32_t count, glm::vec3 /*impact_voxels*/,
+                                   const std::vector<VoxelCoord>& solid, Random& random) {
+  std::vector<glm::vec3> places;
+  for (uint32_t i = 0; i < count && places.size() < clusters_max; i += seeds_per_cluster)
+    places.push_back(as_vector(solid[random.below(static_cast<uint32_t>(solid.size()))]));
+  return places;
+}
 
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels) {
@@ -142,7 +137,9 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   const std::vector<VoxelCoord> solid = solid_voxels(volume);
   if (solid.empty()) return {};
   Random random(random_seed);
-  const Density density(places_of(pattern, count, impact_voxels, solid, random), solid);
+  DensePlaces* const places = traits_of(pattern).places;
+  const Density density(
+      places == nullptr ? std::vector<glm::vec3>() : places(count, impact_voxels, solid, random), solid);
   SpacedSeeds out(volume.box);
   const uint64_t tries_max = static_cast<uint64_t>(count) * tries_per_seed;
   for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
@@ -164,7 +161,7 @@ std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<gl
     const VoxelCoord voxel{rounded(p.x), rounded(p.y), rounded(p.z)};
     if (volume.box.holds(voxel) && volume.at(voxel.x, voxel.y, voxel.z) < 0) out.add(p);
   }
-  if (out.seeds.empty()) return scatter_seeds(volume, SeedPattern::uniform, 1, random_seed, glm::vec3(0.0F));
+  if (out.seeds.empty()) return scatter_seeds(volume, plain_pattern, 1, random_seed, glm::vec3(0.0F));
   return std::move(out.seeds);
 }
 

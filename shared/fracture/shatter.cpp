@@ -1,7 +1,6 @@
 #include "shared/fracture/shatter.h"
 
 #include "shared/base/check.h"
-#include "shared/fracture/polygon_cut.h"
 
 namespace scree {
 

@@ -1,7 +1,7 @@
 // Breaks a piece: its volume is cut along Voronoi cells, in its own voxel frame. The terrain takes no part.
 #pragma once
 
-#include "shared/fracture/voronoi.h"
+#include "shared/fracture/cutter.h"
 
 namespace scree {
 

@@ -79,4 +79,9 @@ std::vector<PolygonMesh> slice_by_cells(const PolygonMesh& mesh, const std::vect
   return Slicing(cells).run(mesh);
 }
 
+Cut cut_by_slices(const Window& volume, const Window& before, const Window& after,
+                  const std::vector<glm::vec3>& seeds_voxels) {
+  return cut_as_polygons(slice_cutting, volume, before, after, seeds_voxels);
+}
+
 }  // namespace scree

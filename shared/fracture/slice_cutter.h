@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "shared/fracture/polygon_cut.h"
 #include "shared/fracture/polygon_mesh.h"
 
 namespace scree {
@@ -12,5 +13,7 @@ namespace scree {
 /// here the cells are halved recursively, and each half begins with the mesh around it, so that the cost does
 /// not grow with the product of mesh and cells.
 std::vector<PolygonMesh> slice_by_cells(const PolygonMesh& mesh, const std::vector<PolygonMesh>& cells);
+
+inline constexpr PolygonCutting slice_cutting{.parts = slice_by_cells, .closed = true};
 
 }  // namespace scree

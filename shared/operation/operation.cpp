@@ -11,10 +11,9 @@
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/field/paint.h"
-#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/seeds.h"
 #include "shared/fracture/shatter.h"
 #include "shared/operation/prepared_stamp.h"
-#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
@@ -104,7 +103,7 @@ Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, M
   } else {
     MassUnits mass = 0;
     for (const auto& one : volumes) mass += one->mass;
-    stamp_laid(op.method, window, laid, mass, op.shift);
+    stamp_laid(laying_of(op.method), window, laid, mass, op.shift);
   }
   gain = mass_of(window) - before;
   return window;

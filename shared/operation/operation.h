@@ -14,9 +14,9 @@
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
+#include "shared/fracture/cutter.h"
 #include "shared/fracture/seed_pattern.h"
-#include "shared/fracture/voronoi.h"
-#include "shared/recombine/stamp.h"
+#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 

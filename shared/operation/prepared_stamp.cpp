@@ -1,16 +1,16 @@
 #include "shared/operation/prepared_stamp.h"
 
 #include "shared/base/check.h"
-#include "shared/recombine/stamp_method.h"
 
 namespace scree {
 
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,
                float voxel_size_m) {
   CHECK_EQ(volumes.size(), op.others.size() + 1);
-  std::vector<Window> laid{lay(op.method, *volumes.front(), op.pose, voxel_size_m)};
+  const Laying& laying = laying_of(op.method);
+  std::vector<Window> laid{lay(laying, *volumes.front(), op.pose, voxel_size_m)};
   for (size_t i = 0; i < op.others.size(); ++i)
-    laid.push_back(lay(op.method, *volumes[i + 1], op.others[i].pose, voxel_size_m));
+    laid.push_back(lay(laying, *volumes[i + 1], op.others[i].pose, voxel_size_m));
   return together(std::move(laid));
 }
 
@@ -32,7 +32,7 @@ PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<co
   }
   const Window laid = lay_all(op, prepared.volumes, field.source().voxel_size_m);
   prepared.after = gather(field, merge_box(laid));
-  const StampPlan plan = plan_laid(method, prepared.after, laid, mass, budget);
+  const StampPlan plan = plan_laid(laying_of(method), prepared.after, laid, mass, budget);
   op.shift = plan.shift;
   prepared.gain = plan.gain;
   return prepared;

@@ -20,19 +20,6 @@ size_t untouched_chunks(const VoxelBox& box, const Field& field) {
   return count;
 }
 
-float stamp_price_us(StampMethod method) {
-  switch (method) {
-    case StampMethod::slices:
-      return limits::slices_cost_us;
-    case StampMethod::sphere:
-      return limits::sphere_cost_us;
-    case StampMethod::stamp:
-    case StampMethod::facets:
-      break;
-  }
-  return limits::stamp_cost_us;
-}
-
 struct OperationPricing {
   const Field& field;
   const PieceTable& pieces;
@@ -60,17 +47,6 @@ struct OperationPricing {
 
 }  // namespace
 
-bool cuts_polygons(Cutter cutter) {
-  switch (cutter) {
-    case Cutter::field:
-      return false;
-    case Cutter::slice:
-    case Cutter::conform:
-      break;
-  }
-  return true;
-}
-
 float edit_price_us(const Shape& shape, const Field& field) {
   const float dx = field.source().voxel_size_m;
   CHECK(validate(Operation(FillOperation{shape}), {}, dx));
@@ -85,15 +61,12 @@ float voxels_of(const VoxelBox& box) {
 }
 
 float cut_price_us(Cutter cutter, float voxels, uint32_t pieces) {
-  const auto count = static_cast<float>(pieces);
-  if (cuts_polygons(cutter))
-    return limits::polygons_cost_us + limits::polygons_voxel_cost_us * voxels +
-           limits::polygons_piece_cost_us * count;
-  return limits::cut_cost_us + limits::cut_voxel_cost_us * voxels + limits::piece_cost_us * count;
+  const CutPrice& price = traits_of(cutter).price;
+  return price.volume_us + price.voxel_us * voxels + price.piece_us * static_cast<float>(pieces);
 }
 
 float merge_price_us(StampMethod method, float voxels) {
-  return stamp_price_us(method) + limits::stamp_voxel_cost_us * voxels;
+  return traits_of(method).price_us + limits::stamp_voxel_cost_us * voxels;
 }
 
 float lift_price_us(const VoxelBox& box) {

@@ -6,7 +6,7 @@
 
 #include "shared/field/field.h"
 #include "shared/field/window.h"
-#include "shared/fracture/voronoi.h"
+#include "shared/fracture/cutter.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -14,8 +14,6 @@ namespace scree {
 /// Voxels of a box.
 float voxels_of(const VoxelBox& box);
 
-/// Whether the cutter computes parts of the volume as polygons.
-bool cuts_polygons(Cutter cutter);
 /// Reading and changing the field in the box of a shape that is valid.
 float edit_price_us(const Shape& shape, const Field& field);
 /// Cutting a volume whose window has so many voxels into so many pieces, with their hulls and bodies.

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "shared/base/check.h"
-#include "shared/recombine/stamp.h"
+#include "shared/recombine/stamp_plan.h"
 
 namespace scree {
 

@@ -4,8 +4,6 @@
 
 #include "shared/base/check.h"
 #include "shared/field/redistance.h"
-#include "shared/recombine/merge_patch.h"
-#include "shared/recombine/posed_piece.h"
 
 namespace scree {
 
@@ -13,16 +11,6 @@ namespace {
 
 /// Voxels that may become rock and their outside neighbours decide where the surface lies.
 constexpr int laid_margin = 1;
-
-Edges edges_of(StampMethod method) {
-  CHECK(lays(method));
-  return method == StampMethod::facets ? Edges::keep : Edges::round;
-}
-
-Reading reading_of(StampMethod method) {
-  CHECK(lays(method));
-  return method == StampMethod::facets ? Reading::planes : Reading::codes;
-}
 
 /// A shift's two numbers. The lowest shifts have a roundness of −stamp_roundness_max − 1, which no plan uses.
 int roundness(int shift) {
@@ -70,9 +58,9 @@ VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_
   return posed_bounds(volume, pose, voxel_size_m).grown(laid_margin + MergePatch::margin);
 }
 
-Window lay(StampMethod method, const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
+Window lay(const Laying& laying, const Volume& volume, const QuantisedPose& pose, float voxel_size_m) {
   const VoxelBox box = posed_bounds(volume, pose, voxel_size_m).grown(laid_margin);
-  Window posed = posed_codes(volume, pose, voxel_size_m, box, reading_of(method));
+  Window posed = posed_codes(volume, pose, voxel_size_m, box, laying.reading);
   const VoxelBox near = near_box(posed);
   return near.empty() ? posed : part_of(posed, common(near.grown(laid_margin), box));
 }
@@ -99,18 +87,18 @@ VoxelBox merge_box(const Window& laid) {
   return laid.box.grown(MergePatch::margin);
 }
 
-void stamp_laid(StampMethod method, Window& window, const Window& laid, MassUnits piece_mass, int shift) {
+void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift) {
   CHECK(std::abs(shift) <= stamp_shift_max);
-  MergePatch patch(window, laid, edges_of(method));
+  MergePatch patch(window, laid, laying.edges);
   const MassUnits mass = piece_mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
   patch.place(mass - patch.shape(roundness(shift)));
   window.codes = patch.codes();
   redistance(window);
 }
 
-StampPlan plan_laid(StampMethod method, Window& window, const Window& laid, MassUnits piece_mass,
+StampPlan plan_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass,
                     MassUnits budget) {
-  MergePatch patch(window, laid, edges_of(method));
+  MergePatch patch(window, laid, laying.edges);
   const int dust = static_cast<int>(
       std::clamp<MassUnits>((budget - piece_mass) / stamp_dust_step, 0, (1 << stamp_dust_bits) - 1));
   const MassUnits mass = piece_mass + MassUnits{dust} * stamp_dust_step;
@@ -124,19 +112,19 @@ StampPlan plan_laid(StampMethod method, Window& window, const Window& laid, Mass
   return plan;
 }
 
-void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift,
-           StampMethod method) {
-  const Window laid = lay(method, volume, pose, voxel_size_m);
+void stamp(const Laying& laying, Window& window, const Volume& volume, const QuantisedPose& pose,
+           float voxel_size_m, int shift) {
+  const Window laid = lay(laying, volume, pose, voxel_size_m);
   Window part = part_of(window, merge_box(laid));
-  stamp_laid(method, part, laid, volume.mass, shift);
+  stamp_laid(laying, part, laid, volume.mass, shift);
   put(part, window);
 }
 
-StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                     float voxel_size_m, MassUnits budget, StampMethod method) {
-  const Window laid = lay(method, volume, pose, voxel_size_m);
+StampPlan plan_stamp(const Laying& laying, const Window& window, const Volume& volume,
+                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget) {
+  const Window laid = lay(laying, volume, pose, voxel_size_m);
   Window part = part_of(window, merge_box(laid));
-  return plan_laid(method, part, laid, volume.mass, budget);
+  return plan_laid(laying, part, laid, volume.mass, budget);
 }
 
 }  // namespace scree

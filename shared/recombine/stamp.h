@@ -7,52 +7,29 @@
 // merged where they were thus restore the surface that they had (bench seams; docs/design/simulation.md).
 #pragma once
 
-#include <cstdint>
-#include <string_view>
+#include <vector>
 
-#include "shared/base/kind_table.h"
 #include "shared/field/piece.h"
+#include "shared/recombine/merge_patch.h"
+#include "shared/recombine/posed_piece.h"
+#include "shared/recombine/stamp_plan.h"
 
 namespace scree {
 
-/// The method by which a piece becomes terrain again: `stamp` as above; `slices`, the paper's; `sphere`, that
-/// of the paper's program (stamp_slices.h, stamp_sphere.h). `facets`: a stamp whose piece is read by planes
-/// (posed_piece.h), and which meets the mass by moving the whole surface alone: stones keep flat faces and
-/// their edges, and gaps between them, where `stamp` restores a surface that was cut. It decides bits, so it
-/// crosses the wire.
-enum class StampMethod : uint8_t { stamp = 0, slices = 1, sphere = 2, facets = 3 };
-
-struct StampMethodRow {
-  std::string_view name;
-  bool lays;  ///< it is made of lay() and stamp_laid(), so that several pieces may merge at once
+/// A way to merge by laying pieces on the terrain's grid first, so that several pieces may merge at once.
+struct Laying {
+  Reading reading;  ///< how a piece is read between its voxels
+  Edges edges;      ///< what gives way to meet the mass
 };
+/// Restores a surface that was cut.
+inline constexpr Laying laying_rounded{Reading::codes, Edges::round};
+/// Stones keep flat faces and their edges, and gaps between them.
+inline constexpr Laying laying_faceted{Reading::planes, Edges::keep};
 
-constexpr StampMethodRow row_of(StampMethod method) {
-  switch (method) {
-    case StampMethod::stamp:
-      return {.name = "stamp", .lays = true};
-    case StampMethod::slices:
-      return {.name = "slices", .lays = false};
-    case StampMethod::sphere:
-      return {.name = "sphere", .lays = false};
-    case StampMethod::facets:
-      return {.name = "facets", .lays = true};
-  }
-  return {};
-}
-
-/// Whether several pieces may merge at once by this method, which must be known.
-constexpr bool lays(StampMethod method) {
-  return traits_of(method).lays;
-}
-
-/// Bounds of a shift, whose meaning is the method's: 14 bits on the wire.
-inline constexpr int stamp_shift_max = 8191;
-
-/// The method stamp's shift holds two numbers, roundness · 2^7 + dust. A negative roundness
+/// The shift of a stamp that rounds edges holds two numbers, roundness · 2^7 + dust. A negative roundness
 /// rounds edges, a positive one fills clefts. Up to half of the maximum the effect grows until it is
-/// complete; beyond, the whole surface moves as well, by up to half a voxel at the maximum. By `facets` the
-/// surface alone moves, as far.
+/// complete; beyond, the whole surface moves as well, by up to half a voxel at the maximum. Where edges are
+/// kept, the surface alone moves, as far.
 inline constexpr int stamp_roundness_max = 63;
 /// The dust that the piece takes along, in steps of stamp_dust_step units.
 inline constexpr int stamp_dust_bits = 7;
@@ -61,9 +38,8 @@ inline constexpr int stamp_dust_step = 16;
 /// The voxels that stamping the piece may read.
 VoxelBox stamp_box(const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 
-/// The piece on the terrain's grid: the voxels that may become rock, and a layer around them. Here and below
-/// the method is one that lays.
-Window lay(StampMethod method, const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
+/// The piece on the terrain's grid: the voxels that may become rock, and a layer around them.
+Window lay(const Laying& laying, const Volume& volume, const QuantisedPose& pose, float voxel_size_m);
 
 /// One window over all of the pieces' windows, with the least of their codes at each voxel.
 Window together(std::vector<Window> laid);
@@ -72,33 +48,21 @@ Window together(std::vector<Window> laid);
 VoxelBox merge_box(const Window& laid);
 
 /// Merges a laid piece into `window`, the terrain over merge_box(laid), with a given shift.
-void stamp_laid(StampMethod method, Window& window, const Window& laid, MassUnits piece_mass, int shift);
-
-struct StampPlan {
-  int shift = 0;
-  MassUnits gain = 0;  ///< mass that the window gains with that shift
-};
+void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift);
 
 /// Plans like plan_stamp() and leaves the stamped terrain in `window`, which has the box merge_box(laid).
-StampPlan plan_laid(StampMethod method, Window& window, const Window& laid, MassUnits piece_mass,
+StampPlan plan_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass,
                     MassUnits budget);
 
 /// Merges a piece into `window`, which must cover stamp_box(). The window gains the piece's mass and the
-/// shift's dust, as nearly as single codes allow at the shift's roundness. The method is one that lays.
-void stamp(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m, int shift,
-           StampMethod method = StampMethod::stamp);
-
-/// Mass that a merge may gain: the piece's, and of the waiting dust at most a thirty-second of that, as a
-/// piece that takes much more bulges (measured: bench seams).
-inline MassUnits stamp_budget(MassUnits piece_mass, MassUnits dust) {
-  const MassUnits most = piece_mass / 32;
-  return piece_mass + (dust < most ? dust : most);
-}
+/// shift's dust, as nearly as single codes allow at the shift's roundness.
+void stamp(const Laying& laying, Window& window, const Volume& volume, const QuantisedPose& pose,
+           float voxel_size_m, int shift);
 
 /// Finds the shift whose gain comes nearest the budget (the piece's mass and dust), within a few units where
 /// the piece can hold that much; and the exact gain of stamp() with this shift. The gain exceeds the budget
 /// only where gaps between earlier merges, which redistancing closes, alone gain more than the budget.
-StampPlan plan_stamp(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                     float voxel_size_m, MassUnits budget, StampMethod method = StampMethod::stamp);
+StampPlan plan_stamp(const Laying& laying, const Window& window, const Volume& volume,
+                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget);
 
 }  // namespace scree

@@ -9,7 +9,8 @@
 // neighbourhood is redistanced. The surfaces have steps of a voxel.
 #pragma once
 
-#include "shared/recombine/stamp.h"
+#include "shared/field/piece.h"
+#include "shared/recombine/stamp_plan.h"
 
 namespace scree {
 

@@ -6,7 +6,8 @@
 // hold becomes dust.
 #pragma once
 
-#include "shared/recombine/stamp.h"
+#include "shared/field/piece.h"
+#include "shared/recombine/stamp_plan.h"
 
 namespace scree {
 

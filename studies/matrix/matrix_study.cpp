@@ -99,7 +99,7 @@ class MatrixRun {
         kept_, "merge " + cut_name + " " + std::string(name_of(one.recombine)),
         [&] { return measure_merge(one.cutter, one.pattern, one.recombine, plan_.seeds); });
     if (!merge) return fail(merge.error().message);
-    auto& kind = one.recombine == Recombination::off ? results_.frozen : results_.sessions;
+    auto& kind = merges(one.recombine) ? results_.sessions : results_.frozen;
     kind.push_back({one, *session, *cut, *merge});
     went_on(1.0);
     if (number % (simulated_.size() / repeats + 1) != 0) return {};

@@ -5,7 +5,7 @@
 
 #include "bench/support/scenes.h"
 #include "bench/support/surface_distance.h"
-#include "server/fracture/even_seeds.h"
+#include "server/fracture/relaxed_seeds.h"
 #include "shared/operation/prepared_stamp.h"
 #include "studies/matrix/session.h"
 
@@ -20,7 +20,8 @@ CarveOperation cut_operation(Cutter cutter, SeedPattern pattern, uint32_t seeds,
   const CarveRequest blow = blow_at(matrix_terrain, 6.0F, 4.0F, cut_radius_m, seeds, 1);
   CarveOperation carve{blow.shape, pattern, seeds, blow.random_seed, blow.impact_m, 1, cutter, {}};
   if (!is_relaxed(pattern)) return carve;
-  for (const glm::vec3& seed : even_seeds(carved_volume(field, blow.shape), seeds, blow.random_seed))
+  for (const glm::vec3& seed :
+       relaxed_seeds(pattern, carved_volume(field, blow.shape), seeds, blow.random_seed))
     carve.authored_m.push_back(seed * matrix_terrain.voxel_size_m);
   carve.seeds = static_cast<uint32_t>(carve.authored_m.size());
   return carve;
@@ -67,7 +68,7 @@ Result<CutFigures> measure_cut(Cutter cutter, SeedPattern pattern, uint32_t seed
 
 Result<MergeFigures> measure_merge(Cutter cutter, SeedPattern pattern, Recombination recombine,
                                    uint32_t seeds) {
-  const std::optional<StampMethod> method = kind_named<StampMethod>(name_of(recombine));
+  const std::optional<StampMethod> method = stamp_method_of(recombine);
   if (!method) return MergeFigures{};
   MapField field(matrix_terrain);
   PieceTable pieces;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "bench/peers/csg_list.h"
+#include "client/render/grid/grid_shape.h"
 #include "shared/base/quantile.h"
 #include "shared/base/random.h"
 #include "studies/paper/measure.h"
@@ -128,7 +129,7 @@ Result<CarvingFound> measure_carving(Stage& stage, const Plan& plan, const Progr
     if (!*made) return fail(made->error().message);
   auto list = peers::make_csg_list_method({});
   if (!list) return fail(list.error().message);
-  stage.renderer->set_grid(session_grid);
+  (*grid)->set_options(values_of(session_grid));
   CarvingFound found{
       .fresh_until_s = seconds(course.fresh_until),
       .switched_at_s = seconds(course.switched_at),
@@ -148,7 +149,6 @@ Result<CarvingFound> measure_carving(Stage& stage, const Plan& plan, const Progr
   if (!atlas) return fail(atlas.error().message);
   auto listed = run_carving(stage, plan, course, {**list, **grid, list->get(), nullptr}, told(0.5), found);
   if (!listed) return fail(listed.error().message);
-  stage.renderer->set_grid({});
   found.atlas = {"Scree: raymarch by an atlas of bricks", std::move(atlas->ticks)};
   found.list = {"the paper's way: raymarch by a list of carves, on its own noise", std::move(listed->ticks)};
   return found;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/support/heap.h"
+#include "client/render/grid/grid_shape.h"
 #include "shared/base/memory_count.h"
 #include "shared/base/quantile.h"
 #include "studies/paper/measure.h"
@@ -33,7 +34,7 @@ size_t held_since(size_t before) {
 Result<void> run_setting(Stage& stage, const Plan& plan, const Setting& setting, DrawMethod& method,
                          WorkPool& pool, size_t method_bytes, SettingFound& found) {
   const size_t held_before = heap_bytes();
-  stage.renderer->set_grid(setting.grid);
+  method.set_options(values_of(setting.grid));
   PaperSession session(stage, session_config(), setting.picture, near_camera());
   session.show(method, pool);
   if (const Result<double> warm = session.draw(method); !warm) return fail(warm.error().message);
@@ -86,7 +87,6 @@ Result<void> run_sweep(Stage& stage, const Plan& plan, Sweep& sweep, const Progr
       TRY(run_setting(stage, plan, setting, **method, pool, method_bytes, *found));
       progress(++done / static_cast<double>(sweep.settings.size() * static_cast<size_t>(plan.rounds)));
     }
-  stage.renderer->set_grid({});
   return {};
 }
 
@@ -95,15 +95,15 @@ Result<void> run_sweep(Stage& stage, const Plan& plan, Sweep& sweep, const Progr
 Result<void> measure_settings(Stage& stage, const Plan& plan, const Progress& progress, Findings& found) {
   Sweep grids{"grid", {}}, march{"raymarch", {}};
   found.grids.clear();
-  for (const GridSpacing spacing : grid_spacings) {
+  for (const GridSpacing spacing : all_kinds<GridSpacing>) {
     SweepFound sweep{fmt::format("{} spacing", name_of(spacing)), {}};
     for (const int cells : plan.grid_cells) sweep.settings.push_back({.size = static_cast<double>(cells)});
     found.grids.push_back(std::move(sweep));
   }
   for (size_t i = 0; i < found.grids.size(); ++i)
     for (size_t j = 0; j < plan.grid_cells.size(); ++j)
-      grids.settings.push_back(
-          {{plan.picture(100), {plan.grid_cells[j], 1, grid_spacings.at(i)}}, &found.grids[i].settings[j]});
+      grids.settings.push_back({{plan.picture(100), {plan.grid_cells[j], 1, all_kinds<GridSpacing>.at(i)}},
+                                &found.grids[i].settings[j]});
   found.raymarch = {"raymarch", {}};
   for (const int percent : plan.percents)
     found.raymarch.settings.push_back({.size = static_cast<double>(percent)});

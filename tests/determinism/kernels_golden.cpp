@@ -12,8 +12,9 @@
 #include "shared/field/edit.h"
 #include "shared/field/redistance.h"
 #include "shared/field/terrain.h"
-#include "shared/fracture/polygon_cut.h"
-#include "shared/fracture/voronoi.h"
+#include "shared/fracture/conform_cutter.h"
+#include "shared/fracture/seeds.h"
+#include "shared/fracture/slice_cutter.h"
 #include "shared/operation/operation.h"
 #include "shared/recombine/stamp_method.h"
 #include "tests/support/memory_heights.h"
@@ -224,15 +225,17 @@ void print_seed_patterns() {
 }
 
 void print_polygon_cutters() {
-  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
+  const auto print = [](Cutter cutter, const PolygonCutting& cutting, const char* name) {
     Digest digest;
     const Fracture fractured = fracture(cutter, SeedPattern::radial, 40, digest);
     digest.add(fractured.cut);
-    for (const PolygonMesh& part : cut_polygons(cutter, fractured.volume, fractured.seeds).parts)
+    for (const PolygonMesh& part : cut_polygons(cutting, fractured.volume, fractured.seeds).parts)
       for (const glm::dvec3& vertex : part.vertices)
         for (int i = 0; i < 3; ++i) digest.add(std::bit_cast<uint64_t>(vertex[i]));
-    digest.print(cutter == Cutter::slice ? "cut_slice" : "cut_conform");
-  }
+    digest.print(name);
+  };
+  print(Cutter::slice, slice_cutting, "cut_slice");
+  print(Cutter::conform, conform_cutting, "cut_conform");
 }
 
 /// Some pose near `position_m`, turned anyhow.

@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "client/render/grid/grid_shape.h"
 #include "client/viewer/base/camera_text.h"
 #include "client/viewer/pictures/png.h"
 #include "tests/support/loaded_libraries.h"
@@ -155,6 +156,8 @@ TEST(FilmOptionTest, wrong_options_are_refused_by_name) {
                                                    {"--camera", "1,2"},
                                                    {"--orbit", "quake"},
                                                    {"--method", "wish"},
+                                                   {"--grid-resolution", "40"},
+                                                   {"--grid-spacing", "odd"},
                                                    {"--quality", "best"},
                                                    {"--view-radius", "1"},
                                                    {"--encoder-quality", "0"},
@@ -177,6 +180,15 @@ TEST(FilmOptionTest, wrong_options_are_refused_by_name) {
     EXPECT_EQ(std::get<int>(parsed), 2);
     EXPECT_NE(said.find(wrong.option), std::string::npos) << said;
   }
+}
+
+TEST(FilmOptions, methods_own_options_reach_the_drawing) {
+  const std::array arguments = {"scree-render", "session.scree", "-o",           "film.mp4",
+                                "--method",     "grid",          "--grid-scale", "4"};
+  const auto parsed = parse_film_options(static_cast<int>(arguments.size()), arguments.data());
+  ASSERT_TRUE(std::holds_alternative<FilmOptions>(parsed));
+  EXPECT_EQ(grid_shape_of(std::get<FilmOptions>(parsed).drawn.method_options),
+            (GridShape{GridShape().resolution, 4, GridShape().spacing}));
 }
 
 class FilmProgram : public RecordingTest {

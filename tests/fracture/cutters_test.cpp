@@ -9,15 +9,17 @@
 #include "shared/field/edit.h"
 #include "shared/field/field.h"
 #include "shared/field/terrain.h"
+#include "shared/fracture/conform_cutter.h"
 #include "shared/fracture/polygon_codes.h"
-#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/seeds.h"
+#include "shared/fracture/slice_cutter.h"
 #include "shared/fracture/voronoi_cells.h"
 #include "tests/support/rounds.h"
 
 namespace scree {
 namespace {
 
-constexpr Cutter polygon_cutters[] = {Cutter::slice, Cutter::conform};
+constexpr PolygonCutting polygon_cutters[] = {slice_cutting, conform_cutting};
 
 struct Scene {
   Window before, after, volume;
@@ -136,10 +138,11 @@ TEST(Cutters, parts_add_up_to_the_whole) {
     const Scene scene(kind, sphere(c, 8.0F));
     for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial})
       for (const uint32_t count : {1U, 2U, 64U, rounds(300U, 65U)})
-        for (const Cutter cutter : polygon_cutters) {
+        for (const PolygonCutting& cutting : polygon_cutters) {
           const auto seeds = scatter_seeds(scene.volume, pattern, count, 5, c);
-          expect_conserved(cut_polygons(cutter, scene.volume, seeds),
-                           std::to_string(static_cast<int>(cutter)) + " of " + std::to_string(count));
+          expect_conserved(
+              cut_polygons(cutting, scene.volume, seeds),
+              std::string(cutting.closed ? "slice" : "conform") + " of " + std::to_string(count));
         }
   }
 }
@@ -152,10 +155,10 @@ TEST(Cutters, parts_add_up_where_planes_lie_in_the_surface) {
   for (int x = -3; x <= 3; ++x)
     for (int y = -3; y <= 3; ++y)
       for (int z = -3; z <= 3; ++z) seeds.push_back(c + glm::vec3(x, y, z) * 2.0F);
-  for (const Cutter cutter : polygon_cutters) {
-    const PolygonParts cut = cut_polygons(cutter, scene.volume, seeds);
+  for (const PolygonCutting& cutting : polygon_cutters) {
+    const PolygonParts cut = cut_polygons(cutting, scene.volume, seeds);
     expect_conserved(cut, "lattice");
-    for (const PolygonMesh& part : cut.parts) EXPECT_TRUE(cutter != Cutter::slice || is_closed(part));
+    for (const PolygonMesh& part : cut.parts) EXPECT_TRUE(!cutting.closed || is_closed(part));
   }
 }
 
@@ -163,8 +166,8 @@ TEST(Cutters, slice_and_conform_make_the_same_parts) {
   const glm::vec3 c = on_the_ground(TerrainKind::canyon);
   const Scene scene(TerrainKind::canyon, sphere(c, 8.0F));
   const auto seeds = scatter_seeds(scene.volume, SeedPattern::radial, 64, 5, c);
-  const PolygonParts a = cut_polygons(Cutter::slice, scene.volume, seeds);
-  const PolygonParts b = cut_polygons(Cutter::conform, scene.volume, seeds);
+  const PolygonParts a = cut_polygons(slice_cutting, scene.volume, seeds);
+  const PolygonParts b = cut_polygons(conform_cutting, scene.volume, seeds);
   size_t drawn_otherwise = 0;
   for (size_t i = 0; i < seeds.size(); ++i) {
     EXPECT_NEAR(moments_of(a.parts[i]).volume, moments_of(b.parts[i]).volume, 1e-6) << "cell " << i;
@@ -202,7 +205,7 @@ TEST(Cutters, pieces_are_where_the_field_cutter_puts_them) {
   const Scene scene(TerrainKind::canyon, sphere(c, 8.0F));
   const auto seeds = scatter_seeds(scene.volume, SeedPattern::uniform, 24, 3, c);
   const Cut field = cut_volume(Cutter::field, scene.volume, scene.before, scene.after, seeds);
-  for (const Cutter cutter : polygon_cutters) {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
     const Cut cut = cut_volume(cutter, scene.volume, scene.before, scene.after, seeds);
     ASSERT_EQ(cut.pieces.size(), field.pieces.size());
     for (size_t i = 0; i < cut.pieces.size(); ++i) {
@@ -247,7 +250,7 @@ TEST(Cutters, a_volume_of_nothing_and_seeds_of_none_are_survived) {
   const glm::vec3 c = on_the_ground(TerrainKind::flat);
   const Scene air(TerrainKind::flat, sphere(c + glm::vec3(0.0F, 80.0F, 0.0F), 8.0F));
   const Scene ground(TerrainKind::flat, sphere(c, 4.0F));
-  for (const Cutter cutter : polygon_cutters) {
+  for (const Cutter cutter : {Cutter::slice, Cutter::conform}) {
     const Cut nothing = cut_volume(cutter, air.volume, air.before, air.after, {c});
     EXPECT_TRUE(nothing.pieces.empty());
     EXPECT_EQ(nothing.dust, 0);

@@ -8,7 +8,8 @@
 #include <voro++/voro++.hh>
 
 #include "shared/field/edit.h"
-#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/cutter.h"
+#include "shared/fracture/seeds.h"
 #include "shared/operation/operation.h"
 
 namespace scree {

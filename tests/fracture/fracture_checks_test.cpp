@@ -3,7 +3,9 @@
 
 #include "shared/base/limits.h"
 #include "shared/fracture/cell_groups.h"
-#include "shared/fracture/polygon_cut.h"
+#include "shared/fracture/cutter.h"
+#include "shared/fracture/polygon_mesh.h"
+#include "shared/fracture/seeds.h"
 
 namespace scree {
 namespace {

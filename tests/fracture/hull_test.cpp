@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "server/fracture/hull_corners.h"
+#include "server/fracture/point_spread.h"
 #include "shared/field/window_sample.h"
 #include "tests/support/flat_terrain.h"
 

@@ -1,9 +1,10 @@
 // Seeds: as many as were asked for, and never two in one place.
+#include "shared/fracture/seeds.h"
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "shared/field/edit.h"
-#include "shared/fracture/voronoi.h"
 
 namespace scree {
 namespace {

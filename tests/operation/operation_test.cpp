@@ -144,7 +144,7 @@ TEST(operation, a_stamp_gains_what_was_planned_and_stays_within_the_budget) {
                   glm::normalize(glm::quat(1.0F, 0.1F * static_cast<float>(id), 0.3F, -0.2F))}),
         0};
     const Window window = gather(field, stamp_box(*volume, op.pose, voxel_m));
-    const StampPlan plan = plan_stamp(window, *volume, op.pose, voxel_m, volume->mass);
+    const StampPlan plan = plan_stamp(op.method, window, *volume, op.pose, voxel_m, volume->mass);
     op.shift = plan.shift;
     const Applied applied = apply(op, field, pieces);
     EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;

@@ -91,8 +91,8 @@ TEST(specks, what_an_odd_stamp_leaves_in_the_air_becomes_dust_to_the_unit) {
   PieceTable pieces{{1, std::make_shared<const Volume>(ball_with_a_crumb())}};
   const MassUnits mass = pieces.at(1)->mass;
   const QuantisedPose pose = quantise({{5.0F, 0.5F, 5.0F}, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)});
-  const StampPlan plan =
-      plan_stamp(gather(field, stamp_box(*pieces.at(1), pose, 0.25F)), *pieces.at(1), pose, 0.25F, mass);
+  const StampPlan plan = plan_stamp(StampMethod::stamp, gather(field, stamp_box(*pieces.at(1), pose, 0.25F)),
+                                    *pieces.at(1), pose, 0.25F, mass);
   const Applied stamped = apply(StampOperation{1, pose, plan.shift}, field, pieces);
   const VoxelBox around{{0, -16, 0}, {40, 24, 40}};
   const std::vector<Island> specks = find_specks(field, stamped.changed);

@@ -40,7 +40,7 @@ void gain_to_a_thousandth(StampMethod method) {
       const std::shared_ptr<const Volume> volume = rubble.pieces.at(id);
       const MassUnits mass = volume->mass + dust;
       const Window window = gather(rubble.field, stamp_box(*volume, pose, voxel_m));
-      const StampPlan plan = plan_stamp(window, *volume, pose, voxel_m, mass, method);
+      const StampPlan plan = plan_stamp(method, window, *volume, pose, voxel_m, mass);
       const Applied applied =
           apply(StampOperation{id, pose, plan.shift, method}, rubble.field, rubble.pieces);
       EXPECT_EQ(applied.terrain_gain, plan.gain) << "piece " << id;
@@ -59,7 +59,7 @@ TEST(stamp, a_piece_on_the_ground_gains_its_mass_and_the_dust_to_a_thousandth) {
 TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(StampMethod::stamp, *rubble.pieces.at(id), pose, voxel_m);
+    const Window laid = lay(laying_rounded, *rubble.pieces.at(id), pose, voxel_m);
     const Window terrain = gather(rubble.field, merge_box(laid));
     for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
       MergePatch patch(terrain, laid, units % 2 == 0 ? Edges::round : Edges::keep);
@@ -79,7 +79,7 @@ TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side
 TEST(stamp, what_it_reads_holds_all_that_it_may_change) {
   Rubble rubble;
   for (const auto& [id, pose] : rubble.places) {
-    const Window laid = lay(StampMethod::stamp, *rubble.pieces.at(id), pose, voxel_m);
+    const Window laid = lay(laying_rounded, *rubble.pieces.at(id), pose, voxel_m);
     const VoxelBox reach = merge_box(laid);
     EXPECT_EQ(common(reach, stamp_box(*rubble.pieces.at(id), pose, voxel_m)), reach);
     const Window terrain = gather(rubble.field, reach);

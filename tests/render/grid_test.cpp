@@ -1,6 +1,8 @@
 // Drawing by a grid of points about the camera: the same rock as the others show, whatever the spacing.
 #include <algorithm>
 
+#include "client/render/grid/grid_shape.h"
+#include "client/render/methods.h"
 #include "shared/base/random.h"
 #include "tests/support/offscreen_fixture.h"
 
@@ -48,11 +50,30 @@ TEST(GridShape, it_follows_the_eye_by_whole_blocks) {
   }
 }
 
-TEST(GridShape, what_cannot_be_is_not_valid) {
-  for (const GridShape& shape : shapes) EXPECT_TRUE(is_valid(shape)) << text_of(shape);
+TEST(GridShape, the_methods_options_give_the_shapes_that_can_be) {
+  EXPECT_EQ(grid_shape_of({}), GridShape());
+  for (const GridShape& shape : shapes) EXPECT_EQ(grid_shape_of(values_of(shape)), shape) << text_of(shape);
   for (const GridShape& shape : {GridShape{16}, GridShape{33}, GridShape{512}, GridShape{64, 0},
                                  GridShape{64, 3}, GridShape{64, 16}, GridShape{-64}})
-    EXPECT_FALSE(is_valid(shape)) << text_of(shape);
+    EXPECT_DEATH(values_of(shape), "CHECK failed") << text_of(shape);
+}
+
+TEST(DrawOption, each_is_named_for_its_method_and_says_its_values) {
+  for (const MethodEntry& entry : all_methods())
+    for (const DrawOption& option : options_of(entry)) {
+      EXPECT_TRUE(option.name.starts_with(std::string(entry.name) + "-")) << option.name;
+      EXPECT_TRUE(option.is_number() || option.names.size() == option.values.size()) << option.name;
+      DrawOptionValues values;
+      EXPECT_EQ(values.of(option), option.usual);
+      for (const int value : option.values) {
+        EXPECT_EQ(value_of(option, text_of(option, value)), value) << option.name;
+        values.set(option, value);
+        EXPECT_EQ(values.of(option), value) << option.name;
+        EXPECT_EQ(values == DrawOptionValues(), value == option.usual) << option.name;
+      }
+      EXPECT_EQ(value_of(option, ""), std::nullopt);
+      EXPECT_EQ(value_of(option, "-1"), std::nullopt);
+    }
 }
 
 class Grid : public OffscreenTest {
@@ -90,7 +111,7 @@ TEST_F(Grid, a_ball_has_the_silhouette_that_its_mesh_has) {
   const std::vector<bool> theirs = silhouette(draw_by("mesh"), sky);
   ASSERT_GT(std::ranges::count(theirs, true), 1000);
   for (const GridShape& shape : shapes) {
-    renderer_->set_grid(shape);
+    method_->set_options(values_of(shape));
     const std::vector<bool> ours = silhouette(draw(), sky);
     size_t both = 0, any = 0;
     for (size_t i = 0; i < ours.size(); ++i) {
@@ -150,7 +171,7 @@ TEST_F(Grid, ground_has_no_holes_whatever_the_spacing) {
   finish();
   const Image sky = draw_sky();
   for (const GridShape& shape : shapes) {
-    renderer_->set_grid(shape);
+    method_->set_options(values_of(shape));
     // Fog hides what lies at the end of a small grid.
     draw();
     if (method_->reach_m() < 10.0F) continue;

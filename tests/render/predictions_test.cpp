@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/mirror/limits.h"
+#include "client/render/grid/grid_shape.h"
 #include "client/render/methods.h"
 #include "tests/support/flat_welcome.h"
 #include "tests/support/offscreen_fixture.h"
@@ -28,8 +29,10 @@ class PredictedPictures : public OffscreenTest, public testing::WithParamInterfa
   void SetUp() override {
     OffscreenTest::SetUp();
     if (const auto missing = method_named(GetParam())->missing()) GTEST_SKIP() << *missing;
-    renderer_->set_grid({64, 1, GridSpacing::uniform});
     plain_method_ = make_method();
+    const DrawOptionValues small = values_of(GridShape{64, 1, GridSpacing::uniform});
+    method_->set_options(small);
+    plain_method_->set_options(small);
     camera_.eye_m = {0.0F, 3.0F, 5.0F};
     camera_.pitch = -0.6F;
   }

@@ -46,5 +46,8 @@ Complaints check_library_leaks(const std::vector<SourceFile>& files);
 Complaints check_class_names(const std::vector<SourceFile>& files);
 /// Kernels use + − × ÷ and sqrt only: a math library's other functions differ from system to system.
 Complaints check_kernel_arithmetic(const SourceFile& file);
+/// No file but a table of methods asks which cutter, merge, pattern, collider, simplifier or drawing method
+/// it has: the rows say in what methods differ.
+Complaints check_methods_are_asked(const SourceFile& file);
 
 }  // namespace scree::style

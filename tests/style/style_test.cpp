@@ -125,6 +125,9 @@ TEST(Style, no_two_headers_define_a_class_of_the_same_name) {
 TEST(Style, kernels_use_exact_arithmetic) {
   expect_clean(over_tree(check_kernel_arithmetic, true));
 }
+TEST(Style, methods_are_told_apart_by_their_tables_alone) {
+  expect_clean(over_tree(check_methods_are_asked, true));
+}
 
 std::string text_of(const std::string& path) {
   std::ifstream in(std::filesystem::path(SCREE_SOURCE_DIR) / path, std::ios::binary);
@@ -283,6 +286,16 @@ TEST(StyleRules, a_library_function_in_a_kernel_is_caught) {
             1U);
   EXPECT_TRUE(
       check_kernel_arithmetic({"shared/field/a.cpp", "// std::sin(\nfloat a = std::sqrt(b);"}).empty());
+}
+
+TEST(StyleRules, a_method_is_compared_in_its_table_alone) {
+  const std::string branch = "int f(Cutter c) { return c == Cutter::slice ? 1 : 0; }";
+  EXPECT_EQ(check_methods_are_asked({"shared/operation/a.cpp", branch}).size(), 1U);
+  EXPECT_TRUE(check_methods_are_asked({"shared/fracture/cutter.h", branch}).empty());
+  EXPECT_TRUE(check_methods_are_asked({"tests/fracture/a.cpp", branch}).empty());
+  EXPECT_EQ(
+      check_methods_are_asked({"client/viewer/window/a.cpp", "if (entry.name == \"grid\") f();"}).size(), 1U);
+  EXPECT_TRUE(check_methods_are_asked({"server/work/a.cpp", "Cutter wanted = Cutter::slice;"}).empty());
 }
 
 }  // namespace

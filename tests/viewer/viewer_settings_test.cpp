@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "client/render/grid/grid_shape.h"
 #include "client/viewer/input/gamepad.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/window/history.h"
@@ -97,7 +98,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   Settings settings;
   settings.width = 801;
   settings.method = all_methods().front().name;
-  settings.grid = {64, 4, GridSpacing::growing};
+  settings.method_options = values_of(GridShape{64, 4, GridSpacing::growing});
   settings.tool = {ToolKind::box, ToolUse::paint, Material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {Telling::all, true, true, false, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
@@ -123,15 +124,15 @@ TEST_F(SettingsTest, flags_win) {
   settings.width = 640;
   settings.height = 360;
   settings.quality = Quality::medium;
-  settings.grid = {64, 4, GridSpacing::growing};
+  settings.method_options = values_of(GridShape{64, 4, GridSpacing::growing});
   ViewerOptions options;
-  options.given.grid_scale = true;
+  options.given.method_options = {"grid-scale"};
   options.given.size = true;
   options.width = 100;
   apply_settings(settings, options);
   EXPECT_EQ(options.width, 100);
   EXPECT_EQ(options.quality, Quality::medium);
-  EXPECT_EQ(options.grid, (GridShape{64, GridShape().scale, GridSpacing::growing}));
+  EXPECT_EQ(grid_shape_of(options.method_options), (GridShape{64, GridShape().scale, GridSpacing::growing}));
   EXPECT_TRUE(options.predict);
   settings.predict = false;
   apply_settings(settings, options);

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 
+#include "client/render/draw_flags.h"
 #include "client/viewer/base/camera_text.h"
 #include "shared/base/option_check.h"
 #include "tools/film/encoded_film.h"
@@ -58,6 +60,7 @@ class FilmOptionParser {
   std::string from_, to_, camera_, path_, eye_, orbit_;
   std::string size_ = "1280x720";
   std::string method_{all_methods().front().name};
+  std::map<const DrawOption*, std::string> method_options_;
   std::string quality_{name_of(Quality::high)};
   float view_radius_m_ = 0.0F;  ///< 0: the quality's
   int encoder_quality_ = 80;
@@ -122,6 +125,7 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
   app.add_option("--method", method_, "how it is drawn:\n" + describe_methods())
       ->check(understood_by(check_method), "METHOD")
       ->capture_default_str();
+  for (const DrawOption* option : all_draw_options()) add_draw_option(app, *option, method_options_[option]);
   app.add_option("--quality", quality_, "what a frame may cost: " + listed(kind_names<Quality>))
       ->check(understood_by(check_quality), "QUALITY")
       ->capture_default_str();
@@ -155,6 +159,7 @@ Result<FilmOptions> FilmOptionParser::understand() {
   DrawChoice& drawn = options_.drawn;
   drawn.size = if_given<PictureSize>(size_, parse_size).value_or(PictureSize());
   drawn.method = method_named(method_);
+  drawn.method_options = values_of_texts(method_options_);
   drawn.quality = kind_named<Quality>(quality_).value_or(Quality::high);
   drawn.view_radius_m = view_radius_m_ > 0.0F ? view_radius_m_ : traits_of(drawn.quality).view_radius_m;
   FilmFormat& format = options_.format;

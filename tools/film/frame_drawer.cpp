@@ -17,6 +17,7 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::create(const DrawChoice& drawn
   renderer->set_terrain(terrain);
   std::unique_ptr<FrameDrawer> drawer(new FrameDrawer(drawn, std::move(context), std::move(renderer)));
   TRY(drawer->methods_.choose(*drawn.method));
+  drawer->methods_.set_options(drawn.method_options);
   return drawer;
 }
 

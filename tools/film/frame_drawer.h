@@ -18,6 +18,7 @@ namespace scree {
 struct DrawChoice {
   PictureSize size{};
   const MethodEntry* method = nullptr;  ///< not null
+  DrawOptionValues method_options{};
   Quality quality = Quality::high;
   float view_radius_m = 0.0F;
   bool particles = true;

@@ -143,9 +143,7 @@ void ClipLevel::read(Field& field, BrickCoord brick, BrickAtlas& atlas) {
       atlas.replace(ClipEntry::slot_of(old.field), now.field);
     } else if (const auto slot = atlas.add(now.field)) {
       entry.field = ClipEntry::packed(ClipEntry::stored, *slot);
-    } else {
-      ++without_room_;
-    }
+    }  // without room in the atlas a coarser level shows the brick
   } else {
     entry.field = now.kind == LevelBrick::Kind::empty ? clip_empty : ClipEntry::solid << 24U;
   }

@@ -36,8 +36,6 @@ class ClipLevel {
 
   bool loaded() const { return pending_.empty(); }
   size_t waiting() const { return pending_.size(); }
-  /// Bricks that found no room in the atlas: a coarser level shows them.
-  size_t without_room() const { return without_room_; }
   ClipWindow& window() { return window_; }
   const ClipWindow& window() const { return window_; }
   int level() const { return bricks_.level(); }
@@ -61,7 +59,6 @@ class ClipLevel {
   std::unordered_set<ChunkCoord, CoordHash> shown_;
   std::unordered_set<ChunkCoord, CoordHash> generating_;
   std::vector<ChunkCoord> pending_;  ///< nearest last
-  size_t without_room_ = 0;
 };
 
 }  // namespace scree

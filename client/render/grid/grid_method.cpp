@@ -71,7 +71,6 @@ class GridMethod final : public DrawMethod {
  public:
   GridMethod(WorkPool& pool, float view_radius_m, Programs&& programs);
 
-  std::string_view name() const override { return "grid"; }
   void changed(const MirrorChanges& changes) override {
     bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
   }
@@ -79,7 +78,7 @@ class GridMethod final : public DrawMethod {
   bool loaded() const override { return world_ && world_->loaded(); }
   bool complete() const override { return loaded() && bricks_.empty(); }
   float reach_m() const override;
-  void shape_grid(const GridShape& shape) override { shape_ = shape; }
+  void set_options(const DrawOptionValues& values) override { shape_ = grid_shape_of(values); }
   void draw(const DrawPass& pass) override;
   DrawStats stats() const override;
 

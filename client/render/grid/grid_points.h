@@ -8,7 +8,7 @@
 
 #include "client/render/bricks/brick_world.h"
 #include "client/render/gl/gl.h"
-#include "client/render/scene/grid_shape.h"
+#include "client/render/grid/grid_shape.h"
 
 namespace scree {
 

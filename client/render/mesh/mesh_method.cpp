@@ -42,15 +42,10 @@ class MeshMethod final : public DrawMethod {
  public:
   MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, SurfaceProgram&& surface,
              SurfaceProgram&& shadow)
-      : polygoniser_(polygoniser),
-        scheduler_(pool, view_radius_m, polygoniser),
+      : scheduler_(pool, view_radius_m, polygoniser),
         surface_(std::move(surface)),
         shadow_(std::move(shadow)) {}
 
-  std::string_view name() const override {
-    if (polygoniser_ == Polygoniser::cubes) return "cubes";
-    return polygoniser_ == Polygoniser::nets ? "mesh" : "dual";
-  }
   void changed(const MirrorChanges& changes) override { scheduler_.changed(changes); }
   bool loaded() const override { return scheduler_.loaded(); }
   bool complete() const override { return scheduler_.complete(); }
@@ -65,7 +60,6 @@ class MeshMethod final : public DrawMethod {
   void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
   void find_visible(const Frustum& frustum, glm::vec3 eye_m);
 
-  Polygoniser polygoniser_;
   MeshScheduler scheduler_;
   SurfaceProgram surface_;
   SurfaceProgram shadow_;

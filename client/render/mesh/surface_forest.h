@@ -69,7 +69,6 @@ class SurfaceForest {
 
   bool is_leaf(const SurfaceNode& node) const { return leaves_.contains(node); }
   const Neighbours& neighbours(const SurfaceNode& leaf) const { return leaves_.at(leaf); }
-  size_t leaf_count() const { return leaves_.size(); }
   /// Leaves that hold or touch the box, voxels, grown by so many cells of their own.
   std::vector<SurfaceNode> leaves_around(const VoxelBox& box, int cells) const;
 

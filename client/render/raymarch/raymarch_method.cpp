@@ -82,7 +82,6 @@ class RaymarchMethod final : public DrawMethod {
   RaymarchMethod(WorkPool& pool, float view_radius_m, Programs&& programs)
       : pool_(pool), view_radius_m_(view_radius_m), programs_(std::move(programs)) {}
 
-  std::string_view name() const override { return "raymarch"; }
   void changed(const MirrorChanges& changes) override {
     bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
   }

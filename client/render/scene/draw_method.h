@@ -1,5 +1,5 @@
-// The interface of the methods that draw the mirror. A method gets the changes and the scene of each frame;
-// the renderer and the viewer know nothing else of it.
+// The interface of the methods that draw the mirror. A method gets the changes and the scene of each frame,
+// and the values of its options; the renderer and the viewer know nothing else of it.
 //
 // All calls are on the thread that owns the GL context. A frame is: changed() for every message that the
 // mirror applied, update() once, then draw() once per pass. One update() shows a consistent state: a merge
@@ -10,11 +10,10 @@
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <memory>
-#include <string_view>
 
 #include "client/mirror/mirror.h"
 #include "client/render/scene/camera.h"
-#include "client/render/scene/grid_shape.h"
+#include "client/render/scene/draw_option.h"
 #include "shared/base/memory_count.h"
 
 namespace scree {
@@ -68,7 +67,6 @@ class DrawMethod {
  public:
   virtual ~DrawMethod() = default;
 
-  virtual std::string_view name() const = 0;
   /// Notes changes of the mirror's field and pieces.
   virtual void changed(const MirrorChanges& changes) = 0;
   /// Takes finished work into the picture, and starts new work.
@@ -79,8 +77,8 @@ class DrawMethod {
   virtual bool complete() const = 0;
   /// Distance up to which the method draws, metres; the fog hides everything beyond.
   virtual float reach_m() const = 0;
-  /// Sets the shape of the grid, for methods that draw by one.
-  virtual void shape_grid(const GridShape&) {}
+  /// Takes the values of its own options, if it has any, for the next draw().
+  virtual void set_options(const DrawOptionValues&) {}
   virtual void draw(const DrawPass& pass) = 0;
   virtual DrawStats stats() const = 0;
 };

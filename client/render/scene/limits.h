@@ -60,17 +60,6 @@ inline constexpr size_t chunks_read_max = 64;
 inline constexpr float render_scale_min = 0.25F;
 inline constexpr float render_scale_max = 2.0F;
 
-/// Cells along a side of the grid of the method grid, a multiple of grid_resolution_step so that both halves
-/// are whole blocks of it; others are refused. Software takes more than seconds to draw the most, 16.8
-/// million points.
-inline constexpr int grid_resolution_min = 32;
-inline constexpr int grid_resolution_max = 256;
-inline constexpr int grid_resolution_step = 16;
-
-/// Voxels between the grid's points about the eye, a power of two: cells lie within bricks then. The most, 2
-/// m at voxels of 25 cm, is rough already.
-inline constexpr int grid_scale_max = 8;
-
 /// Distance up to which far terrain is drawn, in view radii.
 inline constexpr float horizon_per_view_radius = 8.0F;
 

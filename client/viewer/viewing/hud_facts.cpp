@@ -48,15 +48,16 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }
-  if (DrawMethod* method = visit.view->methods().shown()) {
-    facts.method = method->name();
+  MethodSwitch& methods = visit.view->methods();
+  if (DrawMethod* method = methods.shown()) {
+    facts.method = methods.shown_name();
     facts.draw = method->stats();
     facts.gpu_times = visit.view->renderer().gpu_times();
     facts.memory = facts.draw.memory;
   }
-  if (DrawMethod* method = visit.view->methods().preparing()) {
+  if (DrawMethod* method = methods.preparing()) {
     const DrawStats stats = method->stats();
-    facts.preparing = {std::string(method->name()), stats.kept, stats.waiting};
+    facts.preparing = {std::string(methods.preparing_name()), stats.kept, stats.waiting};
   }
   facts.memory.insert(facts.memory.end(), mirror_memory_.begin(), mirror_memory_.end());
   return facts;

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "client/cache/cache_options.h"
 #include "client/cache/limits.h"
 #include "client/connection/endpoint_options.h"
+#include "client/render/draw_flags.h"
 #include "client/viewer/base/camera_text.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/input/actions.h"
@@ -40,7 +42,7 @@ struct Texts {
   std::string camera = default_camera;
   std::string method{all_methods().front().name};
   std::string quality{auto_name};
-  std::string grid_spacing{name_of(GridShape().spacing)};
+  std::map<const DrawOption*, std::string> method_options;
   std::string preset;   ///< empty: none
   std::string pattern;  ///< empty: as it was kept
   std::vector<std::string> screenshots;
@@ -74,18 +76,8 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
                          "of raymarch alone"),
           {limits::render_scale_min, limits::render_scale_max})
       ->envname("SCREE_RENDER_SCALE");
-  bounded(app.add_option(
-              "--grid-resolution", options.grid.resolution,
-              "Of grid: cells along a side, a multiple of " + std::to_string(limits::grid_resolution_step)),
-          whole_within(limits::grid_resolution_min, limits::grid_resolution_max))
-      ->envname("SCREE_GRID_RESOLUTION");
-  bounded(app.add_option("--grid-scale", options.grid.scale,
-                         "Of grid: voxels between two points, a power of two"),
-          whole_within(1, limits::grid_scale_max))
-      ->envname("SCREE_GRID_SCALE");
-  app.add_option("--grid-spacing", texts.grid_spacing,
-                 "Of grid: uniform, or growing with the distance from the camera, to eight times as much")
-      ->envname("SCREE_GRID_SPACING");
+  for (const DrawOption* option : all_draw_options())
+    add_draw_option(app, *option, texts.method_options[option])->envname(variable_of(*option));
 }
 
 std::array<std::string_view, tool_patterns.size()> names_of_patterns() {
@@ -166,15 +158,6 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.footer("Keys, mouse and gamepad:\n" + describe_controls(Telling::all, true, ControlsOf::both));
 }
 
-Result<void> understand_grid(const std::string& spacing, GridShape& grid) {
-  const std::optional<GridSpacing> known = grid_spacing_named(spacing);
-  if (!known) return fail("--grid-spacing: there is no '" + spacing + "'; there are uniform and growing");
-  grid.spacing = *known;
-  if (is_valid(grid)) return {};
-  return fail("--grid-resolution must be a multiple of " + std::to_string(limits::grid_resolution_step) +
-              ", --grid-scale a power of two");
-}
-
 Result<void> understand_pictures(ViewerOptions& options) {
   const bool every_frame = !options.frames.empty() || options.time_demo;
   if (every_frame && (!options.offscreen || options.path_file.empty()))
@@ -221,7 +204,7 @@ Result<void> understand(const Texts& texts, ViewerOptions& options) {
                   listed(kind_names<Quality>));
   }
   TRY(understand_pattern(texts.pattern, options));
-  TRY(understand_grid(texts.grid_spacing, options.grid));
+  options.method_options = values_of_texts(texts.method_options);
   for (const std::string& text : texts.screenshots) {
     Result<ScreenshotOrder> order = parse_screenshot(text);
     if (!order) return fail(order.error().message);
@@ -253,18 +236,18 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   try {
     app.parse(argc, argv);
     understood = take_preset(app, texts.preset);
-    const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+    const auto given = [&](const std::string& name) { return app.get_option(name)->count() > 0; };
     options.given = {.size = given("--size"),
                      .camera = given("--camera"),
                      .method = given("--method"),
                      .view_radius = given("--view-radius"),
                      .render_scale = given("--render-scale"),
                      .quality = given("--quality"),
-                     .grid_resolution = given("--grid-resolution"),
-                     .grid_scale = given("--grid-scale"),
-                     .grid_spacing = given("--grid-spacing"),
+                     .method_options = {},
                      .particles = given("--particles"),
                      .predict = given("--predict")};
+    for (const DrawOption* option : all_draw_options())
+      if (given("--" + std::string(option->name))) options.given.method_options.insert(option->name);
   } catch (const CLI::ParseError& error) {
     return ExitNow{app.exit(error) == 0 ? 0 : 2};
   }

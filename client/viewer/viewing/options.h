@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -36,9 +37,7 @@ struct ViewerOptions : ServerEndpoint {
     bool view_radius = false;
     bool render_scale = false;
     bool quality = false;
-    bool grid_resolution = false;
-    bool grid_scale = false;
-    bool grid_spacing = false;
+    std::set<std::string_view> method_options;  ///< by name
     bool particles = false;
     bool predict = false;
   } given;
@@ -47,7 +46,7 @@ struct ViewerOptions : ServerEndpoint {
   std::optional<Quality> quality;       ///< nothing: by the first frames (AutoQuality)
   float view_radius_m = 0.0F;           ///< if given, instead of the quality's, as the next
   float render_scale = 1.0F;
-  GridShape grid;                      ///< of the method grid
+  DrawOptionValues method_options;     ///< the methods' own
   bool particles = true;               ///< dust, grit and splinters
   std::optional<SeedPattern> pattern;  ///< of the tool's pieces, in a window; nothing: as it was kept
   bool sound = false;                  ///< by the device, in a window

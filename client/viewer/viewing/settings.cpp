@@ -47,6 +47,17 @@ class Reader {
   void text(const char* name, std::string& value) {
     if (const Json* found = find(name, &Json::is_string)) value = found->get<std::string>();
   }
+  void option(const DrawOption& option, DrawOptionValues& values) {
+    const std::string key = key_of(option);
+    const Json* found = find(key.c_str(), option.is_number() ? &Json::is_number : &Json::is_string);
+    if (found == nullptr) return;
+    for (const int value : option.values) {
+      const bool is_this = option.is_number() ? found->get<double>() == value
+                                              : found->get<std::string>() == text_of(option, value);
+      if (is_this) return values.set(option, value);
+    }
+    wrong(key.c_str(), "has no such value");
+  }
   void wrong(const char* name, const char* how) {
     if (error_.empty()) error_ = std::string(name) + " " + how;
   }
@@ -93,11 +104,7 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.text("quality", quality);
   settings.quality = kind_named<Quality>(quality);
   if (!settings.quality && quality != auto_name) reader.wrong("quality", "has no such value");
-  reader.number("grid_resolution", settings.grid.resolution, limits::grid_resolution_min,
-                limits::grid_resolution_max);
-  reader.number("grid_scale", settings.grid.scale, 1, limits::grid_scale_max);
-  reader.choice("grid_spacing", settings.grid.spacing, grid_spacings);
-  if (!is_valid(settings.grid)) reader.wrong("grid_resolution or grid_scale", "is no such multiple");
+  for (const DrawOption* option : all_draw_options()) reader.option(*option, settings.method_options);
   reader.choice("controls", settings.hud.help, all_kinds<Telling>);
   reader.flag("figures", settings.hud.figures);
   reader.flag("graphs", settings.hud.graphs);
@@ -126,35 +133,36 @@ Result<Settings> parse_settings(const std::string& text) {
 }
 
 std::string to_text(const Settings& settings) {
-  const Json json{{"width", settings.width},
-                  {"height", settings.height},
-                  {"method", settings.method},
-                  {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
-                  {"grid_resolution", settings.grid.resolution},
-                  {"grid_scale", settings.grid.scale},
-                  {"grid_spacing", name_of(settings.grid.spacing)},
-                  {"controls", name_of(settings.hud.help)},
-                  {"figures", settings.hud.figures},
-                  {"graphs", settings.hud.graphs},
-                  {"panel", settings.hud.panel},
-                  {"persons", settings.hud.persons},
-                  {"field_of_view_degrees", settings.hand.field_of_view_degrees},
-                  {"mouse_speed", settings.hand.mouse_speed},
-                  {"text_scale", settings.hand.text_scale},
-                  {"overlay", settings.overlay.shown},
-                  {"overlay_interest", settings.overlay.interest},
-                  {"overlay_chunks", settings.overlay.chunks},
-                  {"overlay_pieces", settings.overlay.pieces},
-                  {"overlay_physics", settings.overlay.physics},
-                  {"tool", name_of(settings.tool.kind)},
-                  {"use", name_of(settings.tool.use)},
-                  {"material", name_of(settings.tool.material)},
-                  {"radius_m", settings.tool.radius_m},
-                  {"blast_speed_m_s", settings.tool.blast_speed_m_s},
-                  {"pattern", name_of(settings.tool.pattern)},
-                  {"seeds", settings.tool.seeds},
-                  {"particles", settings.particles},
-                  {"predict", settings.predict}};
+  Json json{{"width", settings.width},
+            {"height", settings.height},
+            {"method", settings.method},
+            {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
+            {"controls", name_of(settings.hud.help)},
+            {"figures", settings.hud.figures},
+            {"graphs", settings.hud.graphs},
+            {"panel", settings.hud.panel},
+            {"persons", settings.hud.persons},
+            {"field_of_view_degrees", settings.hand.field_of_view_degrees},
+            {"mouse_speed", settings.hand.mouse_speed},
+            {"text_scale", settings.hand.text_scale},
+            {"overlay", settings.overlay.shown},
+            {"overlay_interest", settings.overlay.interest},
+            {"overlay_chunks", settings.overlay.chunks},
+            {"overlay_pieces", settings.overlay.pieces},
+            {"overlay_physics", settings.overlay.physics},
+            {"tool", name_of(settings.tool.kind)},
+            {"use", name_of(settings.tool.use)},
+            {"material", name_of(settings.tool.material)},
+            {"radius_m", settings.tool.radius_m},
+            {"blast_speed_m_s", settings.tool.blast_speed_m_s},
+            {"pattern", name_of(settings.tool.pattern)},
+            {"seeds", settings.tool.seeds},
+            {"particles", settings.particles},
+            {"predict", settings.predict}};
+  for (const DrawOption* option : all_draw_options()) {
+    const int value = settings.method_options.of(*option);
+    json[key_of(*option)] = option->is_number() ? Json(value) : Json(text_of(*option, value));
+  }
   return json.dump(2) + "\n";
 }
 
@@ -164,9 +172,9 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
     options.height = settings.height;
   }
   if (!options.given.quality) options.quality = settings.quality;
-  if (!options.given.grid_resolution) options.grid.resolution = settings.grid.resolution;
-  if (!options.given.grid_scale) options.grid.scale = settings.grid.scale;
-  if (!options.given.grid_spacing) options.grid.spacing = settings.grid.spacing;
+  for (const DrawOption* option : all_draw_options())
+    if (!options.given.method_options.contains(option->name))
+      options.method_options.set(*option, settings.method_options.of(*option));
   if (!options.given.particles) options.particles = settings.particles;
   if (!options.given.predict) options.predict = settings.predict;
   const MethodEntry* method = method_named(settings.method);
@@ -193,9 +201,10 @@ void KeptSettings::keep(const Settings& start, const Settings& end) const {
   kept.height = merged(loaded_.height, start.height, end.height);
   kept.method = merged(loaded_.method, start.method, end.method);
   kept.quality = merged(loaded_.quality, start.quality, end.quality);
-  kept.grid.resolution = merged(loaded_.grid.resolution, start.grid.resolution, end.grid.resolution);
-  kept.grid.scale = merged(loaded_.grid.scale, start.grid.scale, end.grid.scale);
-  kept.grid.spacing = merged(loaded_.grid.spacing, start.grid.spacing, end.grid.spacing);
+  for (const DrawOption* option : all_draw_options())
+    kept.method_options.set(*option,
+                            merged(loaded_.method_options.of(*option), start.method_options.of(*option),
+                                   end.method_options.of(*option)));
   kept.particles = merged(loaded_.particles, start.particles, end.particles);
   kept.predict = merged(loaded_.predict, start.predict, end.predict);
   kept.hud = end.hud;

@@ -26,7 +26,7 @@ struct Settings {
   int height = 720;
   std::string method;              ///< empty: the first
   std::optional<Quality> quality;  ///< nothing: by the first frames
-  GridShape grid;
+  DrawOptionValues method_options;
   HudChoice hud;
   HandChoice hand;
   OverlayChoice overlay;

@@ -55,7 +55,7 @@ Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<Vi
       sounds_(std::move(sounds)) {
   if (!given.given.camera) camera = given.camera;
   listen(!sounds_.silent());
-  view->renderer().set_grid(options.grid);
+  view->methods().set_options(options.method_options);
   session.watch(given.overlay.shown && given.overlay.physics);
 }
 

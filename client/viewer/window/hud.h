@@ -24,7 +24,7 @@ struct FrameParts {
 struct PanelValues {
   Tool& tool;
   OverlayChoice& overlay;
-  GridShape& grid;
+  DrawOptionValues& method_options;
   bool& particles;
   bool& predict;
   HandChoice& hand;

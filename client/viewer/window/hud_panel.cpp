@@ -1,7 +1,6 @@
 // The HUD's panel: the drawing method, and the tool.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <imgui/imgui.h>
 
 #include "client/viewer/base/limits.h"
@@ -40,20 +39,22 @@ const MethodEntry* choose_method(const MethodEntry& chosen) {
   return picked;
 }
 
-/// Resolutions and scales change in steps, so that the shape stays valid.
-void choose_grid(GridShape& grid) {
-  int steps = grid.resolution / limits::grid_resolution_step;
-  const std::string cells = std::to_string(grid.resolution) + " a side";
-  if (ImGui::SliderInt("grid cells", &steps, limits::grid_resolution_min / limits::grid_resolution_step,
-                       limits::grid_resolution_max / limits::grid_resolution_step, cells.c_str(),
-                       ImGuiSliderFlags_AlwaysClamp))
-    grid.resolution = steps * limits::grid_resolution_step;
-  constexpr int doublings_max = std::bit_width(static_cast<unsigned>(limits::grid_scale_max)) - 1;
-  int doublings = std::bit_width(static_cast<unsigned>(grid.scale)) - 1;
-  const std::string voxels = std::to_string(grid.scale) + " voxels";
-  if (ImGui::SliderInt("spacing", &doublings, 0, doublings_max, voxels.c_str(), ImGuiSliderFlags_AlwaysClamp))
-    grid.scale = 1 << doublings;
-  choose(grid.spacing, grid_spacings);
+/// A number by a slider that goes from value to value, a name by a button for each.
+void choose_option(const DrawOption& option, DrawOptionValues& values) {
+  const int chosen = values.of(option);
+  if (option.is_number()) {
+    auto place = static_cast<int>(index_of(option, chosen));
+    const std::string text = std::to_string(chosen) + " " + std::string(option.unit);
+    if (ImGui::SliderInt(std::string(option.label).c_str(), &place, 0,
+                         static_cast<int>(option.values.size()) - 1, text.c_str(),
+                         ImGuiSliderFlags_AlwaysClamp))
+      values.set(option, option.values[static_cast<size_t>(place)]);
+    return;
+  }
+  for (const int value : option.values) {
+    if (value != option.values.front()) ImGui::SameLine();
+    if (ImGui::RadioButton(text_of(option, value).c_str(), value == chosen)) values.set(option, value);
+  }
 }
 
 void choose_quality(std::optional<Quality>& quality) {
@@ -81,11 +82,11 @@ void choose_use(Tool& tool) {
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, overlay, grid, particles, predict, hand, quality] = values;
+  auto& [tool, overlay, method_options, particles, predict, hand, quality] = values;
   panels_.begin(PanelPlace::upper_right);
   ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
-  if (chosen.name == "grid") choose_grid(grid);
+  for (const DrawOption& option : options_of(chosen)) choose_option(option, method_options);
   choose_quality(quality);
   ImGui::Checkbox("dust, grit and splinters", &particles);
   ImGui::Separator();

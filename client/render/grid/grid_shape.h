@@ -7,16 +7,30 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "client/render/scene/draw_option.h"
+#include "shared/base/kind_table.h"
+
 namespace scree {
 
-enum class GridSpacing { uniform, growing };
-inline constexpr std::array grid_spacings{GridSpacing::uniform, GridSpacing::growing};
-std::string_view name_of(GridSpacing spacing);
-std::optional<GridSpacing> grid_spacing_named(std::string_view name);
+enum class GridSpacing : uint8_t { uniform = 0, growing = 1 };
+
+struct GridSpacingRow {
+  std::string_view name;
+};
+
+constexpr GridSpacingRow row_of(GridSpacing spacing) {
+  switch (spacing) {
+    case GridSpacing::uniform:
+      return {.name = "uniform"};
+    case GridSpacing::growing:
+      return {.name = "growing"};
+  }
+  return {};
+}
 
 struct GridShape {
   int resolution = 128;  ///< cells along a side
@@ -26,8 +40,11 @@ struct GridShape {
   bool operator==(const GridShape&) const = default;
 };
 
-/// Within limits.h.
-bool is_valid(const GridShape& shape);
+/// The options of the method grid, and the shape that their values give.
+std::span<const DrawOption> grid_options();
+GridShape grid_shape_of(const DrawOptionValues& values);
+/// The values that give this shape, which must be one that the options allow.
+DrawOptionValues values_of(const GridShape& shape);
 
 /// Cells along a side of a block; the grid moves by whole blocks.
 inline constexpr int grid_block = 8;

@@ -1,24 +1,17 @@
-#include "server/fracture/simplify.h"
-
+// The simplifier `merge`: points nearer than a tolerance become one.
 #include <glm/geometric.hpp>
 #include <unordered_map>
-#include <unordered_set>
 
+#include "server/fracture/hull_corners.h"
+#include "server/fracture/point_spread.h"
+#include "server/fracture/simplify.h"
 #include "shared/base/check.h"
-#include "shared/field/coord.h"
 
 namespace scree {
 
 namespace {
 
-/// Factor by which cubes and tolerances grow: about two thirds of the points stay each time.
-constexpr float growth = 1.25F;
-
 constexpr float merge_tolerance_voxels = 1.0F;
-
-VoxelCoord cube_of(glm::vec3 p, float side) {
-  return {floor_to_int(p.x / side), floor_to_int(p.y / side), floor_to_int(p.z / side)};
-}
 
 /// Points that become one: the first, which decides whether others join, and the sum of all.
 struct Cluster {
@@ -42,7 +35,7 @@ std::vector<Cluster> clusters_of(const std::vector<glm::vec3>& points, float tol
     return nullptr;
   };
   for (const glm::vec3& p : points) {
-    const VoxelCoord home = cube_of(p, tolerance);
+    const VoxelCoord home = cube_around(p, tolerance);
     if (Cluster* cluster = near(p, home)) {
       cluster->sum += p;
       cluster->count += 1.0F;
@@ -56,25 +49,19 @@ std::vector<Cluster> clusters_of(const std::vector<glm::vec3>& points, float tol
 
 }  // namespace
 
-std::vector<glm::vec3> spread(const std::vector<glm::vec3>& points, float side_voxels, size_t count_max) {
-  CHECK(side_voxels > 0.0F && count_max > 0);
-  for (float side = side_voxels;; side *= growth) {
-    std::unordered_set<VoxelCoord, CoordHash> taken;
-    std::vector<glm::vec3> kept;
-    for (const glm::vec3& p : points)
-      if (taken.insert(cube_of(p, side)).second) kept.push_back(p);
-    if (kept.size() <= count_max) return kept;
-  }
-}
-
 std::vector<glm::vec3> merge_near(const std::vector<glm::vec3>& points, size_t count_max) {
   CHECK(count_max > 0);
   std::vector<Cluster> clusters = clusters_of(points, merge_tolerance_voxels);
-  for (float tolerance = merge_tolerance_voxels * growth; clusters.size() > count_max; tolerance *= growth)
+  for (float tolerance = merge_tolerance_voxels * thinning_growth; clusters.size() > count_max;
+       tolerance *= thinning_growth)
     clusters = clusters_of(points, tolerance);
   std::vector<glm::vec3> merged;
   for (const Cluster& cluster : clusters) merged.push_back(cluster.sum / cluster.count);
   return merged;
+}
+
+std::vector<glm::vec3> choose_means(const std::vector<glm::vec3>& surface) {
+  return if_thick(merge_near(surface, merged_points_max));
 }
 
 }  // namespace scree

@@ -1,5 +1,4 @@
-#include "shared/fracture/voronoi.h"
-
+// The cutter `field`: works on codes, without any mesh.
 #include <algorithm>
 #include <numeric>
 
@@ -10,6 +9,7 @@
 #include "shared/field/occupancy_byte.h"
 #include "shared/fracture/cell_cut.h"
 #include "shared/fracture/cell_groups.h"
+#include "shared/fracture/cutter.h"
 #include "shared/fracture/mass_shares.h"
 #include "shared/fracture/nearest_seed.h"
 #include "shared/fracture/touching_cells.h"
@@ -130,8 +130,8 @@ std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>&
 
 }  // namespace
 
-Cut cut_cells(const Window& volume, const Window& before, const Window& after,
-              const std::vector<glm::vec3>& seeds_voxels) {
+Cut cut_by_field(const Window& volume, const Window& before, const Window& after,
+                 const std::vector<glm::vec3>& seeds_voxels) {
   CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
   const std::vector<uint8_t> lost = lost_units(before, after);
