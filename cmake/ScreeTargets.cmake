@@ -25,6 +25,11 @@ endfunction()
 # only. They are compiled as one source, without optimisation, and by headers precompiled without it.
 # Usage: scree_optimise_little(TARGET SOURCES…), sources of the target and of the folder that calls this
 function(scree_optimise_little TARGET)
+  if(NOT SCREE_UNITY)  # each source by itself
+    target_sources(${TARGET} PRIVATE ${ARGN})
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,Debug>:-O0>" SKIP_PRECOMPILE_HEADERS ON)
+    return()
+  endif()
   set(TEXT)
   foreach(SOURCE IN LISTS ARGN)
     string(APPEND TEXT "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${SOURCE}\"\n")

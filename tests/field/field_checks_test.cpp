@@ -11,33 +11,33 @@ namespace {
 constexpr VoxelBox small{{0, 0, 0}, {4, 4, 4}};
 constexpr VoxelBox beside{{1, 0, 0}, {5, 4, 4}};  // as many voxels, elsewhere
 
-TEST(FieldChecks, windows_of_one_call_have_the_same_box) {
+TEST(FieldDeathTest, windows_of_one_call_have_the_same_box) {
   Window window(small);
   EXPECT_DEATH(carve(window, Window(beside)), "CHECK failed: window.box == shape.box");
   EXPECT_DEATH(fill(window, Window(beside)), "CHECK failed: window.box == shape.box");
   EXPECT_DEATH(extract(window, Window(beside)), "CHECK failed: window.box == shape.box");
 }
 
-TEST(FieldChecks, a_part_lies_in_its_window) {
+TEST(FieldDeathTest, a_part_lies_in_its_window) {
   Window window(small);
   EXPECT_DEATH(part_of(window, beside), "CHECK failed: window.box.covers");
   EXPECT_DEATH(put(Window(beside), window), "CHECK failed: window.box.covers");
   EXPECT_EQ(part_of(window, small).codes, window.codes);
 }
 
-TEST(FieldChecks, a_window_to_redistance_has_an_inside) {
+TEST(FieldDeathTest, a_window_to_redistance_has_an_inside) {
   Window thin({{0, 0, 0}, {2, 8, 8}});
   EXPECT_DEATH(redistance(thin), "CHECK failed");
 }
 
-TEST(FieldChecks, a_window_has_a_code_for_every_voxel) {
+TEST(FieldDeathTest, a_window_has_a_code_for_every_voxel) {
   MapField field(TerrainSource{TerrainKind::flat});
   Window window(small);
   window.codes.pop_back();
   EXPECT_DEATH(scatter(field, window), "63, 64");
 }
 
-TEST(FieldChecks, a_chunk_from_another_thread_has_all_its_bricks) {
+TEST(FieldDeathTest, a_chunk_from_another_thread_has_all_its_bricks) {
   MapField field(TerrainSource{TerrainKind::flat});
   GeneratedChunk chunk = generate_chunk(field.source(), {0, 5, 0});
   chunk.bricks[63] = nullptr;
@@ -45,7 +45,7 @@ TEST(FieldChecks, a_chunk_from_another_thread_has_all_its_bricks) {
 }
 
 #ifdef SCREE_CHECK_DEBUG
-TEST(FieldChecks, indices_lie_in_the_window_and_codes_in_the_band) {
+TEST(FieldDeathTest, indices_lie_in_the_window_and_codes_in_the_band) {
   const Window window(small);
   EXPECT_DEATH(static_cast<void>(window.at(4, 0, 0)), "CHECK failed: box.holds");
   MapField field(TerrainSource{TerrainKind::flat});

@@ -1,13 +1,16 @@
 // scree-world and scree-export as programs, and the files of this version, which later versions must open.
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/support/server_process.h"
+#include "server/app/chunk_text.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
+#include "server/store/world_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_folder.h"
 
@@ -113,6 +116,27 @@ TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
   }
   expect_whole(world);
   EXPECT_GE(run("info " + world).json.at("tick"), last);
+}
+
+TEST_F(WorldProgramTest, a_chunk_is_dumped_as_text) {
+  const std::string program = std::string(SCREE_WORLD_PROGRAM) + " dump-chunk " + world + " ";
+  const auto file = WorldFile::open(world);
+  ASSERT_TRUE(file) << file.error().message;
+  std::optional<WorldChunk> edited;
+  ASSERT_TRUE((*file)->each_chunk([&](const WorldChunk& chunk) -> Result<void> {
+    if (!edited) edited = chunk;
+    return {};
+  }));
+  ASSERT_TRUE(edited);
+  const auto [x, y, z] = edited->chunk;
+  const auto [code, said] = run_program(fmt::format("{} {},{},{}", program, x, y, z));
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_EQ(said, chunk_text(edited->chunk, edited->bricks));
+  const auto [untouched, none] = run_program(program + "1000,-1000,1000");
+  EXPECT_EQ(untouched, 0) << none;
+  EXPECT_EQ(none, "chunk (1000, -1000, 1000): 0 edited bricks; all others are the ground's\n");
+  for (const char* wrong : {"1,2", "1,2,3,4", "1,2,x", ""})
+    EXPECT_EQ(run_program(program + wrong).first, 2) << wrong;
 }
 
 TEST_F(WorldProgramTest, a_ground_elsewhere_is_given_and_a_missing_one_is_named) {

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "server/app/chunk_text.h"
 #include "server/app/ground_giver.h"
 #include "server/app/recorded_past.h"
 #include "server/store/ground_mass.h"
@@ -33,13 +35,12 @@ struct Options {
   std::string ground{};     ///< file; empty: it is looked for
   std::string recording{};  ///< file
   std::optional<Tick> tick{};
+  std::vector<int32_t> chunk{};  ///< x, y, z
   bool json = false;
 };
 
 std::string hex(uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return fmt::format("{:016x}", hash);
 }
 
 void print(const Json& json, bool as_json) {
@@ -302,6 +303,13 @@ int rollback(const Options& options) {
   return tell_made(options, roll_back(options.path, options.recording, *options.tick, *ground));
 }
 
+int dump_chunk(const Options& options) {
+  const auto text = saved_chunk_text(options.path, {options.chunk[0], options.chunk[1], options.chunk[2]});
+  if (!text) return complain(text.error());
+  std::fputs(text->c_str(), stdout);
+  return 0;
+}
+
 struct CommandRow {
   const char* name;
   const char* what;
@@ -309,6 +317,7 @@ struct CommandRow {
   bool makes_file = false;     ///< NEW
   bool needs_ground = true;    ///< --ground
   bool has_recording = false;  ///< --from and --to
+  bool has_chunk = false;      ///< CHUNK, and text
 };
 
 constexpr CommandRow commands[] = {
@@ -332,12 +341,17 @@ constexpr CommandRow commands[] = {
      .what = "takes it back to a tick of its recording; what it was stays beside it",
      .act = rollback,
      .has_recording = true},
-    {.name = "new", .what = "makes it of a tick of a recording", .act = make_new, .has_recording = true}};
+    {.name = "new", .what = "makes it of a tick of a recording", .act = make_new, .has_recording = true},
+    {.name = "dump-chunk",
+     .what = "prints the edited bricks of a chunk as text; also while a server runs",
+     .act = dump_chunk,
+     .needs_ground = false,
+     .has_chunk = true}};
 
 CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
   CLI::App* command = app.add_subcommand(row.name, row.what);
   command->add_option("FILE", options.path, "the file of a world")->required();
-  command->add_flag("--json", options.json, "prints JSON");
+  if (!row.has_chunk) command->add_flag("--json", options.json, "prints JSON");
   if (row.makes_file) command->add_option("NEW", options.to, "the new file")->required();
   if (row.needs_ground)
     command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
@@ -346,6 +360,8 @@ CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
     command->add_option("--to", options.tick, "tick of the recording; its last unless said otherwise")
         ->required(row.act == rollback);
   }
+  if (row.has_chunk)
+    command->add_option("CHUNK", options.chunk, "X,Y,Z, as -1,0,2")->delimiter(',')->expected(3)->required();
   refuse_empty(*command);
   return command;
 }
