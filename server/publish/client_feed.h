@@ -12,7 +12,7 @@
 #include "server/publish/client_view.h"
 #include "server/publish/outgoing.h"
 #include "server/publish/piece_stream.h"
-#include "server/publish/replay_feed.h"
+#include "server/publish/replay_news.h"
 #include "server/publish/served_tick.h"
 #include "server/publish/watch_feed.h"
 
@@ -28,7 +28,7 @@ class ClientFeed {
   const ClientView& view() const { return view_; }
   Outlet& outlet() { return outlet_; }
   ChunkOffer& offer() { return chunks_.offer(); }
-  ReplayFeed& replay() { return replay_; }
+  ReplayNews& replay() { return replay_; }
   WatchFeed& watch() { return watch_; }
   /// Gets no frames until it has read all that waits.
   bool stopped() const { return stopped_; }
@@ -51,7 +51,7 @@ class ClientFeed {
   ClientView view_;
   ChunkStream chunks_;
   PieceStream pieces_;
-  ReplayFeed replay_;
+  ReplayNews replay_;
   WatchFeed watch_;
   bool stopped_ = false;
   bool reset_due_ = false;

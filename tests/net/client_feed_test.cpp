@@ -8,9 +8,9 @@
 namespace scree {
 namespace {
 
-class ReplayFeedTest : public ::testing::Test {
+class ReplayNewsTest : public ::testing::Test {
  protected:
-  ReplayFeedTest() {
+  ReplayNewsTest() {
     delta.playback = PlaybackMessage{.moment = 5, .last = 100};
     delta.marks = std::make_shared<const MarksMessage>();
     delta.cursors = std::make_shared<const RecordedCursorsMessage>();
@@ -27,10 +27,10 @@ class ReplayFeedTest : public ::testing::Test {
 
   TickDelta delta;
   Outlet outlet{7};
-  ReplayFeed feed;
+  ReplayNews feed;
 };
 
-TEST_F(ReplayFeedTest, tells_where_the_replay_stands_and_then_only_what_is_new) {
+TEST_F(ReplayNewsTest, tells_where_the_replay_stands_and_then_only_what_is_new) {
   feed.set_control_refusal("viewers may not");
   const auto first = serve();
   ASSERT_EQ(first.size(), 2U) << "an empty list of cursors is no news to a client that has none";
@@ -46,7 +46,7 @@ TEST_F(ReplayFeedTest, tells_where_the_replay_stands_and_then_only_what_is_new) 
   EXPECT_TRUE(serve().empty());
 }
 
-TEST_F(ReplayFeedTest, events_and_cursors_come_when_the_client_has_caught_up) {
+TEST_F(ReplayNewsTest, events_and_cursors_come_when_the_client_has_caught_up) {
   EXPECT_EQ(serve(false, false).size(), 1U);
   EXPECT_EQ(serve().size(), 1U) << "the marks";
   auto cursors = std::make_shared<RecordedCursorsMessage>();

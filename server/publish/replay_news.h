@@ -12,7 +12,7 @@
 
 namespace scree {
 
-class ReplayFeed {
+class ReplayNews {
  public:
   /// Why the client may not control the replay, for PlaybackMessage; empty: it may.
   void set_control_refusal(const std::string& refusal) { control_refusal_ = refusal; }

@@ -1,11 +1,11 @@
-#include "server/publish/replay_feed.h"
+#include "server/publish/replay_news.h"
 
 #include "proto/codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
-void ReplayFeed::serve(const TickDelta& delta, bool in_full, bool reads_along, Outlet& outlet,
+void ReplayNews::serve(const TickDelta& delta, bool in_full, bool reads_along, Outlet& outlet,
                        ServedPart& part) {
   CHECK(delta.playback.has_value());
   send_playback(*delta.playback, in_full, outlet, part);
@@ -22,7 +22,7 @@ void ReplayFeed::serve(const TickDelta& delta, bool in_full, bool reads_along, O
 }
 
 /// The moment's own pace is no news.
-void ReplayFeed::send_playback(const PlaybackMessage& now, bool in_full, Outlet& outlet, ServedPart& part) {
+void ReplayNews::send_playback(const PlaybackMessage& now, bool in_full, Outlet& outlet, ServedPart& part) {
   PlaybackMessage told = now;
   told.refusal = control_refusal_;
   if (playback_ && !in_full) {
