@@ -97,7 +97,7 @@ Carved carve_all(const BenchOptions& options, const WorldConfig& config, ShapeKi
     const Command command{0, static_cast<uint32_t>(i), blow};
     const auto delta = world->step({&command, 1});
     carved.carving.push_back(delta->times);
-    carved.own_ms.push_back(delta->times[TickStage::carve] + delta->times[TickStage::spawn]);
+    carved.own_ms.push_back(delta->times[TickStage::requests] + delta->times[TickStage::spawn]);
     carved.pieces += delta->spawned.size();
     for (int tick = 1; tick < ticks_between_carves; ++tick) carved.others.push_back(world->step({})->times);
     done(i + 1);

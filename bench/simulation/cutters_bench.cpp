@@ -77,7 +77,7 @@ Sums blow_up(const Method& method, int carves) {
     reset_heap_peak();
     const auto delta = world.step({&command, 1});
     sums.peak_bytes += static_cast<double>(heap_peak_bytes() - held);
-    sums.cut_ms.push_back(delta->times[TickStage::carve]);
+    sums.cut_ms.push_back(delta->times[TickStage::requests]);
     sums.bodies_ms.push_back(delta->times[TickStage::spawn]);
     add_pieces(*delta, method, config.terrain.voxel_size_m, sums);
     for (int tick = 0; tick < ticks_after_blow; ++tick)

@@ -11,6 +11,7 @@
 #include "server/bodies/contact_list.h"
 #include "server/bodies/impact_list.h"
 #include "server/bodies/limits.h"
+#include "server/bodies/motion_checks.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -80,7 +81,7 @@ void Bodies::add(BodyShape given, const BodyState& state) {
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
   s.enter(body);
-  s.limit_speeds(body);
+  limit_speeds(body, s.step_size);
 }
 
 void Bodies::remove(PieceId id) {
@@ -88,9 +89,7 @@ void Bodies::remove(PieceId id) {
   const auto found = s.bodies.find(id);
   CHECK(found != s.bodies.end());
   Body& body = found->second;
-  Bounds stood;
-  body.rigid->getAabb(stood.lo, stood.hi);
-  s.freed.push_back(stood);
+  s.pending.add(bounds_of(body));
   s.leave(body);
   if (body.frozen) --s.frozen;
   s.bodies.erase(found);
@@ -108,17 +107,13 @@ size_t Bodies::size() const {
 void Bodies::step() {
   State& s = *state_;
   s.tell_changes();
-  s.struck.clear();
+  s.blows.clear();
   for (int step = 0; step < s.steps_a_tick; ++step) {
-    if (step > 0) {
-      const std::vector<BodyImpact> blows =
-          list_impacts(s.dispatcher, s.terrain, limits::struck_speed_min_m_s);
-      s.struck.insert(s.struck.end(), blows.begin(), blows.end());
-    }
+    if (step > 0) s.blows.add(list_impacts(s.dispatcher, s.terrain.object(), limits::struck_speed_min_m_s));
     s.step();
   }
-  CHECK_DEBUG(
-      std::ranges::all_of(s.bodies, [&](const auto& one) { return s.is_sound(one.first, one.second); }));
+  CHECK_DEBUG(std::ranges::all_of(
+      s.bodies, [&](const auto& one) { return is_sound_body(one.first, one.second, s.step_size); }));
   CHECK_DEBUG(std::ranges::count_if(s.bodies, [](const auto& one) {
                 return one.second.frozen.has_value();
               }) == static_cast<std::ptrdiff_t>(s.frozen));
@@ -143,8 +138,8 @@ size_t Bodies::frozen() const {
 
 void Bodies::terrain_changed(const VoxelBox& box) {
   CHECK(!box.empty());
-  state_->terrain_collider->terrain_changed(box);
-  state_->changes.push_back(box);
+  state_->terrain.terrain_changed(box);
+  state_->pending.add(box);
 }
 
 void Bodies::set_terrain_collider(TerrainColliderKind kind) {
@@ -152,13 +147,8 @@ void Bodies::set_terrain_collider(TerrainColliderKind kind) {
   if (kind == s.config.terrain_collider) return;
   s.tell_changes();
   s.config.terrain_collider = kind;
-  // Each probe is replaced before its collider is destroyed.
-  const std::unique_ptr<TerrainCollider> old =
-      std::exchange(s.terrain_collider, make_terrain_collider(kind, s.terrain_field));
-  for (auto& [id, body] : s.bodies) {
-    body.probe = s.terrain_collider->attach(body.points_m);
-    s.wake(body);
-  }
+  s.terrain.set_collider(kind, s.bodies);
+  for (auto& [id, body] : s.bodies) s.wake(body);
 }
 
 std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
@@ -170,7 +160,7 @@ std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
     }
   };
   // The tree holds the bounds from before the last step.
-  const float slack_m = limits::travel_max_voxels * state_->voxel_size_m;
+  const float slack_m = limits::travel_max_voxels * state_->step_size.voxel_size_m;
   const btVector3 slack(slack_m, slack_m, slack_m);
   Collector collector;
   state_->broadphase.aabbTest(to_bullet(lo_m) - slack, to_bullet(hi_m) + slack, collector);
@@ -208,7 +198,7 @@ BodyContacts Bodies::contacts() const {
   const btPersistentManifold* const* manifolds = state_->dispatcher.getInternalManifoldPointer();
   for (int i = 0; i < s.dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *manifolds[i];
-    if (manifold.getBody1() == &s.terrain || !touches(manifold)) continue;
+    if (manifold.getBody1() == &s.terrain.object() || !touches(manifold)) continue;
     const float up = manifold.getContactPoint(0).m_normalWorldOnB.y();
     if (up > limits::carrying_slope) note_carried(*manifold.getBody0(), *manifold.getBody1(), contacts);
     if (up < -limits::carrying_slope) note_carried(*manifold.getBody1(), *manifold.getBody0(), contacts);
@@ -219,16 +209,13 @@ BodyContacts Bodies::contacts() const {
 }
 
 std::vector<BodyImpact> Bodies::impacts(float speed_min_m_s) const {
-  std::vector<BodyImpact> all = list_impacts(state_->dispatcher, state_->terrain, speed_min_m_s);
-  for (const BodyImpact& blow : state_->struck) {
-    const auto body = state_->bodies.find(blow.id);
-    if (body == state_->bodies.end() || blow.impulse_n_s < speed_min_m_s * body->second.mass_kg) continue;
-    const auto place = std::ranges::lower_bound(all, blow.id, {}, &BodyImpact::id);
-    if (place == all.end() || place->id != blow.id)
-      all.insert(place, blow);
-    else if (place->impulse_n_s < blow.impulse_n_s)
-      *place = blow;
-  }
+  const State& s = *state_;
+  std::vector<BodyImpact> all = list_impacts(s.dispatcher, s.terrain.object(), speed_min_m_s);
+  s.blows.merge_into(all, [&](PieceId id) -> std::optional<float> {
+    const auto body = s.bodies.find(id);
+    if (body == s.bodies.end()) return std::nullopt;
+    return speed_min_m_s * body->second.mass_kg;
+  });
   return all;
 }
 
@@ -290,6 +277,57 @@ void Bodies::describe(PhysicsMessage& to) const {
     to.bodies.push_back(std::move(watched));
   }
   list_contacts(state_->dispatcher, to.contacts);
+}
+
+MotionValue Bodies::motions() const {
+  MotionValue value;
+  for (const auto& [id, body] : state_->bodies) {
+    const btTransform& at = body.rigid->getWorldTransform();
+    BodyMotion& motion = value.bodies.emplace_back();
+    motion.id = id;
+    motion.origin_m = from_bullet(at.getOrigin());
+    for (int row = 0; row < 3; ++row)
+      motion.basis[static_cast<size_t>(row)] = from_bullet(at.getBasis()[row]);
+    motion.velocity_m_s = from_bullet(body.rigid->getLinearVelocity());
+    motion.spin_rad_s = from_bullet(body.rigid->getAngularVelocity());
+    motion.frozen = body.frozen.has_value();
+    if (body.thawed) motion.thawed = BoundsM{from_bullet(body.thawed->lo), from_bullet(body.thawed->hi)};
+  }
+  state_->pending.store(value);
+  return value;
+}
+
+std::shared_ptr<const BodyShape> Bodies::shape(PieceId id) const {
+  const auto found = state_->bodies.find(id);
+  CHECK(found != state_->bodies.end());
+  return found->second.given;
+}
+
+Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>& shapes,
+                             const MotionValue& motions) {
+  State& s = *state_;
+  CHECK(s.bodies.empty());
+  CHECK_EQ(shapes.size(), motions.bodies.size());
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (contains(motions.bodies[i].id)) return refuse_body(motions.bodies[i].id, "it comes twice");
+    TRY(s.restore(motions.bodies[i], shapes[i]));
+  }
+  s.pending.restore(motions);
+  return {};
+}
+
+void Bodies::renew() {
+  const MotionValue now = motions();
+  std::vector<std::pair<std::shared_ptr<const BodyShape>, std::vector<glm::vec3>>> known;
+  for (auto& [id, body] : state_->bodies) known.emplace_back(body.given, std::move(body.points_m));
+  while (size() > 0) remove(state_->bodies.begin()->first);
+  state_ = std::make_unique<State>(state_->terrain.field(), state_->config);
+  for (size_t i = 0; i < known.size(); ++i) {
+    const Result<void> restored =
+        state_->restore(now.bodies[i], std::move(known[i].first), std::move(known[i].second));
+    CHECK(restored.has_value());
+  }
+  state_->pending.restore(now);
 }
 
 uint64_t Bodies::state_hash() const {

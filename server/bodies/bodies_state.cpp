@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "server/bodies/limits.h"
-#include "server/bodies/terrain_manifold.h"
+#include "server/bodies/motion_checks.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -19,10 +19,6 @@ btDefaultCollisionConstructionInfo sizes() {
   btDefaultCollisionConstructionInfo info;
   info.m_customCollisionAlgorithmMaxElementSize = sizeof(HullAlgorithm);
   return info;
-}
-
-bool is_finite(const btVector3& v) {
-  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
 /// The impulse of a contact in the last step on the one of its bodies that is static.
@@ -44,17 +40,9 @@ BlowOnStatic blow_on(const btPersistentManifold& manifold, bool first) {
   return blow;
 }
 
-/// How near the ground must be for the body to touch it within the step.
-float ground_reach_m(const Body& body, float step_s) {
-  const btRigidBody& rigid = *body.rigid;
-  const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
-  return limits::contact_slack_m + speed * step_s;
-}
-
-/// For CHECK_DEBUG: a contact as a TerrainProbe must report it.
-bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_m) {
-  return contact.point >= 0 && static_cast<size_t>(contact.point) < points && is_sound(contact.offset_m) &&
-         is_unit(contact.normal) && std::isfinite(contact.distance_m) && !(contact.distance_m > reach_m);
+btTransform transform_of(const BodyMotion& motion) {
+  const auto& [x, y, z] = motion.basis;
+  return btTransform(btMatrix3x3(x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z), to_bullet(motion.origin_m));
 }
 
 /// 1,000 Hz has one step a tick, as has 60 Hz; 10 Hz has six.
@@ -68,24 +56,17 @@ int steps_in(float tick_s) {
 
 Bodies::State::State(Field& field, const BodiesConfig& c)
     : config(c),
-      terrain_field(field),
-      voxel_size_m(field.source().voxel_size_m),
       steps_a_tick(steps_in(1.0F / static_cast<float>(c.tick_rate_hz))),
-      step_s(1.0F / static_cast<float>(c.tick_rate_hz * static_cast<uint32_t>(steps_a_tick))),
+      step_size{field.source().voxel_size_m,
+                1.0F / static_cast<float>(c.tick_rate_hz * static_cast<uint32_t>(steps_a_tick))},
       collision_configuration(sizes()),
       workers(c.threads),
       dispatcher(&collision_configuration),
       dynamics(dispatcher, broadphase, collision_configuration, workers),
-      terrain_collider(make_terrain_collider(c.terrain_collider, field)) {
-  CHECK(std::isfinite(step_s) && std::isfinite(c.gravity_m_s2));
+      terrain(field, c.terrain_collider, dispatcher,
+              {step_size.voxel_size_m, c.restitution, step_size.step_s}) {
+  CHECK(std::isfinite(step_size.step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.restitution >= 0.0F && c.restitution <= 1.0F);
-  terrain.setCollisionShape(&terrain_shape);
-  // Asleep, so that it wakes nothing that touches it.
-  terrain.forceActivationState(ISLAND_SLEEPING);
-  // Contacts are put in order by broadphase proxy; the terrain is in no broadphase, so it gets one here.
-  terrain_proxy.m_uniqueId = 0;
-  terrain_proxy.m_clientObject = &terrain;
-  terrain.setBroadphaseHandle(&terrain_proxy);
   dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
                                          &hull_algorithm);
   dynamics.setGravity(btVector3(0.0F, -c.gravity_m_s2, 0.0F));
@@ -96,6 +77,38 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
   info.m_erp2 = limits::undone_a_step;
   info.m_linearSlop = limits::penetration_slop_m;
   info.m_splitImpulsePenetrationThreshold = 0.0F;
+}
+
+Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given,
+                          std::vector<glm::vec3> points_m) {
+  Body& body = bodies[id];
+  body = make_body(id, std::move(given), std::move(points_m), {step_size, config.restitution});
+  terrain.attach(body);
+  return body;
+}
+
+Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<const BodyShape> shape,
+                                    std::vector<glm::vec3> points_m) {
+  TRY(check_shape(motion.id, *shape));
+  TRY(check_motion(motion));
+  Body& body = make(motion.id, std::move(shape), std::move(points_m));
+  body.rigid->setCenterOfMassTransform(transform_of(motion));
+  body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
+  body.rigid->setAngularVelocity(to_bullet(motion.spin_rad_s));
+  constexpr float rounding = 1.001F;  // speeds that were cut to their limit differ from it by that
+  const float speed_max =
+      rounding * 0.8F * limits::travel_max_voxels * step_size.voxel_size_m / step_size.step_s;
+  if (body.rigid->getLinearVelocity().length() > speed_max ||
+      body.rigid->getAngularVelocity().length() > rounding * body.spin_max_rad_s ||
+      !is_sound(pose_of(body))) {
+    bodies.erase(motion.id);
+    return refuse_body(motion.id, "it is faster than bodies are");
+  }
+  body.last = body.rigid->getWorldTransform();
+  enter(body);
+  if (motion.frozen) freeze(motion.id, body);
+  if (motion.thawed) body.thawed = Bounds{to_bullet(motion.thawed->lo_m), to_bullet(motion.thawed->hi_m)};
+  return {};
 }
 
 // Each body is one thread's. Only one thread may read the terrain, and one change the broadphase: both go on
@@ -112,10 +125,10 @@ void Bodies::State::step() {
     batch.run_alone();
   };
   WorkBatch turning, looking, touching, moving;
-  dynamics.begin(step_s);
+  dynamics.begin(step_size.step_s);
   dynamics.foresee(turning);
   for_all(turning, [this](std::span<Body*> some) {
-    for (Body* body : some) turn(*body);
+    for (Body* body : some) terrain.turn(*body);
   });
   run(turning);
   looking.add([this] { dynamics.find_pairs(); });
@@ -124,19 +137,19 @@ void Bodies::State::step() {
       for (Body* body : loose)
         if (body->looks) body->probe->look();
     });
-  for_all(looking, [this](std::span<Body*> some) { refill_ground(some, false); });
+  for_all(looking, [this](std::span<Body*> some) { terrain.refill(some, false); });
   run(looking);
   dynamics.find_contacts(touching);
   for_all(touching, [this](std::span<Body*> some) {
-    refill_ground(some, true);
-    roughen_ground(some);
+    terrain.refill(some, true);
+    terrain.roughen(some);
   });
   run(touching);
   dynamics.solve();
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
       dynamics.move(*body->rigid);
-      if (body->rigid->isActive()) settle(*body);
+      if (body->rigid->isActive()) settle(*body, step_size);
     }
   });
   run(moving);
@@ -145,129 +158,36 @@ void Bodies::State::step() {
     if (body.thawed) wake_around_thawed(body);
 }
 
-void Bodies::State::turn(Body& body) const {
-  const btRigidBody& rigid = *body.rigid;
-  body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
-  body.awake = rigid.isActive();
-  body.looks = false;
-  if (!body.awake) return;
-  body.last = rigid.getWorldTransform();
-  body.looks = !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, step_s));
-}
-
-void Bodies::State::refill_ground(std::span<Body*> some, bool looking) const {
-  std::vector<TerrainContact> found;
-  for (Body* body : some) {
-    if (!body->awake || body->looks != looking) continue;
-    found.clear();
-    body->probe->list(found);
-    CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
-      return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, step_s));
-    }));
-    body->rubs_at_m = refill(*body->ground, *body->rigid, found, {voxel_size_m, config.restitution, step_s});
-  }
-}
-
-void Bodies::State::roughen_ground(std::span<Body*> some) const {
-  for (Body* body : some)
-    if (body->awake) roughen(*body->ground, *body->rigid, body->rubs_at_m, terrain_field);
-}
-
-bool Bodies::State::is_sound(PieceId id, const Body& body) const {
-  const btRigidBody& rigid = *body.rigid;
-  const Pose pose = pose_of(body);
-  if (id_of(&rigid) != id || !scree::is_sound(pose)) return false;
-  if (body.frozen)  // it is not integrated
-    return body.ground == nullptr && rigid.isStaticObject() &&
-           pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
-  constexpr float rounding = 1.001F;
-  const float travel_m =
-      (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * step_s;
-  return body.ground != nullptr && !rigid.isStaticObject() &&
-         travel_m <= rounding * limits::travel_max_voxels * voxel_size_m;
-}
-
-void Bodies::State::limit_speeds(Body& body) const {
-  btRigidBody& rigid = *body.rigid;
-  const float speed_max = 0.8F * limits::travel_max_voxels * voxel_size_m / step_s;
-  const float speed = rigid.getLinearVelocity().length();
-  if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
-  const float turning = rigid.getAngularVelocity().length();
-  if (turning > body.spin_max_rad_s)
-    rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
-}
-
-// The solver moves bodies out of overlaps besides their velocity. A body that overlaps on several sides it
-// may move to and fro by far more than any one of them asks for.
-void Bodies::State::limit_undoing(Body& body) const {
-  btRigidBody& rigid = *body.rigid;
-  btTransform now = rigid.getWorldTransform();
-  const btVector3 expected = body.last.getOrigin() + rigid.getLinearVelocity() * step_s;
-  const btVector3 undone = now.getOrigin() - expected;
-  const float most_m = limits::undo_buried_m_s * step_s;
-  if (!(undone.length2() > most_m * most_m)) return;
-  now.setOrigin(expected + undone * (most_m / undone.length()));
-  rigid.setWorldTransform(now);
-}
-
-// Bullet's own damping would call the math library.
-void Bodies::State::settle(Body& body) const {
-  btRigidBody& rigid = *body.rigid;
-  btVector3 velocity = rigid.getLinearVelocity();
-  btVector3 spin = rigid.getAngularVelocity();
-  if (!is_finite(velocity) || !is_finite(spin) || !is_finite(rigid.getWorldTransform().getOrigin())) {
-    rigid.setWorldTransform(body.last);
-    velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
-  }
-  limit_undoing(body);
-  const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
-  velocity *= 1.0F - step_s * (creeping ? limits::ground_damping : limits::air_damping);
-  spin *= 1.0F - step_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
-  rigid.setLinearVelocity(velocity);
-  rigid.setAngularVelocity(spin);
-  limit_speeds(body);
-}
-
-void Bodies::State::wake_near(const btVector3& lo, const btVector3& hi) {
-  for (auto& [id, body] : bodies) {
-    btVector3 body_lo, body_hi;
-    body.rigid->getAabb(body_lo, body_hi);
-    if (TestAabbAgainstAabb2(lo, hi, body_lo, body_hi)) wake(body);
-  }
+void Bodies::State::wake_near(const Bounds& bounds) {
+  for (auto& [id, body] : bodies)
+    if (meet(bounds, bounds_of(body))) wake(body);
 }
 
 void Bodies::State::tell_changes() {
-  if (changes.empty() && freed.empty()) return;
-  const auto corner = [&](VoxelCoord v) {
-    return btVector3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)) *
-           voxel_size_m;
-  };
-  std::vector<Bounds> near = std::exchange(freed, {});
-  for (const VoxelBox& box : changes) near.push_back({corner(box.grown(1).lo), corner(box.grown(1).hi)});
+  if (pending.empty()) return;
+  const std::vector<Bounds> near = pending.waking(step_size.voxel_size_m);
   std::vector<Body*> all;
   for (auto& [id, body] : bodies) all.push_back(&body);
   workers.share(std::span(all), limits::bodies_per_part, [&](size_t, std::span<Body*> some) {
     for (Body* body : some) {
-      for (const VoxelBox& box : changes) body->probe->terrain_changed(box);
-      btVector3 lo, hi;
-      body->rigid->getAabb(lo, hi);
-      body->roused = std::ranges::any_of(
-          near, [&](const Bounds& b) { return TestAabbAgainstAabb2(b.lo, b.hi, lo, hi); });
+      for (const VoxelBox& box : pending.boxes()) body->probe->terrain_changed(box);
+      const Bounds now = bounds_of(*body);
+      body->roused = std::ranges::any_of(near, [&](const Bounds& b) { return meet(b, now); });
     }
   });
   for (Body* body : all)
     if (body->roused) wake(*body);
-  changes.clear();
+  pending.clear();
 }
 
 void Bodies::State::enter(Body& body) {
   CHECK(body.ground == nullptr && body.rigid->getBroadphaseHandle() == nullptr);
   dynamics.addRigidBody(body.rigid.get());
-  if (!body.frozen) body.ground = dispatcher.getNewManifold(body.rigid.get(), &terrain);
+  if (!body.frozen) terrain.add_contacts(body);
 }
 
 void Bodies::State::leave(Body& body) {
-  if (body.ground != nullptr) dispatcher.releaseManifold(std::exchange(body.ground, nullptr));
+  terrain.remove_contacts(body);
   dynamics.removeRigidBody(body.rigid.get());
 }
 
@@ -300,8 +220,7 @@ void Bodies::State::wake(Body& body) {
   rigid.forceActivationState(ACTIVE_TAG);
   rigid.setDeactivationTime(0.0F);
   body.last = rigid.getWorldTransform();
-  body.thawed.emplace();
-  rigid.getAabb(body.thawed->lo, body.thawed->hi);
+  body.thawed = bounds_of(body);
   enter(body);
 }
 
@@ -309,7 +228,7 @@ void Bodies::State::thaw_struck() {
   std::vector<std::pair<PieceId, BlowOnStatic>> struck;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-    if (manifold.getBody1() == &terrain) continue;
+    if (manifold.getBody1() == &terrain.object()) continue;
     const bool first = manifold.getBody0()->isStaticObject();
     if (first == manifold.getBody1()->isStaticObject()) continue;
     if (!(first ? manifold.getBody1() : manifold.getBody0())->isActive()) continue;
@@ -321,18 +240,17 @@ void Bodies::State::thaw_struck() {
     Body& body = bodies.at(id);
     wake(body);
     body.rigid->applyImpulse(blow.impulse, blow.at - body.rigid->getWorldTransform().getOrigin());
-    limit_speeds(body);
+    limit_speeds(body, step_size);
   }
 }
 
 void Bodies::State::wake_around_thawed(Body& body) {
-  btVector3 lo, hi;
-  body.rigid->getAabb(lo, hi);
-  const btVector3 moved = (lo - body.thawed->lo).absolute() + (hi - body.thawed->hi).absolute();
+  const Bounds now = bounds_of(body);
+  const btVector3 moved = (now.lo - body.thawed->lo).absolute() + (now.hi - body.thawed->hi).absolute();
   if (std::max({moved.x(), moved.y(), moved.z()}) < 2.0F * limits::thawed_leash_m) return;
   const Bounds stood = *body.thawed;
   body.thawed.reset();
-  wake_near(stood.lo, stood.hi);
+  wake_near(stood);
 }
 
 }  // namespace scree

@@ -4,7 +4,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <algorithm>
 
-#include "server/bodies/bodies_state.h"
+#include "server/bodies/body.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"

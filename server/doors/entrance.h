@@ -27,14 +27,14 @@ class EntranceHost {
 
 class Entrance {
  public:
-  Entrance(asio::io_context& context, const Door::Rules& rules, EntranceHost& host)
-      : acceptor_(context), pause_(context), door_(rules), host_(host) {}
+  /// `door` and `host` must outlive this object.
+  Entrance(asio::io_context& context, Door& door, EntranceHost& host)
+      : acceptor_(context), pause_(context), door_(door), host_(host) {}
 
   /// The error names address and port, and the way out.
   Result<void> listen(const std::string& bind, uint16_t port);
   uint16_t port() const { return port_; }
   void close();
-  Door& door() { return door_; }
 
  private:
   void accept();
@@ -45,7 +45,7 @@ class Entrance {
   asio::ip::tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   uint16_t port_ = 0;
-  Door door_;
+  Door& door_;
   EntranceHost& host_;
 };
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "proto/frame_reader.h"
@@ -64,6 +65,10 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Sends of what is queued what the link takes at once. Calls nobody else, and touches nothing but this
   /// session. settle() must follow before any other call.
   void send_now();
+  /// Notes that it waits for its turn to be sent what is queued (FlushQueue), until flushed(). Returns
+  /// whether it waited already.
+  bool wait_for_flush() { return std::exchange(waits_for_flush_, true); }
+  void flushed() { waits_for_flush_ = false; }
   /// Sends the rest as the link takes it. Cuts the client off if that is too much.
   void settle();
   void send(const ServerMessage& message);
@@ -159,6 +164,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   size_t offered_bytes_ = 0;  ///< by the write under way
   double offered_s_ = 0.0;
   bool writing_ = false;
+  bool waits_for_flush_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
   bool left_ = false;
   bool may_go_on_ = false;

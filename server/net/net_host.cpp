@@ -5,15 +5,18 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
+#include "server/doors/unix_time.h"
+#include "server/net/talk_delivery.h"
+#include "server/net/welcome.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
-#include "shared/base/token.h"
 
 namespace scree {
 
@@ -30,29 +33,44 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.heartbeat_s, config.chunks};
 }
 
+Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
+  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
+    return fail("the eye's position is not a number");
+  if (!std::isfinite(radius_m) || radius_m < 0.0F)
+    return fail("the radius of interest must be a number, and not negative");
+  return std::min(radius_m, limits::interest_radius_max_m);
+}
+
 }  // namespace
 
 NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
     : config_(config),
       service_(config.service),
-      commands_(commands),
-      departures_(commands),
-      entrance_(context_, config.door, *this),
-      timer_(context_),
-      next_session_(config.first_session),
-      flush_rate_(config.tick_rate_hz),
-      flush_timer_(context_),
-      tickets_([this](uint64_t session) { departures_.gone(session); }),
       world_(config.world != 0 ? config.world : std::max<uint64_t>(1, random_number())),
-      workers_(config.net_threads),
-      publisher_(publisher_config(config), workers_),
-      talk_(config.chat) {}
+      door_(config_.door),
+      authorizer_(config_.access, config_.admin_token, door_),
+      sessions_(service_.requests_per_second),
+      requests_(commands, sessions_, figures_.counts(), config_.replay),
+      returns_([this](uint64_t session) { requests_.gone(session); }, door_),
+      administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
+                      config_.control),
+      web_(config_, authorizer_, door_, figures_.counts(), log_, *this),
+      arrivals_(context_,
+                {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
+                [this] { update_stats(); }),
+      talk_(config_.chat),
+      workers_(config_.net_threads),
+      publisher_(publisher_config(config_), workers_),
+      flush_queue_(context_, workers_, config_.tick_rate_hz),
+      timer_(context_) {}
 
 Result<void> NetHost::listen() {
-  TRY(open_access());
-  TRY(open_site());
-  TRY(entrance_.listen(config_.bind, config_.port));
-  fit_descriptors();
+  TRY(authorizer_.open());
+  log_access(authorizer_.access());
+  for (const std::string& open : open_doors(config_.access, config_.bind)) spdlog::warn("open: {}", open);
+  TRY(web_.open());
+  TRY(arrivals_.listen());
+  room_.fit(service_.sessions_max);
   tick_timer();
   return {};
 }
@@ -62,38 +80,69 @@ void NetHost::run() {
   context_.run();
 }
 
-void NetHost::say(spdlog::level::level_enum level, std::string_view kind, const std::string& line) {
-  if (const auto more = log_.take(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
+void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::string& address, uint64_t id,
+                              bool relayed) {
+  arrivals_.begin_session(std::move(stream), address, id, relayed);
 }
 
-void NetHost::note(Event event) const {
-  if (config_.noted) config_.noted(std::move(event));
+// ---- sessions
+
+tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
+  if (hello.protocol != protocol_version)
+    return refuse(Refusal::protocol_version, "this server speaks protocol version " +
+                                                 std::to_string(protocol_version) + ", the client version " +
+                                                 std::to_string(hello.protocol) +
+                                                 ": use a client and a server of the same release");
+  if (stopping_) return refuse(Refusal::server_stops, "the server stops");
+  const double now_s = steady_now_s();
+  const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
+                                               now_s, unix_now_s()));
+  const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
+  if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
+  const std::optional<Departed> before = returns_.resume(hello.ticket, grant, sessions_, now_s);
+  TRY(find_room(session, grant, before, now_s));
+  join(session, hello, *radius_m, grant, before);
+  WelcomeMessage welcome = welcome_of(config_, world_);
+  welcome.session = session.id();
+  welcome.tick = publisher_.state().tick();
+  welcome.interest_radius_m = *radius_m;
+  welcome.role = grant.role;
+  welcome.ticket = returns_.tickets().issue(session.id());
+  welcome.resumed = before.has_value();
+  return welcome;
 }
 
-void NetHost::tick_timer() {
-  timer_.expires_after(stopping_ ? timer_period_stopping : timer_period);
-  timer_.async_wait([this](asio::error_code error) {
-    if (error) return;
-    const double now_s = steady_now_s();
-    std::vector<std::shared_ptr<ClientSession>> sessions;
-    for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
-    for (const auto& session : sessions) session->check_time(now_s);
-    check_http(now_s);
-    end_lapsed_grants();
-    tickets_.expire(now_s);
-    if (!stopping_) tell_persons(now_s);
-    departures_.tell();
-    if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
-      for (const auto& session : sessions) session->close("the server stops");
-      return;
-    }
-    tick_timer();
-  });
+/// Places of lost connections are kept from newcomers without a token.
+tl::expected<void, Refused> NetHost::find_room(const ClientSession& newcomer, const Grant& grant,
+                                               const std::optional<Departed>& before, double now_s) {
+  const bool comes_first = (before && has_place(*before, now_s)) || holds_token(grant);
+  const size_t kept = comes_first ? 0 : returns_.tickets().places_kept(now_s);
+  return room_.find_place(sessions_, newcomer, grant, kept, now_s);
 }
 
-uint32_t NetHost::joined_count() const {
-  CHECK(outsiders_.size() <= sessions_.size());
-  return static_cast<uint32_t>(sessions_.size() - outsiders_.size());
+void NetHost::join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
+                   const std::optional<Departed>& before) {
+  const double now_s = steady_now_s();
+  SessionEntry& entry = sessions_.join(session, before ? before->session : session.id());
+  publisher_.join(session.id(), hello.eye_m, radius_m, !hello.lacks_kernels, hello.world == world_);
+  entry.grant = grant;
+  entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
+  entry.name = grant.name;
+  entry.program = hello.client;
+  entry.joined_s = before ? before->joined_s : now_s;
+  if (before) entry.requests = before->requests;
+  if (config_.control)
+    if (const auto control = authorizer_.may_administer(grant.role, entry.caller(), true); !control)
+      publisher_.set_control_refusal(session.id(), control.error().message);
+  if (hello.meets)
+    talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
+  note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
+  ++figures_.counts().sessions_joined;
+  figures_.counts().sessions_resumed += before ? 1 : 0;
+  update_stats();
+  log_.say(spdlog::level::info, "joined",
+           fmt::format("session {}: {} {} from {} as {}, interest {} m", session.id(), hello.client,
+                       before ? "goes on" : "joined", session.peer(), name_of(grant.role), radius_m));
 }
 
 tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
@@ -105,14 +154,14 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
-            ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
-                          sessions_.at(session.id()).party});
+            requests_.ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
+                                    sessions_.at(session.id()).party});
             return {};
           },
           [&](const RepairRequest& repair) -> Done {
-            say(spdlog::level::warn, "repair",
-                fmt::format("session {}: {} chunks differ at tick {}", session.id(), repair.chunks.size(),
-                            repair.tick));
+            log_.say(spdlog::level::warn, "repair",
+                     fmt::format("session {}: {} chunks differ at tick {}", session.id(),
+                                 repair.chunks.size(), repair.tick));
             publisher_.repair(session.id(), repair);
             return {};
           },
@@ -126,14 +175,14 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           // On TCP the bytes that wait for a client say how far behind it is.
           [](const AckMessage&) -> Done { return {}; },
-          [&](const AdminMessage& admin) { return administer(session, admin); },
+          [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
           [&](const CursorMessage& cursor) -> Done {
             publisher_.set_cursor(
                 {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
             return {};
           },
           [&](const SayMessage& said) -> Done {
-            hear(session, said);
+            pass_on(said, session, talk_, sessions_, steady_now_s());
             return {};
           },
           [&](const WatchMessage& watch) -> Done {
@@ -158,14 +207,6 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
       message);
 }
 
-Result<float> NetHost::granted_radius(glm::vec3 eye_m, float radius_m) {
-  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
-    return fail("the eye's position is not a number");
-  if (!std::isfinite(radius_m) || radius_m < 0.0F)
-    return fail("the radius of interest must be a number, and not negative");
-  return std::min(radius_m, limits::interest_radius_max_m);
-}
-
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
   const auto radius_m = granted_radius(interest.eye_m, interest.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
@@ -173,151 +214,173 @@ tl::expected<void, Refused> NetHost::follow(ClientSession& session, const Intere
   return {};
 }
 
-bool NetHost::request(ClientSession& session, const Command& command) {
-  ++counts_.requests;
-  const auto refused = [&](Refusal reason, const std::string& message) {
-    refuse_request(session, command.request, {reason, message});
-    return false;
-  };
-  if (config_.replay)
-    return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
-  const double now_s = steady_now_s();
-  if (!sessions_.at(session.id()).requests.take(now_s))
-    return refused(Refusal::requests_per_second,
-                   fmt::format("more than {} requests a second (requests-per-second); ask again more slowly",
-                               service_.requests_per_second));
-  if (!commands_.push(command))
-    return refused(Refusal::commands_waiting,
-                   "the server is busy: " + std::to_string(commands_.commands_max()) +
-                       " commands wait already (limits.commands_waiting_max); try again");
-  departures_.asked(session.id());
-  request_times_.received(session.id(), command.request, now_s);
-  return true;
-}
-
-void NetHost::refuse_request(ClientSession& session, uint32_t request, const Refused& refused) {
-  ++counts_.requests_refused;
-  counts_.refusals.add(refused.reason);
-  session.send(
-      ServerMessage(ReplyMessage{request, refused.message, 0, std::string(name_of(refused.reason))}));
-}
-
-/// A wrong token ends the connection, so that each connection has one attempt.
-tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
-  const bool is_control = std::holds_alternative<ControlReplay>(message.act);
-  if (auto admin = may_administer(session, is_control); !admin) {
-    const bool nobody_can = admin.error().reason == Refusal::no_admin_token;
-    if (nobody_can || message.token.empty() || config_.admin_token.empty()) {
-      ++counts_.requests;
-      refuse_request(session, message.request, admin.error());
-      return {};
-    }
-    TRY(check_admin_token(session.address(), message.token));
-  }
-  const auto* settings = std::get_if<SettingValues>(&message.act);
-  if (settings == nullptr) {
-    administer_sessions(session, message);
-    return {};
-  }
-  std::string changes;
-  for (const SettingValue& setting : *settings) changes += " " + setting.name + "=" + setting.value;
-  if (request(session, {session.id(), message.request, SettingsRequest{*settings}}))
-    settings_asked_[{session.id(), message.request}] =
-        fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
-  return {};
-}
-
 void NetHost::refused(ClientSession& session, const Refused& refused) {
   CHECK(!workers_.at_work());
-  ++counts_.sessions_refused;
-  counts_.refusals.add(refused.reason);
-  say(spdlog::level::warn, name_of(refused.reason),
-      fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(), name_of(refused.reason),
-                  refused.message));
-  publisher_.leave(session.id());
-  talk_.leave(session.id());
-  request_times_.forget(session.id());
-  tickets_.forget(session.id());
-  outsiders_.insert(session.id());
+  ++figures_.counts().sessions_refused;
+  figures_.counts().refusals.add(refused.reason);
+  log_.say(spdlog::level::warn, name_of(refused.reason),
+           fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(),
+                       name_of(refused.reason), refused.message));
+  forget(session.id());
+  returns_.tickets().forget(session.id());
+  sessions_.refuse(session.id());
   update_stats();
 }
 
 void NetHost::closed(ClientSession& session, const std::string& reason) {
   CHECK(!workers_.at_work());
   if (const std::optional<Refusal> cut_for = session.cut_for()) {
-    ++counts_.sessions_cut;
-    counts_.refusals.add(*cut_for);
-    say(spdlog::level::warn, name_of(*cut_for),
-        fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
+    ++figures_.counts().sessions_cut;
+    figures_.counts().refusals.add(*cut_for);
+    log_.say(spdlog::level::warn, name_of(*cut_for),
+             fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
   } else {
-    say(spdlog::level::info, "closed",
-        fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
+    log_.say(spdlog::level::info, "closed",
+             fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
-  if (const Entry& entry = sessions_.at(session.id()); entry.joined_s > 0.0)
-    note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
-  entrance_.door().leave(session.address(), steady_now_s());
-  publisher_.leave(session.id());
-  talk_.leave(session.id());
-  request_times_.forget(session.id());
-  remember(session);
-  outsiders_.erase(session.id());
-  if (const Entry& entry = sessions_.at(session.id()); entry.party != 0)
-    parties_.leave(entry.party, steady_now_s());
+  const SessionEntry& entry = sessions_.at(session.id());
+  if (entry.joined_s > 0.0) note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
+  door_.leave(session.address(), steady_now_s());
+  forget(session.id());
+  returns_.closed(entry, steady_now_s());
   sessions_.erase(session.id());
   update_stats();
+}
+
+/// The session gets nothing any more, and nobody hears of it.
+void NetHost::forget(uint64_t session) {
+  publisher_.leave(session);
+  talk_.leave(session);
+  requests_.forget(session);
+}
+
+// ---- time, and settings that change
+
+void NetHost::tick_timer() {
+  timer_.expires_after(stopping_ ? timer_period_stopping : timer_period);
+  timer_.async_wait([this](asio::error_code error) {
+    if (!error) check_time();
+  });
+}
+
+void NetHost::check_time() {
+  const double now_s = steady_now_s();
+  const SessionTable::Sessions sessions = sessions_.all();
+  for (const auto& session : sessions) session->check_time(now_s);
+  web_.check_time(now_s);
+  end_lapsed_grants(sessions_, authorizer_.access());
+  returns_.tickets().expire(now_s);
+  if (!stopping_) send_persons(talk_, sessions_, now_s);
+  requests_.tell_departures();
+  if (stopping_ && (sessions_.empty() || now_s > stop_deadline_s_)) {
+    for (const auto& session : sessions) session->close("the server stops");
+    return;
+  }
+  tick_timer();
+}
+
+void NetHost::take_access(std::shared_ptr<const Access> access) {
+  CHECK(network_thread_.is_the_same());
+  authorizer_.take_access(std::move(access));
+  log_access(authorizer_.access());
+  end_lapsed_grants(sessions_, authorizer_.access());
+}
+
+void NetHost::take_files(std::shared_ptr<const WebFiles> files) {
+  CHECK(network_thread_.is_the_same());
+  web_.take_files(std::move(files));
 }
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.
 void NetHost::grant(const ServiceLimits& service) {
   const bool more = service.sessions_max > service_.sessions_max;
   service_ = service;
-  if (more) fit_descriptors();
-  const double rate = service.requests_per_second;
-  for (auto& [id, entry] : sessions_) entry.requests.change(rate, burst_of(rate));
+  more ? room_.fit(service.sessions_max) : room_.bound(service.sessions_max);
+  sessions_.set_requests_per_second(service.requests_per_second);
 }
 
 void NetHost::shut_down() {
   if (stopping_) return;
   stopping_ = true;
   stop_deadline_s_ = steady_now_s() + stop_seconds_max;
-  entrance_.close();
-  std::vector<std::shared_ptr<ClientSession>> sessions;
-  for (const auto& [id, entry] : sessions_) sessions.push_back(entry.session);
-  for (const auto& session : sessions) session->refuse({Refusal::server_stops, "the server stops"});
-  const auto http = http_;  // closing one erases its entry
-  for (const auto& [id, connection] : http) connection->close();
-  flush_timer_.cancel();
+  arrivals_.close();
+  for (const auto& session : sessions_.all()) session->refuse({Refusal::server_stops, "the server stops"});
+  web_.stop();
+  flush_queue_.cancel();
   timer_.cancel();
   tick_timer();
 }
 
+// ---- a tick
+
+void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
+  CHECK(network_thread_.is_the_same());
+  CHECK_EQ(publisher_.clients(), sessions_.joined());
+  if (delta.service && *delta.service != service_) grant(*delta.service);
+  RefusalCounts& refusals = figures_.counts().refusals;
+  for (const Reply& reply : delta.replies)
+    if (reply.reason) refusals.add(*reply.reason);
+  publisher_.set_refusals(refusals);
+  if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().take_status());
+  if (config_.saving) publisher_.set_saving(config_.saving());
+  queue_frames(delta);
+  administration_.log_settings(delta);
+  answer(delta, span);
+  flush_queue_.send_turn(delta.tick, more);
+  update_stats();
+}
+
+void NetHost::queue_frames(const TickDelta& delta) {
+  const auto backlog = [this](uint64_t id) {
+    const SessionEntry* const entry = sessions_.find(id);
+    return entry == nullptr ? Backlog() : entry->session->backlog();
+  };
+  const auto& entries = sessions_.entries();
+  auto found = entries.begin();
+  for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
+    // Most come in the sessions' order.
+    if (found != entries.end() && found->first < outgoing.session) ++found;
+    if (found == entries.end() || found->first != outgoing.session) found = entries.find(outgoing.session);
+    if (found == entries.end()) continue;
+    flush_queue_.add(found->second.session, delta.tick);
+    found->second.session->queue(std::move(outgoing.bytes));
+  }
+}
+
+/// Who asked gets the tick first, and at once, however far this thread lags.
+void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
+  if (delta.replies.empty()) return;
+  const auto latency = [&](const Reply& reply) {
+    return requests_.times().answered(reply.session, reply.request, span, steady_now_s());
+  };
+  SessionTable::Sessions answered;
+  for (Outgoing& outgoing : publisher_.answer(delta, latency)) {
+    const SessionEntry* const entry = sessions_.find(outgoing.session);
+    if (entry == nullptr) continue;
+    entry->session->queue(std::move(outgoing.bytes));
+    answered.push_back(entry->session);
+  }
+  for (const auto& session : answered) session->settle();
+  figures_.show(requests_.times().counts());
+}
+
+// ---- what others are told
+
+void NetHost::note(Event event) const {
+  if (config_.noted) config_.noted(std::move(event));
+}
+
+NetFigures NetHost::status_figures() {
+  update_stats();
+  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s())};
+}
+
 void NetHost::update_stats() {
-  watched_ = publisher_.is_watched();
-  counts_.published = publisher_.stats();
-  counts_.sessions = joined_count();
-  counts_.web.connections = static_cast<uint32_t>(http_.size());
-  const std::scoped_lock lock(stats_mutex_);
-  stats_ = counts_;
-  eyes_m_ = publisher_.eyes_m();
-  if (config_.takes_cursors && publisher_.state().tick() % ticks_per_watch == 0)
-    cursors_ = publisher_.cursors();
-}
-
-std::vector<PlayerCursor> NetHost::cursors() const {
-  std::vector<PlayerCursor> cursors;
-  const std::scoped_lock lock(stats_mutex_);
-  for (const auto& [session, cursor] : cursors_) cursors.push_back(cursor);
-  return cursors;
-}
-
-std::vector<glm::vec3> NetHost::eyes_m() const {
-  const std::scoped_lock lock(stats_mutex_);
-  return eyes_m_;
-}
-
-NetStats NetHost::stats() const {
-  const std::scoped_lock lock(stats_mutex_);
-  return stats_;
+  NetStats& counts = figures_.counts();
+  counts.sessions = static_cast<uint32_t>(sessions_.joined());
+  counts.tickets_void = returns_.tickets_void();
+  counts.web.connections = static_cast<uint32_t>(web_.size());
+  figures_.show(publisher_, config_.takes_cursors && publisher_.state().tick() % ticks_per_watch == 0);
 }
 
 }  // namespace scree

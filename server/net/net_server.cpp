@@ -95,25 +95,25 @@ void NetServer::flush() {
 }
 
 NetStats NetServer::stats() const {
-  NetStats stats = impl_->host.stats();
+  NetStats stats = impl_->host.figures().stats();
   stats.publish_waits = impl_->waits;
   return stats;
 }
 
 LatencyCounts NetServer::latency() const {
-  return impl_->host.latency();
+  return impl_->host.figures().latency();
 }
 
 std::vector<glm::vec3> NetServer::eyes_m() const {
-  return impl_->host.eyes_m();
+  return impl_->host.figures().eyes_m();
 }
 
 std::vector<PlayerCursor> NetServer::cursors() const {
-  return impl_->host.cursors();
+  return impl_->host.figures().cursors();
 }
 
 bool NetServer::is_watched() const {
-  return impl_->host.is_watched();
+  return impl_->host.figures().is_watched();
 }
 
 void NetServer::stop() {

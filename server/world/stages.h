@@ -15,7 +15,7 @@
 namespace scree {
 
 enum class TickStage : uint8_t {
-  carve,      ///< requests: carves, fills, paint, settings
+  requests,   ///< carves, fills, paint, settings
   cut,        ///< pieces of large carves that are cut into smaller ones
   spawn,      ///< hulls and bodies of new pieces, whichever stage made them
   bodies,     ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
@@ -39,8 +39,8 @@ struct TickStageRow {
 
 constexpr TickStageRow row_of(TickStage stage) {
   switch (stage) {
-    case TickStage::carve:
-      return {stage, "carve", true};
+    case TickStage::requests:
+      return {stage, "requests", true};
     case TickStage::cut:
       return {stage, "cut", true};
     case TickStage::spawn:
@@ -104,7 +104,7 @@ class StageWatch {
   }
 
  private:
-  TickStage stage_ = TickStage::carve;
+  TickStage stage_ = TickStage::requests;
   std::chrono::steady_clock::time_point since_;
 };
 

@@ -75,7 +75,7 @@ using StageRun = void (*)(World::State& state, TickDelta& delta);
 
 StageRun run_of(TickStage stage) {
   switch (stage) {
-    case TickStage::carve:
+    case TickStage::requests:
       return carry_out;
     case TickStage::cut:
       return cut_pieces;
@@ -134,11 +134,11 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
   if (s.tick == 1) publish_settings(s, *delta);
-  s.watch.restart(TickStage::carve);
+  s.watch.restart(TickStage::requests);
   s.work.begin(s.bodies);
   take_in(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
-  s.watch.switch_to(TickStage::carve, delta->times);
+  s.watch.switch_to(TickStage::requests, delta->times);
   return delta;
 }
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstring>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "shared/base/check.h"
@@ -12,64 +9,16 @@
 
 namespace scree {
 
-namespace {
-
-/// A row's codes, eight at most: calling memcpy took longer than the copy.
-inline void copy_row(Code* to, const Code* from, size_t count) {
-  if (count == brick_size) {
-    std::memcpy(to, from, brick_size);
-  } else if (count >= 4) {
-    std::memcpy(to, from, 4);
-    std::memcpy(to + count - 4, from + count - 4, 4);
-  } else {
-    for (size_t i = 0; i < count; ++i) to[i] = from[i];
-  }
-}
-
-/// The part of a brick that lies in a box, as ranges relative to the brick.
-struct Overlap {
-  VoxelCoord lo;
-  VoxelCoord hi;
-};
-
-Overlap overlap(BrickCoord brick, const VoxelBox& box) {
-  const VoxelCoord first = first_voxel(brick);
-  const auto low = [](int a, int b) { return std::max(a - b, 0); };
-  const auto high = [](int a, int b) { return std::min(a - b, brick_size); };
-  return {{low(box.lo.x, first.x), low(box.lo.y, first.y), low(box.lo.z, first.z)},
-          {high(box.hi.x, first.x), high(box.hi.y, first.y), high(box.hi.z, first.z)}};
-}
-
-/// Calls f(offset in the brick, offset in the window, count) for each row along z.
-template <typename F>
-void for_each_row(BrickCoord brick, const Window& window, F&& f) {
-  const Overlap part = overlap(brick, window.box);
-  const VoxelCoord first = first_voxel(brick);
-  const auto count = static_cast<size_t>(part.hi.z - part.lo.z);
-  CHECK_DEBUG(count > 0 && count <= brick_size);
-  const VoxelCoord size = window.box.size();
-  const auto step_y = static_cast<size_t>(size.z), step_x = static_cast<size_t>(size.y) * step_y;
-  size_t plane = window.index(first.x + part.lo.x, first.y + part.lo.y, first.z + part.lo.z);
-  for (int x = part.lo.x; x < part.hi.x; ++x, plane += step_x) {
-    size_t row = plane;
-    for (int y = part.lo.y; y < part.hi.y; ++y, row += step_y)
-      f(static_cast<size_t>(Brick::index(x, y, part.lo.z)), row, count);
-  }
-}
-
-}  // namespace
-
 uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint) {
   return paint ? painted_brick_hash(coord, brick, static_cast<uint8_t>(*paint)) : brick_hash(coord, brick);
 }
 
-Field::Field(const TerrainSource& source)
-    : source_(source), generated_bytes_max_(limits::generated_bytes_max) {
+Field::Field(const TerrainSource& source) : source_(source), generated_(limits::generated_bytes_max) {
   CHECK(source.voxel_size_m > 0.0F);
 }
 
 Field::Field(Field* below)
-    : source_(below->source_), below_(below), generated_bytes_max_(limits::generated_bytes_max) {}
+    : source_(below->source_), below_(below), generated_(limits::generated_bytes_max) {}
 
 uint64_t Field::edited_bits(ChunkCoord chunk) const {
   const auto found = edited_.find(chunk);
@@ -78,62 +27,39 @@ uint64_t Field::edited_bits(ChunkCoord chunk) const {
 }
 
 size_t Field::generated_chunks() const {
-  return keeper().generated_.chunks.size() + keeper().unused_.chunks.size();
+  return keeper().generated_.chunks();
 }
 
 size_t Field::generated_bytes() const {
-  return keeper().generated_.bytes + keeper().unused_.bytes;
+  return keeper().generated_.bytes();
 }
 
-void Field::make_room(size_t bytes) {
-  if (generated_.chunks.empty() || generated_.bytes + bytes <= generated_bytes_max_ / 2) return;
-  unused_ = std::exchange(generated_, {});
+void Field::heed_drops() {
+  if (drops_heeded_ == generated_.drops()) return;
+  drops_heeded_ = generated_.drops();
   last_.reset();
-}
-
-GeneratedChunk* Field::find_generated(ChunkCoord chunk) {
-  const auto found = generated_.chunks.find(chunk);
-  if (found != generated_.chunks.end()) return &found->second;
-  auto used = unused_.chunks.extract(chunk);
-  if (used.empty()) return nullptr;
-  const size_t bytes = used.mapped().bytes();
-  unused_.bytes -= bytes;
-  make_room(bytes);
-  generated_.bytes += bytes;
-  return &generated_.chunks.insert(std::move(used)).position->second;
-}
-
-GeneratedChunk& Field::add_generated(ChunkCoord chunk, GeneratedChunk generated) {
-  make_room(generated.bytes());
-  generated_.bytes += generated.bytes();
-  return generated_.chunks.emplace(chunk, std::move(generated)).first->second;
-}
-
-void Field::replace_generated(GeneratedChunk& old, GeneratedChunk generated) {
-  generated_.bytes = generated_.bytes - old.bytes() + generated.bytes();
-  old = std::move(generated);
 }
 
 const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
   if (below_ != nullptr) return below_->generated_chunk(chunk);
-  GeneratedChunk* const found = find_generated(chunk);
-  if (found == nullptr) return add_generated(chunk, generate_chunk(source_, chunk));
-  if (!found->exact && is_here(source_, chunk)) replace_generated(*found, generate_chunk(source_, chunk));
+  GeneratedChunk* found = generated_.find(chunk);
+  if (found == nullptr)
+    found = &generated_.add(chunk, generate_chunk(source_, chunk));
+  else if (!found->exact && is_here(source_, chunk))
+    generated_.replace(*found, generate_chunk(source_, chunk));
+  heed_drops();
   return *found;
 }
 
 void Field::bound_generated(size_t bytes) {
-  CHECK(below_ == nullptr && bytes > 0 && bytes <= limits::generated_bytes_max);
-  generated_bytes_max_ = bytes;
-  if (generated_bytes() <= bytes) return;
-  generated_ = {};
-  unused_ = {};
-  last_.reset();
+  CHECK(below_ == nullptr && bytes <= limits::generated_bytes_max);
+  generated_.bound(bytes);
+  heed_drops();
 }
 
 Field::LastChunk& Field::last_chunk(ChunkCoord chunk) {
   if (last_ && last_->coord == chunk && below_ == nullptr) return *last_;
-  if (read_ != nullptr)
+  if (pages())
     if (const auto found = edited_.find(chunk); found != edited_.end()) use(chunk, found->second);
   return last_.emplace(LastChunk{chunk, edited_bits(chunk), nullptr});
 }
@@ -162,7 +88,7 @@ const Brick& Field::brick(BrickCoord coord) {
 void Field::set_brick(BrickCoord coord, const Brick& brick) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
   EditedChunk& chunk = edited_[chunk_of(coord)];
-  if (read_ != nullptr) use(chunk_of(coord), chunk);
+  if (pages()) use(chunk_of(coord), chunk);
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
   const std::optional<Material> paint = painted(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
@@ -171,7 +97,7 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
   if (edited) change -= brick_hash(coord, *find_edited(coord), paint);
   store_edited(coord, brick);
   edited_bricks_ += edited ? 0 : 1;
-  bricks_in_ += edited || read_ == nullptr ? 0 : 1;
+  if (!edited && pages()) residence_.add_brick();
   chunk.bricks |= bit;
   if (paint) chunk.paint[index_in_chunk(coord)] = *paint;  // a layer's own from now on
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
@@ -207,7 +133,7 @@ void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
 }
 
 void Field::forget_chunk(ChunkCoord chunk) {
-  CHECK(below_ == nullptr && read_ == nullptr);
+  CHECK(below_ == nullptr && !pages());
   const auto found = edited_.find(chunk);
   if (found == edited_.end()) return;
   last_.reset();
@@ -253,24 +179,130 @@ void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
   if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (!generated.exact) return;
-  GeneratedChunk* const kept = find_generated(chunk);
+  GeneratedChunk* const kept = generated_.find(chunk);
   if (kept == nullptr)
-    add_generated(chunk, std::move(generated));
+    generated_.add(chunk, std::move(generated));
   else if (!kept->exact)
-    replace_generated(*kept, std::move(generated));
+    generated_.replace(*kept, std::move(generated));
+  heed_drops();
 }
 
 bool Field::has_generated(ChunkCoord chunk) const {
-  const Field& field = keeper();
-  for (const auto* kept : {&field.generated_.chunks, &field.unused_.chunks})
-    if (const auto found = kept->find(chunk); found != kept->end()) return found->second.exact;
-  return false;
+  return keeper().generated_.has_exact(chunk);
 }
 
 bool Field::keep_generated(ChunkCoord chunk) {
   if (below_ != nullptr) return below_->keep_generated(chunk);
-  const GeneratedChunk* const found = find_generated(chunk);
+  const GeneratedChunk* const found = generated_.find(chunk);
+  heed_drops();
   return found != nullptr && found->exact;
+}
+
+void Field::page_by(ReadChunk read) {
+  CHECK(below_ == nullptr && read != nullptr);
+  if (!pages())
+    for (const auto& [chunk, edited] : edited_)
+      residence_.enter(chunk, static_cast<size_t>(std::popcount(edited.bricks)));
+  residence_.page_by(std::move(read));
+}
+
+void Field::page_out(ChunkCoord chunk) {
+  CHECK(pages());
+  EditedChunk& edited = edited_.at(chunk);
+  CHECK(!edited.out);
+  const std::vector<BrickCoord> bricks = edited_bricks(chunk);
+  edited.mass = 0;
+  for (const BrickCoord brick : bricks) edited.mass += brick_mass(*find_edited(brick));
+  for (const BrickCoord brick : bricks) erase_edited(brick);
+  chunk_left(chunk);
+  edited.paint.clear();
+  edited.out = true;
+  residence_.leave(chunk, bricks.size());
+  last_.reset();
+}
+
+void Field::add_out(ChunkCoord chunk, const PagedChunk& left) {
+  CHECK(pages() && left.bricks != 0);
+  const auto [at, is_new] = edited_.try_emplace(chunk);
+  CHECK(is_new);
+  at->second.hash = left.hash;
+  at->second.bricks = left.bricks;
+  at->second.mass = left.mass;
+  at->second.out = true;
+  edited_bricks_ += static_cast<size_t>(std::popcount(left.bricks));
+  hash_ += left.hash;
+  last_.reset();
+}
+
+std::optional<PagedChunk> Field::paged(ChunkCoord chunk) const {
+  const auto found = edited_.find(chunk);
+  if (found == edited_.end() || !found->second.out) return std::nullopt;
+  return PagedChunk{found->second.hash, found->second.bricks, found->second.mass};
+}
+
+bool Field::is_out(ChunkCoord chunk) const {
+  const auto found = edited_.find(chunk);
+  return found != edited_.end() && found->second.out;
+}
+
+bool Field::page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
+  const std::optional<PagedChunk> left = paged(chunk);
+  CHECK(left.has_value());
+  const Result<PagedChunk> read = paged_of(chunk, bricks);
+  if (!read || read->bricks != left->bricks || read->hash != left->hash) return false;
+  enter(chunk, edited_.at(chunk), bricks);
+  return true;
+}
+
+void Field::enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks) {
+  for (const BrickPatch& patch : bricks) {
+    store_edited(patch.coord, patch.brick);
+    if (patch.paint) edited.paint[index_in_chunk(patch.coord)] = *patch.paint;
+  }
+  edited.out = false;
+  edited.used = residence_.turn();
+  residence_.enter(chunk, bricks.size());
+  last_.reset();
+}
+
+void Field::use(ChunkCoord chunk, EditedChunk& edited) {
+  edited.used = residence_.turn();
+  if (!edited.out) {
+    if (edited.bricks == 0) residence_.enter(chunk, 0);  // its first edit follows
+    return;
+  }
+  const Result<std::vector<BrickPatch>> read = residence_.read(chunk);
+  if (!read) throw ChunkUnreadable(read.error().message);
+  if (!page_in(chunk, *read))
+    throw ChunkUnreadable("chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
+                          std::to_string(chunk.z) + " was read, and is not what left memory");
+}
+
+void Field::keep(ChunkCoord chunk) {
+  const auto found = edited_.find(chunk);
+  if (found != edited_.end()) found->second.used = residence_.turn();
+}
+
+void Field::begin_turn() {
+  residence_.begin_turn();
+  last_.reset();
+}
+
+bool Field::is_idle(ChunkCoord chunk, uint64_t turns) const {
+  const auto found = edited_.find(chunk);
+  return found != edited_.end() && !found->second.out && found->second.used + turns <= residence_.turn();
+}
+
+std::vector<ChunkCoord> Field::idle_chunks(uint64_t turns) const {
+  std::vector<std::pair<uint64_t, ChunkCoord>> idle;
+  for (const ChunkCoord chunk : residence_.chunks()) {
+    const uint64_t used = edited_.at(chunk).used;
+    if (used + turns <= residence_.turn()) idle.emplace_back(used, chunk);
+  }
+  std::ranges::sort(idle);
+  std::vector<ChunkCoord> chunks;
+  for (const auto& [used, chunk] : idle) chunks.push_back(chunk);
+  return chunks;
 }
 
 const Brick* MapField::find_edited(BrickCoord coord) const {
@@ -291,78 +323,6 @@ void MapField::store_edited(BrickCoord coord, const Brick& brick) {
 
 void MapField::erase_edited(BrickCoord coord) {
   slots_.erase(coord);
-}
-
-Window gather(Field& field, const VoxelBox& box) {
-  CHECK(!box.empty());
-  Window window(box);
-  for_each_brick(box, [&](BrickCoord coord) {
-    const Brick& brick = field.brick(coord);
-    for_each_row(coord, window, [&](size_t from, size_t to, size_t count) {
-      copy_row(window.codes.data() + to, brick.codes.data() + from, count);
-    });
-  });
-  return window;
-}
-
-std::vector<BrickCoord> scatter(Field& field, const Window& window) {
-  std::vector<BrickCoord> changed;
-  CHECK_EQ(window.codes.size(), Window::count(window.box));
-  for_each_brick(window.box, [&](BrickCoord coord) {
-    const Brick& old = field.brick(coord);
-    Brick brick = old;
-    for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
-      copy_row(brick.codes.data() + to, window.codes.data() + from, count);
-    });
-    if (brick == old) return;
-    field.set_brick(coord, brick);
-    changed.push_back(coord);
-  });
-  CHECK_DEBUG(std::ranges::is_sorted(changed));
-  return changed;
-}
-
-FieldSample sample(Field& field, glm::vec3 p_voxels) {
-  const VoxelCoord v{floor_to_int(p_voxels.x), floor_to_int(p_voxels.y), floor_to_int(p_voxels.z)};
-  const float fx = p_voxels.x - static_cast<float>(v.x);
-  const float fy = p_voxels.y - static_cast<float>(v.y);
-  const float fz = p_voxels.z - static_cast<float>(v.z);
-  float c[8];
-  const BrickCoord home = brick_of(v);
-  const VoxelCoord in{v.x & 7, v.y & 7, v.z & 7};
-  if (in.x < 7 && in.y < 7 && in.z < 7) {
-    const Brick& brick = field.brick(home);
-    for (int i = 0; i < 8; ++i)
-      c[i] = brick.codes[static_cast<size_t>(
-          Brick::index(in.x + (i >> 2), in.y + ((i >> 1) & 1), in.z + (i & 1)))];
-  } else {
-    for (int i = 0; i < 8; ++i) {
-      const VoxelCoord at{v.x + (i >> 2), v.y + ((i >> 1) & 1), v.z + (i & 1)};
-      c[i] = field.brick(brick_of(at)).codes[static_cast<size_t>(Brick::index(at.x & 7, at.y & 7, at.z & 7))];
-    }
-  }
-  const float x00 = c[0] + (c[4] - c[0]) * fx, x01 = c[1] + (c[5] - c[1]) * fx;
-  const float x10 = c[2] + (c[6] - c[2]) * fx, x11 = c[3] + (c[7] - c[3]) * fx;
-  const float y0 = x00 + (x10 - x00) * fy, y1 = x01 + (x11 - x01) * fy;
-  const float low_x = (c[4] - c[0]) * (1 - fy) + (c[6] - c[2]) * fy;
-  const float high_x = (c[5] - c[1]) * (1 - fy) + (c[7] - c[3]) * fy;
-  const float scale = band_voxels / 127.0F;
-  return {
-      (y0 + (y1 - y0) * fz) * scale,
-      glm::vec3(low_x + (high_x - low_x) * fz, (x10 - x00) * (1 - fz) + (x11 - x01) * fz, y1 - y0) * scale};
-}
-
-std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction,
-                           float distance_max_voxels) {
-  constexpr float close_enough = 0.02F;
-  CHECK(std::abs(glm::dot(direction, direction) - 1.0F) < 1e-3F);
-  float along = 0.0F;
-  while (along <= distance_max_voxels) {
-    const float distance = sample(field, from_voxels + direction * along).distance_voxels;
-    if (distance < close_enough) return along;
-    along += distance * 0.9F;
-  }
-  return std::nullopt;
 }
 
 }  // namespace scree

@@ -4,6 +4,8 @@
 // layer over another one: what was edited in the layer is the layer's, all else reads as the one below does,
 // as that stands at the time. A field that is no layer, and has none over it, may leave chunks out of memory
 // (paging.h). Not thread-safe.
+// Its parts: GeneratedCache (unedited chunks that are kept) and ChunkResidence (which edited chunks are in
+// memory). The field itself has the edits: their bits, paint and hashes.
 // Invariants: hash() is the sum of brick_hash over the edited bricks with their paint, chunk_hash() the same
 // sum over one chunk; painted bricks are edited ones.
 #pragma once
@@ -17,6 +19,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "shared/field/chunk_residence.h"
+#include "shared/field/generated_cache.h"
 #include "shared/field/material.h"
 #include "shared/field/paging.h"
 #include "shared/field/terrain.h"
@@ -79,7 +83,7 @@ class Field {
   /// generated_bytes_max() was filled are dropped.
   size_t generated_chunks() const;
   size_t generated_bytes() const;
-  size_t generated_bytes_max() const { return keeper().generated_bytes_max_; }
+  size_t generated_bytes_max() const { return keeper().generated_.bytes_max(); }
   /// `bytes` is positive, and at most limits::generated_bytes_max, which holds at first.
   void bound_generated(size_t bytes);
   size_t edited_brick_count() const {
@@ -89,7 +93,7 @@ class Field {
   /// From now on edited chunks may be out; `read` gives their bricks. A read or write of a chunk that is out
   /// waits for `read`. It throws ChunkUnreadable when that fails, or gives other bricks than were dropped.
   void page_by(ReadChunk read);
-  bool pages() const { return read_ != nullptr; }
+  bool pages() const { return residence_.pages(); }
   /// Drops the codes and paint of an edited chunk that is in.
   void page_out(ChunkCoord chunk);
   /// Puts back what was read of a chunk that is out. False, and nothing changes, when it is something else.
@@ -107,11 +111,11 @@ class Field {
   /// As if somebody had asked for a chunk that is in now: it is not idle.
   void keep(ChunkCoord chunk);
   /// In a field that pages: the edited chunks in memory, in any order, and the number of their edited bricks.
-  const std::unordered_set<ChunkCoord, CoordHash>& chunks_in() const { return in_; }
-  size_t bricks_in() const { return bricks_in_; }
-  size_t chunks_out() const { return edited_.size() - in_.size(); }
+  const ChunkResidence::Chunks& chunks_in() const { return residence_.chunks(); }
+  size_t bricks_in() const { return residence_.bricks(); }
+  size_t chunks_out() const { return edited_.size() - residence_.chunks().size(); }
   /// Times that somebody waited for a chunk that was out.
-  uint64_t page_waits() const { return page_waits_; }
+  uint64_t page_waits() const { return residence_.waits(); }
 
  protected:
   /// As find_edited() of the field below; null when there is none.
@@ -139,21 +143,12 @@ class Field {
     uint64_t edited;  ///< as EditedChunk::bricks
     const GeneratedChunk* generated;
   };
-  /// Generated chunks, and what they take in memory.
-  struct GeneratedChunks {
-    std::unordered_map<ChunkCoord, GeneratedChunk, CoordHash> chunks;
-    size_t bytes = 0;
-  };
   /// The field that keeps the generated chunks.
   const Field& keeper() const { return below_ == nullptr ? *this : below_->keeper(); }
   uint64_t edited_bits(ChunkCoord chunk) const;
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
-  /// The chunk if it is kept; it counts as used.
-  GeneratedChunk* find_generated(ChunkCoord chunk);
-  GeneratedChunk& add_generated(ChunkCoord chunk, GeneratedChunk generated);
-  void replace_generated(GeneratedChunk& old, GeneratedChunk generated);
-  /// Drops what was not used lately, when so many more bytes do not fit beside it.
-  void make_room(size_t bytes);
+  /// Forgets the last call's chunk if the cache has dropped chunks since.
+  void heed_drops();
   LastChunk& last_chunk(ChunkCoord chunk);
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
   void use(ChunkCoord chunk, EditedChunk& edited);
@@ -161,18 +156,13 @@ class Field {
 
   TerrainSource source_;
   Field* below_ = nullptr;     ///< of a layer
-  GeneratedChunks generated_;  ///< used since half of the room was filled last
-  GeneratedChunks unused_;     ///< before, and not since
+  GeneratedCache generated_;   ///< of a layer empty: the field below keeps them
+  uint64_t drops_heeded_ = 0;  ///< of generated_
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
   std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
-  size_t generated_bytes_max_;
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
-  ReadChunk read_;                                ///< null: all chunks are in
-  std::unordered_set<ChunkCoord, CoordHash> in_;  ///< of a field that pages
-  size_t bricks_in_ = 0;                          ///< likewise
-  uint64_t turn_ = 0;
-  uint64_t page_waits_ = 0;
+  ChunkResidence residence_;
 };
 
 /// A field whose edited bricks lie in a hash map: the client's, and the tests'.

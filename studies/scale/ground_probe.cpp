@@ -94,7 +94,7 @@ void GroundProbe::blow(ProbeTimes& times) {
   const Command command{0, ++requests_, request};
   const auto delta = world_.step({&command, 1});
   count(*delta);
-  for (const TickStage stage : {TickStage::carve, TickStage::cut, TickStage::spawn})
+  for (const TickStage stage : {TickStage::requests, TickStage::cut, TickStage::spawn})
     times.carve += delta->times[stage];
   settle(times);
 }

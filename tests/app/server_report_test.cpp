@@ -29,16 +29,16 @@ TEST(ServerReport, every_kind_of_operation_is_counted_by_its_name) {
 
 TEST(ServerReport, stages_that_seldom_act_are_judged_by_the_ticks_in_which_they_did) {
   TickDelta idle;
-  idle.times[TickStage::carve] = 0.001;
+  idle.times[TickStage::requests] = 0.001;
   idle.times[TickStage::support] = 0.5;
   TickDelta carving = idle;
-  carving.times[TickStage::carve] = 3.0;
-  carving.times.acted.set(index_of(TickStage::carve));
+  carving.times[TickStage::requests] = 3.0;
+  carving.times.acted.set(index_of(TickStage::requests));
   ServerReport report;
   for (const TickDelta* delta : {&idle, &carving, &idle}) report.add(*delta);
   const auto stages = nlohmann::json::parse(to_json(report)).at("stages_ms");
-  EXPECT_EQ(stages.at("carve").at("count"), 1);
-  EXPECT_NEAR(stages.at("carve").at("median").get<double>(), 3.0, 0.1);
+  EXPECT_EQ(stages.at("requests").at("count"), 1);
+  EXPECT_NEAR(stages.at("requests").at("median").get<double>(), 3.0, 0.1);
   EXPECT_EQ(stages.at("support").at("count"), 3);
   EXPECT_EQ(stages.at("tick").at("count"), 3);
   for (const char* around : {"whole_tick", "whole_tick_cpu", "terrain_in", "keep"})

@@ -328,7 +328,7 @@ TEST(TickClock, stages_are_means_over_the_last_second_in_the_order_of_the_table)
   for (size_t i = 0; i < tick_stages.size(); ++i) EXPECT_EQ(stages[i].name, tick_stages[i].name);
   EXPECT_FLOAT_EQ(stages[index_of(TickStage::bodies)].ms, 4.0F) << "the 100 ms left the window";
   EXPECT_FLOAT_EQ(stages[index_of(TickStage::support)].ms, 8.0F);
-  EXPECT_EQ(stages[index_of(TickStage::carve)].ms, 0.0F);
+  EXPECT_EQ(stages[index_of(TickStage::requests)].ms, 0.0F);
   EXPECT_FLOAT_EQ(clock.worst_ms(), 15.0F);
 }
 

@@ -29,7 +29,7 @@ TEST(stages, a_tick_that_carves_charges_every_stage_and_says_which_acted) {
   const auto delta = world.step(commands);
   for (const TickStageRow& row : tick_stages) EXPECT_GT(delta->times[row.stage], 0.0) << row.name;
   const auto acted = [&](TickStage stage) { return delta->times.acted[index_of(stage)]; };
-  EXPECT_TRUE(acted(TickStage::carve));
+  EXPECT_TRUE(acted(TickStage::requests));
   EXPECT_TRUE(acted(TickStage::spawn));
   EXPECT_FALSE(acted(TickStage::recombine));
   double sum = 0.0;
@@ -64,11 +64,11 @@ TEST(stages, recombining_acts_in_the_ticks_in_which_pieces_merge) {
 TEST(stages, time_within_a_stage_is_taken_out_of_the_outer_one) {
   StageTimes times;
   StageWatch watch;
-  watch.restart(TickStage::carve);
-  EXPECT_EQ(watch.switch_to(TickStage::spawn, times), TickStage::carve);
-  const double carved = times[TickStage::carve];
-  EXPECT_EQ(watch.switch_to(TickStage::carve, times), TickStage::spawn);
-  EXPECT_EQ(times[TickStage::carve], carved) << "the time in between is the inner stage's";
+  watch.restart(TickStage::requests);
+  EXPECT_EQ(watch.switch_to(TickStage::spawn, times), TickStage::requests);
+  const double carved = times[TickStage::requests];
+  EXPECT_EQ(watch.switch_to(TickStage::requests, times), TickStage::spawn);
+  EXPECT_EQ(times[TickStage::requests], carved) << "the time in between is the inner stage's";
   EXPECT_GT(times[TickStage::spawn], 0.0);
 }
 

@@ -92,7 +92,7 @@ void FuzzServer::pump(size_t bytes) {
 }
 
 void FuzzServer::tick(bool more) {
-  world_.watch(host_.is_watched());
+  world_.watch(host_.figures().is_watched());
   const std::vector<Command> commands = commands_.drain();
   const auto delta = world_.step(commands);
   work_us_ += delta->work.estimate_us;

@@ -1,0 +1,75 @@
+// A piece as a rigid body of Bullet. Private to this folder.
+//
+// Invariant: a body is frozen, or has a terrain manifold, never both.
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "server/bodies/bodies.h"
+#include "server/bodies/hull_algorithm.h"
+#include "server/bodies/to_bullet.h"
+#include "server/colliders/terrain_collider.h"
+
+namespace scree {
+
+struct Bounds {
+  btVector3 lo;
+  btVector3 hi;
+};
+
+/// A piece as a rigid body of Bullet, in its principal axes: Bullet's tensors are diagonal. Hulls and points
+/// are turned into these axes; poses that come and go are in the volume's.
+struct Body {
+  std::shared_ptr<const BodyShape> given;                 ///< in the volume's axes
+  glm::quat axes{1.0F, 0.0F, 0.0F, 0.0F};                 ///< from the principal axes to the volume's
+  std::unique_ptr<btConvexHullShape> shape;               ///< the hull of the whole piece
+  std::vector<std::unique_ptr<btConvexHullShape>> parts;  ///< colliding parts; empty: `shape` collides
+  std::unique_ptr<CollisionHulls> hulls;                  ///< of the colliding shapes; `rigid`'s user pointer
+  std::unique_ptr<btRigidBody> rigid;
+  std::vector<glm::vec3> points_m;  ///< points that collide with the terrain
+  bool touches_by_surface = false;  ///< the points are those of its own surface, not of the hull
+  std::unique_ptr<TerrainProbe> probe;
+  /// Contacts with the terrain; owned by the dispatcher; body 0 is `rigid`. Null while frozen.
+  btPersistentManifold* ground = nullptr;
+  glm::vec3 rubs_at_m{0.0F};  ///< place whose material those contacts are with
+  float mass_kg = 0.0F;
+  btVector3 inertia_kg_m2;  ///< principal moments
+  float reach_m = 0.0F;
+  float spin_max_rad_s = 0.0F;
+  bool awake = false;               ///< within a step: at its start
+  bool roused = false;              ///< within tell_changes(): it wakes
+  bool looks = false;               ///< within a step: its probe must look at the terrain first
+  btTransform last;                 ///< transform before the step: restored when the step's is not finite
+  std::optional<BodyState> frozen;  ///< the state of a frozen body
+  std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
+};
+
+/// The piece's pose.
+inline Pose pose_of(const Body& body) {
+  Pose pose = from_bullet(body.rigid->getWorldTransform());
+  pose.rotation = pose.rotation * glm::conjugate(body.axes);
+  return pose;
+}
+
+/// The piece of a Bullet object: its user index holds the id, bit for bit.
+inline PieceId id_of(const btCollisionObject* object) {
+  return static_cast<PieceId>(object->getUserIndex());
+}
+
+inline bool meet(const Bounds& a, const Bounds& b) {
+  return TestAabbAgainstAabb2(a.lo, a.hi, b.lo, b.hi);
+}
+
+inline Bounds bounds_of(const Body& body) {
+  Bounds bounds;
+  body.rigid->getAabb(bounds.lo, bounds.hi);
+  return bounds;
+}
+
+}  // namespace scree

@@ -1,0 +1,90 @@
+#include "server/bodies/terrain_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "server/bodies/limits.h"
+#include "server/colliders/sound_values.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// How near the ground must be for the body to touch it within the step.
+float ground_reach_m(const Body& body, float step_s) {
+  const btRigidBody& rigid = *body.rigid;
+  const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
+  return limits::contact_slack_m + speed * step_s;
+}
+
+/// For CHECK_DEBUG: a contact as a TerrainProbe must report it.
+bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_m) {
+  return contact.point >= 0 && static_cast<size_t>(contact.point) < points && is_sound(contact.offset_m) &&
+         is_unit(contact.normal) && std::isfinite(contact.distance_m) && !(contact.distance_m > reach_m);
+}
+
+}  // namespace
+
+TerrainBody::TerrainBody(Field& field, TerrainColliderKind kind, PairDispatcher& dispatcher,
+                         const TerrainSurface& surface)
+    : field_(field),
+      dispatcher_(dispatcher),
+      surface_(surface),
+      collider_(make_terrain_collider(kind, field)) {
+  object_.setCollisionShape(&shape_);
+  // Asleep, so that it wakes nothing that touches it.
+  object_.forceActivationState(ISLAND_SLEEPING);
+  // Contacts are put in order by broadphase proxy; the terrain is in no broadphase, so it gets one here.
+  proxy_.m_uniqueId = 0;
+  proxy_.m_clientObject = &object_;
+  object_.setBroadphaseHandle(&proxy_);
+}
+
+void TerrainBody::add_contacts(Body& body) {
+  CHECK(body.ground == nullptr);
+  body.ground = dispatcher_.getNewManifold(body.rigid.get(), &object_);
+}
+
+void TerrainBody::remove_contacts(Body& body) {
+  if (body.ground != nullptr) dispatcher_.releaseManifold(std::exchange(body.ground, nullptr));
+}
+
+void TerrainBody::set_collider(TerrainColliderKind kind, std::map<PieceId, Body>& bodies) {
+  // Each probe is replaced before its collider is destroyed.
+  const std::unique_ptr<TerrainCollider> old = std::exchange(collider_, make_terrain_collider(kind, field_));
+  for (auto& [id, body] : bodies) attach(body);
+}
+
+void TerrainBody::turn(Body& body) const {
+  const btRigidBody& rigid = *body.rigid;
+  body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
+  body.awake = rigid.isActive();
+  body.looks = false;
+  if (!body.awake) return;
+  body.last = rigid.getWorldTransform();
+  body.looks =
+      !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, surface_.step_s));
+}
+
+void TerrainBody::refill(std::span<Body*> some, bool looking) const {
+  std::vector<TerrainContact> found;
+  for (Body* body : some) {
+    if (!body->awake || body->looks != looking) continue;
+    found.clear();
+    body->probe->list(found);
+    CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
+      return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, surface_.step_s));
+    }));
+    body->rubs_at_m = scree::refill(*body->ground, *body->rigid, found, surface_);
+  }
+}
+
+void TerrainBody::roughen(std::span<Body*> some) const {
+  for (Body* body : some)
+    if (body->awake) scree::roughen(*body->ground, *body->rigid, body->rubs_at_m, field_);
+}
+
+}  // namespace scree

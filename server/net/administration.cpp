@@ -1,0 +1,134 @@
+#include "server/net/administration.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <variant>
+
+#include "server/doors/unix_time.h"
+#include "shared/base/overloaded.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+constexpr uint64_t seconds_per_minute = 60;
+
+}  // namespace
+
+tl::expected<void, Refused> Administration::administer(ClientSession& session, const AdminMessage& message) {
+  const SessionEntry& entry = sessions_.at(session.id());
+  const bool is_control = std::holds_alternative<ControlReplay>(message.act);
+  if (auto admin = authorizer_.may_administer(entry.grant.role, entry.caller(), is_control); !admin) {
+    const bool nobody_can = admin.error().reason == Refusal::no_admin_token;
+    if (nobody_can || message.token.empty() || !authorizer_.has_admin_token()) {
+      ++counts_.requests;
+      requests_.refuse(session, message.request, admin.error());
+      return {};
+    }
+    TRY(authorizer_.check_admin_token(session.address(), message.token, steady_now_s()));
+  }
+  if (const auto* settings = std::get_if<SettingValues>(&message.act))
+    set(session, message.request, *settings);
+  else
+    act(session, message);
+  return {};
+}
+
+void Administration::set(ClientSession& session, uint32_t request, const SettingValues& settings) {
+  std::string changes;
+  for (const SettingValue& setting : settings) changes += " " + setting.name + "=" + setting.value;
+  if (requests_.pass(session, {session.id(), request, SettingsRequest{settings}}))
+    settings_asked_[{session.id(), request}] =
+        fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
+}
+
+void Administration::log_settings(const TickDelta& delta) {
+  if (settings_asked_.empty()) return;
+  for (const Reply& reply : delta.replies) {
+    const auto asked = settings_asked_.extract({reply.session, reply.request});
+    if (!asked.empty() && reply.refusal.empty()) spdlog::info("{}", asked.mapped());
+  }
+}
+
+void Administration::act(ClientSession& session, const AdminMessage& message) {
+  ++counts_.requests;
+  if (!sessions_.at(session.id()).requests.take(steady_now_s()))
+    return requests_.refuse(session, message.request,
+                            {Refusal::requests_per_second, "too many requests: ask again more slowly"});
+  const auto list = [&](AdminListMessage rows) {
+    rows.request = message.request;
+    session.send(ServerMessage(std::move(rows)));
+  };
+  const auto reply = [&](const Result<void>& done) {
+    if (!done)
+      return requests_.refuse(session, message.request, {Refusal::admin_invalid, done.error().message});
+    session.send(ServerMessage(ReplyMessage{message.request, "", 0}));
+  };
+  std::visit(
+      Overloaded{[](const SettingValues&) {},  // set() hands them to the world
+                 [&](const ListSessions&) { list({.sessions = sessions_.rows(steady_now_s())}); },
+                 [&](const ListBans&) { list({.bans = ban_rows()}); },
+                 [&](const KickSession& kick) { reply(this->kick(kick)); },
+                 [&](const BanAddress& ban) { reply(this->ban(ban)); },
+                 [&](const LiftBan& lift) { reply(this->lift(lift)); },
+                 [&](const ControlReplay& control) {
+                   reply(control_ ? control_(control) : fail("this server plays no recording (--replay)"));
+                 }},
+      message.act);
+}
+
+std::vector<BanRow> Administration::ban_rows() const {
+  std::vector<BanRow> rows;
+  const uint64_t now_s = unix_now_s();
+  for (const auto& [key, ban] : authorizer_.bans().all())
+    if (ban.until_s == 0 || ban.until_s > now_s)
+      rows.push_back({key, ban.until_s == 0 ? 0 : ban.until_s - now_s, ban.reason});
+  return rows;
+}
+
+Result<void> Administration::kick(const KickSession& kick) {
+  const SessionEntry* const entry = sessions_.find(kick.session);
+  if (entry == nullptr && tickets_.departed(kick.session) != nullptr) {
+    tickets_.forget(kick.session);
+    spdlog::info("session {}: kicked by an administrator while its connection was lost", kick.session);
+    return {};
+  }
+  if (entry == nullptr) return fail("there is no session " + std::to_string(kick.session));
+  const auto session = entry->session;
+  spdlog::info("session {}: kicked by an administrator", kick.session);
+  session->refuse({Refusal::kicked, with_reason("an administrator ended this session", kick.reason)});
+  return {};
+}
+
+Result<std::string> Administration::ip_of(uint64_t session) const {
+  if (const Departed* const departed = tickets_.departed(session)) return departed->ip;
+  if (const SessionEntry* const entry = sessions_.find(session)) return entry->session->ip();
+  return fail("there is no session " + std::to_string(session));
+}
+
+/// Ends the sessions that are there, administrators' excepted; the ban holds even when it cannot be written.
+Result<void> Administration::ban(const BanAddress& ban) {
+  const std::string address = ban.session != 0 ? TRY(ip_of(ban.session)) : ban.address;
+  const std::string key = TRY(ban_key(address));
+  const uint64_t now_s = unix_now_s();
+  const uint64_t until_s = ban.minutes == 0 ? 0 : now_s + ban.minutes * seconds_per_minute;
+  Bans& bans = authorizer_.bans();
+  Result<void> added = bans.add(key, {until_s, ban.reason}, now_s);
+  spdlog::info("{} is banned by an administrator", key);
+  tickets_.forget_departed(
+      [&](const Departed& departed) { return bans.find(departed.ip, now_s) != nullptr; });
+  SessionTable::Sessions there;
+  for (const auto& [id, entry] : sessions_.entries())
+    if (entry.grant.role != Role::admin && bans.find(entry.session->ip(), now_s) != nullptr)
+      there.push_back(entry.session);
+  for (const auto& session : there)
+    session->refuse({Refusal::banned, with_reason("this address is banned from the server", ban.reason)});
+  return added;
+}
+
+Result<void> Administration::lift(const LiftBan& lift) {
+  return authorizer_.bans().lift(TRY(ban_key(lift.address)));
+}
+
+}  // namespace scree

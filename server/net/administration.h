@@ -1,0 +1,60 @@
+// The administrators' requests: settings, sessions, bans, the control of a replay. On the network thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "proto/messages.h"
+#include "server/doors/authorizer.h"
+#include "server/doors/tickets.h"
+#include "server/net/requests.h"
+#include "server/net/session_table.h"
+#include "server/world/tick_delta.h"
+
+namespace scree {
+
+class Administration {
+ public:
+  using Control = std::function<Result<void>(const ControlReplay&)>;
+
+  /// All arguments but `control`, which is as of NetConfig, must outlive this object. `counts`: requests are
+  /// counted there.
+  Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
+                 NetStats& counts, Control control)
+      : sessions_(sessions),
+        requests_(requests),
+        authorizer_(authorizer),
+        tickets_(tickets),
+        counts_(counts),
+        control_(std::move(control)) {}
+
+  /// Handles a request. The error is a wrong admin token's, and ends the session.
+  tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
+  /// Logs the settings that administrators asked for and that this tick made so.
+  void log_settings(const TickDelta& delta);
+
+ private:
+  void set(ClientSession& session, uint32_t request, const SettingValues& settings);
+  void act(ClientSession& session, const AdminMessage& message);
+  std::vector<BanRow> ban_rows() const;
+  Result<void> kick(const KickSession& kick);
+  Result<void> ban(const BanAddress& ban);
+  Result<void> lift(const LiftBan& lift);
+  /// The IP address of a session, which may have lost its connection.
+  Result<std::string> ip_of(uint64_t session) const;
+
+  SessionTable& sessions_;
+  Requests& requests_;
+  Authorizer& authorizer_;
+  Tickets& tickets_;
+  NetStats& counts_;
+  const Control control_;
+  /// Lines for the log, by session and request, of settings that the world has not answered yet.
+  std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
+};
+
+}  // namespace scree

@@ -1,0 +1,90 @@
+#include "server/net/arrivals.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <spdlog/spdlog.h>
+
+#include "server/net/limits.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+#include "transport/sniffing_transport.h"
+#include "transport/tcp_transport.h"
+
+namespace scree {
+
+void Arrivals::entered(asio::ip::tcp::socket socket, const std::string& address) {
+  begin(std::make_shared<TcpTransport>(std::move(socket)), address);
+}
+
+bool Arrivals::enter(std::shared_ptr<Transport> transport) {
+  const std::string address = door_address(transport->address());
+  if (const auto no = parts_.door.enter(address, steady_now_s())) {
+    turned_away(transport->address(), {*no, "by the door"});
+    return false;
+  }
+  begin(std::move(transport), address);
+  return true;
+}
+
+void Arrivals::turned_away(const std::string& peer, const Refused& refused) {
+  ++parts_.counts.turned_away;
+  parts_.counts.refusals.add(refused.reason);
+  parts_.log.say(spdlog::level::warn, name_of(refused.reason),
+                 fmt::format("{} turned away ({}): {}", peer, name_of(refused.reason), refused.message));
+  changed_();
+}
+
+void Arrivals::accepting_failed(const std::string& why) {
+  parts_.log.say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
+  close_oldest_outsider("the server lacks descriptors: " + why);
+}
+
+void Arrivals::begin(std::shared_ptr<Transport> transport, const std::string& address) {
+  const uint64_t id = next_session_++;
+  SniffingTransport::TakeHttp http;
+  if (parts_.web.speaks_http())
+    http = [this, id](std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived) {
+      begin_http(id, std::move(stream), arrived);
+    };
+  const auto& tls = parts_.authorizer.access().tls();
+  if (tls || http)
+    transport = std::make_shared<SniffingTransport>(std::move(transport), tls, std::move(http));
+  begin_session(std::move(transport), address, id, false);
+}
+
+void Arrivals::begin_session(std::shared_ptr<Transport> transport, const std::string& address, uint64_t id,
+                             bool relayed) {
+  const SessionTimes times{parts_.config.hello_seconds, parts_.config.stall_seconds,
+                           limits::linger_seconds_max};
+  const auto session =
+      std::make_shared<ClientSession>(std::move(transport), address, id, parts_.host, times, steady_now_s());
+  parts_.sessions.add(session, relayed);
+  spdlog::debug("session {}: {} connected", id, session->peer());
+  if (parts_.sessions.outsiders() + parts_.web.size() > parts_.room.outsiders_max())
+    close_oldest_outsider("too many connections that have not said hello (limits.outsiders_max)");
+  session->start();
+}
+
+/// The connection began as a session that has said nothing.
+void Arrivals::begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived) {
+  const SessionEntry* const entry = parts_.sessions.find(id);
+  CHECK(entry != nullptr);  // a stream that was closed tells of no bytes (Transport::close)
+  const auto session = entry->session;
+  session->give_up_connection();
+  parts_.sessions.erase(id);
+  parts_.web.begin(id, session->address(), std::move(stream), arrived);
+}
+
+/// An idle HTTP connection goes first, then the connection that has been silent for longest, or was refused
+/// first.
+void Arrivals::close_oldest_outsider(const std::string& why) {
+  const std::optional<uint64_t> outsider = parts_.sessions.oldest_outsider();
+  const std::optional<uint64_t> http = parts_.web.oldest();
+  if (http && (!outsider || *http < *outsider || parts_.web.any_idle())) return parts_.web.close_one();
+  if (!outsider) return;
+  const auto session = parts_.sessions.at(*outsider).session;
+  if (session->phase() == ClientSession::Phase::refused) return session->close("refused before");
+  session->cut_off(Refusal::outsiders_max, why);
+}
+
+}  // namespace scree

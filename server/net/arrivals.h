@@ -1,0 +1,74 @@
+// Who comes in: connections that the entrance, or something else than a socket, lets in become sessions, and
+// those whose first bytes are HTTP become HTTP connections. Bounds both together (Room). On the network
+// thread.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "server/doors/authorizer.h"
+#include "server/doors/entrance.h"
+#include "server/net/client_session.h"
+#include "server/net/host_log.h"
+#include "server/net/net_server.h"
+#include "server/net/room.h"
+#include "server/net/session_table.h"
+#include "server/net/web_connections.h"
+
+namespace scree {
+
+class Arrivals final : public EntranceHost {
+ public:
+  /// What arrivals become, and by which rules; all of it must outlive this object.
+  struct Parts {
+    const NetConfig& config;
+    Door& door;
+    const Authorizer& authorizer;
+    SessionTable& sessions;
+    const Room& room;
+    WebConnections& web;
+    SessionHost& host;  ///< of the new sessions
+    NetStats& counts;   ///< those turned away are counted there
+    HostLog& log;
+  };
+
+  /// `changed`: is called when counts have changed.
+  Arrivals(asio::io_context& context, const Parts& parts, std::function<void()> changed)
+      : parts_(parts),
+        changed_(std::move(changed)),
+        entrance_(context, parts.door, *this),
+        next_session_(parts.config.first_session) {}
+
+  Result<void> listen() { return entrance_.listen(parts_.config.bind, parts_.config.port); }
+  uint16_t port() const { return entrance_.port(); }
+  /// Nobody comes in by the entrance any more.
+  void close() { entrance_.close(); }
+
+  /// As of NetHost.
+  bool enter(std::shared_ptr<Transport> transport);
+  /// Begins a session under this number, which no other has; for a connection that the door has let in. Bytes
+  /// that came already may be answered before it returns.
+  void begin_session(std::shared_ptr<Transport> transport, const std::string& address, uint64_t id,
+                     bool relayed);
+
+ private:
+  void entered(asio::ip::tcp::socket socket, const std::string& address) override;
+  void turned_away(const std::string& peer, const Refused& refused) override;
+  void accepting_failed(const std::string& why) override;
+
+  void begin(std::shared_ptr<Transport> transport, const std::string& address);
+  void begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived);
+  void close_oldest_outsider(const std::string& why);
+
+  const Parts parts_;
+  const std::function<void()> changed_;
+  Entrance entrance_;
+  uint64_t next_session_;  ///< 0 is the server itself
+};
+
+}  // namespace scree

@@ -1,0 +1,76 @@
+#include "server/net/room.h"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+#include <tuple>
+
+#include "server/doors/descriptors.h"
+#include "server/doors/limits.h"
+
+namespace scree {
+
+void Room::fit(uint32_t sessions_max) {
+  sessions_max_ = sessions_max;
+  const size_t wanted = sessions_max + limits::outsiders_max + limits::descriptors_reserved;
+  const size_t granted = raise_descriptors(wanted);
+  descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
+  outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
+  if (granted >= wanted) return;
+  spdlog::warn(
+      "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
+      "LimitNOFILE of a "
+      "service, says how many",
+      granted, descriptors_ - outsiders_max_, sessions_max);
+}
+
+size_t Room::sessions_max() const {
+  return std::min<size_t>(sessions_max_, descriptors_ - outsiders_max_);
+}
+
+tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
+                                             const Grant& grant, size_t kept, double now_s) const {
+  const size_t most = sessions_max();
+  const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
+  if (sessions.joined() + std::min(kept, kept_max) < most) return {};
+  if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
+    leaver->session->refuse(
+        {Refusal::idle_made_room, "the server is full, and " + leaver->why + ": another has your place"});
+    return {};
+  }
+  return refuse(Refusal::sessions_max,
+                "the server is full: " + std::to_string(most) + " sessions (sessions-max); try again later");
+}
+
+bool holds_token(const Grant& grant) {
+  return grant.token_id != 0 || grant.role == Role::admin;
+}
+
+std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const ClientSession& newcomer,
+                                      const Grant& grant, double now_s) {
+  std::map<std::string, size_t> held;
+  for (const auto& [id, entry] : sessions.entries())
+    if (entry.session->phase() == ClientSession::Phase::joined) ++held[entry.session->address()];
+  const size_t few = held[newcomer.address()] + sessions.joined() / 4;
+  // Why a session gives way; null: it stays. Administrators give way to nobody, holders of tokens to such
+  // alone.
+  const auto why = [&](const SessionEntry& entry) -> const char* {
+    if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
+      return nullptr;
+    const bool idle = entry.session->may_make_room(now_s);
+    if (holds_token(entry.grant)) return idle && holds_token(grant) ? "you did nothing for long" : nullptr;
+    if (idle) return "you did nothing for long";
+    if (holds_token(grant)) return "those who hold a token go first";
+    return held[entry.session->address()] > few ? "your address holds many places" : nullptr;
+  };
+  const auto rank = [&](const SessionEntry& entry) {
+    return std::tuple(!holds_token(entry.grant), held[entry.session->address()],
+                      entry.session->idle_s(now_s));
+  };
+  const SessionEntry* least = nullptr;
+  for (const auto& [id, entry] : sessions.entries())
+    if (why(entry) != nullptr && (least == nullptr || rank(entry) > rank(*least))) least = &entry;
+  if (least == nullptr) return std::nullopt;
+  return GivesWay{least->session, why(*least)};
+}
+
+}  // namespace scree

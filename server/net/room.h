@@ -1,0 +1,51 @@
+// How many sessions and other connections the process has room for, and which session gives its place to a
+// newcomer when the server is full. On the network thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/net/limits.h"
+#include "server/net/session_table.h"
+
+namespace scree {
+
+class Room {
+ public:
+  /// Raises the process's limit of descriptors for so many sessions, and takes what it gets. Says so in the
+  /// log if that is too few.
+  void fit(uint32_t sessions_max);
+  /// Changes how many sessions there may be, within the descriptors that are there already.
+  void bound(uint32_t sessions_max) { sessions_max_ = sessions_max; }
+
+  size_t sessions_max() const;
+  /// Outsiders (SessionTable) and HTTP connections, all together.
+  size_t outsiders_max() const { return outsiders_max_; }
+
+  /// Finds a place for the newcomer; ends a session for it if need be. `kept`: places kept for lost
+  /// connections, of which limits::places_kept_part at most count.
+  tl::expected<void, Refused> find_place(const SessionTable& sessions, const ClientSession& newcomer,
+                                         const Grant& grant, size_t kept, double now_s) const;
+
+ private:
+  uint32_t sessions_max_ = 0;
+  size_t descriptors_ = 0;  ///< for connections
+  size_t outsiders_max_ = limits::outsiders_max;
+};
+
+/// A session that gives its place to another one.
+struct GivesWay {
+  std::shared_ptr<ClientSession> session;
+  std::string why;
+};
+
+/// The session to end for a newcomer with that grant: one without a token if there is any, of the address
+/// with the most sessions, the idlest of these. Nothing when all stay.
+std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const ClientSession& newcomer,
+                                      const Grant& grant, double now_s);
+
+/// Whether the grant was given for a token, an access token or the admin token.
+bool holds_token(const Grant& grant);
+
+}  // namespace scree

@@ -1,0 +1,79 @@
+// The sessions that are connected, by their numbers, and what the server knows of their persons. On the
+// network thread.
+//
+// Invariant: each session is an outsider (it has not joined, or was refused) or has joined, never both.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/doors/authorizer.h"
+#include "server/net/client_session.h"
+#include "shared/base/rate_limit.h"
+
+namespace scree {
+
+struct SessionEntry {
+  std::shared_ptr<ClientSession> session;
+  RateLimit requests;
+  std::string name{};  ///< the person's
+  Grant grant{};       ///< of a joined session
+  std::string program{};
+  double joined_s = 0.0;
+  uint64_t party = 0;    ///< as of Command; 0: an administrator, in none of Parties
+  bool relayed = false;  ///< as of Caller
+
+  Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
+};
+
+class SessionTable {
+ public:
+  using Sessions = std::vector<std::shared_ptr<ClientSession>>;
+
+  explicit SessionTable(double requests_per_second) : requests_per_second_(requests_per_second) {}
+
+  /// Enters a session as an outsider; its number must be new.
+  void add(std::shared_ptr<ClientSession> session, bool relayed);
+  /// The session has joined, and goes on under the number `id`, which no other session has.
+  SessionEntry& join(ClientSession& session, uint64_t id);
+  /// A session that was refused is an outsider until it is closed.
+  void refuse(uint64_t id) { outsiders_.insert(id); }
+  void erase(uint64_t id);
+
+  /// Null when there is no such session.
+  SessionEntry* find(uint64_t id);
+  const SessionEntry* find(uint64_t id) const;
+  /// The session must be there.
+  SessionEntry& at(uint64_t id) { return entries_.at(id); }
+  const SessionEntry& at(uint64_t id) const { return entries_.at(id); }
+  const std::map<uint64_t, SessionEntry>& entries() const { return entries_; }
+  /// A copy, for a loop that may close sessions.
+  Sessions all() const;
+
+  /// Changes how many requests a session may make a second, for sessions that are there, too.
+  void set_requests_per_second(double per_second);
+  double requests_per_second() const { return requests_per_second_; }
+
+  bool empty() const { return entries_.empty(); }
+  size_t outsiders() const { return outsiders_.size(); }
+  size_t joined() const;
+  /// The outsider that came first.
+  std::optional<uint64_t> oldest_outsider() const;
+
+  /// The sessions that have joined, for administrators.
+  std::vector<SessionRow> rows(double now_s) const;
+
+ private:
+  double requests_per_second_;
+  std::map<uint64_t, SessionEntry> entries_;
+  std::set<uint64_t> outsiders_;
+};
+
+/// Ends the sessions whose tokens have expired or were revoked.
+void end_lapsed_grants(const SessionTable& sessions, const Access& access);
+
+}  // namespace scree

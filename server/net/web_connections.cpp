@@ -1,0 +1,166 @@
+#include "server/net/web_connections.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "auth/access_token.h"
+#include "proto/codec.h"
+#include "server/doors/unix_time.h"
+#include "server/net/limits.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+#include "transport/websocket_transport.h"
+
+namespace scree {
+
+namespace {
+
+/// A client's message may be in one frame.
+constexpr uint64_t frame_bytes_max = limits::client_message_bytes_max + length_prefix_bytes;
+
+/// The token of an Authorization field; nothing when it has none.
+std::optional<std::string> bearer_token(const std::string& authorization) {
+  constexpr std::string_view scheme = "Bearer ";
+  if (!authorization.starts_with(scheme)) return std::nullopt;
+  return authorization.substr(scheme.size());
+}
+
+int status_of(Refusal reason) {
+  if (reason == Refusal::token_missing) return 401;
+  return reason == Refusal::token_guesses ? 429 : 403;
+}
+
+}  // namespace
+
+Result<void> WebConnections::open() {
+  if (!config_.web.on) return {};
+  site_ = std::make_unique<Site>(TRY(web_files(config_.web)), config_.web.origins);
+  return {};
+}
+
+void WebConnections::take_files(std::shared_ptr<const WebFiles> files) {
+  if (site_) site_->take_files(std::move(files));
+}
+
+void WebConnections::begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
+                           std::span<const uint8_t> arrived) {
+  const HttpTimes times{config_.web.head_seconds, config_.web.idle_seconds, config_.stall_seconds,
+                        limits::linger_seconds_max};
+  const auto connection =
+      std::make_shared<HttpConnection>(std::move(stream), address, id, *this, times, steady_now_s());
+  connections_.emplace(id, connection);
+  host_.web_changed();
+  connection->start(arrived);
+}
+
+void WebConnections::check_time(double now_s) {
+  const Connections connections = connections_;  // a connection that is closed is erased
+  for (const auto& [id, connection] : connections) connection->check_time(now_s);
+}
+
+void WebConnections::stop() {
+  stopping_ = true;
+  const Connections connections = connections_;  // likewise
+  for (const auto& [id, connection] : connections) connection->close();
+}
+
+WebConnections::Connections::const_iterator WebConnections::idle() const {
+  return std::ranges::find_if(connections_, [](const auto& entry) { return entry.second->is_idle(); });
+}
+
+bool WebConnections::any_idle() const {
+  return idle() != connections_.end();
+}
+
+std::optional<uint64_t> WebConnections::oldest() const {
+  return connections_.empty() ? std::nullopt : std::optional(connections_.begin()->first);
+}
+
+void WebConnections::close_one() {
+  CHECK(!connections_.empty());
+  const auto found = idle();
+  const bool is_idle = found != connections_.end();
+  const auto connection = (is_idle ? found : connections_.cbegin())->second;
+  if (!is_idle) cut_off(*connection, Refusal::outsiders_max);
+  connection->close();
+}
+
+HttpResponse WebConnections::answer(const HttpConnection& from, const HttpRequest& request) {
+  ++counts_.web.requests;
+  if (!door_.may_request(from.address(), steady_now_s()))
+    return refusal(429, Refusal::http_requests_per_second,
+                   "too many requests a second from your address (limits.http_requests_per_second_max)");
+  if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");
+  if (config_.access.tls_required && !from.encrypted()) {
+    HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server is reached by https alone");
+    if (!request.host.empty())
+      elsewhere.fields.emplace_back("Location", "https://" + request.host + request.path);
+    return elsewhere;
+  }
+  if (request.path == "/status.json" && request.method != HttpMethod::other)
+    return status_json(from, request);
+  return site_->answer(request, door_.is_free(from.address()));
+}
+
+void WebConnections::answered(const HttpResponse& response, size_t bytes) {
+  counts_.web.bytes_sent += bytes;
+  if (response.is_file) ++(response.status == 304 ? counts_.web.not_modified : counts_.web.files);
+  if (response.refused) counts_.refusals.add(*response.refused);
+  host_.web_changed();
+}
+
+HttpResponse WebConnections::status_json(const HttpConnection& from, const HttpRequest& request) {
+  if (const auto may = may_see_status(from, request); !may) {
+    HttpResponse no = words(status_of(may.error().reason), std::string(name_of(may.error().reason)));
+    if (no.status == 401) no.fields.emplace_back("WWW-Authenticate", "Bearer");
+    no.refused = may.error().reason;
+    return no;
+  }
+  const NetFigures figures = host_.status_figures();
+  std::string json = config_.status ? config_.status(figures) : std::string();
+  if (json.empty()) return words(503, "the server is starting");
+  return {.fields = {{"Content-Type", "application/json"}, {"Cache-Control", "no-store"}},
+          .body = std::make_shared<const std::string>(std::move(json))};
+}
+
+/// Where nobody could be an administrator, this machine's own programs may see it. A page that leads a
+/// browser here by a name of its own may not, nor may a proxy.
+tl::expected<void, Refused> WebConnections::may_see_status(const HttpConnection& from,
+                                                           const HttpRequest& request) {
+  const bool from_here = door_.is_free(from.address()) && !request.relayed;
+  const bool nobody_can = !authorizer_.knows_administrators();
+  if (nobody_can && from_here && is_own_host(request.host)) return {};
+  if (nobody_can) return refuse(Refusal::no_admin_token, "");
+  const auto token = bearer_token(request.authorization);
+  if (!token) return refuse(Refusal::token_missing, "");
+  if (!is_access_token(*token)) {
+    if (!authorizer_.has_admin_token()) return refuse(Refusal::token_malformed, "");
+    return authorizer_.check_admin_token(from.address(), *token, steady_now_s());
+  }
+  const Grant grant = TRY(authorizer_.access().grant(*token, unix_now_s()));
+  if (!may_act_as(grant.role, Role::admin)) return refuse(Refusal::role, "");
+  return {};
+}
+
+void WebConnections::opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
+                                      std::span<const uint8_t> arrived) {
+  ++counts_.web.websockets;
+  connections_.erase(from.id());
+  host_.begin_websocket(std::make_shared<WebSocketTransport>(std::move(stream), frame_bytes_max, arrived),
+                        from.address(), from.id(), from.relayed());
+  host_.web_changed();
+}
+
+void WebConnections::cut_off(const HttpConnection& connection, Refusal reason) {
+  counts_.refusals.add(reason);
+  log_.say(spdlog::level::warn, name_of(reason),
+           fmt::format("connection {}: cut off ({}): it speaks HTTP", connection.id(), name_of(reason)));
+}
+
+void WebConnections::ended(HttpConnection& connection) {
+  door_.leave(connection.address(), steady_now_s());
+  connections_.erase(connection.id());
+  host_.web_changed();
+}
+
+}  // namespace scree

@@ -1,0 +1,89 @@
+// The connections that speak HTTP: the page, status.json, and the way from a request to a WebSocket. On the
+// network thread.
+//
+// Connections have numbers as sessions do. Each holds a place at the door, which it gives back when it ends;
+// a WebSocket takes number and place with it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "server/doors/authorizer.h"
+#include "server/doors/door.h"
+#include "server/net/host_log.h"
+#include "server/net/net_server.h"
+#include "server/web/http_connection.h"
+#include "server/web/site.h"
+
+namespace scree {
+
+/// The owner of the HTTP connections.
+class WebHost {
+ public:
+  virtual ~WebHost() = default;
+  /// A request has opened a WebSocket: the stream is the host's.
+  virtual void begin_websocket(std::shared_ptr<Transport> stream, const std::string& address, uint64_t id,
+                               bool relayed) = 0;
+  /// What status.json shows, as of now.
+  virtual NetFigures status_figures() = 0;
+  /// Connections or counts have changed.
+  virtual void web_changed() = 0;
+};
+
+class WebConnections final : public HttpHost {
+ public:
+  /// All arguments must outlive this object. `counts`: requests and refusals are counted there.
+  WebConnections(const NetConfig& config, Authorizer& authorizer, Door& door, NetStats& counts, HostLog& log,
+                 WebHost& host)
+      : config_(config), authorizer_(authorizer), door_(door), counts_(counts), log_(log), host_(host) {}
+
+  /// Reads the page's files, if HTTP is spoken at all.
+  Result<void> open();
+  bool speaks_http() const { return site_ != nullptr; }
+  void take_files(std::shared_ptr<const WebFiles> files);
+
+  /// A connection has spoken HTTP. `arrived`: what was read of it already.
+  void begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
+             std::span<const uint8_t> arrived);
+  /// Ends what took too long. Call a few times a second.
+  void check_time(double now_s);
+  /// Closes all connections; requests of later ones are refused.
+  void stop();
+
+  size_t size() const { return connections_.size(); }
+  /// Whether a browser's connection waits without a request; it opens another one when it needs to.
+  bool any_idle() const;
+  /// The number of the oldest connection.
+  std::optional<uint64_t> oldest() const;
+  /// Closes an idle connection, else the oldest, which counts as cut off. There must be one.
+  void close_one();
+
+ private:
+  using Connections = std::map<uint64_t, std::shared_ptr<HttpConnection>>;
+
+  HttpResponse answer(const HttpConnection& from, const HttpRequest& request) override;
+  void answered(const HttpResponse& response, size_t bytes) override;
+  void opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
+                        std::span<const uint8_t> arrived) override;
+  void cut_off(const HttpConnection& connection, Refusal reason) override;
+  void ended(HttpConnection& connection) override;
+  HttpResponse status_json(const HttpConnection& from, const HttpRequest& request);
+  tl::expected<void, Refused> may_see_status(const HttpConnection& from, const HttpRequest& request);
+  Connections::const_iterator idle() const;
+
+  const NetConfig& config_;
+  Authorizer& authorizer_;
+  Door& door_;
+  NetStats& counts_;
+  HostLog& log_;
+  WebHost& host_;
+  std::unique_ptr<Site> site_;  ///< null: HTTP is not spoken
+  Connections connections_;
+  bool stopping_ = false;
+};
+
+}  // namespace scree

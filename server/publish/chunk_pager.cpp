@@ -1,0 +1,45 @@
+#include "server/publish/chunk_pager.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/publish/limits.h"
+
+namespace scree {
+
+/// A chunk that does not fit is older or newer than the state, or damaged: it is asked for again while
+/// somebody wants it.
+void ChunkPager::take(PublishedState& state) {
+  if (supply_ == nullptr) return;
+  for (const SuppliedChunk& chunk : supply_->take(limits::chunks_taken_per_tick)) {
+    const auto known = state.chunks().find(chunk.chunk);
+    if (known == state.chunks().end() || known->second.is_whole()) continue;
+    static_cast<void>(state.page_in(chunk.chunk, chunk.bricks));
+  }
+}
+
+void ChunkPager::want(std::span<const ChunkCoord> chunks) {
+  wanted_.insert(wanted_.end(), chunks.begin(), chunks.end());
+}
+
+void ChunkPager::page(PublishedState& state, EncodeCache& cache) {
+  if (supply_ == nullptr) return;
+  for (const ChunkCoord chunk : std::exchange(wanted_, {})) supply_->ask(chunk);
+  const size_t bricks_max = supply_->bricks_max();
+  if (state.bricks_in() <= bricks_max) return;
+  const Tick saved = supply_->saved_tick();
+  std::vector<std::pair<Tick, ChunkCoord>> old;
+  for (const ChunkCoord coord : state.chunks_in()) {
+    const PublishedChunk& chunk = state.chunks().at(coord);
+    if (chunk.version <= saved && chunk.used < state.tick()) old.emplace_back(chunk.used, coord);
+  }
+  std::ranges::sort(old);
+  const size_t bricks_wanted = bricks_max - bricks_max / limits::page_out_parts;
+  for (const auto& [used, coord] : old) {
+    if (state.bricks_in() <= bricks_wanted) return;
+    state.page_out(coord);
+    cache.forget(coord);
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// Streams to one client the chunks that it lacks, nearest first, within a budget of bytes and the room of its
+// link. Chunks that the client has offered are confirmed instead. One thread at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "server/publish/chunk_offer.h"
+#include "server/publish/client_view.h"
+#include "server/publish/outgoing.h"
+#include "server/publish/served_tick.h"
+
+namespace scree {
+
+class ChunkStream {
+ public:
+  ChunkOffer& offer() { return offer_; }
+  /// Sends what this tick has room for.
+  void serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part);
+
+ private:
+  SharedBytes whole(const ServedTick& tick, ClientView& view, ChunkCoord coord,
+                    const PublishedChunk& chunk) const;
+  SharedBytes next_part(const ServedTick& tick, ClientView& view, const Outlet& outlet, ChunkCoord coord,
+                        const PublishedChunk& chunk);
+  void send_kept(const KeptMessage& kept, Outlet& outlet, ServedPart& part);
+
+  int64_t credit_bytes_ = 0;
+  int next_brick_ = 0;  ///< of a chunk, where the next part begins
+  ChunkOffer offer_;
+};
+
+}  // namespace scree

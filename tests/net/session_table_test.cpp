@@ -1,0 +1,217 @@
+// The table of sessions, and its neighbours: who gives way in a full server, who may come back, who is sent
+// what is queued.
+#include "server/net/session_table.h"
+
+#include "server/doors/limits.h"
+#include "server/net/flush_queue.h"
+#include "server/net/limits.h"
+#include "server/net/returns.h"
+#include "server/net/room.h"
+#include "tests/support/memory_sessions.h"
+
+namespace scree {
+namespace {
+
+constexpr Grant viewer{.role = Role::viewer};
+
+Grant holder(uint64_t token_id) {
+  return {.role = Role::builder, .token_id = token_id};
+}
+
+TEST(SessionTable, a_session_is_an_outsider_until_it_joins_and_again_once_it_is_refused) {
+  MemorySessions sessions;
+  SessionTable& table = sessions.table;
+  sessions.connect(1, "10.0.0.1");
+  sessions.connect(2, "10.0.0.1");
+  EXPECT_EQ(table.outsiders(), 2U);
+  EXPECT_EQ(table.joined(), 0U);
+  EXPECT_EQ(table.oldest_outsider(), 1U);
+  const auto joined = sessions.join(3, "10.0.0.1");
+  EXPECT_EQ(table.joined(), 1U);
+  EXPECT_EQ(table.rows(sessions.now_s).size(), 1U);
+  joined->refuse({Refusal::kicked, "enough"});
+  EXPECT_EQ(table.joined(), 0U);
+  EXPECT_EQ(table.outsiders(), 3U);
+  EXPECT_TRUE(table.rows(sessions.now_s).empty());
+  joined->close("closed");
+  EXPECT_EQ(table.outsiders(), 2U);
+  EXPECT_EQ(table.find(3), nullptr);
+}
+
+TEST(SessionTable, a_session_that_goes_on_has_the_old_number) {
+  MemorySessions sessions;
+  const auto session = sessions.connect(5, "10.0.0.1");
+  sessions.table.join(*session, 2);
+  EXPECT_EQ(session->id(), 2U);
+  EXPECT_EQ(sessions.table.at(2).session, session);
+  EXPECT_EQ(sessions.table.find(5), nullptr);
+  EXPECT_EQ(sessions.table.joined(), 1U);
+}
+
+TEST(SessionTable, a_new_request_rate_holds_for_sessions_that_are_there_and_that_come) {
+  MemorySessions sessions;
+  sessions.join(1, "10.0.0.1");
+  sessions.table.set_requests_per_second(1.0);
+  sessions.join(2, "10.0.0.1");
+  for (const uint64_t id : {1, 2}) {
+    size_t taken = 0;
+    while (sessions.table.at(id).requests.take(sessions.now_s)) ++taken;
+    EXPECT_EQ(taken, static_cast<size_t>(limits::requests_burst_s)) << id;
+  }
+}
+
+TEST(Room, those_without_a_token_give_way_first_then_the_idlest_and_administrators_never) {
+  MemorySessions sessions;
+  sessions.join(1, "10.0.0.1", {.role = Role::admin});
+  sessions.join(2, "10.0.0.2", holder(7));
+  sessions.join(3, "10.0.0.3", viewer);
+  const auto newcomer = sessions.connect(9, "10.0.0.3");
+  const auto gives_way = [&](const Grant& grant) -> uint64_t {
+    const auto leaver = who_gives_way(sessions.table, *newcomer, grant, sessions.now_s);
+    return leaver ? leaver->session->id() : 0;
+  };
+  EXPECT_EQ(gives_way(viewer), 0U) << "all have just come";
+  EXPECT_EQ(gives_way(holder(8)), 3U);
+  sessions.now_s += limits::idle_seconds_max + 1.0;
+  EXPECT_EQ(gives_way(viewer), 3U);
+  sessions.table.at(3).session->close("gone");
+  EXPECT_EQ(gives_way(viewer), 0U);
+  EXPECT_EQ(gives_way(holder(8)), 2U);
+  sessions.table.at(2).session->close("gone");
+  EXPECT_EQ(gives_way(holder(8)), 0U);
+}
+
+TEST(Room, the_address_with_the_most_sessions_gives_way) {
+  MemorySessions sessions;
+  for (const uint64_t id : {1, 2, 3}) sessions.join(id, "10.0.0.1", viewer);
+  sessions.join(4, "10.0.0.2", viewer);
+  Room room;
+  room.fit(4);
+  const auto newcomer = sessions.connect(9, "10.0.0.9");
+  EXPECT_TRUE(room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s));
+  ASSERT_EQ(sessions.reasons.size(), 1U);
+  EXPECT_LE(sessions.reasons.begin()->first, 3U);
+  EXPECT_EQ(sessions.reasons.begin()->second, Refusal::idle_made_room);
+}
+
+TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) {
+  MemorySessions sessions;
+  Room room;
+  room.fit(4);
+  const auto newcomer = sessions.connect(9, "10.0.0.1");
+  const auto finds_place = [&](size_t kept) {
+    return room.find_place(sessions.table, *newcomer, viewer, kept, sessions.now_s).has_value();
+  };
+  for (const uint64_t id : {1, 2}) sessions.join(id, "10.0.0.1", viewer);
+  EXPECT_TRUE(finds_place(4));
+  sessions.join(3, "10.0.0.1", viewer);
+  EXPECT_FALSE(finds_place(4));
+  EXPECT_TRUE(finds_place(0));
+  room.bound(3);
+  EXPECT_FALSE(finds_place(0));
+}
+
+class ReturnsTest : public ::testing::Test {
+ protected:
+  ReturnsTest() {
+    sessions.on_closed = [this](const SessionEntry& entry) { returns.closed(entry, sessions.now_s); };
+  }
+  auto resume(const std::string& ticket, const Grant& grant) {
+    return returns.resume(ticket, grant, sessions.table, sessions.now_s);
+  }
+
+  std::vector<uint64_t> over;
+  Door door{Door::Rules{}};
+  MemorySessions sessions;
+  Returns returns{[this](uint64_t session) { over.push_back(session); }, door};
+};
+
+TEST_F(ReturnsTest, a_session_goes_on_by_its_ticket_and_its_old_connection_ends) {
+  sessions.join(1, "10.0.0.1", holder(7));
+  const std::string ticket = returns.tickets().issue(1);
+  const auto before = resume(ticket, holder(7));
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->session, 1U);
+  EXPECT_TRUE(before->keeps_place);
+  EXPECT_TRUE(sessions.links[1]->closed());
+  EXPECT_EQ(sessions.table.find(1), nullptr);
+  EXPECT_EQ(returns.tickets_void(), 0U);
+}
+
+TEST_F(ReturnsTest, a_ticket_opens_no_session_of_another_token) {
+  sessions.join(1, "10.0.0.1", holder(7));
+  const std::string ticket = returns.tickets().issue(1);
+  EXPECT_FALSE(resume(ticket, holder(8)));
+  EXPECT_EQ(returns.tickets_void(), 1U);
+  EXPECT_NE(sessions.table.find(1), nullptr) << "its connection stays";
+  EXPECT_FALSE(resume("", holder(7)));
+  EXPECT_EQ(returns.tickets_void(), 1U) << "no ticket was presented";
+}
+
+TEST_F(ReturnsTest, a_session_that_leaves_is_over_and_one_that_is_lost_is_not) {
+  const auto leaves = sessions.join(1, "10.0.0.1", viewer), lost = sessions.join(2, "10.0.0.1", viewer);
+  for (const uint64_t id : {1, 2}) returns.tickets().issue(id);
+  leaves->leave();
+  sessions.links[2]->end(false);
+  sessions.pump(2);
+  EXPECT_EQ(over, std::vector<uint64_t>{1});
+  ASSERT_NE(returns.tickets().departed(2), nullptr);
+  EXPECT_TRUE(returns.tickets().departed(2)->keeps_place);
+}
+
+TEST_F(ReturnsTest, sessions_of_one_token_or_one_address_are_one_party) {
+  const auto a = sessions.join(1, "10.0.0.1"), b = sessions.join(2, "10.0.0.1");
+  const auto here = sessions.join(3, "127.0.0.1"), too = sessions.join(4, "127.0.0.1");
+  const auto party = [&](const auto& session, const Grant& grant) {
+    return returns.join_party(*session, grant, 0, sessions.now_s);
+  };
+  EXPECT_EQ(party(a, viewer), party(b, viewer));
+  EXPECT_EQ(party(a, holder(7)), party(here, holder(7)));
+  EXPECT_NE(party(here, viewer), party(too, viewer)) << "programs on this machine share with nobody";
+  EXPECT_EQ(party(b, {.role = Role::admin}), 0U);
+}
+
+TEST(FlushQueue, a_session_waits_once_and_is_sent_all_that_is_queued) {
+  MemorySessions sessions;
+  asio::io_context context;
+  Workers workers(1);
+  FlushQueue queue(context, workers, 60);
+  const auto session = sessions.join(1, "10.0.0.1");
+  sessions.pump(1);
+  sessions.links[1]->take();
+  const SharedBytes bytes = share(ResetMessage{});
+  for (const Tick tick : {1, 2}) {
+    queue.add(session, tick);
+    session->queue(bytes);
+  }
+  sessions.pump(1);
+  EXPECT_TRUE(sessions.links[1]->take().empty());
+  queue.send_turn(2, true);
+  sessions.pump(1);
+  EXPECT_TRUE(sessions.links[1]->take().empty()) << "the next tick waits already";
+  queue.send_turn(2, false);
+  sessions.pump(1);
+  EXPECT_EQ(sessions.links[1]->take().size(), 2 * bytes->size());
+  EXPECT_FALSE(session->wait_for_flush()) << "it does not wait any more";
+}
+
+TEST(FlushQueue, a_session_that_waited_for_so_many_ticks_is_sent_its_messages_though_more_wait) {
+  MemorySessions sessions;
+  asio::io_context context;
+  Workers workers(1);
+  FlushQueue queue(context, workers, 60);
+  const auto early = sessions.join(1, "10.0.0.1"), late = sessions.join(2, "10.0.0.1");
+  for (const uint64_t id : {1, 2}) sessions.links[id]->take();
+  const SharedBytes bytes = share(ResetMessage{});
+  queue.add(early, 1);
+  early->queue(bytes);
+  queue.add(late, limits::ticks_per_flush_max);
+  late->queue(bytes);
+  queue.send_turn(limits::ticks_per_flush_max, true);
+  for (const uint64_t id : {1, 2}) sessions.pump(id);
+  EXPECT_EQ(sessions.links[1]->take().size(), bytes->size());
+  EXPECT_TRUE(sessions.links[2]->take().empty());
+}
+
+}  // namespace
+}  // namespace scree
