@@ -33,7 +33,9 @@ class ServerConnector final : public Connector {
 
   void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) override;
   bool busy() const override { return attempt_.valid(); }
-  void await(std::chrono::milliseconds within) override { attempt_.wait_for(within); }
+  void await(std::chrono::milliseconds within) override {
+    if (busy()) attempt_.wait_for(within);
+  }
   std::optional<Attempt> take(double now_s) override;
   std::string where() const override;
 

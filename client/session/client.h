@@ -7,8 +7,8 @@
 // kept (client/cache/rejoin.h). It never joins by itself: after Lost, its owner decides.
 //
 // Threads: one at a time; the connector may have more of its own. Time is an argument: seconds of
-// std::chrono::steady_clock, by which messages are stamped when they arrive. Lengths are in metres. Whatever
-// the server sends, the worst outcome is Lost.
+// std::chrono::steady_clock, by which messages are stamped when they arrive. Lengths are in metres. A
+// server that sends nonsense causes Lost, and nothing worse.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@
 namespace scree {
 
 struct ClientOptions {
-  CacheConfig cache{};   ///< what is kept for the next connection; without a bound, nothing
+  CacheConfig cache{};   ///< of edits and tiles for the next connection; without a bound, none is kept
   bool delayed = false;  ///< messages wait for a clock that runs a little behind the server: drawing needs it
 };
 
@@ -49,13 +49,13 @@ class Client {
   using Event = std::variant<Joined, Applied, Lost>;
 
   explicit Client(std::unique_ptr<Connector> connector, const ClientOptions& options = {});
-  /// Waits for an attempt that is under way, writes what is to be kept, and says goodbye to the server.
+  /// Waits for an attempt that is under way, writes the cache, and says goodbye to the server.
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
   /// Begins an attempt; none may be under way. The hello says the place and the radius of interest; ticket
-  /// and offer are added. A connection that there is ends as by drop().
+  /// and offer are added. An open connection ends as by drop().
   void join(const HelloMessage& hello, double now_s);
   /// Ends the connection without a goodbye, and without an event: the server keeps the session for a while,
   /// and the next attempt resumes it.
@@ -63,25 +63,25 @@ class Client {
   bool joining() const { return connector_->busy(); }
   bool connected() const { return channel_ != nullptr; }
 
-  /// Sleeps until something has come for poll(), or the time is over. Only with a connector that has a thread
-  /// of its own.
+  /// Sleeps until a message, a welcome or an end has come, or the time is over. Only with a connector that
+  /// has a thread of its own.
   void wait(std::chrono::milliseconds within);
-  /// Takes in what has come. `now_s` never runs backwards.
+  /// Takes in the messages that have come. `now_s` never runs backwards.
   void poll(double now_s);
-  /// Applies the next message that is due, or tells that the client has joined or was lost. Nothing: all that
-  /// has come is told. Who stops earlier gets the rest after the next poll().
+  /// Applies the next message that is due, or tells that the client has joined or was lost. Returns
+  /// nothing when no more is due. An owner that stops earlier gets the rest after the next poll().
   std::optional<Event> next();
 
   /// Queues a message; does nothing without a connection.
   void send(const ClientMessage& message);
-  /// Sends a carve, a fill or a paint under a number, which the reply returns. With predict(), shows at once
-  /// what the server will probably do, where all that the request reads has arrived.
+  /// Sends a carve, a fill or a paint under a number, which the reply returns. With predict(), shows its
+  /// probable result at once, where all that the request reads has arrived.
   void ask(const Request& request, uint32_t number, double now_s);
   /// Moves the interest. Needs a connection.
   void follow(glm::vec3 eye_m, float radius_m);
 
-  /// Whether requests are shown before the server answers. Then settle() is to be called once a frame, after
-  /// the events: it adds to their changes what predictions came and went.
+  /// Whether requests are shown before the server answers. Then call settle() once a frame, after the events:
+  /// it adds the changes by predictions to those by messages.
   void predict(bool on) { predict_ = on; }
   void settle(double now_s, MirrorChanges& changes);
   /// Null before the first welcome.
@@ -106,7 +106,7 @@ class Client {
   bool loaded(double now_s) const;
   /// The tick, with its fraction, at which pieces are to be drawn; for delayed messages.
   double draw_tick(double now_s) { return playback_.draw_tick(now_s); }
-  /// What is kept; and the ground's tiles.
+  /// The cache, and the tiles of the ground.
   const Rejoin& kept() const { return rejoin_; }
   /// The server, for people.
   std::string where() const { return connector_->where(); }
