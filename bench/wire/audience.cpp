@@ -8,8 +8,8 @@
 #include "bench/support/scenes.h"
 #include "bench/support/scratch.h"
 #include "bench/wire/paced_world.h"
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
 #include "server/doors/descriptors.h"
 #include "shared/base/memory_count.h"
 #include "shared/base/random.h"
@@ -41,11 +41,9 @@ class Mirrors {
     ServerEndpoint server;
     server.port = port;
     for (size_t i = 0; i < count; ++i) {
-      auto connected = Connection::connect(
-          server, {protocol_version, "mirror", {0.0F, ground_m, 0.0F}, interest_m}, std::chrono::seconds(20));
-      TRY(connected);
-      mirrors_.push_back(std::make_unique<Mirror>((*connected)->welcome()));
-      connections_.push_back(std::move(*connected));
+      clients_.push_back(
+          std::make_unique<Client>(std::make_unique<ServerConnector>(server, std::chrono::seconds(20))));
+      TRY(join_and_wait(*clients_.back(), {protocol_version, "mirror", {0.0F, ground_m, 0.0F}, interest_m}));
     }
     if (count > 0) thread_ = std::thread([this] { run(); });
     return {};
@@ -63,22 +61,23 @@ class Mirrors {
  private:
   MirrorCounters counted() const {
     MirrorCounters sum;
-    for (const auto& mirror : mirrors_) sum += mirror->counters();
+    for (const auto& client : clients_)
+      if (client->mirror() != nullptr) sum += client->mirror()->counters();
     return sum;
   }
   void run() {
     stand_aside();
     while (!stopping_ && failure_.empty()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      for (size_t i = 0; i < mirrors_.size(); ++i)
-        for (const Received& received : connections_[i]->poll())
-          if (const auto applied = mirrors_[i]->apply(received.message); !applied)
-            failure_ = applied.error().message;
+      for (const auto& client : clients_) {
+        client->poll(steady_now_s());
+        while (const std::optional<Client::Event> event = client->next())
+          if (const auto* lost = std::get_if<Client::Lost>(&*event)) failure_ = lost->end.message;
+      }
       cpu_s_ = thread_cpu_s();
     }
   }
-  std::vector<std::unique_ptr<Connection>> connections_;
-  std::vector<std::unique_ptr<Mirror>> mirrors_;
+  std::vector<std::unique_ptr<Client>> clients_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::atomic<double> cpu_s_{0.0};

@@ -10,6 +10,7 @@
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
 #include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
 #include "server/net/net_server.h"
 #include "server/world/world_config.h"
 #include "shared/base/timing.h"
@@ -100,36 +101,28 @@ bool are_equal(const std::vector<ChunkCoord>& chunks, const Field& a, const Fiel
 }
 
 /// Joins, waits until all edits are there, and loses the connection again.
-Joined join(Rejoin& rejoin, uint16_t port, const Field& field, glm::vec3 eye_m) {
+Joined join(Client& client, const Field& field, glm::vec3 eye_m) {
   std::vector<ChunkCoord> near;
   for (const ChunkCoord chunk : field.edited_chunks())
     if (distance_to_chunk_m(eye_m, chunk, field.source().voxel_size_m) <= near_m) near.push_back(chunk);
-  ServerEndpoint server;
-  server.port = port;
   Joined joined;
   const double begin_s = steady_now_s();
-  auto connected =
-      join_server(rejoin, server, {protocol_version, "join", eye_m, interest_m}, std::chrono::seconds(5));
-  if (!connected) return {.failure = connected.error().message};
-  Connection& connection = **connected;
-  const std::unique_ptr<Mirror> mirror = rejoin.begin(connection);
+  const auto welcomed = join_and_wait(client, {protocol_version, "join", eye_m, interest_m});
+  if (!welcomed) return {.failure = welcomed.error().message};
+  const Mirror& mirror = *client.mirror();
   while (joined.all_s == 0.0 && steady_now_s() < begin_s + 120.0 && joined.failure.empty()) {
-    for (const Received& received : connection.wait(std::chrono::milliseconds(5))) {
-      if (const auto taken = rejoin.before(received.message, *mirror); !taken)
-        joined.failure = taken.error().message;
-      if (const auto applied = mirror->apply(received.message); !applied)
-        joined.failure = applied.error().message;
-      rejoin.after(received.message, *mirror, connection);
-    }
-    while (const auto repair = mirror->take_repair_request()) connection.send(*repair);
-    if (joined.near_s == 0.0 && are_equal(near, mirror->field(), field))
+    client.wait(std::chrono::milliseconds(5));
+    client.poll(steady_now_s());
+    while (const std::optional<Client::Event> event = client.next())
+      if (const auto* lost = std::get_if<Client::Lost>(&*event)) joined.failure = lost->end.message;
+    if (joined.near_s == 0.0 && are_equal(near, mirror.field(), field))
       joined.near_s = steady_now_s() - begin_s;
-    if (mirror->field().hash() == field.hash()) joined.all_s = steady_now_s() - begin_s;
+    if (mirror.field().hash() == field.hash()) joined.all_s = steady_now_s() - begin_s;
   }
-  joined.bytes = connection.counters();
-  joined.counted = mirror->counters();
+  joined.bytes = client.counters();
+  joined.counted = mirror.counters();
   if (joined.all_s == 0.0 && joined.failure.empty()) joined.failure = "the edits are not all there in time";
-  rejoin.keep(*mirror);
+  client.drop();
   return joined;
 }
 
@@ -144,31 +137,30 @@ class JoinBench {
   ~JoinBench() { std::filesystem::remove_all(folder_); }
 
   void run(int carves_meanwhile) {
-    Rejoin nothing_kept{CacheConfig{}};
-    first_ = add("first", nothing_kept, "");
+    first_ = add("first", *client({}), "");
     {
-      Rejoin rejoin(config());
-      add("first_and_keeps", rejoin, "");
-      add("lost_connection", rejoin, "rejoin");
-      rejoin.finish(nullptr);
+      const auto comes_back = client(config());
+      add("first_and_keeps", *comes_back, "");
+      add("lost_connection", *comes_back, "rejoin");
     }
-    {
-      Rejoin rejoin(config());
-      add("next_program", rejoin, "rejoin");
-      rejoin.finish(nullptr);
-    }
+    add("next_program", *client(config()), "rejoin");
     world_.carve(carves_meanwhile);
     const Tick tick = world_.tick();
     while (world_.tick() < tick + 2) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    Rejoin rejoin(config());
-    add("carved_meanwhile", rejoin, "");
+    add("carved_meanwhile", *client(config()), "");
   }
 
  private:
   CacheConfig config() const { return {folder_.string(), cache_bytes}; }
+  std::unique_ptr<Client> client(const CacheConfig& cache) const {
+    ServerEndpoint server;
+    server.port = port_;
+    return std::make_unique<Client>(std::make_unique<ServerConnector>(server, std::chrono::seconds(5)),
+                                    ClientOptions{.cache = cache});
+  }
 
-  Joined add(const std::string& name, Rejoin& rejoin, const std::string& kind) {
-    const Joined joined = join(rejoin, port_, world_.field(), eye_m_);
+  Joined add(const std::string& name, Client& client, const std::string& kind) {
+    const Joined joined = join(client, world_.field(), eye_m_);
     report_.metric(name + "_received_bytes", static_cast<double>(joined.bytes.received_bytes));
     report_.metric(name + "_sent_bytes", static_cast<double>(joined.bytes.sent_bytes));
     report_.metric(name + "_near_s", joined.near_s);

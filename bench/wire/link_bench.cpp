@@ -10,9 +10,9 @@
 #include "bench/support/benches.h"
 #include "bench/support/scenes.h"
 #include "bench/wire/drains.h"
-#include "client/connection/connection.h"
+#include "client/cache/join_server.h"
 #include "client/connection/limits.h"
-#include "client/mirror/mirror.h"
+#include "client/session/join_and_wait.h"
 #include "server/net/net_server.h"
 #include "server/world/world.h"
 #include "shared/base/overloaded.h"
@@ -141,30 +141,28 @@ class FarViewer {
  private:
   void run() {
     while (!stopping_ && failure_.empty()) {
-      auto connected = Connection::connect(server_, {protocol_version, "far", eye_m_, interest_m},
-                                           std::chrono::seconds(20));
+      Client client(std::make_unique<ServerConnector>(server_, std::chrono::seconds(20)));
+      const auto joined = join_and_wait(client, {protocol_version, "far", eye_m_, interest_m});
       ++connections_;
       server_.link->down.cut_bytes.reset();
-      if (connected)
-        follow(**connected);
+      if (joined)
+        follow(client);
       else if (connections_ > 2)
-        failure_ = connected.error().message;
+        failure_ = joined.error().message;
     }
   }
-  void follow(Connection& connection) {
-    Mirror mirror(connection.welcome());
-    while (!stopping_ && failure_.empty()) {
-      const bool open = connection.connected();
-      const auto received = connection.wait(std::chrono::milliseconds(20));
-      for (const Received& one : received) take(one, mirror, connection);
-      if (!open && received.empty()) break;
+  void follow(Client& client) {
+    while (!stopping_ && client.connected()) {
+      client.wait(std::chrono::milliseconds(20));
+      client.poll(steady_now_s());
+      while (const std::optional<Client::Event> event = client.next())
+        if (const auto* applied = std::get_if<Client::Applied>(&*event))
+          take(applied->received, *client.mirror());
     }
-    bytes_ += connection.counters().received_bytes;
-    seen_ += mirror.counters();
+    bytes_ += client.counters().received_bytes;
+    seen_ += client.mirror()->counters();
   }
-  void take(const Received& received, Mirror& mirror, Connection& connection) {
-    if (const auto applied = mirror.apply(received.message); !applied) failure_ = applied.error().message;
-    while (const auto repair = mirror.take_repair_request()) connection.send(*repair);
+  void take(const Received& received, Mirror& mirror) {
     const double now_s = steady_now_s();
     before_.arrived(received, now_s);
     if (const auto* frame = std::get_if<FrameMessage>(&received.message); frame && counting_) {

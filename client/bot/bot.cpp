@@ -7,8 +7,10 @@
 #include "client/bot/tally.h"
 #include "client/cache/join_server.h"
 #include "client/connection/come_again.h"
+#include "client/session/join_and_wait.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/text.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -27,20 +29,15 @@ Bot::Bot(BotConfig config, Log log)
       log_(std::move(log)),
       carver_(config_.carver, config_.random_seed),
       eye_m_(config_.carver.centre_m),
-      rejoin_(config_.cache) {
+      client_(std::make_unique<ServerConnector>(config_, std::chrono::milliseconds(limits::bot_connect_ms)),
+              {.cache = config_.cache}) {
   report_.server = endpoint_text(config_.host, config_.port);
-}
-
-Bot::~Bot() {
-  rejoin_.finish(mirror_.get());
-  if (connection_) connection_->leave();
 }
 
 /// A hostile server cannot fill the disk.
 void Bot::log(std::string_view kind, const std::string& line) {
   if (!log_) return;
-  const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-  if (const auto more = log_limit_.take(kind, now_s)) log_(line + *more);
+  if (const auto more = log_limit_.take(kind, steady_now_s())) log_(line + *more);
 }
 
 Result<void> Bot::join() {
@@ -53,12 +50,9 @@ Result<void> Bot::join() {
 }
 
 tl::expected<void, ConnectionEnd> Bot::connect() {
-  const HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
-  auto connected = join_server(rejoin_, config_, hello, std::chrono::milliseconds(limits::bot_connect_ms));
-  TRY(connected);
-  connection_ = std::move(*connected);
-  report_.welcome = connection_->welcome();
-  mirror_ = rejoin_.begin(*connection_);
+  TRY(join_and_wait(client_, {protocol_version, "scree-bot", eye_m_, config_.interest_radius_m}));
+  report_.welcome = *client_.welcome();
+  repairs_asked_ = 0;
   ++report_.connections;
   stand_on_ground();
   log("connected", "connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) +
@@ -68,27 +62,23 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
 
 /// Once, when the ground is known: as a rule from the welcome on, else when its tiles have come.
 void Bot::stand_on_ground() {
-  if (stands_ || !rejoin_.has_near_ground()) return;
+  if (stands_ || !client_.kept().has_near_ground()) return;
   stands_ = true;
-  const float ground_m = ground_height_m(mirror_->terrain(), eye_m_.x, eye_m_.z);
+  const float ground_m = ground_height_m(client_.mirror()->terrain(), eye_m_.x, eye_m_.z);
   set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
 }
 
-/// Adds the connection's counts to the report, and drops the connection.
-void Bot::leave() {
-  if (!mirror_) return;
-  report_.seen += mirror_->counters();
-  report_.bytes_sent += connection_->counters().sent_bytes;
+/// Adds the counts of the connection that was lost to the report.
+void Bot::count_connection() {
+  report_.seen += client_.mirror()->counters();
+  report_.bytes_sent += client_.counters().sent_bytes;
   report_.carves_lost += static_cast<uint32_t>(requests_.size());
   requests_.clear();
   unseen_.clear();
-  rejoin_.keep(*mirror_);
-  mirror_.reset();
-  connection_.reset();
 }
 
 Result<void> Bot::reconnect(const ConnectionEnd& end) {
-  leave();
+  count_connection();
   ConnectionEnd last = end;
   for (uint32_t tries = 1; report_.connections + tries - 1 <= config_.reconnects_max; ++tries) {
     if (!may_come_again(last.refusal)) break;
@@ -104,35 +94,31 @@ Result<void> Bot::reconnect(const ConnectionEnd& end) {
 }
 
 Result<void> Bot::step(std::chrono::milliseconds wait) {
-  if (!connection_) return fail("the bot has not joined, or has given up");
-  for (const Received& received : connection_->wait(wait))
-    if (Result<void> applied = receive(received); !applied) return reconnect({applied.error()});
-  if (!connection_->connected() && connection_->counters().waiting_messages == 0)
-    return reconnect(connection_->end());
-  const Clock::time_point now = Clock::now();
-  ask(now);
-  acknowledge(now);
-  rejoin_.tend(ms_between(started_, now) / 1000.0, *mirror_, *connection_);
+  if (!client_.connected()) return fail("the bot has not joined, or has given up");
+  client_.wait(wait);
+  client_.poll(steady_now_s());
+  while (const std::optional<Client::Event> event = client_.next()) {
+    if (const auto* lost = std::get_if<Client::Lost>(&*event)) return reconnect(lost->end);
+    if (const auto* applied = std::get_if<Client::Applied>(&*event)) receive(*applied);
+  }
+  ask(Clock::now());
   return {};
 }
 
-Result<void> Bot::receive(const Received& received) {
+void Bot::receive(const Client::Applied& applied) {
+  const Received& received = applied.received;
   tally(received, report_);
-  TRY(rejoin_.before(received.message, *mirror_));
-  const Result<MirrorChanges> applied = mirror_->apply(received.message);
-  TRY(applied);
-  rejoin_.after(received.message, *mirror_, *connection_);
-  while (const auto repair = mirror_->take_repair_request()) {
-    log("check", "a check failed at tick " + std::to_string(repair->tick) + ": asking for " +
-                     std::to_string(repair->chunks.size()) + " chunks");
-    connection_->send(*repair);
-  }
+  const Mirror& mirror = *client_.mirror();
+  const uint64_t repairs = mirror.counters().repairs_asked - repairs_asked_;
+  if (repairs != 0)
+    log("check", "a check failed at tick " + std::to_string(mirror.tick()) + ": asking for " +
+                     std::to_string(repairs) + " chunks");
+  repairs_asked_ += repairs;
   std::visit(Overloaded{[&](const FrameMessage& frame) { receive_frame(frame, received.arrived); },
                         [&](const ReplyMessage& reply) { receive_reply(reply, received.arrived); },
                         [&](const StatusMessage& status) { receive_status(status); },
                         [](const auto&) {}},  // the mirror has applied it
              received.message);
-  return {};
 }
 
 void Bot::receive_frame(const FrameMessage& frame, Clock::time_point arrived) {
@@ -177,12 +163,13 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
 void Bot::receive_status(const StatusMessage& status) {
   report_.carves_saved +=
       static_cast<uint32_t>(std::erase_if(unsaved_, [&](Tick tick) { return tick <= status.saved_tick; }));
-  if (status.tick == mirror_->tick()) {
+  const Mirror& mirror = *client_.mirror();
+  if (status.tick == mirror.tick()) {
     HashComparison& hash = report_.hash;
-    hash = {hash.compared + 1, mirror_->field().hash() == status.field_hash, status.tick,
-            mirror_->field().hash(), status.field_hash};
+    hash = {hash.compared + 1, mirror.field().hash() == status.field_hash, status.tick, mirror.field().hash(),
+            status.field_hash};
   }
-  const bool at_rest = status.pieces == 0 && mirror_->pieces().empty();
+  const bool at_rest = status.pieces == 0 && mirror.pieces().empty();
   const bool was_settled = report_.settled;
   report_.settled = at_rest && rest_hash_ == status.field_hash;
   rest_hash_ = at_rest ? std::optional(status.field_hash) : std::nullopt;
@@ -194,23 +181,17 @@ void Bot::receive_status(const StatusMessage& status) {
 
 void Bot::ask(Clock::time_point now) {
   stand_on_ground();
-  if (first_frame_ == 0 || !rejoin_.has_near_ground()) return;
+  if (first_frame_ == 0 || !client_.kept().has_near_ground()) return;
   while (report_.carves_asked < config_.carves && requests_.size() < limits::bot_requests_waiting_max) {
     const double due_ms = config_.rate_hz > 0.0 ? 1000.0 * report_.carves_asked / config_.rate_hz : 0.0;
     if (ms_between(first_frame_at_, now) < due_ms) return;
-    const CarveMessage carve = carver_.next(mirror_->field(), ++report_.carves_asked);
+    const CarveMessage carve = carver_.next(client_.mirror()->field(), ++report_.carves_asked);
     const Clock::time_point sent = Clock::now();
     requests_[carve.request] = {sent, carve.random_seed};
     unseen_[carve.random_seed] = sent;
-    if (config_.paint) connection_->send(PaintMessage{{carve.shape, *config_.paint}, 0});
-    connection_->send(carve);
+    if (config_.paint) client_.send(PaintMessage{{carve.shape, *config_.paint}, 0});
+    client_.send(carve);
   }
-}
-
-void Bot::acknowledge(Clock::time_point now) {
-  if (ms_between(acknowledged_, now) < limits::bot_ack_interval_ms) return;
-  acknowledged_ = now;
-  connection_->send(AckMessage{mirror_->tick()});
 }
 
 bool Bot::scripted_work_done() const {
@@ -226,7 +207,7 @@ bool Bot::finished() const {
 void Bot::set_interest(glm::vec3 eye_m, float radius_m) {
   eye_m_ = eye_m;
   config_.interest_radius_m = radius_m;
-  if (connection_) rejoin_.follow(eye_m, radius_m, *mirror_, *connection_);
+  if (client_.connected()) client_.follow(eye_m, radius_m);
 }
 
 BotReport Bot::run() {
@@ -249,13 +230,14 @@ BotReport Bot::run() {
 BotReport Bot::report() const {
   BotReport report = report_;
   report.duration_s = ms_between(started_, Clock::now()) / 1000.0;
-  if (!mirror_) return report;
-  report.seen += mirror_->counters();
-  report.bytes_sent += connection_->counters().sent_bytes;
-  report.pieces_alive = mirror_->pieces().size();
-  report.chunks_held = mirror_->held_chunks().size();
+  if (!client_.connected()) return report;
+  const Mirror& mirror = *client_.mirror();
+  report.seen += mirror.counters();
+  report.bytes_sent += client_.counters().sent_bytes;
+  report.pieces_alive = mirror.pieces().size();
+  report.chunks_held = mirror.held_chunks().size();
   const double seconds = ms_between(first_frame_at_, last_frame_at_) / 1000.0;
-  if (seconds > 0.0) report.ticks_per_s = static_cast<double>(mirror_->tick() - first_frame_) / seconds;
+  if (seconds > 0.0) report.ticks_per_s = static_cast<double>(mirror.tick() - first_frame_) / seconds;
   return report;
 }
 

@@ -15,9 +15,8 @@
 
 #include "client/bot/carver.h"
 #include "client/bot/report.h"
-#include "client/cache/rejoin.h"
 #include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/session/client.h"
 #include "shared/base/log_limit.h"
 
 namespace scree {
@@ -41,7 +40,6 @@ class Bot {
   using Log = std::function<void(const std::string&)>;
 
   explicit Bot(BotConfig config, Log log = {});
-  ~Bot();
 
   /// Makes the first connection.
   Result<void> join();
@@ -58,9 +56,9 @@ class Bot {
   /// Moves the bot's interest.
   void set_interest(glm::vec3 eye_m, float radius_m);
   /// Nothing between a lost connection and the next.
-  Mirror* mirror() { return mirror_.get(); }
+  Mirror* mirror() { return client_.connected() ? client_.mirror() : nullptr; }
   /// For tests: to cut it, or to pause its reading.
-  Connection* connection() { return connection_.get(); }
+  Connection* connection() { return static_cast<Connection*>(client_.channel()); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -72,13 +70,12 @@ class Bot {
   tl::expected<void, ConnectionEnd> connect();
   Result<void> reconnect(const ConnectionEnd& end);
   void stand_on_ground();
-  void leave();
-  Result<void> receive(const Received& received);
+  void count_connection();
+  void receive(const Client::Applied& applied);
   void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);
   void receive_frame(const FrameMessage& frame, Clock::time_point arrived);
   void receive_status(const StatusMessage& status);
   void ask(Clock::time_point now);
-  void acknowledge(Clock::time_point now);
   bool scripted_work_done() const;
   void log(std::string_view kind, const std::string& line);
 
@@ -88,18 +85,16 @@ class Bot {
   Carver carver_;
   glm::vec3 eye_m_;
   bool stands_ = false;  ///< the interest is at the ground's height
-  Rejoin rejoin_;
-  std::unique_ptr<Connection> connection_;
-  std::unique_ptr<Mirror> mirror_;
+  Client client_;
   std::unordered_map<uint32_t, Request> requests_;          ///< by request number: not answered yet
   std::vector<Tick> unsaved_;                               ///< of accepted carves that may still be lost
   std::unordered_map<uint32_t, Clock::time_point> unseen_;  ///< by random seed: not seen applied yet
   Clock::time_point started_;
-  Clock::time_point acknowledged_;
   Clock::time_point first_frame_at_;
   Clock::time_point last_frame_at_;
   Tick first_frame_ = 0;
   std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
+  uint64_t repairs_asked_ = 0;         ///< chunks, by this connection
   uint32_t final_statuses_ = 0;        ///< since all scripted work was done
   bool compared_ = false;              ///< the final comparison of hashes is done
   BotReport report_;                   ///< of past connections, and totals

@@ -9,9 +9,6 @@ namespace scree::limits {
 /// Requests that wait for their replies. Above: the bot sends no more until some are answered.
 inline constexpr size_t bot_requests_waiting_max = 64;
 
-/// Milliseconds between two acknowledgements of frames.
-inline constexpr int bot_ack_interval_ms = 250;
-
 /// Milliseconds to wait before the n-th try to connect again, times n.
 inline constexpr int bot_retry_ms = 250;
 

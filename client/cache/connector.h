@@ -2,6 +2,7 @@
 // std::chrono::steady_clock).
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ class Connector {
   /// says what comes with the hello, is this attempt's until its end.
   virtual void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) = 0;
   virtual bool busy() const = 0;
+  /// Sleeps until the attempt has ended, or the time is over. Does nothing where the thread that calls it is
+  /// the one that brings the bytes.
+  virtual void await(std::chrono::milliseconds within) = 0;
   /// How the attempt ended; nothing while it is under way.
   virtual std::optional<Attempt> take(double now_s) = 0;
   /// The server, for people.

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "client/cache/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/text.h"
 
@@ -22,8 +21,8 @@ ServerConnector::~ServerConnector() {
 
 void ServerConnector::begin(Rejoin& rejoin, const HelloMessage& hello, double /*now_s*/) {
   CHECK(!busy());
-  attempt_ = std::async(std::launch::async, [this, &rejoin, hello] {
-    auto made = join_server(rejoin, server_, hello, std::chrono::milliseconds(limits::connect_ms_max));
+  attempt_ = std::async(std::launch::async, [this, &rejoin, hello, within = within_] {
+    auto made = join_server(rejoin, server_, hello, within);
     Attempt attempt;
     if (made) {
       attempt.channel = std::move(*made);

@@ -324,10 +324,14 @@ std::vector<Received> Connection::poll() {
   return impl_->take_all();
 }
 
-std::vector<Received> Connection::wait(std::chrono::milliseconds within) {
+void Connection::await(std::chrono::milliseconds within) {
   std::unique_lock lock(impl_->mutex);
   impl_->changed.wait_for(lock, within, [this] { return !impl_->queue.empty() || !impl_->open; });
-  return impl_->take_all();
+}
+
+std::vector<Received> Connection::wait(std::chrono::milliseconds within) {
+  await(within);
+  return poll();
 }
 
 void Connection::send(const ClientMessage& message) {

@@ -30,7 +30,8 @@ class Connection final : public ServerChannel {
 
   /// Takes all messages that arrived.
   std::vector<Received> poll() override;
-  /// Like poll(), but waits until a message arrives, the connection closes, or the time is over.
+  void await(std::chrono::milliseconds within) override;
+  /// await(), then poll().
   std::vector<Received> wait(std::chrono::milliseconds within);
 
   void send(const ClientMessage& message) override;

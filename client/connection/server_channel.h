@@ -22,6 +22,9 @@ struct Received {
   ServerMessage message;
   size_t bytes = 0;  ///< on the wire, length prefix included
   std::chrono::steady_clock::time_point arrived;
+
+  /// The same in seconds.
+  double arrived_s() const { return std::chrono::duration<double>(arrived.time_since_epoch()).count(); }
 };
 
 struct ConnectionCounters {
@@ -42,6 +45,9 @@ class ServerChannel {
   /// Takes messages that arrived after the welcome, in order. Does not wait. Messages that arrived before the
   /// connection closed can still be polled: it is over when none comes any more.
   virtual std::vector<Received> poll() = 0;
+  /// Sleeps until poll() has something, the connection has ended, or the time is over. Does nothing where the
+  /// thread that calls it is the one that brings the bytes.
+  virtual void await(std::chrono::milliseconds within) = 0;
   /// Queues a message for sending; does nothing after the connection closed.
   virtual void send(const ClientMessage& message) = 0;
   virtual bool connected() const = 0;

@@ -24,6 +24,7 @@ class SocketChannel final : public ServerChannel {
 
   const WelcomeMessage& welcome() const override { return welcome_; }
   std::vector<Received> poll() override;
+  void await(std::chrono::milliseconds /*within*/) override {}
   void send(const ClientMessage& message) override { socket_.send(message); }
   bool connected() const override { return !socket_.is_closed(); }
   ConnectionEnd end() const override { return socket_.end(); }

@@ -79,6 +79,7 @@ class SocketConnector final : public Connector {
 
   void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) override;
   bool busy() const override { return busy_; }
+  void await(std::chrono::milliseconds /*within*/) override {}
   std::optional<Attempt> take(double now_s) override;
   std::string where() const override { return where_; }
 

@@ -1,4 +1,4 @@
-// Viewers of a server of Scree: connections whose mirrors apply everything and check every hash, all on one
+// Viewers of a server of Scree: clients whose mirrors apply everything and check every hash, all on one
 // thread of their own.
 #pragma once
 
@@ -8,8 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/session/client.h"
 
 namespace scree {
 
@@ -36,17 +35,13 @@ class Viewers {
   std::string failure() const;
 
  private:
-  struct Viewer {
-    std::unique_ptr<Connection> connection;
-    std::unique_ptr<Mirror> mirror;
-  };
   void run();
-  void receive(Viewer& viewer, bool first);
+  void receive(Client& viewer, bool first);
 
-  ServerEndpoint server_;
+  uint16_t port_;
   HelloMessage hello_;
   mutable std::mutex mutex_;  ///< of all below that is not atomic
-  std::vector<Viewer> viewers_;
+  std::vector<std::unique_ptr<Client>> viewers_;
   std::string failure_;
   uint32_t requests_ = 0;
   std::atomic<size_t> pieces_{0};

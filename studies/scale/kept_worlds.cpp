@@ -8,8 +8,8 @@
 #include "bench/support/heap.h"
 #include "bench/support/machine.h"
 #include "bench/support/scratch.h"
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
 #include "server/app/live_server.h"
 #include "shared/base/timing.h"
 
@@ -20,21 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double join_seconds_max = 60.0;
-constexpr double seconds_between_acks = 0.2;
 
 /// Applies all that comes until the server says that no edit waits.
-Result<void> follow(Connection& connection, Mirror& mirror) {
+Result<void> follow(Client& client) {
   const double end_s = steady_now_s() + join_seconds_max;
-  double acknowledge_s = 0.0;
   while (steady_now_s() < end_s) {
-    for (const Received& received : connection.wait(std::chrono::milliseconds(5)))
-      TRY(mirror.apply(received.message));
+    client.wait(std::chrono::milliseconds(5));
+    client.poll(steady_now_s());
+    while (const std::optional<Client::Event> event = client.next())
+      if (const auto* lost = std::get_if<Client::Lost>(&*event)) return fail(lost->end.message);
+    const Mirror& mirror = *client.mirror();
     const auto& status = mirror.status();
     if (status && status->tick == mirror.tick() && status->chunks_waiting == 0 && mirror.field().hash() != 0)
       return {};
-    if (steady_now_s() < acknowledge_s) continue;
-    acknowledge_s = steady_now_s() + seconds_between_acks;
-    connection.send(AckMessage{mirror.tick()});
   }
   return fail("the edits are not all there in time");
 }
@@ -95,14 +93,13 @@ Result<JoinCost> join_cost(const std::string& path, const WorldConfig& config, f
   endpoint.port = server->port();
   const glm::vec3 eye_m(0.0F, ground_height_m(config.terrain, 0.0F, 0.0F) + 2.0F, 0.0F);
   const double begin_s = steady_now_s();
-  auto connection =
-      Connection::connect(endpoint, {protocol_version, "scale", eye_m, interest_m}, std::chrono::seconds(10));
-  if (!connection) return fail(connection.error().message);
-  Mirror mirror((*connection)->welcome());
-  TRY(follow(**connection, mirror));
-  JoinCost cost{static_cast<double>((*connection)->counters().received_bytes) / 1024.0,
-                steady_now_s() - begin_s, mirror.held_chunks().size()};
-  (*connection)->leave();
+  Client client(std::make_unique<ServerConnector>(endpoint, std::chrono::seconds(10)));
+  const auto joined = join_and_wait(client, {protocol_version, "scale", eye_m, interest_m});
+  if (!joined) return fail(joined.error().message);
+  TRY(follow(client));
+  const JoinCost cost{static_cast<double>(client.counters().received_bytes) / 1024.0,
+                      steady_now_s() - begin_s, client.mirror()->held_chunks().size()};
+  client.drop();
   TRY(server->stop());
   return cost;
 }

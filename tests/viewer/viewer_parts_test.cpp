@@ -6,7 +6,6 @@
 #include "client/viewer/input/actions.h"
 #include "client/viewer/input/fly_camera.h"
 #include "client/viewer/pictures/screenshots.h"
-#include "client/viewer/session/playback.h"
 #include "client/viewer/session/sight.h"
 #include "client/viewer/viewing/options.h"
 #include "tests/support/flat_terrain.h"
@@ -14,106 +13,15 @@
 namespace scree {
 namespace {
 
-FrameMessage frame(Tick tick) {
-  FrameMessage message;
-  message.tick = tick;
-  return message;
-}
-
-Tick tick_of(const ServerMessage& message) {
-  return std::get<FrameMessage>(message).tick;
-}
-
 template <size_t N>
 std::variant<ViewerOptions, ExitNow> parse(const std::array<const char*, N>& arguments) {
   return parse_options(static_cast<int>(N), arguments.data());
-}
-
-TEST(Playback, frames_wait_for_the_clock_and_keep_their_order) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  const double start_s = 1000.0;
-  for (Tick tick = 1; tick <= 30; ++tick)
-    playback.push(frame(tick), start_s + static_cast<double>(tick) / 60.0);
-  const double now_s = start_s + 30.0 / 60.0;
-  const std::vector<ServerMessage> due = playback.take_due(now_s);
-  ASSERT_FALSE(due.empty());
-  for (size_t i = 0; i < due.size(); ++i) EXPECT_EQ(tick_of(due[i]), i + 1);
-  // 100 ms behind, of which the interval of the transforms is part.
-  EXPECT_NEAR(static_cast<double>(due.size()), 30.0 - (limits::playback_delay_s * 60.0 - 3.0), 1.01);
-  EXPECT_NEAR(playback.draw_tick(now_s), 30.0 - limits::playback_delay_s * 60.0, 0.01);
-  EXPECT_EQ(playback.take_due(now_s + 1.0).size(), 30 - due.size());
-}
-
-TEST(Playback, what_comes_behind_a_frame_waits_with_it) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  playback.push(frame(60), 10.0);
-  playback.push(StatusMessage{}, 10.0);
-  EXPECT_TRUE(playback.take_due(10.0).empty());
-  EXPECT_EQ(playback.take_due(10.2).size(), 2U);
 }
 
 TEST(Actions, each_has_a_name_by_which_programs_know_it) {
   for (const Binding& binding : bindings())
     EXPECT_EQ(action_named(binding.name), binding.action) << binding.name;
   EXPECT_FALSE(action_named("dance"));
-}
-
-TEST(Playback, messages_are_taken_one_by_one_as_well) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  playback.push(ChunkMessage{}, 10.0);
-  playback.push(frame(60), 10.0);
-  ASSERT_TRUE(playback.take_next(10.0));
-  EXPECT_FALSE(playback.take_next(10.0)) << "the frame is not due";
-  playback.push(frame(61), 10.0);
-  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 60U);
-  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 61U);
-  EXPECT_FALSE(playback.take_next(11.0));
-}
-
-TEST(Playback, chunks_of_a_join_pass_at_once) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  playback.push(ChunkMessage{}, 5.0);
-  EXPECT_EQ(playback.take_due(5.0).size(), 1U);
-}
-
-TEST(Playback, clock_never_runs_backwards_nor_on_without_frames_for_long) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  double last = -10.0;
-  for (Tick tick = 1; tick <= 200; ++tick) {
-    const double jitter_s = tick % 7 == 0 ? 0.08 : 0.0;
-    const double now_s = 50.0 + static_cast<double>(tick) / 60.0 + jitter_s;
-    playback.push(frame(tick), now_s);
-    playback.take_due(now_s);
-    const double draw = playback.draw_tick(now_s);
-    EXPECT_GE(draw, last);
-    EXPECT_LE(draw, static_cast<double>(tick));
-    last = draw;
-  }
-  EXPECT_LE(playback.draw_tick(1000.0), 200.0 + limits::playback_quiet_s * 60.0);
-}
-
-TEST(Playback, holds_no_more_messages_back_than_its_limit) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  playback.push(frame(60), 10.0);
-  for (size_t i = 1; i < limits::playback_messages_max; ++i) playback.push(StatusMessage{}, 10.0);
-  EXPECT_TRUE(playback.take_due(10.0).empty()) << "all wait behind the frame";
-  playback.push(StatusMessage{}, 10.0);
-  EXPECT_EQ(playback.take_due(10.0).size(), limits::playback_messages_max + 1);
-}
-
-TEST(Playback, goes_on_after_a_jump_of_the_server) {
-  Playback playback;
-  playback.start(WelcomeMessage{});
-  playback.push(frame(10000), 1.0);
-  EXPECT_EQ(playback.take_due(1.5).size(), 1U);
-  playback.push(frame(20), 2.0);
-  EXPECT_EQ(playback.take_due(2.5).size(), 1U);
 }
 
 TEST(Screenshots, orders_are_understood_or_refused_by_name) {

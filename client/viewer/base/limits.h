@@ -7,31 +7,13 @@
 
 namespace scree::limits {
 
-/// Delay of drawn pieces behind the server, seconds: two intervals of transforms, so that late frames still
-/// arrive in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
-inline constexpr double playback_delay_s = 0.1;
-
-/// Seconds for which the playback clock runs on without a frame, because a server sends none while nothing
-/// happens. Above: the link has a gap, and what is shown waits.
-inline constexpr double playback_quiet_s = 0.6;
-
-/// Part of a later frame's delay that the playback clock takes over: follows drift within seconds, ignores
-/// jitter.
-inline constexpr double playback_drift = 0.01;
-
-/// Difference between a frame and the playback clock at which the clock restarts, seconds.
-inline constexpr double playback_jump_s = 1.0;
-
-/// Delayed messages. Above: all are applied at once.
-inline constexpr size_t playback_messages_max = 4096;
-
 /// Seconds until the next attempt to reach a server that is gone; twice as many after each that led to
 /// nothing, at most the second number. A connection that lasted for the third one was worth something.
 inline constexpr double reconnect_min_s = 1.0;
 inline constexpr double reconnect_max_s = 60.0;
 inline constexpr double reconnect_worth_s = 10.0;
 
-/// Seconds between two acknowledgements, and between two reports of the camera's place.
+/// Seconds between two reports of the camera's place.
 inline constexpr double report_interval_s = 0.25;
 
 /// Least movement of the camera between two reports, metres.
@@ -44,9 +26,6 @@ inline constexpr float cursor_distance_m = 0.05F;
 
 /// Reach of a click, metres.
 inline constexpr float carve_reach_m = 200.0F;
-
-/// Time without a new chunk after which a join counts as done, seconds.
-inline constexpr double join_quiet_s = 0.5;
 
 /// Wait between `pieces>=N` and its screenshot, seconds, in which the pieces fly apart.
 inline constexpr double flight_s = 0.5;

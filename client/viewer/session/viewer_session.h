@@ -1,6 +1,7 @@
-// The viewer's session with a server: connects, and again after a lost connection; plays messages back into a
-// mirror; reports the camera's place. Without a connection, the last world stays visible. A refusal that
-// cannot change by itself (come_again.h) is shown, and not tried against.
+// The viewer's session with a server: a client (client/session/client.h) that joins again after a lost
+// connection, reports the camera's place and cursor, and knows the other persons. Without a connection, the
+// last world stays visible. A refusal that cannot change by itself (come_again.h) is shown, and not tried
+// against.
 //
 // Main thread only. Time comes in as seconds of std::chrono::steady_clock.
 #pragma once
@@ -12,16 +13,12 @@
 #include <optional>
 #include <string>
 
-#include "client/cache/connector.h"
-#include "client/cache/rejoin.h"
-#include "client/mirror/mirror.h"
-#include "client/mirror/predictions.h"
 #include "client/render/scene/draw_method.h"
+#include "client/session/client.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/conversation.h"
 #include "client/viewer/session/figures.h"
 #include "client/viewer/session/pace.h"
-#include "client/viewer/session/playback.h"
 #include "client/viewer/session/timeline.h"
 #include "shared/base/timing.h"
 
@@ -52,17 +49,14 @@ struct SessionChoice {
 class ViewerSession {
  public:
   ViewerSession(std::unique_ptr<Connector> connector, SessionChoice choice);
-  ~ViewerSession();
-  ViewerSession(const ViewerSession&) = delete;
-  ViewerSession& operator=(const ViewerSession&) = delete;
 
   SessionStep step(double now_s, const Camera& camera);
 
   /// Null until the first welcome.
-  Mirror* mirror() { return mirror_.get(); }
+  Mirror* mirror() { return client_.mirror(); }
   /// The field to draw and to aim at: the mirror's, with this client's own carves that the server has not
   /// answered yet laid over it. After the first welcome; valid until the next step() or strike().
-  Field& field() { return predictions_->field(); }
+  Field& field() { return client_.field(); }
   /// The pieces at the poses to draw now; those of predicted carves where they are cut.
   const ScenePieces& pieces(double now_s);
   /// The person's name from the next connection on.
@@ -70,12 +64,12 @@ class ViewerSession {
   /// Follows the server so far about the camera.
   void set_interest_radius(float metres);
   /// Whether carves are shown before the server has answered.
-  void predict(bool on) { predict_ = on; }
+  void predict(bool on) { client_.predict(on); }
   /// Carves that are shown so now.
-  size_t predictions() const { return predictions_ ? predictions_->outstanding() : 0; }
-  bool connected() const { return connection_ != nullptr; }
+  size_t predictions() const { return client_.predictions() ? client_.predictions()->outstanding() : 0; }
+  bool connected() const { return client_.connected(); }
   /// Whether the edits around the camera have arrived: no chunk came for a while.
-  bool joined(double now_s) const;
+  bool joined(double now_s) const { return client_.loaded(now_s); }
   /// Whether any piece was made in this world.
   bool carved() const;
 
@@ -97,7 +91,7 @@ class ViewerSession {
   void watch(bool physics) { watch_ = physics; }
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
   /// The last reported place of interest, and its radius.
-  glm::vec3 interest_m() const { return reported_eye_m_; }
+  glm::vec3 interest_m() const { return client_.eye_m(); }
   float interest_radius_m() const { return choice_.interest_radius_m; }
 
   /// For display: the state of the connection, in one line; the server's last refusal, for some seconds.
@@ -110,7 +104,7 @@ class ViewerSession {
   /// The counters of the connection; nothing without one.
   std::optional<ConnectionCounters> traffic() const;
   /// The welcome of the connection; null without one.
-  const WelcomeMessage* welcome() const { return connection_ ? &connection_->welcome() : nullptr; }
+  const WelcomeMessage* welcome() const { return client_.welcome(); }
   /// The longest time that a message took to be applied, milliseconds.
   double apply_worst_ms() const { return apply_worst_ms_; }
   double received_bytes_per_s() const { return bytes_per_s_; }
@@ -118,37 +112,29 @@ class ViewerSession {
   const Pace& pace() const { return pace_; }
   double tick_rate_hz() const { return tick_rate_hz_; }
   /// Whether the server plays a recording; and where it stands, known from its first word of that on.
-  bool is_replay() const { return connection_ && connection_->welcome().replay; }
+  bool is_replay() const { return welcome() && welcome()->replay; }
   Timeline& timeline() { return timeline_; }
   /// Memory of received messages that wait, bytes.
-  size_t waiting_bytes() const { return connection_ ? connection_->counters().waiting_bytes : 0; }
+  size_t waiting_bytes() const { return connected() ? client_.counters().waiting_bytes : 0; }
 
  private:
-  void begin_connecting(double now_s, glm::vec3 eye_m);
-  void finish_connecting(double now_s, SessionStep& step);
-  void receive(double now_s, SessionStep& step);
-  void apply_due(double now_s, SessionStep& step);
-  void measure(const ReplyMessage& reply, double arrived_s);
-  void foresee(const Request& asked, uint32_t number, double now_s);
-  void apply(const ServerMessage& message, double now_s, SessionStep& step);
+  void join(double now_s, glm::vec3 eye_m);
+  void take_events(double now_s, SessionStep& step);
+  void begin(const Client::Joined& joined, double now_s, SessionStep& step);
+  void lose(double now_s, const ConnectionEnd& end);
+  void take(const Client::Applied& applied, double now_s, SessionStep& step);
+  void take(const ReplyMessage& reply, double arrived_s, double now_s);
+  void take(const RecordedCursorsMessage& recorded);
+  void measure_rate(double now_s);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);
   void control_replay(double now_s);
-  void take(const RecordedCursorsMessage& recorded);
-  void lose(double now_s, const ConnectionEnd& end);
 
   SessionChoice choice_;
   bool radius_is_new_ = false;  ///< the server has not heard of it
-  Rejoin rejoin_;               ///< of the attempt, while one is under way
-  std::unique_ptr<Connector> connector_;
-  std::unique_ptr<ServerChannel> connection_;
-  std::unique_ptr<Mirror> mirror_;
-  std::unique_ptr<Predictions> predictions_;  ///< over the mirror
-  bool predict_ = true;
-  Playback playback_;
+  Client client_;
   Pace pace_;
   double tick_rate_hz_ = 60.0;
-  uint64_t world_ = 0;  ///< that the mirror is of; 0: none
   ScenePieces pieces_;
   std::string trouble_;   ///< the reason for the missing connection
   bool gave_up_ = false;  ///< the server refused for a reason that stays (may_come_again)
@@ -156,8 +142,6 @@ class ViewerSession {
   double retry_s_;  ///< from the next loss to the attempt after it
   std::optional<double> connected_since_s_;
   double next_report_s_ = 0.0;
-  glm::vec3 reported_eye_m_{0.0F};
-  Tick acknowledged_ = 0;
   double next_cursor_s_ = 0.0;
   CursorMessage reported_cursor_;
   std::vector<PlayerCursor> cursors_;
@@ -168,7 +152,6 @@ class ViewerSession {
   bool watch_ = false;
   bool watching_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;
-  double last_chunk_s_ = 0.0;
   bool saw_pieces_ = false;
   uint32_t requests_ = 0;
   std::map<uint32_t, double> asked_s_;  ///< when, by request that is not answered

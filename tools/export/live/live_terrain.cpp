@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
+#include "shared/base/timing.h"
 #include "tools/export/limits.h"
 
 namespace scree {
@@ -17,7 +19,6 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto message_wait = 50ms;
-constexpr auto acknowledge_interval = 200ms;
 
 /// The box in parts of so many chunks a side, at most.
 std::vector<ChunkBox> parts_of(const ChunkBox& box, int side) {
@@ -48,12 +49,7 @@ void copy_edits(Field& from, const ChunkBox& box, Field& to) {
 
 class Fetcher {
  public:
-  explicit Fetcher(const LiveFetch& how) : how_(how), ends_(Clock::now() + how.within), rejoin_({}) {}
-  ~Fetcher() {
-    if (connection_) connection_->leave();
-  }
-  Fetcher(const Fetcher&) = delete;
-  Fetcher& operator=(const Fetcher&) = delete;
+  explicit Fetcher(const LiveFetch& how) : Fetcher(how, std::make_unique<ServerConnector>(how.server)) {}
 
   Result<LiveTerrain> fetch(const std::function<void(double)>& progress) {
     TRY(join({}));
@@ -61,38 +57,33 @@ class Fetcher {
   }
 
  private:
-  /// Begins a session with as wide an interest as the server grants.
+  Fetcher(const LiveFetch& how, std::unique_ptr<ServerConnector> connector)
+      : how_(how),
+        ends_(Clock::now() + how.within),
+        connector_(connector.get()),
+        client_(std::move(connector)) {}
+
+  /// Begins a session with as wide an interest as the server grants. It resumes the last one by its ticket.
   Result<void> join(glm::vec3 eye_m) {
-    if (connection_) connection_->close();  // the next session goes on by its ticket
-    const HelloMessage hello{protocol_version, "scree-export", eye_m, limits::interest_radius_max_m};
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(ends_ - Clock::now());
-    auto connected =
-        join_server(rejoin_, how_.server, hello, std::clamp(left, 1ms, limits::export_connect_ms));
-    if (!connected) return tl::unexpected<Error>(connected.error());
-    connection_ = std::move(*connected);
-    mirror_ = rejoin_.begin(*connection_);
+    connector_->allow(std::clamp(left, 1ms, limits::export_connect_ms));
+    const auto joined =
+        join_and_wait(client_, {protocol_version, "scree-export", eye_m, limits::interest_radius_max_m});
+    if (!joined) return fail(joined.error().message);
     ++sessions_;
     has_edits_ = has_all_edits_ = false;
     return {};
   }
 
-  /// Applies what comes, and asks for what is missing.
   Result<void> follow() {
-    for (const Received& received : connection_->wait(message_wait)) {
-      TRY(rejoin_.before(received.message, *mirror_));
-      TRY(mirror_->apply(received.message));
-      rejoin_.after(received.message, *mirror_, *connection_);
-      while (const auto repair = mirror_->take_repair_request()) connection_->send(*repair);
-      if (std::holds_alternative<StatusMessage>(received.message)) compare();
+    client_.wait(message_wait);
+    client_.poll(steady_now_s());
+    while (const std::optional<Client::Event> event = client_.next()) {
+      if (const auto* lost = std::get_if<Client::Lost>(&*event))
+        return fail("the connection was lost: " + lost->end.message);
+      const auto* applied = std::get_if<Client::Applied>(&*event);
+      if (applied && std::holds_alternative<StatusMessage>(applied->received.message)) compare();
     }
-    if (!connection_->connected() && connection_->counters().waiting_messages == 0)
-      return fail("the connection was lost: " + connection_->close_reason());
-    const Clock::time_point now = Clock::now();
-    if (now >= acknowledged_ + acknowledge_interval) {
-      acknowledged_ = now;
-      connection_->send(AckMessage{mirror_->tick()});
-    }
-    rejoin_.tend(std::chrono::duration<double>(now.time_since_epoch()).count(), *mirror_, *connection_);
     return {};
   }
 
@@ -108,19 +99,22 @@ class Fetcher {
     return {};
   }
 
+  Mirror& mirror() { return *client_.mirror(); }
+  const Mirror& mirror() const { return *client_.mirror(); }
+
   /// The status has just come, so it is about the mirror as it is.
   void compare() {
-    const StatusMessage& status = *mirror_->status();
-    const MirrorCounters& counted = mirror_->counters();
-    has_edits_ = status.tick == mirror_->tick() && status.chunks_waiting == 0 &&
+    const StatusMessage& status = *mirror().status();
+    const MirrorCounters& counted = mirror().counters();
+    has_edits_ = status.tick == mirror().tick() && status.chunks_waiting == 0 &&
                  counted.repairs_asked == counted.repairs_arrived;
-    has_all_edits_ = has_edits_ && status.field_hash == mirror_->field().hash();
+    has_all_edits_ = has_edits_ && status.field_hash == mirror().field().hash();
   }
 
   Result<void> complete_edits() {
     return follow_until([this] { return has_edits_; },
                         [this] {
-                          const auto& status = mirror_->status();
+                          const auto& status = mirror().status();
                           return status ? fmt::format("{} edited chunks wait", status->chunks_waiting)
                                         : std::string("the server says nothing");
                         });
@@ -128,14 +122,15 @@ class Fetcher {
 
   /// Tiles that are missed are asked for; those that came make more chunks whole.
   Result<void> complete_ground(const ChunkBox& box) {
-    if (rejoin_.tiles() == nullptr) return {};
+    if (client_.kept().tiles() == nullptr) return {};
     std::vector<ChunkCoord> missing;
     for_each_chunk(box.voxels(), [&](ChunkCoord chunk) { missing.push_back(chunk); });
     uint64_t seen = ~uint64_t{0};
     return follow_until(
         [&] {
-          if (std::exchange(seen, rejoin_.tiles()->tiles_received()) != rejoin_.tiles()->tiles_received())
-            std::erase_if(missing, [&](ChunkCoord chunk) { return is_here(mirror_->terrain(), chunk); });
+          if (std::exchange(seen, client_.kept().tiles()->tiles_received()) !=
+              client_.kept().tiles()->tiles_received())
+            std::erase_if(missing, [&](ChunkCoord chunk) { return is_here(mirror().terrain(), chunk); });
           return missing.empty();
         },
         [&] {
@@ -155,17 +150,17 @@ class Fetcher {
 
   /// Chunks a side of a cube that lies within the interest around its middle.
   int part_side() const {
-    const float side_m = 2.0F * connection_->welcome().interest_radius_m / std::sqrt(3.0F);
+    const float side_m = 2.0F * client_.welcome()->interest_radius_m / std::sqrt(3.0F);
     return std::max(1, static_cast<int>(side_m / chunk_m()));
   }
-  float chunk_m() const { return static_cast<float>(chunk_size) * mirror_->terrain().voxel_size_m; }
+  float chunk_m() const { return static_cast<float>(chunk_size) * mirror().terrain().voxel_size_m; }
 
   LiveTerrain taken(const ChunkBox& box) const {
-    return {std::make_unique<MapField>(mirror_->terrain()), box, mirror_->tick(), sessions_};
+    return {std::make_unique<MapField>(mirror().terrain()), box, mirror().tick(), sessions_};
   }
 
   Result<LiveTerrain> fetch_box(const std::function<void(double)>& progress) {
-    const auto box = how_.box(MapField(mirror_->terrain()));
+    const auto box = how_.box(MapField(mirror().terrain()));
     TRY(box);
     const std::vector<ChunkBox> parts = parts_of(*box, part_side());
     LiveTerrain terrain = taken(*box);
@@ -174,36 +169,34 @@ class Fetcher {
       TRY(join(0.5F * chunk_m() * glm::vec3(sum.x, sum.y, sum.z)));
       TRY(complete_edits());
       TRY(complete_ground(parts[i]));
-      copy_edits(mirror_->field(), parts[i], *terrain.field);
+      copy_edits(mirror().field(), parts[i], *terrain.field);
       progress(static_cast<double>(i + 1) / static_cast<double>(parts.size()));
     }
-    terrain.tick = mirror_->tick();
+    terrain.tick = mirror().tick();
     terrain.sessions = sessions_;
     return terrain;
   }
 
   Result<LiveTerrain> fetch_all(const std::function<void(double)>& progress) {
-    if (const auto middle = spawn_of(mirror_->terrain()); middle && *middle != glm::vec3{})
+    if (const auto middle = spawn_of(mirror().terrain()); middle && *middle != glm::vec3{})
       TRY(join(*middle));
     TRY(complete_edits());
     if (!has_all_edits_)
       return fail(fmt::format(
           "edits lie farther than {:.0f} m from the middle of the world: --box says which part is wanted",
-          connection_->welcome().interest_radius_m));
-    auto box = TRY(whole_of(mirror_->field()));
+          client_.welcome()->interest_radius_m));
+    auto box = TRY(whole_of(mirror().field()));
     TRY(check_count(box));
     LiveTerrain terrain = taken(box);
-    copy_edits(mirror_->field(), box, *terrain.field);
+    copy_edits(mirror().field(), box, *terrain.field);
     TRY(complete_ground(parts_of(box, part_side()), progress));
     return terrain;
   }
 
   const LiveFetch& how_;
   const Clock::time_point ends_;
-  Rejoin rejoin_;
-  std::unique_ptr<Connection> connection_;
-  std::unique_ptr<Mirror> mirror_;
-  Clock::time_point acknowledged_{};
+  ServerConnector* connector_;  ///< the client's
+  Client client_;
   size_t sessions_ = 0;
   bool has_edits_ = false;      ///< of this session's interest
   bool has_all_edits_ = false;  ///< of the world

@@ -1,10 +1,10 @@
-#include "client/viewer/session/playback.h"
+#include "client/session/playback.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "client/viewer/base/limits.h"
+#include "client/session/limits.h"
 
 namespace scree {
 
@@ -14,9 +14,10 @@ void Playback::start(const WelcomeMessage& welcome) {
   transform_ticks_ = static_cast<double>(welcome.ticks_per_transform);
 }
 
-void Playback::push(ServerMessage message, double now_s) {
-  if (const auto* frame = std::get_if<FrameMessage>(&message)) note_arrival(frame->tick, now_s);
-  waiting_.push_back(std::move(message));
+void Playback::push(Received received) {
+  if (const auto* frame = std::get_if<FrameMessage>(&received.message))
+    note_arrival(frame->tick, received.arrived_s());
+  waiting_.push_back(std::move(received));
 }
 
 void Playback::note_arrival(Tick tick, double now_s) {
@@ -43,20 +44,19 @@ double Playback::clock(double now_s) {
   return clock_;
 }
 
-std::optional<ServerMessage> Playback::take_next(double now_s) {
+std::optional<Received> Playback::take_next(double now_s) {
   overfull_ = !waiting_.empty() && (overfull_ || waiting_.size() > limits::playback_messages_max);
   if (waiting_.empty()) return std::nullopt;
-  const auto* frame = std::get_if<FrameMessage>(&waiting_.front());
+  const auto* frame = std::get_if<FrameMessage>(&waiting_.front().message);
   if (frame != nullptr && static_cast<double>(frame->tick) > clock(now_s) && !overfull_) return std::nullopt;
-  ServerMessage next = std::move(waiting_.front());
-  waiting_.pop_front();
-  return next;
+  return take_first();
 }
 
-std::vector<ServerMessage> Playback::take_due(double now_s) {
-  std::vector<ServerMessage> due;
-  while (std::optional<ServerMessage> next = take_next(now_s)) due.push_back(std::move(*next));
-  return due;
+std::optional<Received> Playback::take_first() {
+  if (waiting_.empty()) return std::nullopt;
+  Received first = std::move(waiting_.front());
+  waiting_.pop_front();
+  return first;
 }
 
 double Playback::draw_tick(double now_s) {

@@ -1,0 +1,33 @@
+// Bounds of a client's session. Each says its unit, its reason, and its effect at the limit.
+#pragma once
+
+#include <cstddef>
+
+namespace scree::limits {
+
+/// Seconds between two acknowledgements of frames: the server only counts them. None is sent while no newer
+/// frame has come.
+inline constexpr double acknowledge_interval_s = 0.25;
+
+/// Time without a new chunk after which the edits within the interest count as loaded, seconds.
+inline constexpr double loaded_quiet_s = 0.5;
+
+/// Delay of drawn pieces behind the server, seconds: two intervals of transforms, so that late frames still
+/// arrive in time (anchors: 85 ms are needed under 2 to 5 % loss at 60 Hz).
+inline constexpr double playback_delay_s = 0.1;
+
+/// Seconds for which the playback clock runs on without a frame, because a server sends none while nothing
+/// happens. Above: the link has a gap, and what is shown waits.
+inline constexpr double playback_quiet_s = 0.6;
+
+/// Part of a later frame's delay that the playback clock takes over: follows drift within seconds, ignores
+/// jitter.
+inline constexpr double playback_drift = 0.01;
+
+/// Difference between a frame and the playback clock at which the clock restarts, seconds.
+inline constexpr double playback_jump_s = 1.0;
+
+/// Delayed messages. Above: all are applied at once.
+inline constexpr size_t playback_messages_max = 4096;
+
+}  // namespace scree::limits
