@@ -43,7 +43,7 @@ struct Writing {
     write(*paint.mutable_shape(), from.shape);
     paint.set_material(static_cast<wire::Material>(from.material));
   }
-  void operator()(const RepairRequest& from) const {
+  void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
     repair.set_chunks(pack_chunks(from.chunks));
@@ -54,11 +54,11 @@ struct Writing {
     write(*to.mutable_cursor()->mutable_aim(), from.aim_m);
   }
   void operator()(const WatchMessage& from) const { to.mutable_watch()->set_physics(from.physics); }
-  void operator()(const GroundRequest& from) const {
+  void operator()(const AskGroundMessage& from) const {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
-  void operator()(const TileRequest& from) const { write(*to.mutable_tiles(), from); }
+  void operator()(const AskTilesMessage& from) const { write(*to.mutable_tiles(), from); }
   void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
@@ -85,8 +85,8 @@ PaintMessage read(const wire::Paint& from, FieldChecker& check) {
   return {{check.shape(from.shape()), check.kind<Material>(from.material(), "material")}, from.request()};
 }
 
-RepairRequest read(const wire::Repair& from, FieldChecker& check) {
-  RepairRequest repair;
+RepairMessage read(const wire::Repair& from, FieldChecker& check) {
+  RepairMessage repair;
   repair.tick = from.tick();
   repair.chunks = check.chunks(from.chunks(), limits::repair_chunks_max, "chunks of a repair");
   repair.hashes.assign(from.hashes().begin(), from.hashes().end());
@@ -133,7 +133,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kWatch:
       return WatchMessage{from.watch().physics()};
     case wire::ClientMessage::kGround:
-      return checked(GroundRequest{
+      return checked(AskGroundMessage{
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});
     case wire::ClientMessage::kOffer:
       return checked(read_offer(from.offer(), check));

@@ -105,12 +105,12 @@ HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check) {
   return ground;
 }
 
-void write(wire::TileRequest& to, const TileRequest& from) {
+void write(wire::TileRequest& to, const AskTilesMessage& from) {
   to.set_wanted(pack_keys(from.wanted));
   to.set_held(pack_keys(from.held));
 }
 
-TileRequest read_tile_request(const wire::TileRequest& from, FieldChecker& check) {
+AskTilesMessage read_tile_request(const wire::TileRequest& from, FieldChecker& check) {
   return {read_keys(from.wanted(), limits::tiles_wanted_max, "tiles wanted", check),
           read_keys(from.held(), limits::tiles_held_max, "tiles held", check)};
 }

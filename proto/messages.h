@@ -71,15 +71,15 @@ inline constexpr float carve_depth_in_radii = 0.4F;
 /// A request with the client's number of it, which the reply returns. Requests to change settings need a
 /// token as well: AdminMessage.
 template <typename Request>
-struct Asked : Request {
+struct RequestMessage : Request {
   uint32_t request = 0;
 };
-using CarveMessage = Asked<CarveRequest>;
-using FillMessage = Asked<FillRequest>;
-using PaintMessage = Asked<PaintRequest>;
+using CarveMessage = RequestMessage<CarveRequest>;
+using FillMessage = RequestMessage<FillRequest>;
+using PaintMessage = RequestMessage<PaintRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
-struct RepairRequest {
+struct RepairMessage {
   Tick tick = 0;
   std::vector<ChunkCoord> chunks;
   std::vector<uint64_t> hashes;  ///< the client's, one per chunk
@@ -90,31 +90,31 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// What an administrator asks for. Settings are changed all, or none.
-struct ListSessions {};
-struct KickSession {
+/// Requests of an administrator. SettingsRequest changes all its settings, or none.
+struct ListSessionsRequest {};
+struct KickRequest {
   uint64_t session = 0;
   std::string reason;  ///< told to who is sent away; may be empty
 };
 /// An address, or that of a session; the sessions from there end.
-struct BanAddress {
+struct BanRequest {
   uint64_t session = 0;  ///< 0: the address says who
   std::string address;   ///< numeric, IPv4 or IPv6
   uint32_t minutes = 0;  ///< 0: until it is lifted
   std::string reason;
 };
-struct ListBans {};
-struct LiftBan {
+struct ListBansRequest {};
+struct LiftBanRequest {
   std::string address;
 };
-using AdminAct =
-    std::variant<SettingValues, ListSessions, KickSession, BanAddress, ListBans, LiftBan, ControlReplay>;
+using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
+                                  ListBansRequest, LiftBanRequest, ControlReplayRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
   uint32_t request = 0;
   std::string token;  ///< equal to the server's, or empty where the session's role is admin
-  AdminAct act;
+  AdminRequest act;
 };
 
 /// Switches PhysicsMessages on or off.
@@ -123,7 +123,7 @@ struct WatchMessage {
 };
 
 /// Asks for the generated ground of chunks; each is answered by a GroundMessage.
-struct GroundRequest {
+struct AskGroundMessage {
   std::vector<ChunkCoord> chunks;
 };
 
@@ -132,14 +132,15 @@ struct GoodbyeMessage {};
 
 /// Asks for tiles of the ground, each of which is answered by a TileMessage, and says which
 /// the client has kept from earlier.
-struct TileRequest {
+struct AskTilesMessage {
   std::vector<TileKey> wanted;
   std::vector<TileKey> held{};
 };
 
-using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
-                                   RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage,
-                                   GroundRequest, OfferMessage, GoodbyeMessage, TileRequest, SayMessage>;
+using ClientMessage =
+    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
+                 AckMessage, AdminMessage, CursorMessage, WatchMessage, AskGroundMessage, OfferMessage,
+                 GoodbyeMessage, AskTilesMessage, SayMessage>;
 
 // ---- server to client
 
@@ -353,7 +354,7 @@ struct BanRow {
   bool operator==(const BanRow&) const = default;
 };
 
-/// The answer to ListSessions, or to ListBans.
+/// The answer to ListSessionsRequest, or to ListBansRequest.
 struct AdminListMessage {
   uint32_t request = 0;
   std::vector<SessionRow> sessions{};

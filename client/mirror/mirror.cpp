@@ -199,9 +199,9 @@ void Mirror::check(const FrameMessage& frame, const ChunkSet& changed) {
   }
 }
 
-std::optional<RepairRequest> Mirror::take_repair_request() {
+std::optional<RepairMessage> Mirror::take_repair_request() {
   if (mismatched_.empty()) return std::nullopt;
-  RepairRequest request;
+  RepairMessage request;
   request.tick = mismatched_.begin()->second.tick;
   for (auto entry = mismatched_.begin(); entry != mismatched_.end();) {
     if (request.chunks.size() == limits::repair_chunks_max) break;

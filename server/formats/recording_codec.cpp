@@ -32,32 +32,32 @@ PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
 Command read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
   const ClientMessage message = check.take(decode_client(as_span(bytes)));
   return std::visit(
-      Overloaded{[&]<typename Asks>(const Asked<Asks>& asked) {
-                   return Command{session, asked.request, static_cast<const Asks&>(asked)};
-                 },
-                 [&](const AdminMessage& admin) {
-                   const auto* settings = std::get_if<SettingValues>(&admin.act);
-                   if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
-                   return Command{session, admin.request,
-                                  SettingsRequest{settings == nullptr ? SettingValues() : *settings}};
-                 },
-                 [&](const GoodbyeMessage&) {
-                   return Command{session, 0, LeaveRequest{}};
-                 },
-                 [&](const auto&) {
-                   check.refuse("a message that asks for nothing stands where a request should");
-                   return Command{};
-                 }},
+      Overloaded{
+          [&]<typename Asks>(const RequestMessage<Asks>& asked) {
+            return Command{session, asked.request, static_cast<const Asks&>(asked)};
+          },
+          [&](const AdminMessage& admin) {
+            const auto* settings = std::get_if<SettingsRequest>(&admin.act);
+            if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+            return Command{session, admin.request, settings == nullptr ? SettingsRequest() : *settings};
+          },
+          [&](const GoodbyeMessage&) {
+            return Command{session, 0, LeaveRequest{}};
+          },
+          [&](const auto&) {
+            check.refuse("a message that asks for nothing stands where a request should");
+            return Command{};
+          }},
       message);
 }
 
 /// As the client sent it, without the token.
 ClientMessage message_of(const Command& command) {
   return std::visit(Overloaded{[&]<typename Asks>(const Asks& asks) {
-                                 return ClientMessage(Asked<Asks>{asks, command.request});
+                                 return ClientMessage(RequestMessage<Asks>{asks, command.request});
                                },
                                [&](const SettingsRequest& settings) {
-                                 return ClientMessage(AdminMessage{command.request, {}, settings.settings});
+                                 return ClientMessage(AdminMessage{command.request, {}, settings});
                                },
                                [](const LeaveRequest&) { return ClientMessage(GoodbyeMessage{}); }},
                     command.body);

@@ -104,12 +104,12 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return refuse(Refusal::hello_repeated, "a second hello: this connection has joined already");
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
-          [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
+          [&]<typename Asks>(const RequestMessage<Asks>& asked) -> Done {
             ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
                           sessions_.at(session.id()).party});
             return {};
           },
-          [&](const RepairRequest& repair) -> Done {
+          [&](const RepairMessage& repair) -> Done {
             say(spdlog::level::warn, "repair",
                 fmt::format("session {}: {} chunks differ at tick {}", session.id(), repair.chunks.size(),
                             repair.tick));
@@ -140,14 +140,14 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             publisher_.watch(session.id(), watch.physics);
             return {};
           },
-          [&](const GroundRequest& ground) -> Done {
+          [&](const AskGroundMessage& ground) -> Done {
             if (publisher_.ask_ground(session.id(), ground)) return {};
             return refuse(Refusal::ground_waiting,
                           fmt::format("more than {} chunks of ground asked for and not answered "
                                       "(limits.ground_chunks_max)",
                                       limits::ground_chunks_max));
           },
-          [&](const TileRequest& tiles) -> Done {
+          [&](const AskTilesMessage& tiles) -> Done {
             if (publisher_.ask_tiles(session.id(), tiles)) return {};
             return refuse(Refusal::ground_waiting,
                           fmt::format("more than {} tiles of the ground asked for and not answered "
@@ -204,7 +204,7 @@ void NetHost::refuse_request(ClientSession& session, uint32_t request, const Ref
 
 /// A wrong token ends the connection, so that each connection has one attempt.
 tl::expected<void, Refused> NetHost::administer(ClientSession& session, const AdminMessage& message) {
-  const bool is_control = std::holds_alternative<ControlReplay>(message.act);
+  const bool is_control = std::holds_alternative<ControlReplayRequest>(message.act);
   if (auto admin = may_administer(session, is_control); !admin) {
     const bool nobody_can = admin.error().reason == Refusal::no_admin_token;
     if (nobody_can || message.token.empty() || config_.admin_token.empty()) {
@@ -214,14 +214,14 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
     }
     TRY(check_admin_token(session.address(), message.token));
   }
-  const auto* settings = std::get_if<SettingValues>(&message.act);
+  const auto* settings = std::get_if<SettingsRequest>(&message.act);
   if (settings == nullptr) {
     administer_sessions(session, message);
     return {};
   }
   std::string changes;
-  for (const SettingValue& setting : *settings) changes += " " + setting.name + "=" + setting.value;
-  if (request(session, {session.id(), message.request, SettingsRequest{*settings}}))
+  for (const SettingValue& setting : settings->settings) changes += " " + setting.name + "=" + setting.value;
+  if (request(session, {session.id(), message.request, *settings})))
     settings_asked_[{session.id(), message.request}] =
         fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
   return {};

@@ -133,9 +133,9 @@ class NetHost final : public SessionHost, public EntranceHost, public HttpHost {
   void administer_sessions(ClientSession& session, const AdminMessage& message);
   std::vector<SessionRow> session_rows() const;
   std::vector<BanRow> ban_rows() const;
-  Result<void> kick(const KickSession& kick);
-  Result<void> ban(const BanAddress& ban);
-  Result<void> lift(const LiftBan& lift);
+  Result<void> kick(const KickRequest& kick);
+  Result<void> ban(const BanRequest& ban);
+  Result<void> lift(const LiftBanRequest& lift);
 
   // ---- connections that speak HTTP (net_host_web.cpp)
   Result<void> open_site();

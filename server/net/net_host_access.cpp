@@ -146,13 +146,13 @@ void NetHost::administer_sessions(ClientSession& session, const AdminMessage& me
       return refuse_request(session, message.request, {Refusal::admin_invalid, done.error().message});
     session.send(ServerMessage(ReplyMessage{message.request, "", 0}));
   };
-  std::visit(Overloaded{[](const SettingValues&) {},  // administer() hands them to the world
-                        [&](const ListSessions&) { list({.sessions = session_rows()}); },
-                        [&](const ListBans&) { list({.bans = ban_rows()}); },
-                        [&](const KickSession& kick) { reply(this->kick(kick)); },
-                        [&](const BanAddress& ban) { reply(this->ban(ban)); },
-                        [&](const LiftBan& lift) { reply(this->lift(lift)); },
-                        [&](const ControlReplay& control) {
+  std::visit(Overloaded{[](const SettingsRequest&) {},  // administer() hands them to the world
+                        [&](const ListSessionsRequest&) { list({.sessions = session_rows()}); },
+                        [&](const ListBansRequest&) { list({.bans = ban_rows()}); },
+                        [&](const KickRequest& kick) { reply(this->kick(kick)); },
+                        [&](const BanRequest& ban) { reply(this->ban(ban)); },
+                        [&](const LiftBanRequest& lift) { reply(this->lift(lift)); },
+                        [&](const ControlReplayRequest& control) {
                           reply(config_.control ? config_.control(control)
                                                 : fail("this server plays no recording (--replay)"));
                         }},
@@ -180,7 +180,7 @@ std::vector<BanRow> NetHost::ban_rows() const {
   return rows;
 }
 
-Result<void> NetHost::kick(const KickSession& kick) {
+Result<void> NetHost::kick(const KickRequest& kick) {
   const auto found = sessions_.find(kick.session);
   if (found == sessions_.end() && tickets_.departed(kick.session) != nullptr) {
     tickets_.forget(kick.session);
@@ -195,7 +195,7 @@ Result<void> NetHost::kick(const KickSession& kick) {
 }
 
 /// Ends the sessions that are there, administrators' excepted; the ban holds even when it cannot be written.
-Result<void> NetHost::ban(const BanAddress& ban) {
+Result<void> NetHost::ban(const BanRequest& ban) {
   std::string address = ban.address;
   if (ban.session != 0) {
     const auto found = sessions_.find(ban.session);
@@ -220,7 +220,7 @@ Result<void> NetHost::ban(const BanAddress& ban) {
   return added;
 }
 
-Result<void> NetHost::lift(const LiftBan& lift) {
+Result<void> NetHost::lift(const LiftBanRequest& lift) {
   const auto key = TRY(ban_key(lift.address));
   return bans_.lift(key);
 }

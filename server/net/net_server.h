@@ -74,7 +74,7 @@ struct NetConfig {
   /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
   std::function<void(Event)> noted;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
-  std::function<Result<void>(const ControlReplay&)> control;
+  std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig

@@ -92,7 +92,7 @@ void Publisher::watch(uint64_t session, bool physics) {
   watchers_ += physics ? 1 : -1;
 }
 
-void Publisher::repair(uint64_t session, const RepairRequest& request) {
+void Publisher::repair(uint64_t session, const RepairMessage& request) {
   const auto found = clients_.find(session);
   if (found == clients_.end()) return;
   Client& client = found->second;
@@ -107,11 +107,11 @@ void Publisher::repair(uint64_t session, const RepairRequest& request) {
   }
 }
 
-bool Publisher::ask_ground(uint64_t session, const GroundRequest& request) {
+bool Publisher::ask_ground(uint64_t session, const AskGroundMessage& request) {
   return !clients_.contains(session) || ground_.ask(session, request.chunks);
 }
 
-bool Publisher::ask_tiles(uint64_t session, const TileRequest& request) {
+bool Publisher::ask_tiles(uint64_t session, const AskTilesMessage& request) {
   const auto client = clients_.find(session);
   return client == clients_.end() || tiles_.ask(session, request, client->second.view);
 }

@@ -25,7 +25,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOpt
   source_->let_go();
 }
 
-Result<void> ReplayPlayer::take(const ControlReplay& wish) {
+Result<void> ReplayPlayer::take(const ControlReplayRequest& wish) {
   const std::scoped_lock lock(mutex_);
   if (wishes_.size() >= limits::replay_wishes_max)
     return fail("too many wishes wait for the replay's next tick (limits.replay_wishes_max)");
@@ -43,7 +43,7 @@ Tick ReplayPlayer::within(double tick) const {
 }
 
 /// Steps count from where a jump that waits ends.
-Result<Tick> ReplayPlayer::target_of(const ControlReplay& wish) {
+Result<Tick> ReplayPlayer::target_of(const ControlReplayRequest& wish) {
   const Tick here = target_.value_or(source_->tick());
   const auto value = static_cast<double>(wish.value);
   switch (wish.move) {
@@ -66,7 +66,7 @@ Result<Tick> ReplayPlayer::target_of(const ControlReplay& wish) {
   return here;
 }
 
-Result<void> ReplayPlayer::heed(const ControlReplay& wish) {
+Result<void> ReplayPlayer::heed(const ControlReplayRequest& wish) {
   if (wish.speed != 0.0F) speed_ = wish.speed;
   if (wish.play != ReplayPlay::as_it_is) playing_ = wish.play == ReplayPlay::play;
   if (wish.move == ReplayMove::stay) {
@@ -156,12 +156,12 @@ Result<void> ReplayPlayer::add_company(TickDelta& delta) {
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
   TRY(look());
   {
-    std::vector<ControlReplay> wishes;
+    std::vector<ControlReplayRequest> wishes;
     {
       const std::scoped_lock lock(mutex_);
       wishes.swap(wishes_);
     }
-    for (const ControlReplay& wish : wishes) TRY(heed(wish));
+    for (const ControlReplayRequest& wish : wishes) TRY(heed(wish));
   }
   if (begun_ && playing_ && !target_ && at_border() && !waits_for_more()) {
     const bool at_end = speed_ > 0.0F;

@@ -250,7 +250,7 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   FrameMessage frame;
   frame.operations.assign(limits::operations_per_frame_max + 1, DiscardOperation{1});
   EXPECT_TRUE(holds(server_refusal(frame), "operation: more than 4096"));
-  RepairRequest repair;
+  RepairMessage repair;
   repair.chunks.resize(limits::repair_chunks_max + 1);
   repair.hashes.resize(repair.chunks.size());
   EXPECT_TRUE(holds(client_refusal(repair), "more than 1024 chunks"));
@@ -258,7 +258,8 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   repair.hashes.resize(2);
   EXPECT_TRUE(holds(client_refusal(repair), "2 hashes for 3 chunks"));
   const SettingValues many(limits::settings_max + 1);
-  EXPECT_TRUE(holds(client_refusal(AdminMessage{1, "", many}), "33 settings are over the limit of 32"));
+  EXPECT_TRUE(holds(client_refusal(AdminMessage{1, "", SettingsRequest{many}}),
+                    "33 settings are over the limit of 32"));
   StatusMessage status;
   status.settings = many;
   EXPECT_TRUE(holds(server_refusal(status), "33 settings"));

@@ -137,7 +137,7 @@ void ViewerSession::receive(double now_s, SessionStep& step) {
   }
   apply_due(now_s, step);
   if (!connection_) return;
-  while (const std::optional<RepairRequest> repair = mirror_->take_repair_request())
+  while (const std::optional<RepairMessage> repair = mirror_->take_repair_request())
     connection_->send(*repair);
   if (now_s - rate_since_s_ >= rate_window_s) {
     bytes_per_s_ = static_cast<double>(rate_bytes_) / (now_s - rate_since_s_);
@@ -210,7 +210,7 @@ void ViewerSession::take(const RecordedCursorsMessage& recorded) {
 
 /// Wishes of a replay are acts of administrators: a token came with the hello.
 void ViewerSession::control_replay(double now_s) {
-  while (const std::optional<ControlReplay> wish = timeline_.take_due(now_s))
+  while (const std::optional<ControlReplayRequest> wish = timeline_.take_due(now_s))
     connection_->send(AdminMessage{++requests_, "", *wish});
 }
 
@@ -290,12 +290,13 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   const std::optional<glm::vec3> hit_m = aim(from_m, direction);
   if (!hit_m) return;
   const Request asked = request_of(tool, *hit_m, direction, ++requests_);
-  std::visit(Overloaded{[&](const auto& request) {
-                          connection_->send(Asked<std::decay_t<decltype(request)>>{request, requests_});
-                        },
-                        [](const SettingsRequest&) {},  // no tool's
-                        [](const LeaveRequest&) {}},
-             asked);
+  std::visit(
+      Overloaded{[&](const auto& request) {
+                   connection_->send(RequestMessage<std::decay_t<decltype(request)>>{request, requests_});
+                 },
+                 [](const SettingsRequest&) {},  // no tool's
+                 [](const LeaveRequest&) {}},
+      asked);
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
   asked_s_[requests_] = now_s;
   if (predict_) foresee(asked, requests_, now_s);
