@@ -19,9 +19,9 @@ std::string difference_of(const TickDelta& simulated, const RecordedFrame& recor
   return {};
 }
 
-Result<std::unique_ptr<World>> restored_from(RecordedState state, Tick tick, RecordedTerrain& terrain,
+Result<std::unique_ptr<World>> restored_from(WorldSnapshot state, Tick tick, RecordedTerrain& terrain,
                                              const GroundGiver& ground) {
-  WorldMoment& moment = state.value.moment;
+  WorldMoment& moment = state.moment;
   if (moment.tick != tick)
     return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
                 std::to_string(moment.tick));

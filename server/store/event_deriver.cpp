@@ -96,9 +96,8 @@ void EventDeriver::add_settings(const TickDelta& delta, std::vector<Event>& even
 EventDeriver::Burst& EventDeriver::burst_near(glm::vec3 place_m, Tick tick) {
   const auto nearest = std::ranges::min_element(
       bursts_, {}, [&](const Burst& burst) { return distance_squared(burst.place_m, place_m); });
-  const bool is_near =
-      nearest != bursts_.end() &&
-      (burst_ticks_ == 0 || distance_squared(nearest->place_m, place_m) <= burst_reach_m * burst_reach_m);
+  const bool is_near = nearest != bursts_.end() &&
+                       distance_squared(nearest->place_m, place_m) <= burst_reach_m * burst_reach_m;
   if (is_near || bursts_.size() >= bursts_max) return *nearest;
   return bursts_.emplace_back(Burst{tick, place_m, 0});
 }

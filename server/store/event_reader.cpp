@@ -19,18 +19,13 @@ tl::unexpected<Error> EventReader::damaged(const std::string& what) const {
 
 Result<EventReader> EventReader::open(Database& database) {
   EventReader reader(database);
-  for (const char* table : {"events", "machine"}) {
-    const auto has = TRY(database.has_table(table));
-    if (!has) return reader;
-  }
-  reader.exists_ = true;
   TRY(reader.look());
   return reader;
 }
 
-/// Where the first row of the machine's begins. A recording that an earlier release began has it later.
+/// Where the first row of the machine's begins. A recording that was gone on with may have it later.
 Result<void> EventReader::look() {
-  if (!exists_ || from_) return {};
+  if (from_) return {};
   const auto row = TRY(database_->number("SELECT min(tick) FROM machine"));
   if (!row.has_value()) return {};
   const auto tick = static_cast<Tick>(*row);

@@ -16,11 +16,6 @@ tl::unexpected<Error> KeyframeReader::damaged(const std::string& what, Tick tick
 Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues header) {
   KeyframeReader reader(database);
   reader.header_ = std::move(header);
-  for (const char* table : {"keyframe_states", "keyframe_chunks", "keyframe_pieces"}) {
-    const auto has = TRY(database.has_table(table));
-    if (!has) return reader;
-  }
-  reader.exists_ = true;
   const std::pair<Statement*, std::string> statements[] = {
       {&reader.select_chunk_, schema::select_chunk()},
       {&reader.select_piece_, schema::select_from("keyframe_pieces")},
@@ -33,14 +28,12 @@ Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues he
 }
 
 Result<uint64_t> KeyframeReader::count() {
-  if (!exists_) return uint64_t{0};
   const auto count = database_->number("SELECT count(*) FROM keyframe_states");
   TRY(count);
   return static_cast<uint64_t>(count->value_or(0));
 }
 
 Result<std::optional<Tick>> KeyframeReader::tick_before(Tick tick) {
-  if (!exists_) return std::optional<Tick>();
   const auto latest =
       database_->number("SELECT max(tick) FROM keyframe_states WHERE tick <= " + std::to_string(tick));
   TRY(latest);

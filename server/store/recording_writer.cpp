@@ -217,10 +217,7 @@ Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part)
   std::string sql;
   for (const char* table : {"frames", "commands", "events", "machine"})
     sql += std::string("DELETE FROM ") + table + " WHERE tick <= " + tick + ";";
-  for (const char* table : {"states", "state_moments", "keyframes"})
-    sql += std::string("DELETE FROM ") + table + " WHERE tick < " + tick + ";";
-  const auto has_short = TRY(database.has_table("short_keyframes"));
-  if (has_short) sql += "DELETE FROM short_keyframes WHERE tick < " + tick;
+  sql += "DELETE FROM state_moments WHERE tick < " + tick + ";";
   TRY(database.execute(sql));
   TRY(keyframes->drop_before(part.tick, part.next_piece));
   TRY(count_bytes());
@@ -280,18 +277,13 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   const auto recorded = TRY(header_to_resume(path, header, start.keyframe));
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database), recorded, limit);
-  TRY(state->database.execute(schema::create_later_tables()));
+  TRY(state->database.execute(schema::create_tables()));
   TRY(state->prepare());
   TRY(state->begin());
-  const auto has_short = TRY(state->database.has_table("short_keyframes"));
-  std::vector<std::string> tables = {"frames",  "keyframes",       "commands",       "events",
-                                     "machine", "keyframe_states", "keyframe_chunks"};
-  if (has_short) tables.emplace_back("short_keyframes");
-  std::string sql = "DELETE FROM ended;";
-  for (const std::string& table : tables)
-    sql += "DELETE FROM " + table + " WHERE tick > " + std::to_string(tick) + ";";
-  for (const char* table : {"states", "state_moments"})
-    sql += std::string("DELETE FROM ") + table + " WHERE tick >= " + std::to_string(tick) + ";";
+  const std::string at = std::to_string(tick);
+  std::string sql = "DELETE FROM ended; DELETE FROM state_moments WHERE tick >= " + at + ";";
+  for (const char* table : {"frames", "commands", "events", "machine", "keyframe_states", "keyframe_chunks"})
+    sql += std::string("DELETE FROM ") + table + " WHERE tick > " + at + ";";
   TRY(state->database.execute(sql));
   TRY(state->keyframes->take_up());
   state->ring.begin({0, 0}, 0);  // all that was there before
