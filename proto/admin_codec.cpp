@@ -50,8 +50,9 @@ float read_replay_speed(float speed, FieldChecker& check) {
 }
 
 ControlReplayRequest read(const wire::ControlReplay& from, FieldChecker& check) {
-  return {check.kind<ReplayPlay>(from.play(), "play of a replay"), read_replay_speed(from.speed(), check),
-          check.kind<ReplayMove>(from.move(), "move of a replay"), from.value()};
+  return {check.asked_kind<ReplayPlay>(from.play(), "play of a replay"),
+          read_replay_speed(from.speed(), check),
+          check.asked_kind<ReplayMove>(from.move(), "move of a replay"), from.value()};
 }
 
 AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
@@ -88,7 +89,7 @@ SessionRow read(const wire::SessionRow& from, FieldChecker& check) {
   row.name = check.text(from.name(), limits::person_name_bytes_max, "name of a session");
   row.program = check.text(from.program(), limits::client_name_bytes_max, "program of a session");
   row.address = check.text(from.address(), limits::address_bytes_max, "address of a session");
-  row.role = check.kind<Role>(from.role(), "role of a session");
+  row.role = check.kind_or(from.role(), Role::viewer);
   row.token_id = from.token_id();
   row.joined_s = from.joined_s();
   row.sent_bytes = from.sent_bytes();

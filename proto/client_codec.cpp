@@ -62,6 +62,7 @@ struct Writing {
   void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
+  void operator()(const UnknownMessage&) const {}
 };
 
 InterestMessage read(const wire::Interest& from, FieldChecker& check) {
@@ -72,7 +73,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   CarveMessage carve;
   carve.request = from.request();
   carve.shape = check.shape(from.shape());
-  carve.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
+  carve.pattern = check.asked_kind<SeedPattern>(from.pattern(), "pattern");
   carve.seeds = from.seeds();
   carve.random_seed = from.random_seed();
   carve.impact_m = check.vec3(from.impact(), "impact");
@@ -82,7 +83,8 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
 }
 
 PaintMessage read(const wire::Paint& from, FieldChecker& check) {
-  return {{check.shape(from.shape()), check.kind<Material>(from.material(), "material")}, from.request()};
+  return {{check.shape(from.shape()), check.asked_kind<Material>(from.material(), "material")},
+          from.request()};
 }
 
 RepairMessage read(const wire::Repair& from, FieldChecker& check) {
@@ -112,6 +114,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
   FieldChecker check("client message");
   const auto checked = [&](auto value) -> Result<ClientMessage> {
     if (check.failed()) return tl::unexpected(check.error());
+    if constexpr (requires { value.request; })
+      if (!check.unknown().empty()) return UnknownMessage{value.request, check.unknown()};
     return value;
   };
   switch (from.kind_case()) {
@@ -150,7 +154,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::KIND_NOT_SET:
       break;
   }
-  return fail("client message: of no known kind");
+  return UnknownMessage{};
 }
 
 }  // namespace scree

@@ -46,6 +46,8 @@ void write(wire::Hello& to, const HelloMessage& from) {
   to.set_name(showable(from.name, limits::person_name_bytes_max));
   to.set_token(showable(from.token, limits::access_token_bytes_max));
   to.set_lacks_kernels(from.lacks_kernels);
+  if (!from.lacks_kernels) to.set_operations(from.operations);
+  to.set_oldest_protocol(from.oldest_protocol);
   to.set_meets(from.meets);
   to.set_ticket(from.ticket);
   to.set_world(from.world);
@@ -54,13 +56,15 @@ void write(wire::Hello& to, const HelloMessage& from) {
 HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   HelloMessage hello;
   hello.protocol = from.protocol();
-  // In another version the fields may have another meaning: only its number is read, for the refusal.
-  if (hello.protocol != protocol_version) return hello;
+  hello.oldest_protocol = from.oldest_protocol();
+  // In another version the fields may have another meaning: only its numbers are read, for the refusal.
+  if (!shares_protocol(hello)) return hello;
   hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
   hello.eye_m = check.vec3(from.eye(), "eye");
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
   hello.lacks_kernels = from.lacks_kernels();
+  hello.operations = from.operations() == 0 ? operation_kinds_first : from.operations();
   hello.meets = from.meets();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
@@ -103,7 +107,7 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
   welcome.terrain.voxel_size_m = voxel_size_m;
   welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   welcome.replay = from.replay();
-  welcome.role = check.kind<Role>(from.role(), "role");
+  welcome.role = check.kind_or(from.role(), Role::viewer);
   welcome.world = from.world();
   welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   welcome.resumed = from.resumed();

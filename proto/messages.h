@@ -24,7 +24,16 @@
 
 namespace scree {
 
-inline constexpr uint32_t protocol_version = 2;
+/// The protocol that this program speaks. Additions keep the number, for what a peer does not know it skips
+/// (docs/protocol.md).
+inline constexpr uint32_t protocol_version = 3;
+
+/// Kinds of operation that there are, and that a client of this program carries out.
+inline constexpr uint32_t operation_kinds = std::variant_size_v<Operation>;
+
+/// Kinds of operation in the first release that spoke this protocol: of a client that does not say its own.
+inline constexpr uint32_t operation_kinds_first = 7;
+static_assert(operation_kinds >= operation_kinds_first);
 
 /// Default TCP port of a server.
 inline constexpr uint16_t default_port = 4177;
@@ -39,10 +48,25 @@ struct HelloMessage {
   std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
   /// An access token, or the server's admin token; at most limits::access_token_bytes_max. Empty: none.
   std::string token{};
-  bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
-  std::string ticket{};        ///< of the session that goes on, as its welcome gave it; empty: none
-  uint64_t world = 0;          ///< of the OfferMessage that comes next; 0: none comes
-  bool meets = false;          ///< it is a person's: PersonsMessage and SaidMessage are wanted
+  bool lacks_kernels = false;    ///< it gets bricks and whole pieces instead of operations
+  std::string ticket{};          ///< of the session that goes on, as its welcome gave it; empty: none
+  uint64_t world = 0;            ///< of the OfferMessage that comes next; 0: none comes
+  bool meets = false;            ///< it is a person's: PersonsMessage and SaidMessage are wanted
+  uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
+  uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
+};
+
+/// Whether a server of this program and the client share a protocol: then it is protocol_version.
+constexpr bool shares_protocol(const HelloMessage& hello) {
+  const uint32_t oldest = hello.oldest_protocol == 0 ? hello.protocol : hello.oldest_protocol;
+  return oldest <= protocol_version && protocol_version <= hello.protocol;
+}
+
+/// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
+/// and counted, so that a later version may send what an older one has never heard of.
+struct UnknownMessage {
+  std::optional<uint32_t> request{};  ///< the number of a request, which is answered by a refusal
+  std::string value{};                ///< of a request: the unknown value, in words
 };
 
 /// Chunks that the client has kept from earlier, in ascending order, none twice.
@@ -140,7 +164,7 @@ struct AskTilesMessage {
 using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
                  AckMessage, AdminMessage, CursorMessage, WatchMessage, AskGroundMessage, OfferMessage,
-                 GoodbyeMessage, AskTilesMessage, SayMessage>;
+                 GoodbyeMessage, AskTilesMessage, SayMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -369,10 +393,11 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
-                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
-                                   GroundMessage, AdminListMessage, KeptMessage, TileMessage, PersonsMessage,
-                                   SaidMessage, PlaybackMessage, MarksMessage, RecordedCursorsMessage>;
+using ServerMessage =
+    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
+                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
+                 KeptMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage, MarksMessage,
+                 RecordedCursorsMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -40,7 +40,7 @@ PersonsMessage read(const wire::Persons& from, FieldChecker& check) {
       check.refuse("the sessions of persons do not ascend");
     persons.persons.push_back({person.session(),
                                check.text(person.name(), limits::person_name_bytes_max, "name of a person"),
-                               check.kind<Role>(person.role(), "role")});
+                               check.kind_or(person.role(), Role::viewer)});
   }
   persons.more = from.more();
   persons.chat = from.chat();

@@ -24,6 +24,14 @@ void FieldChecker::refuse(const std::string& reason) {
   if (!failed()) error_.message = std::string(subject_) + ": " + reason;
 }
 
+void FieldChecker::refuse_kind(int64_t number, const char* what) {
+  refuse(std::string(what) + " " + std::to_string(number) + " is unknown");
+}
+
+void FieldChecker::note_unknown(int64_t number, const char* what) {
+  if (unknown_.empty()) unknown_ = std::string(what) + " " + std::to_string(number);
+}
+
 float FieldChecker::finite(float value, const char* what) {
   if (std::isfinite(value)) return value;
   refuse(std::string(what) + " is not a finite number");
@@ -62,7 +70,7 @@ std::string FieldChecker::text(const std::string& value, size_t bytes_max, const
 
 Shape FieldChecker::shape(const wire::Shape& value) {
   Shape shape;
-  shape.kind = kind<ShapeKind>(value.kind(), "kind of shape");
+  shape.kind = asked_kind<ShapeKind>(value.kind(), "kind of shape");
   shape.a = vec3(value.a(), "shape.a");
   if (traits_of(shape.kind).has_b) shape.b = vec3(value.b(), "shape.b");
   shape.radius_m = finite(value.radius_m(), "shape.radius_m");

@@ -42,6 +42,7 @@ struct Connection::Impl {
   tcp::socket socket{context};           ///< until it is connected
   std::shared_ptr<Transport> transport;  ///< from then on
   Intake intake;
+  uint64_t noted_unknown = 0;  ///< of the intake, as the counters have it
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
   std::deque<std::vector<uint8_t>> outbox;
   size_t front_sent_bytes = 0;  ///< sent bytes of the first message in the outbox
@@ -70,6 +71,7 @@ struct Connection::Impl {
   void watch_silence();
   void read();
   void take_messages();
+  void note_unknown();
   void enqueue(ServerMessage message, size_t bytes);
   void open_up();
   void push(std::vector<uint8_t> bytes);
@@ -190,6 +192,7 @@ void Connection::Impl::take_messages() {
       }
     }
     auto next = intake.next();
+    note_unknown();
     if (!next) return end(next.error().message, next.error().refusal);
     if (!*next) break;
     if (std::holds_alternative<WelcomeMessage>((*next)->message)) {
@@ -199,6 +202,13 @@ void Connection::Impl::take_messages() {
     }
   }
   read();
+}
+
+void Connection::Impl::note_unknown() {
+  if (intake.unknown() == noted_unknown) return;
+  noted_unknown = intake.unknown();
+  const std::scoped_lock lock(mutex);
+  counters.messages_unknown = noted_unknown;
 }
 
 /// The welcome has come.

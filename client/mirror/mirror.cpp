@@ -72,6 +72,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
             status_ = status;
             return {};
           },
+          // Of a later release; nothing that this one has to apply.
+          [](const UnknownMessage&) -> Done { return {}; },
           // For the person; nothing of the world.
           [](const ReplyMessage&) -> Done { return {}; },
           [](const AdminListMessage&) -> Done { return {}; },

@@ -127,6 +127,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           // On TCP the bytes that wait for a client say how far behind it is.
           [](const AckMessage&) -> Done { return {}; },
           [&](const AdminMessage& admin) { return administer(session, admin); },
+          [&](const UnknownMessage& unknown) -> Done {
+            skip(session, unknown);
+            return {};
+          },
           [&](const CursorMessage& cursor) -> Done {
             publisher_.set_cursor(
                 {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
@@ -156,6 +160,20 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
       },
       message);
+}
+
+/// The client is of a later release, or made by somebody else.
+void NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
+  ++counts_.messages_unknown;
+  if (unknown.request) {
+    ++counts_.requests;
+    return refuse_request(
+        session, *unknown.request,
+        {Refusal::value_unknown,
+         fmt::format("this server does not know {}: it is of another release", unknown.value)});
+  }
+  say(spdlog::level::info, "message_unknown",
+      fmt::format("session {}: a message of an unknown kind is skipped", session.id()));
 }
 
 Result<float> NetHost::granted_radius(glm::vec3 eye_m, float radius_m) {
@@ -217,6 +235,13 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
   const auto* settings = std::get_if<SettingsRequest>(&message.act);
   if (settings == nullptr) {
     administer_sessions(session, message);
+    return {};
+  }
+  // The act of a later release reads as none at all, and must not count as done.
+  if (settings->settings.empty()) {
+    ++counts_.requests;
+    refuse_request(session, message.request,
+                   {Refusal::value_unknown, "an administrator's request with no act that this server knows"});
     return {};
   }
   std::string changes;

@@ -105,6 +105,7 @@ class NetHost final : public SessionHost, public EntranceHost, public HttpHost {
   std::shared_ptr<ClientSession> queue(Outgoing&& outgoing);
   void answer(const TickDelta& delta, const TickSpan& span);
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
+  void skip(ClientSession& session, const UnknownMessage& unknown);
   void refuse_request(ClientSession& session, uint32_t request, const Refused& refused);
   void grant(const ServiceLimits& service);
   void fit_descriptors();

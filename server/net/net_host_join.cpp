@@ -24,11 +24,15 @@ bool same_right(const Grant& a, const Grant& b) {
 }  // namespace
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  if (hello.protocol != protocol_version)
-    return refuse(Refusal::protocol_version, "this server speaks protocol version " +
-                                                 std::to_string(protocol_version) + ", the client version " +
-                                                 std::to_string(hello.protocol) +
-                                                 ": use a client and a server of the same release");
+  if (!shares_protocol(hello)) {
+    const bool one = hello.oldest_protocol == 0 || hello.oldest_protocol == hello.protocol;
+    const std::string spoken = one ? fmt::format("version {}", hello.protocol)
+                                   : fmt::format("versions {} to {}", hello.oldest_protocol, hello.protocol);
+    return refuse(Refusal::protocol_version,
+                  fmt::format("this server speaks protocol version {}, the client {}: use a client and a "
+                              "server of the same release",
+                              protocol_version, spoken));
+  }
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const auto grant = TRY(grant_to(session, hello));
   const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
@@ -37,7 +41,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   const bool has_place = before && scree::has_place(*before, steady_now_s());
   TRY(find_room(session, grant, has_place));
   Entry& entry = enter(session, before ? before->session : session.id());
-  publisher_.join(session.id(), hello.eye_m, *radius_m, !hello.lacks_kernels, hello.world == world_);
+  publisher_.join(session.id(), hello.eye_m, *radius_m, hello.lacks_kernels ? 0 : hello.operations,
+                  hello.world == world_);
   entry.grant = grant;
   entry.party = join_party(session, grant, before ? before->party : 0);
   entry.name = grant.name;

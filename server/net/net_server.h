@@ -41,7 +41,8 @@ struct NetStats {
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
-  uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
+  uint64_t messages_unknown = 0;  ///< skipped: of a kind, or with a value, that this version does not know
+  uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
   WebStats web;
 };
 

@@ -56,9 +56,9 @@ Publisher::Publisher(const PublisherConfig& config, Workers& workers)
       tiles_(config.terrain.heights),
       clock_(config.tick_rate_hz) {}
 
-void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers) {
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers) {
   leave(session);
-  Client client{session, ClientView(eye_m, radius_m, has_kernels)};
+  Client client{session, ClientView(eye_m, radius_m, operations)};
   if (offers) client.offer.await(ticks_of(limits::offer_wait_s));
   clients_.emplace(session, std::move(client));
 }

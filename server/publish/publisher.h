@@ -95,9 +95,9 @@ class Publisher {
   /// `workers` outlives the publisher.
   Publisher(const PublisherConfig& config, Workers& workers);
 
-  /// `has_kernels`: whether the client can carry out operations; then it gets motions, else whole poses
+  /// `operations`: as of ClientView; where there are any, the client gets motions, else whole poses
   /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it.
-  void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers = false);
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers = false);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
   /// Takes the client's word for the chunks that it has; of this world.

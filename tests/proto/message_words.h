@@ -98,6 +98,10 @@ inline Lines describe(const HelloMessage& m) {
     lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
   return lines;
 }
+inline Lines describe(const UnknownMessage& m) {
+  if (!m.request) return {"unknown: skipped"};
+  return {fmt::format("unknown: {}, request {} is refused", m.value, *m.request)};
+}
 inline Lines describe(const OfferMessage& m) {
   Lines lines{fmt::format("offer: world 0x{:016x}", m.world)};
   for (size_t i = 0; i < m.chunks.size(); ++i)

@@ -165,7 +165,8 @@ inline std::vector<ServerMessage> server_messages() {
       AdminListMessage{
           3,
           {{7, "Ann", "scree-viewer", "127.0.0.1", Role::builder, 1ULL << 63U, 60, 1ULL << 40U, true}},
-          {{"10.0.0.1", 90, "too loud"}}}};
+          {{"10.0.0.1", 90, "too loud"}}},
+      UnknownMessage{}};
 }
 
 inline std::vector<ClientMessage> client_messages() {
@@ -209,7 +210,8 @@ inline std::vector<ClientMessage> client_messages() {
           AskGroundMessage{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
-          GoodbyeMessage{}};
+          GoodbyeMessage{},
+          UnknownMessage{}};
 }
 
 /// The message without its length prefix.
