@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/text.h"
@@ -45,7 +46,7 @@ static_assert(wire::ReplayMove_ARRAYSIZE == kind_count<ReplayMove>);
 float read_replay_speed(float speed, FieldChecker& check) {
   const float times = std::abs(check.finite(speed, "speed of a replay"));
   if (times != 0.0F && (times < replay_speed_least || times > replay_speed_most))
-    check.refuse("the speed of a replay is " + std::to_string(speed) + ", not 0.1 to 16 times real time");
+    check.refuse(fmt::format("the speed of a replay is {}, not 0.1 to 16 times real time", speed));
   return speed;
 }
 
@@ -141,8 +142,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
   list.request = from.request();
   const auto rows = static_cast<size_t>(std::max(from.sessions_size(), from.bans_size()));
   if (rows > limits::admin_rows_max) {
-    check.refuse(std::to_string(rows) + " rows are over the limit of " +
-                 std::to_string(limits::admin_rows_max));
+    check.refuse(fmt::format("{} rows are over the limit of {}", rows, limits::admin_rows_max));
     return list;
   }
   for (const wire::SessionRow& row : from.sessions()) list.sessions.push_back(read(row, check));

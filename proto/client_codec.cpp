@@ -1,4 +1,6 @@
 // ClientMessage to bytes and back.
+#include <fmt/format.h>
+
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
 #include "proto/height_wire.h"
@@ -93,8 +95,7 @@ RepairMessage read(const wire::Repair& from, FieldChecker& check) {
   repair.chunks = check.chunks(from.chunks(), limits::repair_chunks_max, "chunks of a repair");
   repair.hashes.assign(from.hashes().begin(), from.hashes().end());
   if (repair.hashes.size() != repair.chunks.size())
-    check.refuse(std::to_string(repair.hashes.size()) + " hashes for " +
-                 std::to_string(repair.chunks.size()) + " chunks");
+    check.refuse(fmt::format("{} hashes for {} chunks", repair.hashes.size(), repair.chunks.size()));
   return repair;
 }
 

@@ -1,6 +1,7 @@
 #include "proto/join_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <functional>
 
 #include "proto/byte_stream.h"
@@ -26,7 +27,7 @@ std::string pack_hashes(const std::vector<uint16_t>& hashes) {
 
 std::vector<uint16_t> unpack_hashes(const std::string& packed, size_t count, FieldChecker& check) {
   if (packed.size() != count * short_hash_bytes) {
-    check.refuse(std::to_string(packed.size()) + " bytes of hashes for " + std::to_string(count) + " chunks");
+    check.refuse(fmt::format("{} bytes of hashes for {} chunks", packed.size(), count));
     return {};
   }
   std::vector<uint16_t> hashes(count);
@@ -143,8 +144,7 @@ KeptMessage read_kept(const wire::Kept& from, FieldChecker& check) {
   kept.chunks = check.chunks(from.chunks(), limits::kept_chunks_max, "chunks kept");
   kept.hashes.assign(from.hashes().begin(), from.hashes().end());
   if (kept.hashes.size() != kept.chunks.size())
-    check.refuse(std::to_string(kept.hashes.size()) + " hashes for " + std::to_string(kept.chunks.size()) +
-                 " chunks kept");
+    check.refuse(fmt::format("{} hashes for {} chunks kept", kept.hashes.size(), kept.chunks.size()));
   return kept;
 }
 

@@ -1,5 +1,7 @@
 #include "client/connection/intake.h"
 
+#include <fmt/format.h>
+
 #include "proto/codec.h"
 
 namespace scree {
@@ -36,8 +38,8 @@ tl::expected<void, ConnectionEnd> Intake::look_at(const ServerMessage& message) 
     return {};
   }
   if (first->protocol != protocol_version)
-    return end("the server speaks protocol " + std::to_string(first->protocol) + ", this client " +
-               std::to_string(protocol_version) + "; use the same version of both");
+    return end(fmt::format("the server speaks protocol {}, this client {}; use the same version of both",
+                           first->protocol, protocol_version));
   welcome_ = *first;
   return {};
 }

@@ -1,6 +1,7 @@
 #include "server/formats/recording_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <recording.pb.h>
 
 #include "proto/codec.h"
@@ -138,8 +139,8 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
     keyframe.pieces.push_back(read_piece(as_span(packed), check));
     voxels += keyframe.pieces.back().volume.window.codes.size();
     if (voxels > limits::piece_voxels_max)
-      check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                   " voxels (limits.piece_voxels_max)");
+      check.refuse(
+          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   }
   keyframe.ledger = read(from.ledger());
   keyframe.field_hash = from.field_hash();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 #include "shared/base/check.h"
@@ -126,9 +127,9 @@ Result<void> ReplayPlayer::look() {
 void ReplayPlayer::tell_dropped(Tick tick, const char* what, std::optional<Tick>& told) {
   const Tick first = source_->first_tick();
   if (!options_.tell || std::exchange(told, first) == first) return;
-  options_.tell("tick " + std::to_string(tick) + what +
-                ", which the recording's ring has dropped: the replay " + "goes on at tick " +
-                std::to_string(first) + ", where it begins now");
+  options_.tell(fmt::format(
+      "tick {}{}, which the recording's ring has dropped: the replay goes on at tick {}, where it begins now",
+      tick, what, first));
 }
 
 /// Its first tick has a keyframe. The jump waits for a tick with poses.

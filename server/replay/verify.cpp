@@ -1,5 +1,6 @@
 #include "server/replay/verify.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include "server/formats/world_codec.h"
@@ -29,7 +30,7 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   const Tick tick = world->tick();
   world.reset();  // there is room for one
   auto restored = restored_from(std::move(**state), tick, terrain, ground);
-  if (!restored) return fail(recording.path() + ": " + restored.error().message);
+  if (!restored) return fail(fmt::format("{}: {}", recording.path(), restored.error().message));
   world = std::move(*restored);
   ++report.restarts;
   return true;
@@ -47,8 +48,8 @@ Result<void> compare_events(RecordingReader& recording, const std::vector<Event>
   const auto recorded = recording.events(tick);
   TRY(recorded);
   if (*recorded != simulated)
-    report.difference = std::to_string(simulated.size()) + " events, recorded were " +
-                        std::to_string(recorded->size()) + ", or others";
+    report.difference =
+        fmt::format("{} events, recorded were {}, or others", simulated.size(), recorded->size());
   report.events += simulated.size();
   return {};
 }

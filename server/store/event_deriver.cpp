@@ -1,6 +1,7 @@
 #include "server/store/event_deriver.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "shared/base/overloaded.h"
 #include "shared/operation/operation.h"
@@ -88,8 +89,9 @@ void EventDeriver::add_settings(const TickDelta& delta, std::vector<Event>& even
   if (delta.settings.empty()) return;
   for (const SettingValue& setting : delta.settings)
     if (std::ranges::find(settings_, setting) == settings_.end())
-      events.push_back(
-          {.kind = EventKind::setting, .tick = delta.tick, .text = setting.name + "=" + setting.value});
+      events.push_back({.kind = EventKind::setting,
+                        .tick = delta.tick,
+                        .text = fmt::format("{}={}", setting.name, setting.value)});
   settings_ = delta.settings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/formats/world_codec.h"
@@ -49,11 +50,12 @@ Result<void> RecordingReader::State::read_header() {
   const auto bytes_read = TRY(database.get(select, 0));
   if (!bytes_read.has_value()) return fail(database.path() + ": damaged: it has no header");
   const auto recorded = decode_recorded_header(*bytes_read);
-  if (!recorded) return fail(database.path() + ": damaged: " + recorded.error().message);
+  if (!recorded) return fail(fmt::format("{}: damaged: {}", database.path(), recorded.error().message));
   if (recorded->format != recording_format)
-    return fail(database.path() + ": damaged: its header is of format " + std::to_string(recorded->format));
+    return fail(fmt::format("{}: damaged: its header is of format {}", database.path(), recorded->format));
   auto understood = from_recorded(*recorded);
-  if (!understood) return fail(database.path() + ": made by another release: " + understood.error().message);
+  if (!understood)
+    return fail(fmt::format("{}: made by another release: {}", database.path(), understood.error().message));
   header = std::move(*understood);
   return {};
 }
@@ -77,15 +79,15 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   const auto rows = TRY(keyframe_rows->count());
   if (!first->has_value() && without_ticks == WithoutTicks::awaited && !is_ended) return {};
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
-  if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
+  if (**first < 1) return fail(fmt::format("{}: damaged: it begins at tick {}", database.path(), **first));
   const auto begun = TRY(state_up_to(static_cast<Tick>(**first - 1)));
   if (*first != 1 && begun.has_value() && static_cast<Tick>(**first) - 1 - *begun > limits::unseen_ticks_max)
-    return fail(database.path() + ": damaged: its first tick is " + std::to_string(**first) +
-                ", too far from its state after tick " + std::to_string(*begun) +
-                " (limits.unseen_ticks_max)");
+    return fail(fmt::format(
+        "{}: damaged: its first tick is {}, too far from its state after tick {} (limits.unseen_ticks_max)",
+        database.path(), **first, *begun));
   if ((*first != 1 && !begun.has_value()) || **last - **first != **count - 1)
-    return fail(database.path() + ": damaged: ticks are missing (" + std::to_string(**count) + " from " +
-                std::to_string(**first) + " to " + std::to_string(**last) + ")");
+    return fail(fmt::format("{}: damaged: ticks are missing ({} from {} to {})", database.path(), **count,
+                            **first, **last));
   first_tick = static_cast<Tick>(**first);
   last_tick = static_cast<Tick>(**last);
   keyframes = rows;
@@ -132,7 +134,7 @@ Result<void> RecordingReader::State::read_end() {
 template <typename T>
 Result<T> RecordingReader::State::decoded(Result<T> result, Tick tick) const {
   if (result) return result;
-  return fail(database.path() + ": damaged at tick " + std::to_string(tick) + ": " + result.error().message);
+  return fail(fmt::format("{}: damaged at tick {}: {}", database.path(), tick, result.error().message));
 }
 
 RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -198,8 +200,9 @@ Result<void> RecordingReader::look_again() {
   for (const auto* number : {&first, &last})
     if (!*number) return tl::unexpected(number->error());
   if (last->value_or(0) < static_cast<int64_t>(state.last_tick))
-    return fail(path() + ": its ticks after " + std::to_string(last->value_or(0)) +
-                " are gone, because its world was rolled back: open it again");
+    return fail(
+        fmt::format("{}: its ticks after {} are gone, because its world was rolled back: open it again",
+                    path(), last->value_or(0)));
   if (!first->has_value()) return {};
   const Tick before = std::exchange(state.first_tick, static_cast<Tick>(**first));
   state.last_tick = static_cast<Tick>(**last);
@@ -221,10 +224,9 @@ Result<std::optional<WorldSnapshot>> RecordingReader::state(Tick tick) {
   if (!row.has_value()) return std::optional<WorldSnapshot>();
   auto value = TRY(state_->decoded(decode_world(*row), tick));
   const auto at = TRY(state_->keyframe_rows->tick_before(tick));
-  if (at != tick)
-    return fail(path() + ": damaged: the state of tick " + std::to_string(tick) + " has no terrain");
+  if (at != tick) return fail(fmt::format("{}: damaged: the state of tick {} has no terrain", path(), tick));
   if (!value.bricks.empty())
-    return fail(path() + ": damaged: the state of tick " + std::to_string(tick) + " has bricks");
+    return fail(fmt::format("{}: damaged: the state of tick {} has bricks", path(), tick));
   return std::optional(std::move(value));
 }
 
@@ -241,8 +243,8 @@ Result<std::vector<BrickPatch>> RecordingReader::chunk(ChunkCoord chunk, uint64_
 }
 
 Result<std::optional<Tick>> RecordingReader::State::state_up_to(Tick tick) {
-  const auto row = TRY(database.number("SELECT max(tick) FROM state_moments WHERE tick >= 0 AND tick <= " +
-                                       std::to_string(tick)));
+  const auto row = TRY(database.number(
+      fmt::format("SELECT max(tick) FROM state_moments WHERE tick >= 0 AND tick <= {}", tick)));
   return row.has_value() ? std::optional(static_cast<Tick>(*row)) : std::nullopt;
 }
 
@@ -260,9 +262,10 @@ Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
 tl::unexpected<Error> RecordingReader::State::missing(Tick tick) {
   const auto first = database.number("SELECT min(tick) FROM frames");
   if (first && first->value_or(0) > static_cast<int64_t>(tick))
-    return fail(database.path() + ": its ring moved past tick " + std::to_string(tick) +
-                " while it was read, and begins at tick " + std::to_string(**first) + " now: read it again");
-  return fail(database.path() + ": damaged: tick " + std::to_string(tick) + " is missing");
+    return fail(fmt::format(
+        "{}: its ring moved past tick {} while it was read, and begins at tick {} now: read it again",
+        database.path(), tick, **first));
+  return fail(fmt::format("{}: damaged: tick {} is missing", database.path(), tick));
 }
 
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
@@ -271,8 +274,8 @@ Result<RecordedFrame> RecordingReader::frame(Tick tick) {
   if (!bytes.has_value()) return state_->missing(tick);
   auto frame = state_->decoded(decode_recorded_frame(*bytes), tick);
   if (frame && frame->tick != tick)
-    return fail(path() + ": damaged: the frame of tick " + std::to_string(tick) + " says that it is tick " +
-                std::to_string(frame->tick));
+    return fail(
+        fmt::format("{}: damaged: the frame of tick {} says that it is tick {}", path(), tick, frame->tick));
   return frame;
 }
 
