@@ -59,7 +59,7 @@ HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   hello.protocol = from.protocol();
   hello.oldest_protocol = from.oldest_protocol();
   // In another version the fields may have another meaning: only its numbers are read, for the refusal.
-  if (!shares_protocol(hello)) return hello;
+  if (!shares_protocol(hello.protocol, hello.oldest_protocol)) return hello;
   hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
   hello.eye_m = check.vec3(from.eye(), "eye");
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");

@@ -12,6 +12,7 @@
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
+#include "proto/protocol_version.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -23,17 +24,6 @@
 #include "shared/operation/request.h"
 
 namespace scree {
-
-/// The protocol that this program speaks. Additions keep the number, for what a peer does not know it skips
-/// (docs/protocol.md).
-inline constexpr uint32_t protocol_version = 3;
-
-/// Kinds of operation that there are, and that a client of this program carries out.
-inline constexpr uint32_t operation_kinds = std::variant_size_v<Operation>;
-
-/// Kinds of operation in the first release that spoke this protocol: of a client that does not say its own.
-inline constexpr uint32_t operation_kinds_first = 7;
-static_assert(operation_kinds >= operation_kinds_first);
 
 /// Default TCP port of a server.
 inline constexpr uint16_t default_port = 4177;
@@ -55,12 +45,6 @@ struct HelloMessage {
   uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
   uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
 };
-
-/// Whether a server of this program and the client share a protocol: then it is protocol_version.
-constexpr bool shares_protocol(const HelloMessage& hello) {
-  const uint32_t oldest = hello.oldest_protocol == 0 ? hello.protocol : hello.oldest_protocol;
-  return oldest <= protocol_version && protocol_version <= hello.protocol;
-}
 
 /// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
 /// and counted, so that a later version may send what an older one has never heard of.

@@ -24,7 +24,7 @@ bool same_right(const Grant& a, const Grant& b) {
 }  // namespace
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  if (!shares_protocol(hello)) {
+  if (!shares_protocol(hello.protocol, hello.oldest_protocol)) {
     const bool one = hello.oldest_protocol == 0 || hello.oldest_protocol == hello.protocol;
     const std::string spoken = one ? fmt::format("version {}", hello.protocol)
                                    : fmt::format("versions {} to {}", hello.oldest_protocol, hello.protocol);

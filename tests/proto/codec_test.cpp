@@ -389,15 +389,5 @@ TEST(Codec, an_admins_text_over_its_limit_is_refused_by_name) {
                     "value of a setting has 65 bytes"));
 }
 
-TEST(Codec, an_empty_message_and_one_of_an_unknown_kind_are_unknown_and_no_error) {
-  for (const std::vector<uint8_t>& body : {std::vector<uint8_t>(), std::vector<uint8_t>{0x7A, 0x00}}) {
-    const auto of_client = decode_client(body);
-    ASSERT_TRUE(of_client && std::holds_alternative<UnknownMessage>(*of_client));
-    EXPECT_FALSE(std::get<UnknownMessage>(*of_client).request) << "it asks for nothing";
-    const auto of_server = decode_server(body);
-    ASSERT_TRUE(of_server && std::holds_alternative<UnknownMessage>(*of_server));
-  }
-}
-
 }  // namespace
 }  // namespace scree

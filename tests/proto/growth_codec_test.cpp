@@ -27,6 +27,16 @@ TEST(Growth, every_message_decodes_as_before_with_unknown_fields_in_it_and_aroun
   }
 }
 
+TEST(Growth, an_empty_message_and_one_of_an_unknown_kind_are_unknown_and_no_error) {
+  for (const std::vector<uint8_t>& body : {std::vector<uint8_t>(), std::vector<uint8_t>{0x7A, 0x00}}) {
+    const auto of_client = decode_client(body);
+    ASSERT_TRUE(of_client && std::holds_alternative<UnknownMessage>(*of_client));
+    EXPECT_FALSE(std::get<UnknownMessage>(*of_client).request) << "it asks for nothing";
+    const auto of_server = decode_server(body);
+    ASSERT_TRUE(of_server && std::holds_alternative<UnknownMessage>(*of_server));
+  }
+}
+
 TEST(Growth, an_unknown_kind_with_content_is_unknown_and_malformed_bytes_are_an_error) {
   const auto body = std::span(unknown_message).subspan(length_prefix_bytes);
   EXPECT_TRUE(std::holds_alternative<UnknownMessage>(*decode_client(body)));
@@ -91,19 +101,13 @@ TEST(Growth, a_client_that_does_not_say_its_operations_knows_those_of_the_first_
 }
 
 TEST(Growth, peers_share_a_protocol_when_one_speaks_the_others) {
-  const auto shares = [](uint32_t newest, uint32_t oldest) {
-    HelloMessage hello;
-    hello.protocol = newest;
-    hello.oldest_protocol = oldest;
-    return shares_protocol(hello);
-  };
-  EXPECT_TRUE(shares(protocol_version, 0));
-  EXPECT_TRUE(shares(protocol_version + 1, protocol_version));
-  EXPECT_TRUE(shares(protocol_version, 1));
-  EXPECT_FALSE(shares(protocol_version + 1, 0));
-  EXPECT_FALSE(shares(protocol_version - 1, 1));
-  EXPECT_FALSE(shares(protocol_version + 2, protocol_version + 1));
-  EXPECT_FALSE(shares(protocol_version - 1, protocol_version + 1)) << "no range";
+  EXPECT_TRUE(shares_protocol(protocol_version, 0));
+  EXPECT_TRUE(shares_protocol(protocol_version + 1, protocol_version));
+  EXPECT_TRUE(shares_protocol(protocol_version, 1));
+  EXPECT_FALSE(shares_protocol(protocol_version + 1, 0));
+  EXPECT_FALSE(shares_protocol(protocol_version - 1, 1));
+  EXPECT_FALSE(shares_protocol(protocol_version + 2, protocol_version + 1));
+  EXPECT_FALSE(shares_protocol(protocol_version - 1, protocol_version + 1)) << "no range";
 }
 
 }  // namespace
