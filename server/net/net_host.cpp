@@ -246,7 +246,7 @@ tl::expected<void, Refused> NetHost::administer(ClientSession& session, const Ad
   }
   std::string changes;
   for (const SettingValue& setting : settings->settings) changes += " " + setting.name + "=" + setting.value;
-  if (request(session, {session.id(), message.request, *settings})))
+  if (request(session, {session.id(), message.request, *settings}))
     settings_asked_[{session.id(), message.request}] =
         fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
   return {};
