@@ -59,6 +59,7 @@ HelloMessage any_hello(FuzzInput& input, FuzzServer& server) {
   const uint32_t token = input.below(8);
   if (token == 0) hello.token = input.text(limits::access_token_bytes_max);
   if (token == 1) hello.token = FuzzServer::admin_token;
+  if (token == 7) hello.operations = input.below(operation_kinds + 1);
   const uint32_t before = input.below(8);
   if (const FuzzClient* other = before < 4 ? any_client(input, server) : nullptr) {
     if (before % 2 == 0) hello.ticket = other->ticket;
