@@ -46,7 +46,7 @@ TEST_F(OlderClientTest, whatever_it_knows_its_field_and_pieces_are_the_servers) 
     EXPECT_EQ(follower.mismatches, 0U);
     EXPECT_EQ(follower.pieces.size(), publisher.view(session)->known_pieces());
     EXPECT_LE(follower.operation_kinds_seen, known) << "it was told an operation that it does not know";
-    if (known == 0) EXPECT_EQ(follower.operations, 0U);
+    EXPECT_EQ(follower.operations == 0, known == 0);
     EXPECT_GE(follower.operations, fewer);
     fewer = follower.operations;
   }

@@ -1,5 +1,5 @@
-// Files of every format in tests/data open: grounds, worlds and recordings, with the hashes that they had when
-// they were made (docs/compatibility.md).
+// Files of every format in tests/data open: grounds, worlds and recordings, with the hashes that they had
+// when they were made (docs/compatibility.md).
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -39,20 +39,27 @@ const std::vector<OldFiles>& old_files() {
        0xF952F7D9DD608F1E,
        0x1A69C3DF94A34FD2,
        false},
-      {"0.2.0", "dune", "DUNE_GROUND", {"dune.scree"}, DUNE_TICK, DUNE_FIELD, DUNE_STATE, true}};
+      {"0.2.0",
+       "dune",
+       "83060714fba6d0d1f5234405700e89bd9f38ceb9f8d3b9451ace3057f118dbf3",
+       {"dune.scree"},
+       94,
+       0xF5F11B4E3CEB51C5,
+       0x82043D13A7A94993,
+       true}};
   return all;
 }
 
 class OldFilesTest : public ::testing::TestWithParam<OldFiles> {
  protected:
   void SetUp() override {
-    fs::copy(source(), folder / "files", fs::copy_options::recursive);
+    fs::copy(source(), fs::path(folder / "files"), fs::copy_options::recursive);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
   void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }
 
   static fs::path source() { return fs::path(SCREE_SOURCE_DIR) / "tests/data" / GetParam().folder; }
-  std::string file(const std::string& name) const { return folder / "files" / name; }
+  std::string file(const std::string& name) const { return folder / ("files/" + name); }
   std::string world() const { return file(std::string(GetParam().name) + ".world"); }
   /// What a program says, which has to end well.
   nlohmann::json said(const std::string& program, const std::string& arguments) const {
@@ -77,8 +84,7 @@ TEST_P(OldFilesTest, its_world_is_whole_and_a_server_goes_on_with_it) {
   EXPECT_GT(info.at("pieces_alive"), 0);
   const std::string recording = file(GetParam().recordings.front());
   {
-    ServerProcess server(SCREE_SERVER_PROGRAM,
-                         {"--world", world(), "--record", recording, "--ticks", "20"});
+    ServerProcess server(SCREE_SERVER_PROGRAM, {"--world", world(), "--record", recording, "--ticks", "20"});
     EXPECT_NE(server.port(), 0);
     EXPECT_EQ(server.end(SIGTERM), 0);
   }
