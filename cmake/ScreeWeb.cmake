@@ -21,6 +21,9 @@ foreach(HEADER glm tl nlohmann xxhash.h GLFW)
 endforeach()
 target_include_directories(scree_usage SYSTEM INTERFACE ${SCREE_WEB_INCLUDE} ${PROJECT_SOURCE_DIR}/client/web/stand_ins)
 
+# fmt, in a tenth of its bytes.
+add_library(fmt::fmt INTERFACE IMPORTED GLOBAL)
+
 # OpenGL, in epoxy's place.
 add_library(PkgConfig::EPOXY INTERFACE IMPORTED GLOBAL)
 set_target_properties(PkgConfig::EPOXY PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/client/web/stand_ins)

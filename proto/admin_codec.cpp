@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/text.h"
@@ -13,24 +14,24 @@ namespace {
 struct WritingAct {
   wire::Admin& to;
 
-  void operator()(const SettingValues& from) const { write(*to.mutable_settings(), from); }
-  void operator()(const ListSessions&) const { to.mutable_list_sessions(); }
-  void operator()(const KickSession& from) const {
+  void operator()(const SettingsRequest& from) const { write(*to.mutable_settings(), from.settings); }
+  void operator()(const ListSessionsRequest&) const { to.mutable_list_sessions(); }
+  void operator()(const KickRequest& from) const {
     to.mutable_kick()->set_session(from.session);
     to.mutable_kick()->set_reason(showable(from.reason, limits::admin_reason_bytes_max));
   }
-  void operator()(const BanAddress& from) const {
+  void operator()(const BanRequest& from) const {
     wire::Ban& ban = *to.mutable_ban();
     ban.set_session(from.session);
     ban.set_address(showable(from.address, limits::address_bytes_max));
     ban.set_minutes(from.minutes);
     ban.set_reason(showable(from.reason, limits::admin_reason_bytes_max));
   }
-  void operator()(const ListBans&) const { to.mutable_list_bans(); }
-  void operator()(const LiftBan& from) const {
+  void operator()(const ListBansRequest&) const { to.mutable_list_bans(); }
+  void operator()(const LiftBanRequest& from) const {
     to.mutable_lift_ban()->set_address(showable(from.address, limits::address_bytes_max));
   }
-  void operator()(const ControlReplay& from) const {
+  void operator()(const ControlReplayRequest& from) const {
     wire::ControlReplay& control = *to.mutable_control_replay();
     control.set_play(static_cast<wire::ReplayPlay>(from.play));
     control.set_speed(from.speed);
@@ -45,16 +46,17 @@ static_assert(wire::ReplayMove_ARRAYSIZE == kind_count<ReplayMove>);
 float read_replay_speed(float speed, FieldChecker& check) {
   const float times = std::abs(check.finite(speed, "speed of a replay"));
   if (times != 0.0F && (times < replay_speed_least || times > replay_speed_most))
-    check.refuse("the speed of a replay is " + std::to_string(speed) + ", not 0.1 to 16 times real time");
+    check.refuse(fmt::format("the speed of a replay is {}, not 0.1 to 16 times real time", speed));
   return speed;
 }
 
-ControlReplay read(const wire::ControlReplay& from, FieldChecker& check) {
-  return {check.kind<ReplayPlay>(from.play(), "play of a replay"), read_replay_speed(from.speed(), check),
-          check.kind<ReplayMove>(from.move(), "move of a replay"), from.value()};
+ControlReplayRequest read(const wire::ControlReplay& from, FieldChecker& check) {
+  return {check.asked_kind<ReplayPlay>(from.play(), "play of a replay"),
+          read_replay_speed(from.speed(), check),
+          check.asked_kind<ReplayMove>(from.move(), "move of a replay"), from.value()};
 }
 
-AdminAct read_act(const wire::Admin& from, FieldChecker& check) {
+AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
   const auto reason = [&](const std::string& text) {
     return check.text(text, limits::admin_reason_bytes_max, "reason");
   };
@@ -63,23 +65,23 @@ AdminAct read_act(const wire::Admin& from, FieldChecker& check) {
   };
   switch (from.act_case()) {
     case wire::Admin::kListSessions:
-      return ListSessions{};
+      return ListSessionsRequest{};
     case wire::Admin::kKick:
-      return KickSession{from.kick().session(), reason(from.kick().reason())};
+      return KickRequest{from.kick().session(), reason(from.kick().reason())};
     case wire::Admin::kBan:
-      return BanAddress{from.ban().session(), address(from.ban().address()),
+      return BanRequest{from.ban().session(), address(from.ban().address()),
                         check.within(from.ban().minutes(), 0, limits::ban_minutes_max, "minutes"),
                         reason(from.ban().reason())};
     case wire::Admin::kListBans:
-      return ListBans{};
+      return ListBansRequest{};
     case wire::Admin::kLiftBan:
-      return LiftBan{address(from.lift_ban().address())};
+      return LiftBanRequest{address(from.lift_ban().address())};
     case wire::Admin::kControlReplay:
       return read(from.control_replay(), check);
     case wire::Admin::ACT_NOT_SET:
       break;
   }
-  return check.settings(from.settings());
+  return SettingsRequest{check.settings(from.settings())};
 }
 
 SessionRow read(const wire::SessionRow& from, FieldChecker& check) {
@@ -88,7 +90,7 @@ SessionRow read(const wire::SessionRow& from, FieldChecker& check) {
   row.name = check.text(from.name(), limits::person_name_bytes_max, "name of a session");
   row.program = check.text(from.program(), limits::client_name_bytes_max, "program of a session");
   row.address = check.text(from.address(), limits::address_bytes_max, "address of a session");
-  row.role = check.kind<Role>(from.role(), "role of a session");
+  row.role = check.kind_or(from.role(), Role::viewer);
   row.token_id = from.token_id();
   row.joined_s = from.joined_s();
   row.sent_bytes = from.sent_bytes();
@@ -140,8 +142,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
   list.request = from.request();
   const auto rows = static_cast<size_t>(std::max(from.sessions_size(), from.bans_size()));
   if (rows > limits::admin_rows_max) {
-    check.refuse(std::to_string(rows) + " rows are over the limit of " +
-                 std::to_string(limits::admin_rows_max));
+    check.refuse(fmt::format("{} rows are over the limit of {}", rows, limits::admin_rows_max));
     return list;
   }
   for (const wire::SessionRow& row : from.sessions()) list.sessions.push_back(read(row, check));

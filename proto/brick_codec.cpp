@@ -1,6 +1,7 @@
 // Bricks and volumes: coordinates packed, codes compressed with zstd.
 #include <algorithm>
 #include <cstring>
+#include <fmt/format.h>
 #include <unordered_set>
 #include <zstd.h>
 
@@ -54,7 +55,7 @@ void decompress(ByteReader& reader, std::span<Code> codes) {
   const std::span<const uint8_t> packed = reader.rest();
   if (reader.failed()) return;
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != codes.size()) {
-    reader.refuse("compressed codes do not declare " + std::to_string(codes.size()) + " bytes");
+    reader.refuse(fmt::format("compressed codes do not declare {} bytes", codes.size()));
     return;
   }
   const size_t frame = ZSTD_findFrameCompressedSize(packed.data(), packed.size());

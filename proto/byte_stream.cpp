@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "shared/base/check.h"
 
@@ -67,7 +68,7 @@ void ByteWriter::position(const QuantisedPose& pose) {
 }
 
 void ByteReader::refuse(const std::string& reason) {
-  if (!failed()) error_.message = std::string(subject_) + ": " + reason;
+  if (!failed()) error_.message = fmt::format("{}: {}", subject_, reason);
 }
 
 bool ByteReader::take(size_t count, const char* what) {
@@ -89,7 +90,7 @@ uint64_t ByteReader::varint(const char* what, uint64_t max) {
     value |= static_cast<uint64_t>(byte & 0x7FU) << low_bit;
     if ((byte & 0x80U) != 0) continue;
     if (value <= max) return value;
-    refuse(std::string(what) + " is " + std::to_string(value) + ", over the limit of " + std::to_string(max));
+    refuse(fmt::format("{} is {}, over the limit of {}", what, value, max));
     return 0;
   }
   refuse(std::string(what) + " is a varint of more than 64 bits");
@@ -99,7 +100,7 @@ uint64_t ByteReader::varint(const char* what, uint64_t max) {
 int64_t ByteReader::zigzag(const char* what, int64_t max) {
   const int64_t value = unfold_sign(varint(what));
   if (value >= -max && value <= max) return value;
-  refuse(std::string(what) + " is " + std::to_string(value) + ", beyond ±" + std::to_string(max));
+  refuse_beyond(value, max, what);
   return 0;
 }
 
@@ -107,7 +108,7 @@ uint8_t ByteReader::u8(const char* what, uint8_t max) {
   if (!take(1, what)) return 0;
   const uint8_t value = bytes_[next_ - 1];
   if (value <= max) return value;
-  refuse(std::string(what) + " is " + std::to_string(value) + ", over the limit of " + std::to_string(max));
+  refuse(fmt::format("{} is {}, over the limit of {}", what, value, max));
   return 0;
 }
 
@@ -178,9 +179,13 @@ std::span<const uint8_t> ByteReader::rest() {
   return rest;
 }
 
+void ByteReader::refuse_beyond(int64_t value, int64_t max, const char* what) {
+  refuse(fmt::format("{} is {}, beyond ±{}", what, value, max));
+}
+
 void ByteReader::finish() {
   if (!failed() && next_ != bytes_.size())
-    refuse(std::to_string(bytes_.size() - next_) + " bytes left over at the end");
+    refuse(fmt::format("{} bytes left over at the end", bytes_.size() - next_));
 }
 
 }  // namespace scree

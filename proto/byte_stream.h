@@ -75,6 +75,8 @@ class ByteReader {
   bool failed() const { return !error_.message.empty(); }
   /// Keeps the reason, unless there is an earlier one.
   void refuse(const std::string& reason);
+  /// A number that is not within ± max.
+  void refuse_beyond(int64_t value, int64_t max, const char* what);
   /// Refuses remaining bytes.
   void finish();
   const Error& error() const { return error_; }
@@ -105,8 +107,7 @@ template <typename Tag>
 Coord<Tag> read_coord(ByteReader& reader, const Coord<Tag>& before, int32_t max, const char* what) {
   const auto axis = [&](int32_t from) {
     const int64_t value = from + reader.zigzag(what, int64_t{2} * max);
-    if (value < -max || value > max)
-      reader.refuse(std::string(what) + " is " + std::to_string(value) + ", beyond ±" + std::to_string(max));
+    if (value < -max || value > max) reader.refuse_beyond(value, max, what);
     return static_cast<int32_t>(value);
   };
   const int32_t x = axis(before.x);

@@ -1,4 +1,6 @@
 // ClientMessage to bytes and back.
+#include <fmt/format.h>
+
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
 #include "proto/height_wire.h"
@@ -43,7 +45,7 @@ struct Writing {
     write(*paint.mutable_shape(), from.shape);
     paint.set_material(static_cast<wire::Material>(from.material));
   }
-  void operator()(const RepairRequest& from) const {
+  void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
     repair.set_chunks(pack_chunks(from.chunks));
@@ -54,14 +56,15 @@ struct Writing {
     write(*to.mutable_cursor()->mutable_aim(), from.aim_m);
   }
   void operator()(const WatchMessage& from) const { to.mutable_watch()->set_physics(from.physics); }
-  void operator()(const GroundRequest& from) const {
+  void operator()(const AskGroundMessage& from) const {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
-  void operator()(const TileRequest& from) const { write(*to.mutable_tiles(), from); }
+  void operator()(const AskTilesMessage& from) const { write(*to.mutable_tiles(), from); }
   void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
+  void operator()(const UnknownMessage&) const {}
 };
 
 InterestMessage read(const wire::Interest& from, FieldChecker& check) {
@@ -72,7 +75,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   CarveMessage carve;
   carve.request = from.request();
   carve.shape = check.shape(from.shape());
-  carve.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
+  carve.pattern = check.asked_kind<SeedPattern>(from.pattern(), "pattern");
   carve.seeds = from.seeds();
   carve.random_seed = from.random_seed();
   carve.impact_m = check.vec3(from.impact(), "impact");
@@ -82,17 +85,17 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
 }
 
 PaintMessage read(const wire::Paint& from, FieldChecker& check) {
-  return {{check.shape(from.shape()), check.kind<Material>(from.material(), "material")}, from.request()};
+  return {{check.shape(from.shape()), check.asked_kind<Material>(from.material(), "material")},
+          from.request()};
 }
 
-RepairRequest read(const wire::Repair& from, FieldChecker& check) {
-  RepairRequest repair;
+RepairMessage read(const wire::Repair& from, FieldChecker& check) {
+  RepairMessage repair;
   repair.tick = from.tick();
   repair.chunks = check.chunks(from.chunks(), limits::repair_chunks_max, "chunks of a repair");
   repair.hashes.assign(from.hashes().begin(), from.hashes().end());
   if (repair.hashes.size() != repair.chunks.size())
-    check.refuse(std::to_string(repair.hashes.size()) + " hashes for " +
-                 std::to_string(repair.chunks.size()) + " chunks");
+    check.refuse(fmt::format("{} hashes for {} chunks", repair.hashes.size(), repair.chunks.size()));
   return repair;
 }
 
@@ -112,6 +115,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
   FieldChecker check("client message");
   const auto checked = [&](auto value) -> Result<ClientMessage> {
     if (check.failed()) return tl::unexpected(check.error());
+    if constexpr (requires { value.request; })
+      if (!check.unknown().empty()) return UnknownMessage{value.request, check.unknown()};
     return value;
   };
   switch (from.kind_case()) {
@@ -133,7 +138,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kWatch:
       return WatchMessage{from.watch().physics()};
     case wire::ClientMessage::kGround:
-      return checked(GroundRequest{
+      return checked(AskGroundMessage{
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});
     case wire::ClientMessage::kOffer:
       return checked(read_offer(from.offer(), check));
@@ -150,7 +155,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::KIND_NOT_SET:
       break;
   }
-  return fail("client message: of no known kind");
+  return UnknownMessage{};
 }
 
 }  // namespace scree

@@ -2,7 +2,9 @@
 //
 // Encoders trust their input: senders keep within shared/base/limits.h and proto/limits.h. Decoders trust
 // nothing: they check that every number is finite and in range, and every count before they allocate memory
-// for it; a refusal names the field and the limit. Pure functions, safe to call from any thread.
+// for it; a refusal names the field and the limit. A message of an unknown kind is an UnknownMessage, and so
+// is a request with an unknown value; unknown fields are skipped. Pure functions, safe to call from any
+// thread.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 #include "proto/frame_reader.h"
 
+#include <fmt/format.h>
 #include <string>
 
 #include "proto/codec.h"
@@ -19,8 +20,8 @@ Result<std::optional<std::span<const uint8_t>>> FrameReader::next() {
   size_t length = 0;
   for (size_t i = 0; i < length_prefix_bytes; ++i) length |= size_t{buffer_[start_ + i]} << (8 * i);
   if (length > message_bytes_max_)
-    return fail("a message of " + std::to_string(length) + " bytes was announced, over the limit of " +
-                std::to_string(message_bytes_max_));
+    return fail(
+        fmt::format("a message of {} bytes was announced, over the limit of {}", length, message_bytes_max_));
   if (buffered_bytes() < length_prefix_bytes + length) return std::nullopt;
   const std::span<const uint8_t> body(buffer_.data() + start_ + length_prefix_bytes, length);
   start_ += length_prefix_bytes + length;

@@ -1,6 +1,7 @@
 #include "proto/height_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <zstd.h>
 
@@ -34,7 +35,7 @@ uint32_t unfold(uint32_t folded) {
 
 Result<std::vector<uint8_t>> content_of(std::span<const uint8_t> packed) {
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != content_bytes)
-    return fail("tile: the compressed heights do not declare " + std::to_string(content_bytes) + " bytes");
+    return fail(fmt::format("tile: the compressed heights do not declare {} bytes", content_bytes));
   const size_t frame = ZSTD_findFrameCompressedSize(packed.data(), packed.size());
   if (ZSTD_isError(frame) != 0U || frame != packed.size())
     return fail("tile: the compressed heights are cut short or followed by more");
@@ -68,7 +69,7 @@ Result<UnpackedTile> unpack_tile(std::span<const uint8_t> bytes, TileKey key, co
   unpacked.children.resize(layout.children(key).size());
   const size_t start = unpacked.children.size() * sizeof(Digest);
   if (bytes.size() < start || bytes.size() > limits::tile_bytes_max)
-    return fail("tile: of " + std::to_string(bytes.size()) + " bytes (limits.tile_bytes_max)");
+    return fail(fmt::format("tile: of {} bytes (limits.tile_bytes_max)", bytes.size()));
   for (size_t i = 0; i < unpacked.children.size(); ++i)
     std::copy_n(bytes.data() + i * sizeof(Digest), sizeof(Digest), unpacked.children[i].begin());
   const auto content = TRY(content_of(bytes.subspan(start)));

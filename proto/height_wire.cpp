@@ -1,6 +1,7 @@
 #include "proto/height_wire.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/byte_stream.h"
 #include "proto/limits.h"
@@ -36,7 +37,7 @@ std::vector<TileKey> read_keys(const std::string& packed, size_t count_max, cons
   ByteReader reader(as_span(packed), what);
   for (ChunkCoord before; !reader.at_end();) {
     if (keys.size() == count_max) {
-      reader.refuse("more than " + std::to_string(count_max) + " tiles");
+      reader.refuse(fmt::format("more than {} tiles", count_max));
       break;
     }
     before = read_coord(reader, before, limits::tile_coordinate_max, "coordinate of a tile");
@@ -105,12 +106,12 @@ HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check) {
   return ground;
 }
 
-void write(wire::TileRequest& to, const TileRequest& from) {
+void write(wire::TileRequest& to, const AskTilesMessage& from) {
   to.set_wanted(pack_keys(from.wanted));
   to.set_held(pack_keys(from.held));
 }
 
-TileRequest read_tile_request(const wire::TileRequest& from, FieldChecker& check) {
+AskTilesMessage read_tile_request(const wire::TileRequest& from, FieldChecker& check) {
   return {read_keys(from.wanted(), limits::tiles_wanted_max, "tiles wanted", check),
           read_keys(from.held(), limits::tiles_held_max, "tiles held", check)};
 }

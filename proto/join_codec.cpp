@@ -1,6 +1,7 @@
 #include "proto/join_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <functional>
 
 #include "proto/byte_stream.h"
@@ -26,7 +27,7 @@ std::string pack_hashes(const std::vector<uint16_t>& hashes) {
 
 std::vector<uint16_t> unpack_hashes(const std::string& packed, size_t count, FieldChecker& check) {
   if (packed.size() != count * short_hash_bytes) {
-    check.refuse(std::to_string(packed.size()) + " bytes of hashes for " + std::to_string(count) + " chunks");
+    check.refuse(fmt::format("{} bytes of hashes for {} chunks", packed.size(), count));
     return {};
   }
   std::vector<uint16_t> hashes(count);
@@ -46,6 +47,8 @@ void write(wire::Hello& to, const HelloMessage& from) {
   to.set_name(showable(from.name, limits::person_name_bytes_max));
   to.set_token(showable(from.token, limits::access_token_bytes_max));
   to.set_lacks_kernels(from.lacks_kernels);
+  if (!from.lacks_kernels) to.set_operations(from.operations);
+  to.set_oldest_protocol(from.oldest_protocol);
   to.set_meets(from.meets);
   to.set_ticket(from.ticket);
   to.set_world(from.world);
@@ -54,13 +57,15 @@ void write(wire::Hello& to, const HelloMessage& from) {
 HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   HelloMessage hello;
   hello.protocol = from.protocol();
-  // In another version the fields may have another meaning: only its number is read, for the refusal.
-  if (hello.protocol != protocol_version) return hello;
+  hello.oldest_protocol = from.oldest_protocol();
+  // In another version the fields may have another meaning: only its numbers are read, for the refusal.
+  if (!shares_protocol(hello.protocol, hello.oldest_protocol)) return hello;
   hello.client = check.text(from.client(), limits::client_name_bytes_max, "client");
   hello.eye_m = check.vec3(from.eye(), "eye");
   hello.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   hello.name = check.text(from.name(), limits::person_name_bytes_max, "name");
   hello.lacks_kernels = from.lacks_kernels();
+  hello.operations = from.operations() == 0 ? operation_kinds_first : from.operations();
   hello.meets = from.meets();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
@@ -103,7 +108,7 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
   welcome.terrain.voxel_size_m = voxel_size_m;
   welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   welcome.replay = from.replay();
-  welcome.role = check.kind<Role>(from.role(), "role");
+  welcome.role = check.kind_or(from.role(), Role::viewer);
   welcome.world = from.world();
   welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   welcome.resumed = from.resumed();
@@ -139,8 +144,7 @@ KeptMessage read_kept(const wire::Kept& from, FieldChecker& check) {
   kept.chunks = check.chunks(from.chunks(), limits::kept_chunks_max, "chunks kept");
   kept.hashes.assign(from.hashes().begin(), from.hashes().end());
   if (kept.hashes.size() != kept.chunks.size())
-    check.refuse(std::to_string(kept.hashes.size()) + " hashes for " + std::to_string(kept.chunks.size()) +
-                 " chunks kept");
+    check.refuse(fmt::format("{} hashes for {} chunks kept", kept.hashes.size(), kept.chunks.size()));
   return kept;
 }
 

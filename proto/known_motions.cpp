@@ -1,6 +1,7 @@
 #include "proto/known_motions.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 
 #include "shared/base/check.h"
@@ -51,7 +52,7 @@ Result<std::vector<PieceId>> KnownMotions::advance(std::span<const uint8_t> moti
   for (const WholeMotion& whole : decoded->wholes) {
     const auto found = pieces_.find(whole.id);
     if (found == pieces_.end())
-      return fail("the motion of piece " + std::to_string(whole.id) + ", which is not known here");
+      return fail(fmt::format("the motion of piece {}, which is not known here", whole.id));
     set(whole.id, found->second, whole.motion);
     changed.push_back(whole.id);
   }

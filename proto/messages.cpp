@@ -87,6 +87,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const PlaybackMessage& m) { return m.refusal.size(); },
                      [](const MarksMessage& m) { return bytes_of(m.marks); },
                      [](const RecordedCursorsMessage& m) { return bytes_of(m.cursors); },
+                     [](const UnknownMessage& m) { return m.value.size(); },
                      [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
                      [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
                      [](const PhysicsMessage& m) {

@@ -12,6 +12,7 @@
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
+#include "proto/protocol_version.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -23,8 +24,6 @@
 #include "shared/operation/request.h"
 
 namespace scree {
-
-inline constexpr uint32_t protocol_version = 2;
 
 /// Default TCP port of a server.
 inline constexpr uint16_t default_port = 4177;
@@ -39,10 +38,19 @@ struct HelloMessage {
   std::string name{};  ///< the person's, shown to others; at most limits::person_name_bytes_max
   /// An access token, or the server's admin token; at most limits::access_token_bytes_max. Empty: none.
   std::string token{};
-  bool lacks_kernels = false;  ///< it gets bricks and whole pieces instead of operations
-  std::string ticket{};        ///< of the session that goes on, as its welcome gave it; empty: none
-  uint64_t world = 0;          ///< of the OfferMessage that comes next; 0: none comes
-  bool meets = false;          ///< it is a person's: PersonsMessage and SaidMessage are wanted
+  bool lacks_kernels = false;    ///< it gets bricks and whole pieces instead of operations
+  std::string ticket{};          ///< of the session that goes on, as its welcome gave it; empty: none
+  uint64_t world = 0;            ///< of the OfferMessage that comes next; 0: none comes
+  bool meets = false;            ///< it is a person's: PersonsMessage and SaidMessage are wanted
+  uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
+  uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
+};
+
+/// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
+/// and counted, so that a later version may send what an older one has never heard of.
+struct UnknownMessage {
+  std::optional<uint32_t> request{};  ///< the number of a request, which is answered by a refusal
+  std::string value{};                ///< of a request: the unknown value, in words
 };
 
 /// Chunks that the client has kept from earlier, in ascending order, none twice.
@@ -71,15 +79,15 @@ inline constexpr float carve_depth_in_radii = 0.4F;
 /// A request with the client's number of it, which the reply returns. Requests to change settings need a
 /// token as well: AdminMessage.
 template <typename Request>
-struct Asked : Request {
+struct RequestMessage : Request {
   uint32_t request = 0;
 };
-using CarveMessage = Asked<CarveRequest>;
-using FillMessage = Asked<FillRequest>;
-using PaintMessage = Asked<PaintRequest>;
+using CarveMessage = RequestMessage<CarveRequest>;
+using FillMessage = RequestMessage<FillRequest>;
+using PaintMessage = RequestMessage<PaintRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
-struct RepairRequest {
+struct RepairMessage {
   Tick tick = 0;
   std::vector<ChunkCoord> chunks;
   std::vector<uint64_t> hashes;  ///< the client's, one per chunk
@@ -90,31 +98,31 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// What an administrator asks for. Settings are changed all, or none.
-struct ListSessions {};
-struct KickSession {
+/// Requests of an administrator. SettingsRequest changes all its settings, or none.
+struct ListSessionsRequest {};
+struct KickRequest {
   uint64_t session = 0;
   std::string reason;  ///< told to who is sent away; may be empty
 };
 /// An address, or that of a session; the sessions from there end.
-struct BanAddress {
+struct BanRequest {
   uint64_t session = 0;  ///< 0: the address says who
   std::string address;   ///< numeric, IPv4 or IPv6
   uint32_t minutes = 0;  ///< 0: until it is lifted
   std::string reason;
 };
-struct ListBans {};
-struct LiftBan {
+struct ListBansRequest {};
+struct LiftBanRequest {
   std::string address;
 };
-using AdminAct =
-    std::variant<SettingValues, ListSessions, KickSession, BanAddress, ListBans, LiftBan, ControlReplay>;
+using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
+                                  ListBansRequest, LiftBanRequest, ControlReplayRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
   uint32_t request = 0;
   std::string token;  ///< equal to the server's, or empty where the session's role is admin
-  AdminAct act;
+  AdminRequest act;
 };
 
 /// Switches PhysicsMessages on or off.
@@ -123,7 +131,7 @@ struct WatchMessage {
 };
 
 /// Asks for the generated ground of chunks; each is answered by a GroundMessage.
-struct GroundRequest {
+struct AskGroundMessage {
   std::vector<ChunkCoord> chunks;
 };
 
@@ -132,14 +140,15 @@ struct GoodbyeMessage {};
 
 /// Asks for tiles of the ground, each of which is answered by a TileMessage, and says which
 /// the client has kept from earlier.
-struct TileRequest {
+struct AskTilesMessage {
   std::vector<TileKey> wanted;
   std::vector<TileKey> held{};
 };
 
-using ClientMessage = std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage,
-                                   RepairRequest, AckMessage, AdminMessage, CursorMessage, WatchMessage,
-                                   GroundRequest, OfferMessage, GoodbyeMessage, TileRequest, SayMessage>;
+using ClientMessage =
+    std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
+                 AckMessage, AdminMessage, CursorMessage, WatchMessage, AskGroundMessage, OfferMessage,
+                 GoodbyeMessage, AskTilesMessage, SayMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -353,7 +362,7 @@ struct BanRow {
   bool operator==(const BanRow&) const = default;
 };
 
-/// The answer to ListSessions, or to ListBans.
+/// The answer to ListSessionsRequest, or to ListBansRequest.
 struct AdminListMessage {
   uint32_t request = 0;
   std::vector<SessionRow> sessions{};
@@ -368,10 +377,11 @@ struct PhysicsMessage {
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
-using ServerMessage = std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage,
-                                   ResetMessage, ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage,
-                                   GroundMessage, AdminListMessage, KeptMessage, TileMessage, PersonsMessage,
-                                   SaidMessage, PlaybackMessage, MarksMessage, RecordedCursorsMessage>;
+using ServerMessage =
+    std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
+                 ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
+                 KeptMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage, MarksMessage,
+                 RecordedCursorsMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <fmt/format.h>
 #include <string>
 
 #include "proto/byte_stream.h"
@@ -312,8 +313,8 @@ Result<DecodedMotions> decode_motions(
   uint32_t check = 0;
   for (const MotionBefore& step : steps) check += step.check;
   if (steps.size() != count || check >> 24U != check_byte)
-    return fail("motions: of " + std::to_string(count) + " pieces, and " + std::to_string(steps.size()) +
-                " are known here, or move otherwise");
+    return fail(
+        fmt::format("motions: of {} pieces, and {} are known here, or move otherwise", count, steps.size()));
   StepModel model;
   decoded.corrections.reserve(steps.size());
   for (const MotionBefore& step : steps)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <utility>
 
 #include "proto/byte_stream.h"
@@ -186,7 +187,7 @@ void read(ByteReader& reader, PieceId id, StampOperation& stamp) {
   const WireMethod& method = wire_methods.at((method_and_shift >> shift_bits) % wire_methods.size());
   stamp.shift = static_cast<int32_t>(unfold_sign(method_and_shift & ((1U << shift_bits) - 1)));
   if (stamp.shift < -stamp_shift_max)
-    reader.refuse("shift of a stamp is beyond ±" + std::to_string(stamp_shift_max));
+    reader.refuse(fmt::format("shift of a stamp is beyond ±{}", stamp_shift_max));
   stamp.method = method.method;
   if (!method.together) return;
   const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
@@ -246,7 +247,7 @@ Operation read_operation(ByteReader& reader) {
   const uint64_t head = reader.varint("id and kind", head_max);
   const uint64_t kind = head & kind_mask;
   if (kind < kinds) return readings.at(kind)(reader, static_cast<PieceId>(head >> kind_bits));
-  reader.refuse("kind " + std::to_string(kind) + " is unknown");
+  reader.refuse(fmt::format("kind {} is unknown", kind));
   return DiscardOperation{};
 }
 
@@ -283,7 +284,7 @@ Result<std::vector<Operation>> decode_operations(std::span<const uint8_t> bytes)
   std::vector<Operation> operations;
   while (!reader.at_end()) {
     if (operations.size() == limits::operations_per_frame_max) {
-      reader.refuse("more than " + std::to_string(limits::operations_per_frame_max) + " in one frame");
+      reader.refuse(fmt::format("more than {} in one frame", limits::operations_per_frame_max));
       break;
     }
     operations.push_back(read_operation(reader));

@@ -11,6 +11,9 @@ namespace scree {
 
 namespace {
 
+/// Kinds of events of this version and of later ones. Above: a fault of the sender.
+constexpr uint64_t mark_kinds_max = 256;
+
 std::vector<uint8_t> pack(const std::vector<Mark>& marks, uint32_t from) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
@@ -29,8 +32,8 @@ std::vector<uint8_t> pack(const std::vector<Mark>& marks, uint32_t from) {
   return bytes;
 }
 
-/// The columns of one kind, which is known.
-void unpack_columns(ByteReader& reader, EventKind kind, uint32_t from, std::vector<Mark>& marks) {
+/// The columns of one kind. Those of an unknown kind are left out.
+void unpack_columns(ByteReader& reader, uint64_t kind, uint32_t from, std::vector<Mark>& marks) {
   const uint64_t columns = reader.varint("columns", limits::mark_columns_max);
   if (columns == 0) reader.refuse("a kind without columns");
   uint64_t column = from;
@@ -42,16 +45,18 @@ void unpack_columns(ByteReader& reader, EventKind kind, uint32_t from, std::vect
       reader.refuse("a column beyond the last (limits.mark_columns_max)");
     const uint64_t count = reader.varint("events of a column", limits::mark_count_max);
     if (count == 0) reader.refuse("a column without events");
-    marks.push_back({kind, static_cast<uint32_t>(column), static_cast<uint32_t>(count)});
+    if (kind < kind_count<EventKind>)
+      marks.push_back(
+          {static_cast<EventKind>(kind), static_cast<uint32_t>(column), static_cast<uint32_t>(count)});
   }
 }
 
 std::vector<Mark> unpack_marks(const std::string& packed, uint32_t from, FieldChecker& check) {
   std::vector<Mark> marks;
   ByteReader reader(as_span(packed), "marks");
-  std::optional<EventKind> before;
+  std::optional<uint64_t> before;
   while (!reader.at_end()) {
-    const auto kind = static_cast<EventKind>(reader.varint("kind", kind_count<EventKind> - 1));
+    const uint64_t kind = reader.varint("kind", mark_kinds_max - 1);
     if (before && kind <= *before) reader.refuse("kinds do not ascend");
     before = kind;
     unpack_columns(reader, kind, from, marks);

@@ -56,13 +56,13 @@ constexpr ReplayMoveRow row_of(ReplayMove move) {
 }
 
 /// What somebody wants of a replay.
-struct ControlReplay {
+struct ControlReplayRequest {
   ReplayPlay play = ReplayPlay::as_it_is;
   float speed = 0.0F;  ///< times real time, negative: backwards; 0: as it is
   ReplayMove move = ReplayMove::stay;
   int64_t value = 0;  ///< to_tick: a tick; by_ticks: how many; to_time: ms since tick 0
 
-  bool operator==(const ControlReplay&) const = default;
+  bool operator==(const ControlReplayRequest&) const = default;
 };
 
 /// Where a replay stands.

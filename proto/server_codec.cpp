@@ -1,5 +1,6 @@
 // ServerMessage to bytes and back.
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/admin_codec.h"
 #include "proto/byte_stream.h"
@@ -142,6 +143,7 @@ struct Writing {
   }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
   void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
+  void operator()(const UnknownMessage&) const {}
 };
 
 ChunkCoord one_chunk(const std::string& packed, FieldChecker& check) {
@@ -263,8 +265,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.repairs = from.repairs();
   status.settings = check.settings(from.settings());
   if (static_cast<size_t>(from.stages_size()) > limits::stages_max)
-    check.refuse(std::to_string(from.stages_size()) + " stages are over the limit of " +
-                 std::to_string(limits::stages_max));
+    check.refuse(fmt::format("{} stages are over the limit of {}", from.stages_size(), limits::stages_max));
   for (const wire::StageTime& stage : from.stages()) {
     if (check.failed()) break;
     status.stages.push_back({check.text(stage.name(), limits::stage_name_bytes_max, "name of a stage"),
@@ -280,7 +281,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.paging = {from.chunks_in(), from.chunks_out(), from.chunks_read(), from.chunk_waits(),
                    from.requests_held()};
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
-    check.refuse("more than " + std::to_string(limits::refusal_counts_max) + " reasons for refusals");
+    check.refuse(fmt::format("more than {} reasons for refusals", limits::refusal_counts_max));
   else
     for (const wire::RefusalCount& refusal : from.refusals())
       status.refusals.push_back(
@@ -337,7 +338,7 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::KIND_NOT_SET:
       break;
   }
-  return fail("server message: of no known kind");
+  return UnknownMessage{};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "proto/stored_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <zstd.h>
 
@@ -108,7 +109,7 @@ std::vector<uint8_t> pack_chunk(TileKey key, const BrickLayout& layout, const Ch
 
 Result<UnpackedChunk> unpack_chunk(std::span<const uint8_t> bytes, TileKey key, const BrickLayout& layout) {
   if (bytes.size() > limits::tile_bytes_max)
-    return fail("stored chunk: of " + std::to_string(bytes.size()) + " bytes (limits.tile_bytes_max)");
+    return fail(fmt::format("stored chunk: of {} bytes (limits.tile_bytes_max)", bytes.size()));
   UnpackedChunk unpacked;
   if (key.level > 0) {
     if (bytes.empty()) return fail("stored chunk: it is empty");

@@ -1,6 +1,7 @@
 #include "proto/talk_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/text.h"
@@ -33,14 +34,14 @@ void write(wire::Say& to, const SayMessage& from) {
 PersonsMessage read(const wire::Persons& from, FieldChecker& check) {
   PersonsMessage persons;
   if (static_cast<size_t>(from.persons_size()) > limits::persons_max)
-    check.refuse("more than " + std::to_string(limits::persons_max) + " persons");
+    check.refuse(fmt::format("more than {} persons", limits::persons_max));
   for (const wire::Person& person : from.persons()) {
     if (check.failed()) break;
     if (!persons.persons.empty() && person.session() <= persons.persons.back().session)
       check.refuse("the sessions of persons do not ascend");
     persons.persons.push_back({person.session(),
                                check.text(person.name(), limits::person_name_bytes_max, "name of a person"),
-                               check.kind<Role>(person.role(), "role")});
+                               check.kind_or(person.role(), Role::viewer)});
   }
   persons.more = from.more();
   persons.chat = from.chat();

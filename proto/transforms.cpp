@@ -1,6 +1,7 @@
 #include "proto/transforms.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/byte_stream.h"
 #include "shared/base/check.h"
@@ -48,7 +49,7 @@ Result<std::vector<PieceState>> unpack_transforms(std::span<const uint8_t> bytes
   PieceState before;
   while (!reader.at_end()) {
     if (pieces.size() == limits::entries_per_frame_max) {
-      reader.refuse("more than " + std::to_string(limits::entries_per_frame_max) + " pieces");
+      reader.refuse(fmt::format("more than {} pieces", limits::entries_per_frame_max));
       break;
     }
     const uint64_t step = reader.varint("piece id", 0xFFFFFFFFU - before.id);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "proto/byte_stream.h"
 #include "proto/limits.h"
@@ -125,8 +126,8 @@ void write(wire::Cursors& to, const CursorsMessage& from) {
 CursorsMessage read(const wire::Cursors& from, FieldChecker& check) {
   CursorsMessage message;
   if (static_cast<size_t>(from.cursors_size()) > limits::cursors_max) {
-    check.refuse(std::to_string(from.cursors_size()) + " cursors are over the limit of " +
-                 std::to_string(limits::cursors_max));
+    check.refuse(
+        fmt::format("{} cursors are over the limit of {}", from.cursors_size(), limits::cursors_max));
     return message;
   }
   for (const wire::PlayerCursor& cursor : from.cursors())

@@ -1,6 +1,7 @@
 #include "proto/wire_values.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
@@ -21,7 +22,15 @@ static_assert(wire::Role_ARRAYSIZE == kind_count<Role>);
 }  // namespace
 
 void FieldChecker::refuse(const std::string& reason) {
-  if (!failed()) error_.message = std::string(subject_) + ": " + reason;
+  if (!failed()) error_.message = fmt::format("{}: {}", subject_, reason);
+}
+
+void FieldChecker::refuse_kind(int64_t number, const char* what) {
+  refuse(fmt::format("{} {} is unknown", what, number));
+}
+
+void FieldChecker::note_unknown(int64_t number, const char* what) {
+  if (unknown_.empty()) unknown_ = fmt::format("{} {}", what, number);
 }
 
 float FieldChecker::finite(float value, const char* what) {
@@ -38,8 +47,7 @@ float FieldChecker::not_negative(float value, const char* what) {
 
 uint32_t FieldChecker::within(uint32_t value, uint32_t min, uint32_t max, const char* what) {
   if (value >= min && value <= max) return value;
-  refuse(std::string(what) + " is " + std::to_string(value) + ", not within " + std::to_string(min) + " to " +
-         std::to_string(max));
+  refuse(fmt::format("{} is {}, not within {} to {}", what, value, min, max));
   return min;
 }
 
@@ -49,20 +57,19 @@ glm::vec3 FieldChecker::vec3(const wire::Vec3& value, const char* what) {
 
 std::string FieldChecker::bytes(const std::string& value, size_t bytes_max, const char* what) {
   if (value.size() <= bytes_max) return value;
-  refuse(std::string(what) + " has " + std::to_string(value.size()) + " bytes, over the limit of " +
-         std::to_string(bytes_max));
+  refuse(fmt::format("{} has {} bytes, over the limit of {}", what, value.size(), bytes_max));
   return {};
 }
 
 std::string FieldChecker::text(const std::string& value, size_t bytes_max, const char* what) {
   std::string text = bytes(value, bytes_max, what);
-  if (const auto fault = fault_of_text(text)) refuse(std::string(what) + " " + std::string(*fault));
+  if (const auto fault = fault_of_text(text)) refuse(fmt::format("{} {}", what, *fault));
   return failed() ? std::string() : text;
 }
 
 Shape FieldChecker::shape(const wire::Shape& value) {
   Shape shape;
-  shape.kind = kind<ShapeKind>(value.kind(), "kind of shape");
+  shape.kind = asked_kind<ShapeKind>(value.kind(), "kind of shape");
   shape.a = vec3(value.a(), "shape.a");
   if (traits_of(shape.kind).has_b) shape.b = vec3(value.b(), "shape.b");
   shape.radius_m = finite(value.radius_m(), "shape.radius_m");
@@ -74,7 +81,7 @@ std::vector<ChunkCoord> FieldChecker::chunks(const std::string& packed, size_t c
   ByteReader reader(as_span(packed), what);
   while (!reader.at_end()) {
     if (chunks.size() == count_max) {
-      reader.refuse("more than " + std::to_string(count_max) + " chunks");
+      reader.refuse(fmt::format("more than {} chunks", count_max));
       break;
     }
     const ChunkCoord before = chunks.empty() ? ChunkCoord{} : chunks.back();
@@ -90,7 +97,7 @@ std::vector<glm::vec3> FieldChecker::points(const std::string& packed, size_t co
   ByteReader reader(as_span(packed), what);
   while (!reader.at_end()) {
     if (points.size() == count_max) {
-      reader.refuse("more than " + std::to_string(count_max) + " points");
+      reader.refuse(fmt::format("more than {} points", count_max));
       break;
     }
     points.push_back(reader.vec3("point"));
@@ -102,8 +109,7 @@ std::vector<glm::vec3> FieldChecker::points(const std::string& packed, size_t co
 SettingValues FieldChecker::settings(const WireSettings& values) {
   SettingValues settings;
   if (static_cast<size_t>(values.size()) > limits::settings_max) {
-    refuse(std::to_string(values.size()) + " settings are over the limit of " +
-           std::to_string(limits::settings_max));
+    refuse(fmt::format("{} settings are over the limit of {}", values.size(), limits::settings_max));
     return settings;
   }
   for (const wire::Setting& value : values)

@@ -30,10 +30,23 @@ class FieldChecker {
   /// A known kind by its number.
   template <HasRows Kind>
   Kind kind(int64_t number, const char* what) {
-    if (number >= 0 && number < static_cast<int64_t>(kind_count<Kind>)) return static_cast<Kind>(number);
-    refuse(std::string(what) + " " + std::to_string(number) + " is unknown");
+    if (is_kind<Kind>(number)) return static_cast<Kind>(number);
+    refuse_kind(number, what);
     return Kind{};
   }
+  /// The same of a request. An unknown one is no error: unknown() says it from then on.
+  template <HasRows Kind>
+  Kind asked_kind(int64_t number, const char* what) {
+    if (is_kind<Kind>(number)) return static_cast<Kind>(number);
+    note_unknown(number, what);
+    return Kind{};
+  }
+  /// The same where an unknown one can be taken for another.
+  template <HasRows Kind>
+  static Kind kind_or(int64_t number, Kind otherwise) {
+    return is_kind<Kind>(number) ? static_cast<Kind>(number) : otherwise;
+  }
+  /// Of a request.
   Shape shape(const wire::Shape& value);
   /// Coordinates of chunks, packed.
   std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);
@@ -51,10 +64,20 @@ class FieldChecker {
   void refuse(const std::string& reason);
   bool failed() const { return !error_.message.empty(); }
   const Error& error() const { return error_; }
+  /// The first unknown kind within a request, in words; empty: there is none.
+  const std::string& unknown() const { return unknown_; }
 
  private:
+  template <HasRows Kind>
+  static bool is_kind(int64_t number) {
+    return number >= 0 && number < static_cast<int64_t>(kind_count<Kind>);
+  }
+  void refuse_kind(int64_t number, const char* what);
+  void note_unknown(int64_t number, const char* what);
+
   const char* subject_;
   Error error_;
+  std::string unknown_;
 };
 
 void write(wire::Vec3& to, glm::vec3 from);

@@ -1,6 +1,7 @@
 #include "transport/layered_transport.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "shared/base/check.h"
 
@@ -135,8 +136,8 @@ void LayeredTransport::received(const Moved& moved) {
   } else {
     end_ = moved.error();
     if (!engine_->established())
-      end_ = StreamEnd{
-          false, "the other side ended the TLS handshake (" + moved.error().why + "): does it speak TLS?"};
+      end_ = StreamEnd{false, fmt::format("the other side ended the TLS handshake ({}): does it speak TLS?",
+                                          moved.error().why)};
   }
   go_on();
 }

@@ -1,6 +1,7 @@
 #include "transport/link_transport.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -134,9 +135,9 @@ bool LinkTransport::give_to_reader(double now_s) {
 bool LinkTransport::break_if_cut() {
   const bool up = up_.cut() && !sending_ && sent_from_ == sent_to_;
   if (broken_ || (!up && !down_.cut())) return broken_.has_value();
-  broken_ = StreamEnd{false, "the simulated link was cut after " +
-                                 std::to_string(up ? up_.popped_bytes() : down_.popped_bytes()) + " bytes " +
-                                 (up ? "up" : "down")};
+  broken_ =
+      StreamEnd{false, fmt::format("the simulated link was cut after {} bytes {}",
+                                   up ? up_.popped_bytes() : down_.popped_bytes(), (up ? "up" : "down"))};
   clock_->cancel();
   below_->cut();
   return true;

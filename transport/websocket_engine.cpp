@@ -1,6 +1,7 @@
 #include "transport/websocket_engine.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <wslay/wslay.h>
 
 #include "shared/base/check.h"
@@ -103,8 +104,7 @@ Result<StreamEngine::Got> WebSocketEngine::read(std::span<uint8_t> into) {
   inbox_from_ += count;
   if (count > 0 || library_->reads()) return Got{count, false};
   if (library_->close_received()) return Got{0, true};
-  return fail("WebSocket: a frame that breaks the rules (close code " +
-              std::to_string(library_->code_sent()) + ")");
+  return fail(fmt::format("WebSocket: a frame that breaks the rules (close code {})", library_->code_sent()));
 }
 
 Result<void> WebSocketEngine::write(std::span<const uint8_t> plain) {

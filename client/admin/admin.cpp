@@ -83,7 +83,7 @@ Result<SettingValues> settings_of_status(Talk& talk) {
 
 /// Joins, asks, and waits for the answer: an error when it is a refusal.
 template <typename Answer>
-Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminAct act) {
+Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminRequest act) {
   Talk talk = TRY(join(server));
   talk.send(AdminMessage{1, "", std::move(act)});
   Result<Answer> answer = talk.answer<Answer>();
@@ -91,7 +91,7 @@ Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminAct act) {
   return std::pair{std::move(*answer), std::move(talk)};
 }
 
-Result<void> done_by(const AdminServer& server, AdminAct act) {
+Result<void> done_by(const AdminServer& server, AdminRequest act) {
   const auto asked = TRY(ask<ReplyMessage>(server, std::move(act)));
   return {};
 }
@@ -111,24 +111,24 @@ Result<SettingValues> read_settings(const AdminServer& server) {
 }
 
 Result<SettingValues> change_settings(const AdminServer& server, const SettingValues& changes) {
-  auto asked = TRY(ask<ReplyMessage>(server, changes));
+  auto asked = TRY(ask<ReplyMessage>(server, SettingsRequest{changes}));
   // A reply follows its own tick's messages, so the next status is of a later one.
   return settings_of_status(asked.second);
 }
 
 Result<std::vector<SessionRow>> list_sessions(const AdminServer& server) {
-  auto asked = ask<AdminListMessage>(server, ListSessions{});
+  auto asked = ask<AdminListMessage>(server, ListSessionsRequest{});
   TRY(asked);
   return std::move(asked->first.sessions);
 }
 
 Result<std::vector<BanRow>> list_bans(const AdminServer& server) {
-  auto asked = ask<AdminListMessage>(server, ListBans{});
+  auto asked = ask<AdminListMessage>(server, ListBansRequest{});
   TRY(asked);
   return std::move(asked->first.bans);
 }
 
-Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish) {
+Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplayRequest& wish) {
   Talk talk = TRY(join(server));
   if (!talk.welcome().replay) return fail("this server plays no recording (scree server --replay)");
   const auto before = TRY(talk.next<PlaybackMessage>("playback"));
@@ -140,15 +140,15 @@ Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlR
   }
 }
 
-Result<void> kick_session(const AdminServer& server, const KickSession& kick) {
+Result<void> kick_session(const AdminServer& server, const KickRequest& kick) {
   return done_by(server, kick);
 }
 
-Result<void> ban_address(const AdminServer& server, const BanAddress& ban) {
+Result<void> ban_address(const AdminServer& server, const BanRequest& ban) {
   return done_by(server, ban);
 }
 
-Result<void> lift_ban(const AdminServer& server, const LiftBan& lift) {
+Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift) {
   return done_by(server, lift);
 }
 

@@ -38,19 +38,19 @@ std::string sessions_json(const std::vector<SessionRow>& sessions);
 std::string sessions_lines(const std::vector<SessionRow>& sessions);
 
 /// Controls a replay, and returns where it stands then: after its next tick, or after the jump.
-Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplay& wish);
+Result<PlaybackMessage> control_replay(const AdminServer& server, const ControlReplayRequest& wish);
 std::string playback_json(const PlaybackMessage& playback);
 std::string playback_lines(const PlaybackMessage& playback);
 /// Says that the recording does not have the wished tick, or no longer, and where it went; empty: it went
 /// there.
-std::string went_elsewhere(const ControlReplay& wish, const PlaybackMessage& playback);
+std::string went_elsewhere(const ControlReplayRequest& wish, const PlaybackMessage& playback);
 
 Result<std::vector<BanRow>> list_bans(const AdminServer& server);
 std::string bans_json(const std::vector<BanRow>& bans);
 std::string bans_lines(const std::vector<BanRow>& bans);
 
-Result<void> kick_session(const AdminServer& server, const KickSession& kick);
-Result<void> ban_address(const AdminServer& server, const BanAddress& ban);
-Result<void> lift_ban(const AdminServer& server, const LiftBan& lift);
+Result<void> kick_session(const AdminServer& server, const KickRequest& kick);
+Result<void> ban_address(const AdminServer& server, const BanRequest& ban);
+Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift);
 
 }  // namespace scree

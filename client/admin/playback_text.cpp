@@ -23,7 +23,7 @@ std::string playback_lines(const PlaybackMessage& playback) {
   return text.data();
 }
 
-std::string went_elsewhere(const ControlReplay& wish, const PlaybackMessage& playback) {
+std::string went_elsewhere(const ControlReplayRequest& wish, const PlaybackMessage& playback) {
   const auto first = static_cast<int64_t>(playback.first), last = static_cast<int64_t>(playback.last);
   if (wish.move != ReplayMove::to_tick || (wish.value >= first && wish.value <= last)) return {};
   return "tick " + std::to_string(wish.value) + " is not in the recording, which has the ticks " +

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <string_view>
 #include <unistd.h>
@@ -121,7 +122,7 @@ std::vector<CacheFile> files_in(const std::string& folder, const std::string& be
 }  // namespace
 
 std::string CacheFolder::file_of(const std::string& address, uint64_t world) const {
-  return path_ + "/" + name_of_address(address) + hex(world) + extension;
+  return fmt::format("{}/{}{}{}", path_, name_of_address(address), hex(world), extension);
 }
 
 std::optional<KeptWorld> CacheFolder::read(const std::string& address, std::optional<uint64_t> world) const {
@@ -152,8 +153,8 @@ Result<void> CacheFolder::try_writing() const {
   if (path_.empty()) return {};
   std::error_code error;
   if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
-  if (error) return fail(path_ + ": " + error.message());
-  const std::string probe = path_ + "/" + std::to_string(getpid()) + unfinished;
+  if (error) return fail(fmt::format("{}: {}", path_, error.message()));
+  const std::string probe = fmt::format("{}/{}{}", path_, getpid(), unfinished);
   std::ofstream out(probe, std::ios::binary | std::ios::trunc);
   out << "probe";
   out.close();
@@ -169,7 +170,7 @@ void CacheFolder::write(const std::string& address, const KeptWorld& kept) const
   if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
   const std::string file = file_of(address, kept.world);
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  const std::string partial = file + "." + std::to_string(getpid()) + "." + std::to_string(now) + unfinished;
+  const std::string partial = fmt::format("{}.{}.{}{}", file, getpid(), now, unfinished);
   const std::vector<uint8_t> bytes = bytes_of(kept);
   {
     std::ofstream out(partial, std::ios::binary | std::ios::trunc);

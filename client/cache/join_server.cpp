@@ -1,5 +1,6 @@
 #include "client/cache/join_server.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 #include "shared/base/check.h"
@@ -11,7 +12,7 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> join_server(Rejoin& rej
                                                                      const ServerEndpoint& server,
                                                                      HelloMessage hello,
                                                                      std::chrono::milliseconds within) {
-  Rejoin::Opening opening = rejoin.open(server.host + ":" + std::to_string(server.port), std::move(hello));
+  Rejoin::Opening opening = rejoin.open(fmt::format("{}:{}", server.host, server.port), std::move(hello));
   return Connection::connect(server, std::move(opening.hello), within, opening.then);
 }
 

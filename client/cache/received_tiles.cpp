@@ -235,8 +235,8 @@ bool ReceivedTiles::is_full() const {
   return asked_.size() >= limits::tiles_asked_max || held_bytes_ >= limits::tile_memory_max;
 }
 
-TileRequest ReceivedTiles::next_request(glm::vec3 eye_m, float radius_m) {
-  TileRequest request;
+AskTilesMessage ReceivedTiles::next_request(glm::vec3 eye_m, float radius_m) {
+  AskTilesMessage request;
   size_t reads = 0;
   for (bool more = true; more;) {
     more = false;  // unless a tile that is read names others

@@ -33,7 +33,7 @@ class ReceivedTiles final : public GroundModel {
   Result<void> take(const TileMessage& message);
   /// The next request to send; reads the cache. Empty when all is asked for. Tiles around the eye, as far as
   /// the radius, are wanted whether somebody missed them or not. Metres.
-  TileRequest next_request(glm::vec3 eye_m, float radius_m);
+  AskTilesMessage next_request(glm::vec3 eye_m, float radius_m);
   /// Whether all tiles around the eye are there.
   bool has_near(glm::vec3 eye_m, float radius_m) const;
 

@@ -52,7 +52,7 @@ WelcomeMessage Rejoin::with_ground(const WelcomeMessage& welcome) {
 
 void Rejoin::ask_for_tiles(ServerChannel& connection) {
   if (tiles_ == nullptr) return;
-  const TileRequest request = tiles_->next_request(eye_m_, radius_m_);
+  const AskTilesMessage request = tiles_->next_request(eye_m_, radius_m_);
   if (!request.wanted.empty() || !request.held.empty()) connection.send(request);
 }
 

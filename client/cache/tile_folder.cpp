@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <string_view>
 #include <unistd.h>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::optional<std::vector<uint8_t>> TileFolder::read(const Digest& digest) const {
   if (path_.empty()) return std::nullopt;
-  const std::string file = path_ + "/" + hex_of(digest) + tile_extension;
+  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), tile_extension);
   std::error_code error;
   const uintmax_t size = fs::file_size(file, error);
   if (error || size > limits::tile_bytes_max) return std::nullopt;
@@ -32,8 +33,8 @@ void TileFolder::write(const Digest& digest, const std::vector<uint8_t>& bytes) 
   if (path_.empty()) return;
   std::error_code error;
   if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
-  const std::string file = path_ + "/" + hex_of(digest) + tile_extension;
-  const std::string partial = file + "." + std::to_string(getpid()) + ".unfinished";
+  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), tile_extension);
+  const std::string partial = fmt::format("{}.{}.unfinished", file, getpid());
   std::ofstream out(partial, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   out.close();

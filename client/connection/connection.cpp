@@ -7,6 +7,7 @@
 #include <asio/steady_timer.hpp>
 #include <condition_variable>
 #include <deque>
+#include <fmt/format.h>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -42,6 +43,7 @@ struct Connection::Impl {
   tcp::socket socket{context};           ///< until it is connected
   std::shared_ptr<Transport> transport;  ///< from then on
   Intake intake;
+  uint64_t noted_unknown = 0;  ///< of the intake, as the counters have it
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
   std::deque<std::vector<uint8_t>> outbox;
   size_t front_sent_bytes = 0;  ///< sent bytes of the first message in the outbox
@@ -70,6 +72,7 @@ struct Connection::Impl {
   void watch_silence();
   void read();
   void take_messages();
+  void note_unknown();
   void enqueue(ServerMessage message, size_t bytes);
   void open_up();
   void push(std::vector<uint8_t> bytes);
@@ -101,7 +104,7 @@ void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<co
                                 const std::vector<ClientMessage>& first, const asio::error_code& before) {
   if (ended) return;
   if (untried == found.end())
-    return end("cannot connect: " + before.message() + "; is a server running there?");
+    return end(fmt::format("cannot connect: {}; is a server running there?", before.message()));
   const tcp::endpoint to = *untried++;
   asio::error_code failed;
   socket.close(failed);
@@ -170,8 +173,8 @@ void Connection::Impl::watch_silence() {
     if (error || ended) return;
     if (!reading || !intake.sends_frames()) heard = Clock::now();
     if (Clock::now() - heard > most)
-      return end("the connection was lost: the server has been silent for " +
-                 std::to_string(std::lround(most.count())) + " s");
+      return end(fmt::format("the connection was lost: the server has been silent for {} s",
+                             std::lround(most.count())));
     watch_silence();
   });
 }
@@ -190,6 +193,7 @@ void Connection::Impl::take_messages() {
       }
     }
     auto next = intake.next();
+    note_unknown();
     if (!next) return end(next.error().message, next.error().refusal);
     if (!*next) break;
     if (std::holds_alternative<WelcomeMessage>((*next)->message)) {
@@ -199,6 +203,13 @@ void Connection::Impl::take_messages() {
     }
   }
   read();
+}
+
+void Connection::Impl::note_unknown() {
+  if (intake.unknown() == noted_unknown) return;
+  noted_unknown = intake.unknown();
+  const std::scoped_lock lock(mutex);
+  counters.messages_unknown = noted_unknown;
 }
 
 /// The welcome has come.
@@ -231,8 +242,8 @@ void Connection::Impl::push(std::vector<uint8_t> bytes) {
   if (ended) return;
   outbox_bytes += bytes.size();
   if (outbox_bytes > limits::unsent_bytes_max)
-    return end("the server does not read: " + std::to_string(outbox_bytes) +
-               " bytes wait to be sent (limits.unsent_bytes_max)");
+    return end(fmt::format("the server does not read: {} bytes wait to be sent (limits.unsent_bytes_max)",
+                           outbox_bytes));
   outbox.push_back(std::move(bytes));
   if (outbox.size() == 1) write();
 }
@@ -286,7 +297,8 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
     const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
     const std::vector<ClientMessage>& then) {
   const auto failed = [&server](const std::string& why, const std::string& refusal = {}) {
-    return tl::unexpected(ConnectionEnd{{endpoint_text(server.host, server.port) + ": " + why}, refusal});
+    return tl::unexpected(
+        ConnectionEnd{{fmt::format("{}: {}", endpoint_text(server.host, server.port), why)}, refusal});
   };
   hello.token = server.token;
   std::vector<ClientMessage> first{std::move(hello)};
@@ -298,7 +310,7 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
     if (Result<void> started = impl->start(server, first); !started) return failed(started.error().message);
     impl->context.run_for(within);
     if (!impl->intake.welcome()) {
-      impl->end("no answer within " + std::to_string(within.count()) + " ms");
+      impl->end(fmt::format("no answer within {} ms", within.count()));
       return failed(impl->reason.message, impl->reason.refusal);
     }
     impl->context.restart();

@@ -1,6 +1,7 @@
 #include "client/connection/endpoint_options.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/option_check.h"
@@ -27,9 +28,11 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
                                  const std::string& token_environment, EndpointNaming naming)
     : endpoint_(endpoint) {
   if (naming == EndpointNaming::server)
-    app.add_option("--server", server_,
-                   "HOST[:PORT] of a server, [ADDRESS]:PORT with an IPv6 address; port " +
-                       std::to_string(default_port) + " unless said otherwise");
+    app.add_option(
+        "--server", server_,
+        fmt::format(
+            "HOST[:PORT] of a server, [ADDRESS]:PORT with an IPv6 address; port {} unless said otherwise",
+            default_port));
   else
     declare_host_and_port(app, endpoint);
   app.add_flag("--tls", endpoint.tls,
@@ -66,15 +69,15 @@ Result<void> EndpointOptions::take_server() {
                         (bracketed ? server_.find("]:") + 1 == colon : server_.find(':') == colon);
   std::string host = has_port ? server_.substr(0, colon) : server_;
   if (bracketed) {
-    if (!host.ends_with(']')) return fail("--server: '" + server_ + "' has no ] after the address");
+    if (!host.ends_with(']')) return fail(fmt::format("--server: '{}' has no ] after the address", server_));
     host = host.substr(1, host.size() - 2);
   }
-  if (host.empty()) return fail("--server: '" + server_ + "' names no host");
+  if (host.empty()) return fail(fmt::format("--server: '{}' names no host", server_));
   endpoint_.host = host;
   if (!has_port) return {};
   const std::string port = server_.substr(colon + 1);
   if (const std::string wrong = ports(port); !wrong.empty())
-    return fail("--server: the port of '" + server_ + "': " + wrong);
+    return fail(fmt::format("--server: the port of '{}': {}", server_, wrong));
   endpoint_.port = static_cast<uint16_t>(std::stod(port));
   return {};
 }

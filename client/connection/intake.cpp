@@ -1,5 +1,7 @@
 #include "client/connection/intake.h"
 
+#include <fmt/format.h>
+
 #include "proto/codec.h"
 
 namespace scree {
@@ -12,13 +14,17 @@ tl::unexpected<ConnectionEnd> end(const std::string& why, const std::string& ref
 }  // namespace
 
 tl::expected<std::optional<Intake::Next>, ConnectionEnd> Intake::next() {
-  const auto bytes = reader_.next();
-  if (!bytes) return end("what the server sent is not this protocol: " + bytes.error().message);
-  if (!*bytes) return std::nullopt;
-  Result<ServerMessage> message = decode_server(**bytes);
-  if (!message) return end("what the server sent is not this protocol: " + message.error().message);
-  if (tl::expected<void, ConnectionEnd> fits = look_at(*message); !fits) return tl::unexpected(fits.error());
-  return Next{std::move(*message), (*bytes)->size() + length_prefix_bytes};
+  for (;; ++unknown_) {
+    const auto bytes = reader_.next();
+    if (!bytes) return end("what the server sent is not this protocol: " + bytes.error().message);
+    if (!*bytes) return std::nullopt;
+    Result<ServerMessage> message = decode_server(**bytes);
+    if (!message) return end("what the server sent is not this protocol: " + message.error().message);
+    if (std::holds_alternative<UnknownMessage>(*message)) continue;
+    if (tl::expected<void, ConnectionEnd> fits = look_at(*message); !fits)
+      return tl::unexpected(fits.error());
+    return Next{std::move(*message), (*bytes)->size() + length_prefix_bytes};
+  }
 }
 
 tl::expected<void, ConnectionEnd> Intake::look_at(const ServerMessage& message) {
@@ -32,8 +38,8 @@ tl::expected<void, ConnectionEnd> Intake::look_at(const ServerMessage& message) 
     return {};
   }
   if (first->protocol != protocol_version)
-    return end("the server speaks protocol " + std::to_string(first->protocol) + ", this client " +
-               std::to_string(protocol_version) + "; use the same version of both");
+    return end(fmt::format("the server speaks protocol {}, this client {}; use the same version of both",
+                           first->protocol, protocol_version));
   welcome_ = *first;
   return {};
 }

@@ -1,4 +1,5 @@
-// From a server's bytes to its messages: a welcome of this protocol first, and none after it. Not
+// From a server's bytes to its messages: a welcome of this protocol first, and none after it. Messages of
+// unknown kinds are skipped. Not
 // thread-safe.
 #pragma once
 
@@ -20,12 +21,14 @@ class Intake {
 
   /// Appends received bytes. Call next() until it returns nothing before the next push.
   void push(std::span<const uint8_t> bytes) { reader_.push(bytes); }
-  /// The next message, the welcome among them; nothing when more bytes are needed. The error ends the
-  /// connection: the server refused, or does not speak this protocol.
+  /// The next message of a known kind, the welcome among them; nothing when more bytes are needed. The error
+  /// ends the connection: the server refused, or does not speak this protocol.
   tl::expected<std::optional<Next>, ConnectionEnd> next();
 
   /// Nothing before it has come.
   const std::optional<WelcomeMessage>& welcome() const { return welcome_; }
+  /// Messages that were skipped, for their kind is not known.
+  uint64_t unknown() const { return unknown_; }
   /// The server has sent frames, so that its silence says something.
   bool sends_frames() const { return sends_frames_; }
 
@@ -35,6 +38,7 @@ class Intake {
   FrameReader reader_;
   std::optional<WelcomeMessage> welcome_;
   bool sends_frames_ = false;
+  uint64_t unknown_ = 0;
 };
 
 }  // namespace scree

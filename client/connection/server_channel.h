@@ -32,9 +32,10 @@ struct ConnectionCounters {
   uint64_t received_messages = 0;
   uint64_t sent_bytes = 0;  ///< handed over to be sent, the hello included
   uint64_t sent_messages = 0;
-  size_t waiting_messages = 0;  ///< received, not yet polled
-  size_t waiting_bytes = 0;     ///< their memory
-  uint64_t pauses = 0;          ///< times that reading stopped because the queue was full
+  uint64_t messages_unknown = 0;  ///< skipped: of a kind that this version does not know
+  size_t waiting_messages = 0;    ///< received, not yet polled
+  size_t waiting_bytes = 0;       ///< their memory
+  uint64_t pauses = 0;            ///< times that reading stopped because the queue was full
 };
 
 class ServerChannel {

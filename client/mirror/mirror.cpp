@@ -1,6 +1,7 @@
 #include "client/mirror/mirror.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 
 #include "client/mirror/limits.h"
@@ -72,6 +73,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
             status_ = status;
             return {};
           },
+          // Of a later release; nothing that this one has to apply.
+          [](const UnknownMessage&) -> Done { return {}; },
           // For the person; nothing of the world.
           [](const ReplyMessage&) -> Done { return {}; },
           [](const AdminListMessage&) -> Done { return {}; },
@@ -95,27 +98,27 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
 
 Result<void> Mirror::within_limits() const {
   if (const size_t chunks = held_.size() + incomplete_.size(); chunks > limits::mirror_chunks_max)
-    return fail(std::to_string(chunks) + " edited chunks are over this client's " +
-                std::to_string(limits::mirror_chunks_max) +
-                " (limits.mirror_chunks_max); ask for a smaller radius of interest");
+    return fail(
+        fmt::format("{} edited chunks are over this client's {} (limits.mirror_chunks_max); ask for a "
+                    "smaller radius of interest",
+                    chunks, limits::mirror_chunks_max));
   if (motions_.size() > limits::mirror_pieces_max)
-    return fail(std::to_string(motions_.size()) + " pieces are over this client's " +
-                std::to_string(limits::mirror_pieces_max) + " (limits.mirror_pieces_max)");
+    return fail(fmt::format("{} pieces are over this client's {} (limits.mirror_pieces_max)", motions_.size(),
+                            limits::mirror_pieces_max));
   if (piece_voxels_ > limits::piece_voxels_max)
-    return fail("pieces of " + std::to_string(piece_voxels_) + " voxels are over the limit of " +
-                std::to_string(limits::piece_voxels_max) + " (limits.piece_voxels_max)");
+    return fail(fmt::format("pieces of {} voxels are over the limit of {} (limits.piece_voxels_max)",
+                            piece_voxels_, limits::piece_voxels_max));
   return {};
 }
 
 Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& changes) {
   if (frame.tick < tick_)
-    return fail("a frame of tick " + std::to_string(frame.tick) + " came after that of tick " +
-                std::to_string(tick_));
+    return fail(fmt::format("a frame of tick {} came after that of tick {}", frame.tick, tick_));
   ChunkSet changed;
   float work_us = 0.0F;
   for (const Operation& operation : frame.operations) {
     Result<void> applied = apply_operation(operation, frame.tick, work_us, changed, changes);
-    if (!applied) return fail("tick " + std::to_string(frame.tick) + ": " + applied.error().message);
+    if (!applied) return fail(fmt::format("tick {}: {}", frame.tick, applied.error().message));
     if (applied = within_limits(); !applied) return applied;
   }
   apply_patches(frame.patches, changed, changes);
@@ -145,7 +148,7 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, floa
   const PieceIds made = ids_made_by(operation);
   const auto taken = table_.lower_bound(made.first);
   if (taken != table_.end() && taken->first - made.first < made.count)
-    return fail("piece " + std::to_string(taken->first) + " is made a second time");
+    return fail(fmt::format("piece {} is made a second time", taken->first));
   const Birthplace birthplace = birthplace_of(operation);
   const Applied applied = scree::apply(operation, field_, table_);
   for (const BrickCoord brick : applied.changed) changed.insert(chunk_of(brick));
@@ -199,9 +202,9 @@ void Mirror::check(const FrameMessage& frame, const ChunkSet& changed) {
   }
 }
 
-std::optional<RepairRequest> Mirror::take_repair_request() {
+std::optional<RepairMessage> Mirror::take_repair_request() {
   if (mismatched_.empty()) return std::nullopt;
-  RepairRequest request;
+  RepairMessage request;
   request.tick = mismatched_.begin()->second.tick;
   for (auto entry = mismatched_.begin(); entry != mismatched_.end();) {
     if (request.chunks.size() == limits::repair_chunks_max) break;
@@ -223,7 +226,7 @@ Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick t
   for (const PieceState& state : states) {
     const auto found = motions_.find(state.id);
     if (found == motions_.end())
-      return fail("the pose of piece " + std::to_string(state.id) + ", which is not known here");
+      return fail(fmt::format("the pose of piece {}, which is not known here", state.id));
     move_piece(found->second, dequantise(state.pose), tick);
   }
   counters_.transforms += states.size();
@@ -266,8 +269,8 @@ Result<void> Mirror::apply_chunk(const ChunkMessage& message, MirrorChanges& cha
   if (message.is_part()) return apply_part(message, changes);
   replace_chunk(message.chunk, message.bricks, changes);
   if (field_.chunk_hash(message.chunk) != message.hash)
-    return fail("chunk (" + std::to_string(message.chunk.x) + ", " + std::to_string(message.chunk.y) + ", " +
-                std::to_string(message.chunk.z) + ") does not have the hash that came with it");
+    return fail(fmt::format("chunk ({}, {}, {}) does not have the hash that came with it", message.chunk.x,
+                            message.chunk.y, message.chunk.z));
   held_.insert(message.chunk);
   mismatched_.erase(message.chunk);
   counters_.repairs_arrived += repairs_awaited_.erase(message.chunk);
@@ -324,8 +327,7 @@ void Mirror::apply_kept(const KeptMessage& message, MirrorChanges& changes) {
 }
 
 Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& changes) {
-  if (motions_.contains(message.id))
-    return fail("piece " + std::to_string(message.id) + " is sent a second time");
+  if (motions_.contains(message.id)) return fail(fmt::format("piece {} is sent a second time", message.id));
   auto volume = std::make_shared<const Volume>(message.volume);
   known_motions_.add(message.id, *volume);
   table_[message.id] = volume;

@@ -80,7 +80,7 @@ class Mirror {
 
   /// Takes the next request to send to the server, of chunks whose frame had another check. Call until there
   /// is nothing.
-  std::optional<RepairRequest> take_repair_request();
+  std::optional<RepairMessage> take_repair_request();
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
   /// Pose at a (fractional) tick, clamped to the known poses.

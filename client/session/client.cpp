@@ -106,7 +106,7 @@ Client::Event Client::apply(Received received) {
   if (!changes) return lose({{"what the server sent cannot be applied: " + changes.error().message}, {}});
   predictions_->notice(message);
   rejoin_.after(message, *mirror_, *channel_);
-  while (const std::optional<RepairRequest> repair = mirror_->take_repair_request()) channel_->send(*repair);
+  while (const std::optional<RepairMessage> repair = mirror_->take_repair_request()) channel_->send(*repair);
   return Applied{std::move(received), std::move(*changes)};
 }
 
@@ -130,7 +130,7 @@ void Client::send(const ClientMessage& message) {
 void Client::ask(const Request& request, uint32_t number, double now_s) {
   if (!channel_) return;
   std::visit(Overloaded{[&](const auto& asked) {
-                          channel_->send(Asked<std::decay_t<decltype(asked)>>{asked, number});
+                          channel_->send(RequestMessage<std::decay_t<decltype(asked)>>{asked, number});
                         },
                         [](const SettingsRequest&) { CHECK(!"a request of clients"); },
                         [](const LeaveRequest&) { CHECK(!"a request of clients"); }},

@@ -146,6 +146,7 @@ std::optional<Received> PageSocket::next() {
 
 ConnectionCounters PageSocket::counters() const {
   ConnectionCounters counters = counters_;
+  counters.messages_unknown = intake_.unknown();
   counters.waiting_messages = arrived_.size();
   counters.waiting_bytes = unread_bytes_;
   return counters;

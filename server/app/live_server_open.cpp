@@ -27,7 +27,7 @@ Result<void> LiveServer::State::open() {
     feed = std::move(replay->feed);
     config.world = replay->world;
     config.net.replay = true;
-    config.net.control = [this](const ControlReplay& wish) { return feed->control(wish); };
+    config.net.control = [this](const ControlReplayRequest& wish) { return feed->control(wish); };
   } else if (auto opened = open_world(); !opened) {
     return opened;
   }

@@ -90,6 +90,7 @@ Json json_of(const NetStats& net) {
           {"repairs", sent.repairs},
           {"requests", net.requests},
           {"requests_refused", net.requests_refused},
+          {"messages_unknown", net.messages_unknown},
           {"publish_waits", net.publish_waits}};
 }
 

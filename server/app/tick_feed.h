@@ -22,7 +22,7 @@ class TickFeed {
   /// The simulation behind it; null for a recording.
   virtual World* world() { return nullptr; }
   /// Takes what somebody wants of a replay; an error for a simulation. From any thread.
-  virtual Result<void> control(const ControlReplay&) {
+  virtual Result<void> control(const ControlReplayRequest&) {
     return fail("this server plays no recording (--replay)");
   }
 };

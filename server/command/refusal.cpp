@@ -32,6 +32,7 @@ constexpr Row rows[] = {
     {Refusal::no_admin_token, "no_admin_token"},
     {Refusal::role, "role"},
     {Refusal::admin_invalid, "admin_invalid"},
+    {Refusal::value_unknown, "value_unknown"},
     {Refusal::http_malformed, "http_malformed"},
     {Refusal::http_too_long, "http_too_long"},
     {Refusal::http_late, "http_late"},

@@ -33,6 +33,7 @@ enum class Refusal : uint8_t {
   no_admin_token,
   role,
   admin_invalid,
+  value_unknown,
   // The network side refuses an HTTP request.
   http_malformed,
   http_too_long,

@@ -1,6 +1,7 @@
 #include "server/formats/event_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <recording.pb.h>
 
 #include "server/formats/cursor_samples.h"
@@ -31,7 +32,7 @@ void write(RecordedEvents& to, std::span<const Event> events, Tick last) {
 std::vector<Event> read(const RecordedEvents& from, Tick last, bool of_machine, FieldChecker& check) {
   std::vector<Event> events;
   if (static_cast<size_t>(from.size()) > limits::events_per_row_max)
-    check.refuse(std::to_string(from.size()) + " events (limits.events_per_row_max)");
+    check.refuse(fmt::format("{} events (limits.events_per_row_max)", from.size()));
   for (const recorded::Event& event : from) {
     if (check.failed()) break;
     Event made;
@@ -84,8 +85,8 @@ Result<RecordedMachine> decode_recorded_machine(std::span<const uint8_t> bytes) 
   machine.tick = from.tick();
   if (from.tick_us().empty() || from.tick_us_size() > static_cast<int>(limits::ticks_per_row_max) ||
       static_cast<Tick>(from.tick_us_size()) > machine.tick)
-    check.refuse(std::to_string(from.tick_us_size()) + " durations up to tick " +
-                 std::to_string(machine.tick) + " (limits.ticks_per_row_max)");
+    check.refuse(fmt::format("{} durations up to tick {} (limits.ticks_per_row_max)", from.tick_us_size(),
+                             machine.tick));
   machine.tick_us.assign(from.tick_us().begin(), from.tick_us().end());
   machine.events = read(from.events(), machine.tick, true, check);
   if (!check.failed())

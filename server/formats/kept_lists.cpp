@@ -1,8 +1,14 @@
 #include "server/formats/kept_lists.h"
 
+#include <fmt/format.h>
+
 #include "proto/limits.h"
 
 namespace scree {
+
+void refuse_more(ByteReader& reader, size_t count_max) {
+  reader.refuse(fmt::format("more than {} entries", count_max));
+}
 
 namespace {
 

@@ -19,13 +19,16 @@ std::string packed(Write&& write) {
   return {bytes.begin(), bytes.end()};
 }
 
+/// A list of more entries.
+void refuse_more(ByteReader& reader, size_t count_max);
+
 /// Reads entries until the bytes end, at most `count_max`; `read(reader)` returns one.
 template <typename T, typename Read>
 Result<std::vector<T>> unpacked(const std::string& bytes, const char* what, size_t count_max, Read&& read) {
   ByteReader reader({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, what);
   std::vector<T> list;
   while (!reader.at_end()) {
-    if (list.size() == count_max) reader.refuse("more than " + std::to_string(count_max) + " entries");
+    if (list.size() == count_max) refuse_more(reader, count_max);
     if (!reader.failed()) list.push_back(read(reader));
   }
   if (reader.failed()) return tl::unexpected(reader.error());

@@ -1,6 +1,7 @@
 #include "server/formats/recording_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <recording.pb.h>
 
 #include "proto/codec.h"
@@ -32,32 +33,32 @@ PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
 Command read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
   const ClientMessage message = check.take(decode_client(as_span(bytes)));
   return std::visit(
-      Overloaded{[&]<typename Asks>(const Asked<Asks>& asked) {
-                   return Command{session, asked.request, static_cast<const Asks&>(asked)};
-                 },
-                 [&](const AdminMessage& admin) {
-                   const auto* settings = std::get_if<SettingValues>(&admin.act);
-                   if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
-                   return Command{session, admin.request,
-                                  SettingsRequest{settings == nullptr ? SettingValues() : *settings}};
-                 },
-                 [&](const GoodbyeMessage&) {
-                   return Command{session, 0, LeaveRequest{}};
-                 },
-                 [&](const auto&) {
-                   check.refuse("a message that asks for nothing stands where a request should");
-                   return Command{};
-                 }},
+      Overloaded{
+          [&]<typename Asks>(const RequestMessage<Asks>& asked) {
+            return Command{session, asked.request, static_cast<const Asks&>(asked)};
+          },
+          [&](const AdminMessage& admin) {
+            const auto* settings = std::get_if<SettingsRequest>(&admin.act);
+            if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+            return Command{session, admin.request, settings == nullptr ? SettingsRequest() : *settings};
+          },
+          [&](const GoodbyeMessage&) {
+            return Command{session, 0, LeaveRequest{}};
+          },
+          [&](const auto&) {
+            check.refuse("a message that asks for nothing stands where a request should");
+            return Command{};
+          }},
       message);
 }
 
 /// As the client sent it, without the token.
 ClientMessage message_of(const Command& command) {
   return std::visit(Overloaded{[&]<typename Asks>(const Asks& asks) {
-                                 return ClientMessage(Asked<Asks>{asks, command.request});
+                                 return ClientMessage(RequestMessage<Asks>{asks, command.request});
                                },
                                [&](const SettingsRequest& settings) {
-                                 return ClientMessage(AdminMessage{command.request, {}, settings.settings});
+                                 return ClientMessage(AdminMessage{command.request, {}, settings});
                                },
                                [](const LeaveRequest&) { return ClientMessage(GoodbyeMessage{}); }},
                     command.body);
@@ -138,8 +139,8 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
     keyframe.pieces.push_back(read_piece(as_span(packed), check));
     voxels += keyframe.pieces.back().volume.window.codes.size();
     if (voxels > limits::piece_voxels_max)
-      check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                   " voxels (limits.piece_voxels_max)");
+      check.refuse(
+          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   }
   keyframe.ledger = read(from.ledger());
   keyframe.field_hash = from.field_hash();

@@ -1,6 +1,7 @@
 #include "server/formats/world_codec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <world.pb.h>
 
 #include "proto/operation_codec.h"
@@ -117,7 +118,7 @@ BodyShape read_shape(const kept::Piece& from, FieldChecker& check) {
     check.refuse("a tensor of inertia without nine numbers");
   shape.hull_m = check.take(unpack_vec3s(from.hull(), "hull", hull_points_max));
   shape.surface_m = check.take(unpack_vec3s(from.surface(), "surface", surface_points_max));
-  if (from.parts_size() > parts_max) check.refuse("more than " + std::to_string(parts_max) + " parts");
+  if (from.parts_size() > parts_max) check.refuse(fmt::format("more than {} parts", parts_max));
   for (int i = 0; i < from.parts_size() && !check.failed(); ++i)
     shape.parts_m.push_back(check.take(unpack_vec3s(from.parts(i), "part", hull_points_max)));
   return shape;
@@ -321,8 +322,8 @@ Result<WorldSnapshot> decode_world(std::span<const uint8_t> bytes) {
     world.moment.pieces.push_back(read(from.pieces(i), check));
     voxels += world.moment.pieces.back().volume->window.codes.size();
     if (voxels > limits::piece_voxels_max)
-      check.refuse("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                   " voxels (limits.piece_voxels_max)");
+      check.refuse(
+          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   }
   for (int i = 0; i < from.bricks_size() && !check.failed(); ++i) {
     const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(from.bricks(i))));

@@ -18,7 +18,7 @@ constexpr uint64_t seconds_per_minute = 60;
 
 tl::expected<void, Refused> Administration::administer(ClientSession& session, const AdminMessage& message) {
   const SessionEntry& entry = sessions_.at(session.id());
-  const bool is_control = std::holds_alternative<ControlReplay>(message.act);
+  const bool is_control = std::holds_alternative<ControlReplayRequest>(message.act);
   if (auto admin = authorizer_.may_administer(entry.grant.role, entry.caller(), is_control); !admin) {
     const bool nobody_can = admin.error().reason == Refusal::no_admin_token;
     if (nobody_can || message.token.empty() || !authorizer_.has_admin_token()) {
@@ -28,17 +28,24 @@ tl::expected<void, Refused> Administration::administer(ClientSession& session, c
     }
     TRY(authorizer_.check_admin_token(session.address(), message.token, steady_now_s()));
   }
-  if (const auto* settings = std::get_if<SettingValues>(&message.act))
+  if (const auto* settings = std::get_if<SettingsRequest>(&message.act))
     set(session, message.request, *settings);
   else
     act(session, message);
   return {};
 }
 
-void Administration::set(ClientSession& session, uint32_t request, const SettingValues& settings) {
+void Administration::set(ClientSession& session, uint32_t request, const SettingsRequest& asked) {
+  // The act of a later release reads as none at all, and must not count as done.
+  if (asked.settings.empty()) {
+    ++counts_.requests;
+    return requests_.refuse(
+        session, request,
+        {Refusal::value_unknown, "an administrator's request with no act that this server knows"});
+  }
   std::string changes;
-  for (const SettingValue& setting : settings) changes += " " + setting.name + "=" + setting.value;
-  if (requests_.pass(session, {session.id(), request, SettingsRequest{settings}}))
+  for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
+  if (requests_.pass(session, {session.id(), request, asked}))
     settings_asked_[{session.id(), request}] =
         fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
 }
@@ -66,13 +73,13 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
     session.send(ServerMessage(ReplyMessage{message.request, "", 0}));
   };
   std::visit(
-      Overloaded{[](const SettingValues&) {},  // set() hands them to the world
-                 [&](const ListSessions&) { list({.sessions = sessions_.rows(steady_now_s())}); },
-                 [&](const ListBans&) { list({.bans = ban_rows()}); },
-                 [&](const KickSession& kick) { reply(this->kick(kick)); },
-                 [&](const BanAddress& ban) { reply(this->ban(ban)); },
-                 [&](const LiftBan& lift) { reply(this->lift(lift)); },
-                 [&](const ControlReplay& control) {
+      Overloaded{[](const SettingsRequest&) {},  // set() hands them to the world
+                 [&](const ListSessionsRequest&) { list({.sessions = sessions_.rows(steady_now_s())}); },
+                 [&](const ListBansRequest&) { list({.bans = ban_rows()}); },
+                 [&](const KickRequest& kick) { reply(this->kick(kick)); },
+                 [&](const BanRequest& ban) { reply(this->ban(ban)); },
+                 [&](const LiftBanRequest& lift) { reply(this->lift(lift)); },
+                 [&](const ControlReplayRequest& control) {
                    reply(control_ ? control_(control) : fail("this server plays no recording (--replay)"));
                  }},
       message.act);
@@ -87,7 +94,7 @@ std::vector<BanRow> Administration::ban_rows() const {
   return rows;
 }
 
-Result<void> Administration::kick(const KickSession& kick) {
+Result<void> Administration::kick(const KickRequest& kick) {
   const SessionEntry* const entry = sessions_.find(kick.session);
   if (entry == nullptr && tickets_.departed(kick.session) != nullptr) {
     tickets_.forget(kick.session);
@@ -108,7 +115,7 @@ Result<std::string> Administration::ip_of(uint64_t session) const {
 }
 
 /// Ends the sessions that are there, administrators' excepted; the ban holds even when it cannot be written.
-Result<void> Administration::ban(const BanAddress& ban) {
+Result<void> Administration::ban(const BanRequest& ban) {
   const std::string address = ban.session != 0 ? TRY(ip_of(ban.session)) : ban.address;
   const std::string key = TRY(ban_key(address));
   const uint64_t now_s = unix_now_s();
@@ -127,7 +134,7 @@ Result<void> Administration::ban(const BanAddress& ban) {
   return added;
 }
 
-Result<void> Administration::lift(const LiftBan& lift) {
+Result<void> Administration::lift(const LiftBanRequest& lift) {
   return authorizer_.bans().lift(TRY(ban_key(lift.address)));
 }
 

@@ -19,7 +19,7 @@ namespace scree {
 
 class Administration {
  public:
-  using Control = std::function<Result<void>(const ControlReplay&)>;
+  using Control = std::function<Result<void>(const ControlReplayRequest&)>;
 
   /// All arguments but `control`, which is as of NetConfig, must outlive this object. `counts`: requests are
   /// counted there.
@@ -38,12 +38,12 @@ class Administration {
   void log_settings(const TickDelta& delta);
 
  private:
-  void set(ClientSession& session, uint32_t request, const SettingValues& settings);
+  void set(ClientSession& session, uint32_t request, const SettingsRequest& asked);
   void act(ClientSession& session, const AdminMessage& message);
   std::vector<BanRow> ban_rows() const;
-  Result<void> kick(const KickSession& kick);
-  Result<void> ban(const BanAddress& ban);
-  Result<void> lift(const LiftBan& lift);
+  Result<void> kick(const KickRequest& kick);
+  Result<void> ban(const BanRequest& ban);
+  Result<void> lift(const LiftBanRequest& lift);
   /// The IP address of a session, which may have lost its connection.
   Result<std::string> ip_of(uint64_t session) const;
 

@@ -102,8 +102,9 @@ bool ClientSession::take_message(std::span<const uint8_t> body) {
     send(ServerMessage(*welcome));
     return true;
   }
-  inert_ = false;
-  if (!std::holds_alternative<AckMessage>(*message)) acted_s_ = now_s_;
+  const bool is_unknown = std::holds_alternative<UnknownMessage>(*message);
+  inert_ = inert_ && is_unknown;
+  if (!is_unknown && !std::holds_alternative<AckMessage>(*message)) acted_s_ = now_s_;
   const auto received = host_.receive(*this, *message);
   if (!received) return fail_with(received.error());
   return phase_ == Phase::joined;

@@ -88,11 +88,15 @@ void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::stri
 // ---- sessions
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  if (hello.protocol != protocol_version)
-    return refuse(Refusal::protocol_version, "this server speaks protocol version " +
-                                                 std::to_string(protocol_version) + ", the client version " +
-                                                 std::to_string(hello.protocol) +
-                                                 ": use a client and a server of the same release");
+  if (!shares_protocol(hello.protocol, hello.oldest_protocol)) {
+    const bool one = hello.oldest_protocol == 0 || hello.oldest_protocol == hello.protocol;
+    const std::string spoken = one ? fmt::format("version {}", hello.protocol)
+                                   : fmt::format("versions {} to {}", hello.oldest_protocol, hello.protocol);
+    return refuse(Refusal::protocol_version,
+                  fmt::format("this server speaks protocol version {}, the client {}: use a client and a "
+                              "server of the same release",
+                              protocol_version, spoken));
+  }
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
@@ -124,7 +128,8 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
                    const std::optional<Departed>& before) {
   const double now_s = steady_now_s();
   SessionEntry& entry = sessions_.join(session, before ? before->session : session.id());
-  publisher_.join(session.id(), hello.eye_m, radius_m, !hello.lacks_kernels, hello.world == world_);
+  publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
+                  hello.world == world_);
   entry.grant = grant;
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
   entry.name = grant.name;
@@ -153,12 +158,12 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return refuse(Refusal::hello_repeated, "a second hello: this connection has joined already");
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
-          [&]<typename Asks>(const Asked<Asks>& asked) -> Done {
+          [&]<typename Asks>(const RequestMessage<Asks>& asked) -> Done {
             requests_.ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
                                     sessions_.at(session.id()).party});
             return {};
           },
-          [&](const RepairRequest& repair) -> Done {
+          [&](const RepairMessage& repair) -> Done {
             log_.say(spdlog::level::warn, "repair",
                      fmt::format("session {}: {} chunks differ at tick {}", session.id(),
                                  repair.chunks.size(), repair.tick));
@@ -176,6 +181,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           // On TCP the bytes that wait for a client say how far behind it is.
           [](const AckMessage&) -> Done { return {}; },
           [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
+          [&](const UnknownMessage& unknown) -> Done {
+            skip(session, unknown);
+            return {};
+          },
           [&](const CursorMessage& cursor) -> Done {
             publisher_.set_cursor(
                 {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
@@ -189,14 +198,14 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             publisher_.watch(session.id(), watch.physics);
             return {};
           },
-          [&](const GroundRequest& ground) -> Done {
+          [&](const AskGroundMessage& ground) -> Done {
             if (publisher_.ask_ground(session.id(), ground)) return {};
             return refuse(Refusal::ground_waiting,
                           fmt::format("more than {} chunks of ground asked for and not answered "
                                       "(limits.ground_chunks_max)",
                                       limits::ground_chunks_max));
           },
-          [&](const TileRequest& tiles) -> Done {
+          [&](const AskTilesMessage& tiles) -> Done {
             if (publisher_.ask_tiles(session.id(), tiles)) return {};
             return refuse(Refusal::ground_waiting,
                           fmt::format("more than {} tiles of the ground asked for and not answered "
@@ -205,6 +214,20 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
       },
       message);
+}
+
+/// The client is of a later release, or made by somebody else.
+void NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
+  ++figures_.counts().messages_unknown;
+  if (unknown.request) {
+    ++figures_.counts().requests;
+    return requests_.refuse(
+        session, *unknown.request,
+        {Refusal::value_unknown,
+         fmt::format("this server does not know {}: it is of another release", unknown.value)});
+  }
+  log_.say(spdlog::level::info, "message_unknown",
+           fmt::format("session {}: a message of an unknown kind is skipped", session.id()));
 }
 
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {

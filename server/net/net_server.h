@@ -41,7 +41,8 @@ struct NetStats {
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
-  uint64_t publish_waits = 0;  ///< times that the simulation waited for the network thread
+  uint64_t messages_unknown = 0;  ///< skipped: of a kind, or with a value, that this version does not know
+  uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
   WebStats web;
 };
 
@@ -74,7 +75,7 @@ struct NetConfig {
   /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
   std::function<void(Event)> noted;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
-  std::function<Result<void>(const ControlReplay&)> control;
+  std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig

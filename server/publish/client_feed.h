@@ -21,8 +21,8 @@ namespace scree {
 class ClientFeed {
  public:
   /// The view's arguments are as of ClientView.
-  ClientFeed(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels)
-      : outlet_(session), view_(eye_m, radius_m, has_kernels) {}
+  ClientFeed(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations)
+      : outlet_(session), view_(eye_m, radius_m, operations) {}
 
   ClientView& view() { return view_; }
   const ClientView& view() const { return view_; }

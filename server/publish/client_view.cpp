@@ -58,12 +58,12 @@ uint32_t check_of(const ChunkSet& chunks, const PublishedState& state) {
 
 }  // namespace
 
-ClientView::ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels)
+ClientView::ClientView(glm::vec3 eye_m, float radius_m, size_t operations)
     : eye_m_(eye_m),
       radius_m_(radius_m),
       next_eye_m_(eye_m),
       next_radius_m_(radius_m),
-      has_kernels_(has_kernels),
+      operations_(operations),
       patch_credit_bricks_(limits::patch_bricks_max) {
   CHECK(radius_m >= 0.0F);
 }
@@ -105,10 +105,10 @@ bool ClientView::near(glm::vec3 place_m, float factor) const {
   return glm::dot(off_m, off_m) <= within_m * within_m;
 }
 
-/// Whether the client has, bit for bit, every brick that the operation reads: in held chunks, and in chunks
-/// that nothing but operations of this frame has ever changed.
+/// Whether the client knows the operation and has, bit for bit, every brick that it reads: in held chunks,
+/// and in chunks that nothing but operations of this frame has ever changed.
 bool ClientView::can_apply(size_t operation, const TickChanges& changes, const ChunkSet& tainted) const {
-  if (!has_kernels_) return false;
+  if (changes.delta.operations[operation].operation.index() >= operations_) return false;
   const auto is_tainted = [&](ChunkCoord chunk) { return tainted.contains(chunk); };
   const auto is_held = [&](ChunkCoord chunk) { return held_.contains(chunk); };
   const AppliedOperation& applied = changes.delta.operations[operation];
@@ -173,7 +173,7 @@ void ClientView::select_operations(const TickChanges& changes, FrameSelection& f
 
 /// Bricks that the frame may patch.
 size_t ClientView::patch_room(size_t most) {
-  if (has_kernels_) return most;
+  if (has_kernels()) return most;
   patch_credit_bricks_ =
       std::min(patch_credit_bricks_ + limits::patch_bricks_per_tick, limits::patch_bricks_max);
   return std::min(most, patch_credit_bricks_);
@@ -201,7 +201,7 @@ void ClientView::select_patches(const TickChanges& changes, const ChunkSet& tain
     miss(chunk, bits_of(found->second));
     if (is_held || is_near) wanted_.insert(chunk);
   }
-  if (!has_kernels_) patch_credit_bricks_ -= bricks;
+  if (!has_kernels()) patch_credit_bricks_ -= bricks;
 }
 
 /// Follows the eye: edited chunks that came into the interest are wanted, chunks that left it are dropped.
@@ -234,7 +234,7 @@ void ClientView::rescan(const TickChanges& changes, const ChunkSet& changed, Fra
 
 void ClientView::select_pose(const TrackedMotion& piece, const TickChanges& changes, Known& known,
                              FrameSelection& frame) {
-  if (!has_kernels_) {
+  if (!has_kernels()) {
     const QuantisedPose& pose = piece.target.pose;
     const auto [sent, is_first] = sent_poses_.try_emplace(piece.id, pose);
     if (is_first || sent->second != pose) frame.moved.push_back({piece.id, pose});
@@ -252,7 +252,7 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
   const std::vector<TrackedMotion>& alive = changes.motions.all();
   auto piece = alive.begin();
   bool moves = false;
-  if (has_kernels_) frame.steps.reserve(known_.size());
+  if (has_kernels()) frame.steps.reserve(known_.size());
   auto kept = known_.begin();
   for (auto known = known_.begin(); known != known_.end(); ++known) {
     if (known->second.gone) continue;
@@ -369,7 +369,7 @@ void ClientView::sent_chunk(ChunkCoord chunk) {
 
 void ClientView::sent_piece(PieceId piece, const QuantisedPose& pose) {
   known_[piece] = {};
-  if (!has_kernels_) sent_poses_.insert_or_assign(piece, pose);
+  if (!has_kernels()) sent_poses_.insert_or_assign(piece, pose);
 }
 
 void ClientView::distrust(ChunkCoord chunk) {

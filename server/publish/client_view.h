@@ -7,7 +7,8 @@
 // its bricks that the client does not lack are exactly as published.
 // `known` pieces are those that the client has. Lengths in metres. Not thread-safe.
 //
-// A client without kernels never gets an operation: the bricks that operations changed come as patches,
+// A client gets operations of the kinds that it says it carries out, and no others. One without kernels,
+// which knows none of them, never gets an operation: the bricks that operations changed come as patches,
 // within a budget of bricks, or with their whole chunk, and pieces come whole.
 #pragma once
 
@@ -70,14 +71,14 @@ struct FrameScope {
 
 class ClientView {
  public:
-  /// The radius is not negative. `has_kernels`: whether the client can carry out operations.
-  ClientView(glm::vec3 eye_m, float radius_m, bool has_kernels);
+  /// The radius is not negative. `operations`: kinds of operation that the client carries out, from the first
+  /// on; 0: it has no kernels.
+  ClientView(glm::vec3 eye_m, float radius_m, size_t operations);
 
   glm::vec3 eye_m() const { return next_eye_m_; }
   float radius_m() const { return next_radius_m_; }
   /// Changes eye and radius within limits::rescan_ticks_min ticks. The radius is not negative.
   void set_interest(glm::vec3 eye_m, float radius_m);
-  bool has_kernels() const { return has_kernels_; }
   /// Whether the chunk lies within the interest as last set, times limits::interest_keep_factor.
   bool may_see(ChunkCoord chunk, float voxel_size_m) const;
 
@@ -124,6 +125,7 @@ class ClientView {
     bool has_motion = false;  ///< as of the last frame with poses, or of the piece's birth
     bool gone = false;        ///< the client has it no more; the next walk takes the entry out
   };
+  bool has_kernels() const { return operations_ != 0; }
   float distance_m(ChunkCoord chunk, float voxel_size_m) const;
   bool near(ChunkCoord chunk, float voxel_size_m) const;
   bool near(glm::vec3 place_m, float factor) const;
@@ -150,7 +152,7 @@ class ClientView {
   float radius_m_;
   glm::vec3 next_eye_m_;
   float next_radius_m_;
-  bool has_kernels_;
+  size_t operations_;           ///< kinds of them that the client carries out
   size_t patch_credit_bricks_;  ///< of a client without kernels
   bool rescan_due_ = true;
   Tick rescanned_ = 0;

@@ -37,9 +37,9 @@ ClientFeed* Publisher::find(uint64_t session) {
   return client == clients_.end() ? nullptr : &client->second;
 }
 
-void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers) {
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers) {
   leave(session);
-  ClientFeed client(session, eye_m, radius_m, has_kernels);
+  ClientFeed client(session, eye_m, radius_m, operations);
   if (offers) client.offer().await(rates_.ticks_of(limits::offer_wait_s));
   clients_.emplace(session, std::move(client));
 }
@@ -74,7 +74,7 @@ void Publisher::watch(uint64_t session, bool physics) {
   if (client != nullptr && client->watch().set_physics(physics)) watchers_ += physics ? 1 : -1;
 }
 
-void Publisher::repair(uint64_t session, const RepairRequest& request) {
+void Publisher::repair(uint64_t session, const RepairMessage& request) {
   ClientFeed* const client = find(session);
   if (client == nullptr) return;
   const size_t count = std::min(request.chunks.size(), request.hashes.size());
@@ -88,11 +88,11 @@ void Publisher::repair(uint64_t session, const RepairRequest& request) {
   }
 }
 
-bool Publisher::ask_ground(uint64_t session, const GroundRequest& request) {
+bool Publisher::ask_ground(uint64_t session, const AskGroundMessage& request) {
   return !clients_.contains(session) || ground_.ask(session, request.chunks);
 }
 
-bool Publisher::ask_tiles(uint64_t session, const TileRequest& request) {
+bool Publisher::ask_tiles(uint64_t session, const AskTilesMessage& request) {
   ClientFeed* const client = find(session);
   return client == nullptr || tiles_.ask(session, request, client->view());
 }

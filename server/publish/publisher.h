@@ -53,19 +53,19 @@ class Publisher {
   /// `workers` outlives the publisher.
   Publisher(const PublisherConfig& config, Workers& workers);
 
-  /// `has_kernels`: whether the client can carry out operations; then it gets motions, else whole poses
+  /// `operations`: as of ClientView; where there are any, the client gets motions, else whole poses
   /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it.
-  void join(uint64_t session, glm::vec3 eye_m, float radius_m, bool has_kernels, bool offers = false);
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers = false);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
   /// Takes the client's word for the chunks that it has; of this world.
   void offer(uint64_t session, const OfferMessage& offer);
   /// Sends those of the request's chunks again whose hash differs from the server's at that tick.
-  void repair(uint64_t session, const RepairRequest& request);
+  void repair(uint64_t session, const RepairMessage& request);
   /// Queues chunks whose ground the client asks for; false when too many would wait (GroundStream::ask).
-  [[nodiscard]] bool ask_ground(uint64_t session, const GroundRequest& request);
+  [[nodiscard]] bool ask_ground(uint64_t session, const AskGroundMessage& request);
   /// Takes what the client has of the ground's tiles, and queues what it asks for (TileStream::ask).
-  [[nodiscard]] bool ask_tiles(uint64_t session, const TileRequest& request);
+  [[nodiscard]] bool ask_tiles(uint64_t session, const AskTilesMessage& request);
 
   /// Sets how often the server has refused requests and sessions, for the status.
   void set_refusals(const RefusalCounts& refusals) { board_.set_refusals(refusals); }

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-bool TileStream::ask(uint64_t session, const TileRequest& request, ClientView& view) {
+bool TileStream::ask(uint64_t session, const AskTilesMessage& request, ClientView& view) {
   if (heights_ == nullptr) return true;
   for (const TileKey key : request.held)
     if (heights_->has(key)) view.hold_tile(key);

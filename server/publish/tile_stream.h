@@ -21,7 +21,7 @@ class TileStream {
 
   /// Notes what the client holds in `view`, and queues what it wants. False, and nothing is queued, when more
   /// than limits::tiles_wanted_max would wait.
-  [[nodiscard]] bool ask(uint64_t session, const TileRequest& request, ClientView& view);
+  [[nodiscard]] bool ask(uint64_t session, const AskTilesMessage& request, ClientView& view);
   void leave(uint64_t session) { queues_.erase(session); }
   size_t waiting(uint64_t session) const;
 

@@ -1,5 +1,7 @@
 #include "server/replay/recorded_field.h"
 
+#include <fmt/format.h>
+
 #include "shared/base/check.h"
 
 namespace scree {
@@ -20,8 +22,8 @@ Result<std::shared_ptr<const TickDelta>> state_at_start(ReplaySource& source) {
 Result<std::unique_ptr<Field>> field_at(const std::string& path, Tick tick, const GroundGiver& ground) {
   auto source = TRY(ReplaySource::open(path, 0, ground));
   if (tick < source->first_tick() || tick > source->last_tick())
-    return fail(path + ": there is no tick " + std::to_string(tick) + " in it; its ticks are " +
-                std::to_string(source->first_tick()) + " to " + std::to_string(source->last_tick()));
+    return fail(fmt::format("{}: there is no tick {} in it; its ticks are {} to {}", path, tick,
+                            source->first_tick(), source->last_tick()));
   TRY(source->seek(tick));
   const auto state = TRY(state_at_start(*source));
   auto field = std::make_unique<MapField>(source->header().world.terrain);

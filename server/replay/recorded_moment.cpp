@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 
@@ -42,7 +43,7 @@ Tick TickOrTime::nearest_tick(uint32_t tick_rate_hz) const {
 
 Result<TickOrTime> parse_tick_or_time(const std::string& text) {
   const auto refused =
-      fail("'" + text + "' is no moment: write a tick, as 5400, or a time, as 90s, 1.5m or 1:30");
+      fail(fmt::format("'{}' is no moment: write a tick, as 5400, or a time, as 90s, 1.5m or 1:30", text));
   if (text.empty()) return refused;
   const bool is_tick = text.find_first_not_of("0123456789") == std::string::npos;
   const size_t unit = std::string_view("smh").find(text.back());

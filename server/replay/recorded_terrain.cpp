@@ -18,16 +18,15 @@ Result<std::vector<BrickPatch>> RecordedTerrain::read(ChunkCoord chunk) const {
   return recording_->chunk(chunk, hash->second);
 }
 
-Result<std::unique_ptr<World>> RecordedTerrain::restore(const RecordedState& state) {
-  if (!state.has_chunks) return World::restore(state.value);
-  const TerrainSource& terrain = state.value.moment.config.terrain;
+Result<std::unique_ptr<World>> RecordedTerrain::restore(const WorldSnapshot& state) {
+  const TerrainSource& terrain = state.moment.config.terrain;
   GroundMasses masses;
   hashes_.clear();
   PagedTerrain paged;
   paged.bricks_max = bricks_max_;
   paged.read = [this](ChunkCoord chunk) { return read(chunk); };
   paged.each = [&](const PagedTerrain::Take& take) {
-    return recording_->each_chunk(state.value.moment.tick,
+    return recording_->each_chunk(state.moment.tick,
                                   [&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
                                     uint64_t hash = 0;
                                     for (const BrickPatch& brick : bricks)
@@ -38,7 +37,7 @@ Result<std::unique_ptr<World>> RecordedTerrain::restore(const RecordedState& sta
                                     return {};
                                   });
   };
-  return World::restore(state.value, paged, 1, masses);
+  return World::restore(state, paged, 1, masses);
 }
 
 void RecordedTerrain::adopt(World& world) {

@@ -19,7 +19,7 @@ class RecordedTerrain {
       : recording_(&recording), bricks_max_(bricks_max) {}
 
   /// The world of the state after a tick, whose value is given; its ground is there.
-  Result<std::unique_ptr<World>> restore(const RecordedState& state);
+  Result<std::unique_ptr<World>> restore(const WorldSnapshot& state);
   /// Adopts a world that begins untouched.
   void adopt(World& world);
   /// After each tick of such a world: lets chunks go when there are too many.

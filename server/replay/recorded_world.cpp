@@ -1,6 +1,7 @@
 #include "server/replay/recorded_world.h"
 
 #include <cstdio>
+#include <fmt/format.h>
 
 namespace scree {
 
@@ -19,12 +20,12 @@ std::string difference_of(const TickDelta& simulated, const RecordedFrame& recor
   return {};
 }
 
-Result<std::unique_ptr<World>> restored_from(RecordedState state, Tick tick, RecordedTerrain& terrain,
+Result<std::unique_ptr<World>> restored_from(WorldSnapshot state, Tick tick, RecordedTerrain& terrain,
                                              const GroundGiver& ground) {
-  WorldMoment& moment = state.value.moment;
+  WorldMoment& moment = state.moment;
   if (moment.tick != tick)
-    return fail("damaged: the state after tick " + std::to_string(tick) + " says that it is of tick " +
-                std::to_string(moment.tick));
+    return fail(
+        fmt::format("damaged: the state after tick {} says that it is of tick {}", tick, moment.tick));
   TRY(give_ground(moment.config.ground, moment.config.terrain, ground));
   return terrain.restore(state);
 }
@@ -34,7 +35,7 @@ Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, R
   auto state = recording.state(tick);
   TRY(state);
   if (state->has_value()) return restored_from(std::move(**state), tick, terrain, ground);
-  if (tick != 0) return fail("tick " + std::to_string(tick) + " has no state");
+  if (tick != 0) return fail(fmt::format("tick {} has no state", tick));
   WorldConfig config = recording.header().world;
   TRY(give_ground(config.ground, config.terrain, ground));
   auto world = World::create(config);
@@ -50,12 +51,11 @@ Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, R
                                         const LookAtTick& look) {
   const Tick first = recording.first_tick() - 1, last = recording.last_tick();
   if (tick < first || tick > last)
-    return fail(recording.path() + " has the ticks " + std::to_string(first) + " to " + std::to_string(last) +
-                ", not " + std::to_string(tick) + " (--to)");
+    return fail(fmt::format("{} has the ticks {} to {}, not {} (--to)", recording.path(), first, last, tick));
   const auto start = recording.state_before(tick);
   TRY(start);
   auto world = world_at(recording, *start, terrain, ground);
-  if (!world) return fail(recording.path() + ": " + world.error().message);
+  if (!world) return fail(fmt::format("{}: {}", recording.path(), world.error().message));
   while ((*world)->tick() < tick) {
     const Tick next = (*world)->tick() + 1;
     const auto commands = recording.commands(next);
@@ -66,7 +66,7 @@ Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, R
       const auto frame = recording.frame(next);
       TRY(frame);
       if (const std::string differs = difference_of(*delta, *frame); !differs.empty())
-        return fail(recording.path() + ": at tick " + std::to_string(next) + ", " + differs);
+        return fail(fmt::format("{}: at tick {}, {}", recording.path(), next, differs));
     }
     if (look) look(**world, *delta);
     if (progress && (next % progress_ticks == 0 || next == tick)) progress(next - *start, tick - *start);

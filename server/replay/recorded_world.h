@@ -13,7 +13,7 @@
 namespace scree {
 
 /// The world that a process began with after that tick; `ground` gives the ground that it names.
-Result<std::unique_ptr<World>> restored_from(RecordedState state, Tick tick, RecordedTerrain& terrain,
+Result<std::unique_ptr<World>> restored_from(WorldSnapshot state, Tick tick, RecordedTerrain& terrain,
                                              const GroundGiver& ground);
 
 /// The world of a tick that has a state in the recording, or, at tick 0, the untouched one.

@@ -1,6 +1,7 @@
 #include "server/replay/recording_cut.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 
 #include "server/formats/world_codec.h"
 #include "server/replay/recorded_world.h"
@@ -98,8 +99,7 @@ class Cutting {
     const auto written = TRY(RecordingReader::open(path));
     const auto report = TRY(verify(*written, show(0.7, 1.0), ground_));
     if (!report.agrees())
-      return fail(path + " differs at tick " + std::to_string(report.first_difference) + ": " +
-                  report.difference);
+      return fail(fmt::format("{} differs at tick {}: {}", path, report.first_difference, report.difference));
     return {};
   }
 
@@ -119,7 +119,7 @@ class Cutting {
     RecordedTerrain terrain(recording_);
     Result<std::unique_ptr<World>> world = quiet ? restored_from({*quiet, false}, state_, terrain, ground_)
                                                  : world_at(recording_, state_, terrain, ground_);
-    if (!world) return fail(recording_.path() + ": " + world.error().message);
+    if (!world) return fail(fmt::format("{}: {}", recording_.path(), world.error().message));
     return RecordingWriter::create(path, header,
                                    {(*world)->moment(), (*world)->outline(), reader_of(**world)});
   }
@@ -135,7 +135,7 @@ class Cutting {
       TRY(commands);
       TickDelta delta = *world->step(*commands);
       if (const std::string differs = difference_of(delta, *frame); !differs.empty())
-        return fail(recording_.path() + ": at tick " + std::to_string(tick) + ", " + differs);
+        return fail(fmt::format("{}: at tick {}, {}", recording_.path(), tick, differs));
       const auto noted = TRY(machine.at(tick, delta.times));
       terrain.make_room(*world);
       auto state = recording_.state(tick);
@@ -144,7 +144,7 @@ class Cutting {
       if (state->has_value()) {
         world.reset();  // there is room for one
         auto restored = restored_from(std::move(**state), tick, terrain, ground_);
-        if (!restored) return fail(recording_.path() + ": " + restored.error().message);
+        if (!restored) return fail(fmt::format("{}: {}", recording_.path(), restored.error().message));
         world = std::move(*restored);
         part = world->moment();
       }
@@ -167,9 +167,8 @@ class Cutting {
 Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick first, Tick last,
                       const GroundGiver& ground, const std::function<void(double)>& progress) {
   if (first < recording.first_tick() || last > recording.last_tick() || first > last)
-    return fail(recording.path() + " has the ticks " + std::to_string(recording.first_tick()) + " to " +
-                std::to_string(recording.last_tick()) + ", not " + std::to_string(first) + " to " +
-                std::to_string(last) + " (--from, --to)");
+    return fail(fmt::format("{} has the ticks {} to {}, not {} to {} (--from, --to)", recording.path(),
+                            recording.first_tick(), recording.last_tick(), first, last));
   std::error_code error;
   if (fs::exists(to, error)) return fail(to + " exists already: choose another name, or move it away");
   const std::string unfinished = to + ".unfinished";
@@ -191,7 +190,7 @@ Result<CutReport> cut(RecordingReader& recording, const std::string& to, Tick fi
     done = fail(to + " exists already: choose another name, or move it away");
   if (done) {
     fs::rename(unfinished, to, error);
-    if (error) done = fail(to + " cannot be written: " + error.message());
+    if (error) done = fail(fmt::format("{} cannot be written: {}", to, error.message()));
   }
   if (!done) {
     remove_recording(unfinished);

@@ -38,7 +38,7 @@ std::string text_of(const Command& command) {
                  [](const SettingsRequest& request) {
                    std::string set = "set";
                    for (const SettingValue& value : request.settings)
-                     set += " " + value.name + "=" + value.value;
+                     set += fmt::format(" {}={}", value.name, value.value);
                    return set;
                  },
                  [](const LeaveRequest&) { return std::string("leave"); }},
@@ -101,8 +101,10 @@ std::string setting_difference(const Side& a, const Side& b) {
   if (a.frame.settings.empty() && b.frame.settings.empty()) return {};
   for (const SettingValue& value : a.settings) {
     const auto other = std::ranges::find(b.settings, value.name, &SettingValue::name);
-    if (other == b.settings.end()) return value.name + "=" + value.value + ", which the other has not";
-    if (other->value != value.value) return value.name + "=" + value.value + ", in the other " + other->value;
+    if (other == b.settings.end())
+      return fmt::format("{}={}, which the other has not", value.name, value.value);
+    if (other->value != value.value)
+      return fmt::format("{}={}, in the other {}", value.name, value.value, other->value);
   }
   return a.settings.size() == b.settings.size() ? std::string() : "the other has more settings";
 }

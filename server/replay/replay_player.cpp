@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 #include "shared/base/check.h"
@@ -25,7 +26,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOpt
   source_->let_go();
 }
 
-Result<void> ReplayPlayer::take(const ControlReplay& wish) {
+Result<void> ReplayPlayer::take(const ControlReplayRequest& wish) {
   const std::scoped_lock lock(mutex_);
   if (wishes_.size() >= limits::replay_wishes_max)
     return fail("too many wishes wait for the replay's next tick (limits.replay_wishes_max)");
@@ -43,7 +44,7 @@ Tick ReplayPlayer::within(double tick) const {
 }
 
 /// Steps count from where a jump that waits ends.
-Result<Tick> ReplayPlayer::target_of(const ControlReplay& wish) {
+Result<Tick> ReplayPlayer::target_of(const ControlReplayRequest& wish) {
   const Tick here = target_.value_or(source_->tick());
   const auto value = static_cast<double>(wish.value);
   switch (wish.move) {
@@ -66,7 +67,7 @@ Result<Tick> ReplayPlayer::target_of(const ControlReplay& wish) {
   return here;
 }
 
-Result<void> ReplayPlayer::heed(const ControlReplay& wish) {
+Result<void> ReplayPlayer::heed(const ControlReplayRequest& wish) {
   if (wish.speed != 0.0F) speed_ = wish.speed;
   if (wish.play != ReplayPlay::as_it_is) playing_ = wish.play == ReplayPlay::play;
   if (wish.move == ReplayMove::stay) {
@@ -126,9 +127,9 @@ Result<void> ReplayPlayer::look() {
 void ReplayPlayer::tell_dropped(Tick tick, const char* what, std::optional<Tick>& told) {
   const Tick first = source_->first_tick();
   if (!options_.tell || std::exchange(told, first) == first) return;
-  options_.tell("tick " + std::to_string(tick) + what +
-                ", which the recording's ring has dropped: the replay " + "goes on at tick " +
-                std::to_string(first) + ", where it begins now");
+  options_.tell(fmt::format(
+      "tick {}{}, which the recording's ring has dropped: the replay goes on at tick {}, where it begins now",
+      tick, what, first));
 }
 
 /// Its first tick has a keyframe. The jump waits for a tick with poses.
@@ -156,12 +157,12 @@ Result<void> ReplayPlayer::add_company(TickDelta& delta) {
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
   TRY(look());
   {
-    std::vector<ControlReplay> wishes;
+    std::vector<ControlReplayRequest> wishes;
     {
       const std::scoped_lock lock(mutex_);
       wishes.swap(wishes_);
     }
-    for (const ControlReplay& wish : wishes) TRY(heed(wish));
+    for (const ControlReplayRequest& wish : wishes) TRY(heed(wish));
   }
   if (begun_ && playing_ && !target_ && at_border() && !waits_for_more()) {
     const bool at_end = speed_ > 0.0F;

@@ -43,7 +43,7 @@ class ReplayPlayer {
   const RecordingHeader& header() const { return source_->header(); }
 
   /// What somebody wants, for the next ticks. Refused when too much waits.
-  Result<void> take(const ControlReplay& wish);
+  Result<void> take(const ControlReplayRequest& wish);
 
   /// The next tick, with TickDelta::playback; null at the end, when it ends there.
   Result<std::shared_ptr<const TickDelta>> next();
@@ -51,14 +51,14 @@ class ReplayPlayer {
   PlaybackMessage state() const;
 
  private:
-  Result<void> heed(const ControlReplay& wish);
+  Result<void> heed(const ControlReplayRequest& wish);
   /// Whether the recording has grown. A ring may have dropped the moment: then its first tick is gone to.
   Result<void> look();
   Result<void> leave_dropped(bool was_there);
   void tell_dropped(Tick tick, const char* what, std::optional<Tick>& told);
   /// What goes with the moment: events, and who was there.
   Result<void> add_company(TickDelta& delta);
-  Result<Tick> target_of(const ControlReplay& wish);
+  Result<Tick> target_of(const ControlReplayRequest& wish);
   Tick within(double tick) const;
   Result<std::shared_ptr<const TickDelta>> move();
   /// The whole ticks of the credit.
@@ -88,7 +88,7 @@ class ReplayPlayer {
   uint64_t heeded_ = 0;                                    ///< wishes, their moves done
   uint64_t moves_waiting_ = 0;                             ///< wishes whose jump waits
   std::mutex mutex_;
-  std::vector<ControlReplay> wishes_;  ///< guarded by mutex_
+  std::vector<ControlReplayRequest> wishes_;  ///< guarded by mutex_
 };
 
 }  // namespace scree

@@ -1,6 +1,7 @@
 #include "server/replay/replay_source.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <utility>
 
@@ -47,7 +48,7 @@ Result<std::unique_ptr<ReplaySource>> ReplaySource::open(const std::string& path
   auto reader = TRY(RecordingReader::open(path, without_ticks));
   RecordingHeader header = reader->header();
   if (auto given = give_ground(header.world.ground, header.world.terrain, ground); !given)
-    return fail(path + ": " + given.error().message);
+    return fail(fmt::format("{}: {}", path, given.error().message));
   auto source = std::unique_ptr<ReplaySource>(
       new ReplaySource(std::make_unique<State>(std::move(reader), std::move(header))));
   TRY(source->seek(from));
@@ -144,13 +145,13 @@ Result<std::optional<Tick>> ReplaySource::previous_event(Tick before) {
 
 Result<void> ReplaySource::seek(Tick tick) {
   if (tick > last_tick())
-    return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is after its end, " +
-                std::to_string(last_tick()) + " (--from)");
+    return fail(
+        fmt::format("{}: tick {} is after its end, {} (--from)", state_->reader->path(), tick, last_tick()));
   const Tick start = first_tick();
   if (tick == 0) tick = start;
   if (tick < start)
-    return fail(state_->reader->path() + ": tick " + std::to_string(tick) + " is before its start, " +
-                std::to_string(start) + " (--from)");
+    return fail(
+        fmt::format("{}: tick {} is before its start, {} (--from)", state_->reader->path(), tick, start));
   BricksBefore forgotten;
   TRY(state_->restore_before(tick, forgotten));
   TRY(state_->go_to(tick, forgotten));

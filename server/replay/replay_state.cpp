@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/world/applied_operation.h"
@@ -27,10 +28,15 @@ std::string hex(uint64_t hash) {
 ReplaySource::State::State(std::unique_ptr<RecordingReader> r, RecordingHeader h)
     : reader(std::move(r)), header(std::move(h)), field(header.world.terrain) {}
 
+tl::unexpected<Error> ReplaySource::State::damaged(const std::string& what) const {
+  return fail(fmt::format("{}: at tick {}: {}", reader->path(), tick, what));
+}
+
 Result<void> ReplaySource::State::check_hash(uint64_t recorded) const {
   if (field.hash() == recorded) return {};
-  return damaged("the field's hash is " + hex(field.hash()) + ", recorded was " + hex(recorded) +
-                 ": the recording is damaged, or another release made it");
+  return damaged(fmt::format(
+      "the field's hash is {}, recorded was {}: the recording is damaged, or another release made it",
+      hex(field.hash()), hex(recorded)));
 }
 
 Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& before) {
@@ -92,13 +98,13 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
 
 Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickDelta& delta) {
   for (const PieceState& moved : frame.moved) {
-    if (!pieces.contains(moved.id)) return damaged("piece " + std::to_string(moved.id) + " is not there");
+    if (!pieces.contains(moved.id)) return damaged(fmt::format("piece {} is not there", moved.id));
     poses[moved.id] = moved.pose;
   }
   std::erase_if(poses, [this](const auto& pose) { return !pieces.contains(pose.first); });
   for (const auto& [id, volume] : pieces) {
     const auto pose = poses.find(id);
-    if (pose == poses.end()) return damaged("piece " + std::to_string(id) + " is nowhere");
+    if (pose == poses.end()) return damaged(fmt::format("piece {} is nowhere", id));
     delta.pieces.push_back({id, pose->second});
   }
   CHECK(poses.size() == pieces.size());

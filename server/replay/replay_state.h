@@ -65,9 +65,7 @@ struct ReplaySource::State {
                                BricksBefore* before);
   Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
   Result<void> check_hash(uint64_t recorded) const;
-  tl::unexpected<Error> damaged(const std::string& what) const {
-    return fail(reader->path() + ": at tick " + std::to_string(tick) + ": " + what);
-  }
+  tl::unexpected<Error> damaged(const std::string& what) const;
 };
 
 }  // namespace scree

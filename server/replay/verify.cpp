@@ -1,5 +1,6 @@
 #include "server/replay/verify.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include "server/formats/world_codec.h"
@@ -20,17 +21,16 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   auto state = recording.state(world->tick());
   TRY(state);
   if (!state->has_value() || !report.difference.empty()) return false;
-  // Where terrain comes chunk by chunk, the value has its hash.
-  const std::vector<uint8_t> own =
-      encode((*state)->has_chunks ? WorldSnapshot{world->moment(), {}} : world->snapshot());
-  const std::vector<uint8_t> said = encode((*state)->value);
+  // The terrain comes chunk by chunk: the value has its hash.
+  const std::vector<uint8_t> own = encode(WorldSnapshot{world->moment(), {}});
+  const std::vector<uint8_t> said = encode(**state);
   if (own != said)
     report.difference = hashes_differ("the whole state", XXH3_64bits(own.data(), own.size()),
                                       XXH3_64bits(said.data(), said.size()));
   const Tick tick = world->tick();
   world.reset();  // there is room for one
   auto restored = restored_from(std::move(**state), tick, terrain, ground);
-  if (!restored) return fail(recording.path() + ": " + restored.error().message);
+  if (!restored) return fail(fmt::format("{}: {}", recording.path(), restored.error().message));
   world = std::move(*restored);
   ++report.restarts;
   return true;
@@ -48,8 +48,8 @@ Result<void> compare_events(RecordingReader& recording, const std::vector<Event>
   const auto recorded = recording.events(tick);
   TRY(recorded);
   if (*recorded != simulated)
-    report.difference = std::to_string(simulated.size()) + " events, recorded were " +
-                        std::to_string(recorded->size()) + ", or others";
+    report.difference =
+        fmt::format("{} events, recorded were {}, or others", simulated.size(), recorded->size());
   report.events += simulated.size();
   return {};
 }

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fmt/format.h>
 #include <sqlite3.h>
 #include <xxhash.h>
 
@@ -44,8 +45,9 @@ void StatementCloser::operator()(sqlite3_stmt* statement) const {
 
 tl::unexpected<Error> Database::failure(const std::string& what) const {
   const int refused = refused_by_system(database_.get());
-  return fail(path_ + ": " + what + ": " + sqlite3_errmsg(database_.get()) +
-              (refused != 0 ? std::string(refusal_words) + std::strerror(refused) : std::string()));
+  return fail(
+      fmt::format("{}: {}: {}{}", path_, what, sqlite3_errmsg(database_.get()),
+                  (refused != 0 ? std::string(refusal_words) + std::strerror(refused) : std::string())));
 }
 
 Result<Database> Database::create(const std::string& path) {
@@ -78,7 +80,7 @@ Result<Database> Database::open(const std::string& path) {
 
 Result<void> Database::execute(const std::string& sql) {
   if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
-    return failure("cannot execute '" + sql.substr(0, 40) + "'");
+    return failure(fmt::format("cannot execute '{}'", sql.substr(0, 40)));
   return {};
 }
 
@@ -100,7 +102,7 @@ Result<std::optional<int64_t>> Database::number(const std::string& sql) {
 
 Result<bool> Database::has_table(const std::string& table) {
   const auto count =
-      number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
+      number(fmt::format("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '{}'", table));
   TRY(count);
   return *count == 1;
 }
@@ -227,7 +229,7 @@ Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& selec
   if (code != SQLITE_ROW) {
     sqlite3_reset(statement);
     if (code == SQLITE_DONE) return std::optional<std::vector<uint8_t>>();
-    return failure("row " + std::to_string(tick) + " cannot be read");
+    return failure(fmt::format("row {} cannot be read", tick));
   }
   const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 0));
   const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, 0));
@@ -235,7 +237,7 @@ Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& selec
   const int64_t checksum = sqlite3_column_int64(statement, 1);
   sqlite3_reset(statement);
   if (checksum != checksum_of(bytes))
-    return fail(path_ + ": damaged: row " + std::to_string(tick) + " is not what was written");
+    return fail(fmt::format("{}: damaged: row {} is not what was written", path_, tick));
   return std::optional(std::move(bytes));
 }
 

@@ -1,6 +1,7 @@
 #include "server/store/event_deriver.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "shared/base/overloaded.h"
 #include "shared/operation/operation.h"
@@ -88,17 +89,17 @@ void EventDeriver::add_settings(const TickDelta& delta, std::vector<Event>& even
   if (delta.settings.empty()) return;
   for (const SettingValue& setting : delta.settings)
     if (std::ranges::find(settings_, setting) == settings_.end())
-      events.push_back(
-          {.kind = EventKind::setting, .tick = delta.tick, .text = setting.name + "=" + setting.value});
+      events.push_back({.kind = EventKind::setting,
+                        .tick = delta.tick,
+                        .text = fmt::format("{}={}", setting.name, setting.value)});
   settings_ = delta.settings;
 }
 
 EventDeriver::Burst& EventDeriver::burst_near(glm::vec3 place_m, Tick tick) {
   const auto nearest = std::ranges::min_element(
       bursts_, {}, [&](const Burst& burst) { return distance_squared(burst.place_m, place_m); });
-  const bool is_near =
-      nearest != bursts_.end() &&
-      (burst_ticks_ == 0 || distance_squared(nearest->place_m, place_m) <= burst_reach_m * burst_reach_m);
+  const bool is_near = nearest != bursts_.end() &&
+                       distance_squared(nearest->place_m, place_m) <= burst_reach_m * burst_reach_m;
   if (is_near || bursts_.size() >= bursts_max) return *nearest;
   return bursts_.emplace_back(Burst{tick, place_m, 0});
 }

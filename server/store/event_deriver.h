@@ -20,8 +20,7 @@ inline constexpr Tick merge_burst_ticks = 60;
 
 class EventDeriver {
  public:
-  /// `settings`: as they stand before the next tick. `burst_ticks`: merge_burst_ticks, or 0, then the merges
-  /// of one tick are a burst, as recordings of earlier releases have them.
+  /// `settings`: as they stand before the next tick. `burst_ticks`: those of the recording, not 0.
   EventDeriver(float voxel_size_m, SettingValues settings, Tick burst_ticks = merge_burst_ticks)
       : voxel_size_m_(voxel_size_m), settings_(std::move(settings)), burst_ticks_(burst_ticks) {}
 

@@ -56,7 +56,7 @@ std::string csv_line(const Event& event, const EventContext& context) {
   line += event.session != 0 ? fmt::format(",{}", event.session) : std::string(",");
   const auto ms = ms_of(event, context);
   line += ms ? fmt::format(",{:.3f}", *ms) : std::string(",");
-  return line + "," + quoted(event.text);
+  return fmt::format("{},{}", line, quoted(event.text));
 }
 
 }  // namespace scree

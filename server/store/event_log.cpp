@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <mutex>
 #include <thread>
@@ -71,8 +72,9 @@ void EventLog::State::write(const std::vector<std::string>& lines) {
   const std::scoped_lock lock(mutex);
   status.written += whole;
   status.lost += lines.size() - whole;
-  status.error = done == bytes.size() ? std::nullopt
-                                      : std::optional(path + " cannot be written: " + std::strerror(reason));
+  status.error = done == bytes.size()
+                     ? std::nullopt
+                     : std::optional(fmt::format("{} cannot be written: {}", path, std::strerror(reason)));
 }
 
 void EventLog::State::run() {
@@ -109,7 +111,7 @@ EventLog::~EventLog() {
 Result<std::unique_ptr<EventLog>> EventLog::open(const std::string& path) {
   // A pipe that nobody reads is refused, not waited for.
   const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
-  if (file < 0) return fail(path + " cannot be written: " + std::strerror(errno) + " (--events)");
+  if (file < 0) return fail(fmt::format("{} cannot be written: {} (--events)", path, std::strerror(errno)));
   auto state = std::make_unique<State>();
   state->path = path;
   state->file = file;

@@ -1,5 +1,7 @@
 #include "server/store/event_reader.h"
 
+#include <fmt/format.h>
+
 #include "server/store/schema.h"
 
 namespace scree {
@@ -7,30 +9,25 @@ namespace scree {
 namespace {
 
 std::string rows_of(const std::string& table, Tick from, Tick to) {
-  return "SELECT tick, data, checksum FROM " + table + " WHERE tick BETWEEN " + std::to_string(from) +
-         " AND " + std::to_string(to) + " ORDER BY tick";
+  return fmt::format("SELECT tick, data, checksum FROM {} WHERE tick BETWEEN {} AND {} ORDER BY tick", table,
+                     from, to);
 }
 
 }  // namespace
 
 tl::unexpected<Error> EventReader::damaged(const std::string& what) const {
-  return fail(database_->path() + ": damaged" + what);
+  return fail(fmt::format("{}: damaged{}", database_->path(), what));
 }
 
 Result<EventReader> EventReader::open(Database& database) {
   EventReader reader(database);
-  for (const char* table : {"events", "machine"}) {
-    const auto has = TRY(database.has_table(table));
-    if (!has) return reader;
-  }
-  reader.exists_ = true;
   TRY(reader.look());
   return reader;
 }
 
-/// Where the first row of the machine's begins. A recording that an earlier release began has it later.
+/// Where the first row of the machine's begins. A recording that was gone on with may have it later.
 Result<void> EventReader::look() {
-  if (!exists_ || from_) return {};
+  if (from_) return {};
   const auto row = TRY(database_->number("SELECT min(tick) FROM machine"));
   if (!row.has_value()) return {};
   const auto tick = static_cast<Tick>(*row);
@@ -38,7 +35,7 @@ Result<void> EventReader::look() {
   const auto bytes = TRY(database_->get(select, tick));
   if (!bytes.has_value()) return {};
   const auto machine = decode_recorded_machine(*bytes);
-  if (!machine) return damaged(" at tick " + std::to_string(tick) + ": " + machine.error().message);
+  if (!machine) return damaged(fmt::format(" at tick {}: {}", tick, machine.error().message));
   from_ = machine->tick + 1 - machine->tick_us.size();
   return {};
 }
@@ -47,9 +44,9 @@ Result<std::vector<Event>> EventReader::events(Tick from, Tick to) {
   std::vector<Event> events;
   if (!from_) return events;
   const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
-    if (!whole) return damaged(": the events of tick " + std::to_string(tick));
+    if (!whole) return damaged(fmt::format(": the events of tick {}", tick));
     const auto row = decode_recorded_events(data, tick);
-    if (!row) return damaged(" at tick " + std::to_string(tick) + ": " + row.error().message);
+    if (!row) return damaged(fmt::format(" at tick {}: {}", tick, row.error().message));
     events.insert(events.end(), row->begin(), row->end());
     return {};
   };
@@ -61,11 +58,10 @@ Result<std::vector<RecordedMachine>> EventReader::machine(Tick from, Tick to) {
   std::vector<RecordedMachine> rows;
   if (!from_) return rows;
   const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
-    if (!whole) return damaged(": the durations up to tick " + std::to_string(tick));
+    if (!whole) return damaged(fmt::format(": the durations up to tick {}", tick));
     auto row = decode_recorded_machine(data);
-    if (!row) return damaged(" at tick " + std::to_string(tick) + ": " + row.error().message);
-    if (row->tick != tick)
-      return damaged(": durations of another tick than they say, " + std::to_string(tick));
+    if (!row) return damaged(fmt::format(" at tick {}: {}", tick, row.error().message));
+    if (row->tick != tick) return damaged(fmt::format(": durations of another tick than they say, {}", tick));
     rows.push_back(std::move(*row));
     return {};
   };
@@ -81,13 +77,11 @@ Result<std::optional<Tick>> EventReader::tick_of(const std::string& select) {
 }
 
 Result<std::optional<Tick>> EventReader::next(Tick tick, Tick last) {
-  return tick_of("SELECT min(tick) FROM events WHERE tick > " + std::to_string(tick) +
-                 " AND tick <= " + std::to_string(last));
+  return tick_of(fmt::format("SELECT min(tick) FROM events WHERE tick > {} AND tick <= {}", tick, last));
 }
 
 Result<std::optional<Tick>> EventReader::previous(Tick tick, Tick first) {
-  return tick_of("SELECT max(tick) FROM events WHERE tick < " + std::to_string(tick) +
-                 " AND tick >= " + std::to_string(first));
+  return tick_of(fmt::format("SELECT max(tick) FROM events WHERE tick < {} AND tick >= {}", tick, first));
 }
 
 }  // namespace scree

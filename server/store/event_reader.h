@@ -12,7 +12,7 @@ namespace scree {
 
 class EventReader {
  public:
-  /// `database` must outlive it. A recording of an earlier release has no log.
+  /// `database` must outlive it.
   static Result<EventReader> open(Database& database);
 
   /// Looks where the log begins, unless that is known.
@@ -34,7 +34,6 @@ class EventReader {
   tl::unexpected<Error> damaged(const std::string& what) const;
 
   Database* database_;
-  bool exists_ = false;
   std::optional<Tick> from_;
 };
 

@@ -1,6 +1,7 @@
 #include "server/store/file_kind.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 
 #include "shared/base/check.h"
@@ -21,13 +22,13 @@ Result<void> check_whole_pages(const std::string& path, const std::string& start
   const uint64_t bytes = std::filesystem::file_size(path, error);
   if (page_bytes != 0 && bytes % page_bytes == 0) return {};
   if (std::filesystem::exists(path + "-wal", error)) return {};
-  return fail(path + ": damaged or cut short: " + std::to_string(bytes) + " bytes are no whole pages");
+  return fail(fmt::format("{}: damaged or cut short: {} bytes are no whole pages", path, bytes));
 }
 
 }  // namespace
 
 Result<void> check_file(const std::string& path, const FileKind& kind) {
-  const std::string is_none = path + " is no " + std::string(kind.noun) + ": ";
+  const std::string is_none = fmt::format("{} is no {}: ", path, kind.noun);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return fail(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file");
@@ -36,7 +37,7 @@ Result<void> check_file(const std::string& path, const FileKind& kind) {
   std::string start(sqlite_magic.size() + 2, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (static_cast<size_t>(file.gcount()) < start.size())
-    return fail(is_none + "it has only " + std::to_string(file.gcount()) + " bytes");
+    return fail(fmt::format("{}it has only {} bytes", is_none, file.gcount()));
   if (!start.starts_with(sqlite_magic)) return fail(is_none + "it is not an SQLite file");
   return check_whole_pages(path, start);
 }
@@ -58,27 +59,28 @@ bool lacks_log(const std::string& path, const FileKind& kind) {
 }
 
 std::string missing_log_hint(const std::string& path) {
-  return "; it is a file that was being written, and its log " + path +
-         "-wal is missing: copy that, too, or the file after its program has ended";
+  return fmt::format(
+      "; it is a file that was being written, and its log {}-wal is missing: copy that, too, or the file "
+      "after its program has ended",
+      path);
 }
 
 Result<void> check_format(Database& database, const FileKind& kind) {
   const auto id = TRY(database.number("PRAGMA application_id"));
   const std::string noun(kind.noun);
   if (id.value_or(0) != kind.application_id)
-    return fail(database.path() + " is no " + noun + ": it is an SQLite file of another program");
+    return fail(fmt::format("{} is no {}: it is an SQLite file of another program", database.path(), noun));
   const auto format = database.number("PRAGMA user_version");
   TRY(format);
   if (format->value_or(0) != kind.format)
-    return fail(database.path() + " is a " + noun + " of format " + std::to_string(format->value_or(0)) +
-                "; this program reads format " + std::to_string(kind.format) + ": " +
-                std::string(kind.way_out));
+    return fail(fmt::format("{} is a {} of format {}; this program reads format {}: {}", database.path(),
+                            noun, format->value_or(0), kind.format, kind.way_out));
   return {};
 }
 
 Result<void> check_pages(Database& database) {
   const auto check = TRY(database.text("PRAGMA quick_check(1)"));
-  if (check != "ok") return fail(database.path() + ": damaged or cut short: " + check);
+  if (check != "ok") return fail(fmt::format("{}: damaged or cut short: {}", database.path(), check));
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include "server/store/keyframe_reader.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "proto/operation_codec.h"
@@ -10,17 +11,12 @@
 namespace scree {
 
 tl::unexpected<Error> KeyframeReader::damaged(const std::string& what, Tick tick) const {
-  return fail(database_->path() + ": damaged: the keyframe of tick " + std::to_string(tick) + ": " + what);
+  return fail(fmt::format("{}: damaged: the keyframe of tick {}: {}", database_->path(), tick, what));
 }
 
 Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues header) {
   KeyframeReader reader(database);
   reader.header_ = std::move(header);
-  for (const char* table : {"keyframe_states", "keyframe_chunks", "keyframe_pieces"}) {
-    const auto has = TRY(database.has_table(table));
-    if (!has) return reader;
-  }
-  reader.exists_ = true;
   const std::pair<Statement*, std::string> statements[] = {
       {&reader.select_chunk_, schema::select_chunk()},
       {&reader.select_piece_, schema::select_from("keyframe_pieces")},
@@ -33,16 +29,14 @@ Result<KeyframeReader> KeyframeReader::open(Database& database, SettingValues he
 }
 
 Result<uint64_t> KeyframeReader::count() {
-  if (!exists_) return uint64_t{0};
   const auto count = database_->number("SELECT count(*) FROM keyframe_states");
   TRY(count);
   return static_cast<uint64_t>(count->value_or(0));
 }
 
 Result<std::optional<Tick>> KeyframeReader::tick_before(Tick tick) {
-  if (!exists_) return std::optional<Tick>();
   const auto latest =
-      database_->number("SELECT max(tick) FROM keyframe_states WHERE tick <= " + std::to_string(tick));
+      database_->number(fmt::format("SELECT max(tick) FROM keyframe_states WHERE tick <= {}", tick));
   TRY(latest);
   return latest->has_value() ? std::optional(static_cast<Tick>(**latest)) : std::nullopt;
 }
@@ -58,7 +52,7 @@ Result<void> KeyframeReader::index() {
   const auto latest = TRY(database_->number("SELECT max(id) FROM keyframe_chunks"));
   if (latest.value_or(0) <= indexed_) return {};
   // Without the blobs: from the index alone, unless few rows are new.
-  const std::string since = indexed_ == 0 ? "" : " NOT INDEXED WHERE id > " + std::to_string(indexed_);
+  const std::string since = indexed_ == 0 ? "" : fmt::format(" NOT INDEXED WHERE id > {}", indexed_);
   if (auto read = database_->each_number("SELECT id, chunk, tick, hash FROM keyframe_chunks" + since, take);
       !read)
     return read;
@@ -143,17 +137,16 @@ Result<void> KeyframeReader::read_pieces(KeyframeParts& parts, const KnownParts&
       continue;
     }
     const auto data = TRY(database_->get(select_piece_, state.id));
-    if (!data.has_value())
-      return damaged("piece " + std::to_string(state.id) + " is missing", parts.keyframe.tick);
+    if (!data.has_value()) return damaged(fmt::format("piece {} is missing", state.id), parts.keyframe.tick);
     auto piece = decode_recorded_piece(*data);
     if (!piece) return damaged(piece.error().message, parts.keyframe.tick);
     if (piece->id != state.id) return damaged("a piece is in another one's row", parts.keyframe.tick);
     piece->pose = state.pose;
     voxels += piece->volume.window.codes.size();
     if (voxels > limits::piece_voxels_max)
-      return damaged("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                         " voxels (limits.piece_voxels_max)",
-                     parts.keyframe.tick);
+      return damaged(
+          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max),
+          parts.keyframe.tick);
     parts.keyframe.pieces.push_back(std::move(*piece));
   }
   parts.keyframe.poses = std::move(of_known);

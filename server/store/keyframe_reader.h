@@ -29,8 +29,7 @@ struct KeyframeParts {
 
 class KeyframeReader {
  public:
-  /// `header`: how the settings stood at the recording's start. `database` must outlive it. A recording of an
-  /// earlier release has no such keyframes.
+  /// `header`: how the settings stood at the recording's start. `database` must outlive it.
   static Result<KeyframeReader> open(Database& database, SettingValues header);
 
   /// The tick of the latest keyframe up to that one; nothing when there is none.
@@ -67,7 +66,6 @@ class KeyframeReader {
   tl::unexpected<Error> damaged(const std::string& what, Tick tick) const;
 
   Database* database_;
-  bool exists_ = false;
   SettingValues header_;
   Statement select_chunk_, select_piece_, select_state_;
   std::unordered_map<uint64_t, std::vector<Row>> chunks_;  ///< by chunk_key(); each in order

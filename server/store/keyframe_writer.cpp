@@ -1,6 +1,7 @@
 #include "server/store/keyframe_writer.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/operation_codec.h"
 #include "server/formats/recording_codec.h"
@@ -53,9 +54,9 @@ Result<void> KeyframeWriter::bring_in(ChunkCoord chunk, PublishedState& state) {
     bricks = std::move(*decoded);
     return {};
   };
-  const std::string select =
-      "SELECT tick, data, checksum FROM keyframe_chunks WHERE chunk = " + key_text(chunk) +
-      " ORDER BY tick DESC, id DESC LIMIT 1";
+  const std::string select = fmt::format(
+      "SELECT tick, data, checksum FROM keyframe_chunks WHERE chunk = {} ORDER BY tick DESC, id DESC LIMIT 1",
+      key_text(chunk));
   TRY(database_->each(select, take));
   if (!bricks || !state.page_in(chunk, *bricks)) return damaged();
   return {};
@@ -175,11 +176,11 @@ Result<void> KeyframeWriter::drop_before(Tick tick, PieceId next_piece) {
       !read)
     return read;
   return database_->execute(
-      "DELETE FROM keyframe_chunks WHERE tick < " + at +
-      " AND EXISTS (SELECT 1 FROM keyframe_chunks AS later WHERE later.chunk = keyframe_chunks.chunk"
-      " AND later.tick > keyframe_chunks.tick AND later.tick <= " +
-      at + ");" + "DELETE FROM keyframe_pieces WHERE tick < " + std::to_string(next_piece) +
-      " AND tick NOT IN (" + alive + ");" + "DELETE FROM keyframe_states WHERE tick < " + at);
+      fmt::format("DELETE FROM keyframe_chunks WHERE tick < {} AND EXISTS (SELECT 1 FROM keyframe_chunks AS "
+                  "later WHERE later.chunk = keyframe_chunks.chunk AND later.tick > keyframe_chunks.tick AND "
+                  "later.tick <= {});DELETE FROM keyframe_pieces WHERE tick < {} AND tick NOT IN ({});DELETE "
+                  "FROM keyframe_states WHERE tick < {}",
+                  at, at, next_piece, alive, at));
 }
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -93,7 +94,7 @@ Result<void> copy_for_reading(const std::string& path, const std::string& to) {
   for (const char* end : {"", "-wal"}) {
     if (!fs::exists(path + end, error) && end[0] != '\0') continue;
     if (!fs::copy_file(path + end, to + end, fs::copy_options::overwrite_existing, error))
-      return fail(path + end + " cannot be copied to " + to + end + ": " + error.message());
+      return fail(fmt::format("{}{} cannot be copied to {}{}: {}", path, end, to, end, error.message()));
   }
   fill_to_its_length(to);
   return {};

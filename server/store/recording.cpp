@@ -13,7 +13,8 @@ RecordedHeader to_recorded(const RecordingHeader& header) {
 
 Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   auto world = TRY(config_of(header));
-  return RecordingHeader{header.program, std::move(world), header.merge_burst_ticks};
+  const Tick burst = header.merge_burst_ticks;
+  return RecordingHeader{header.program, std::move(world), burst == 0 ? merge_burst_ticks : burst};
 }
 
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {

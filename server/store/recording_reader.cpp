@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/formats/world_codec.h"
 #include "server/store/database.h"
-#include "server/store/earlier_keyframes.h"
 #include "server/store/event_reader.h"
 #include "server/store/file_kind.h"
 #include "server/store/limits.h"
@@ -22,9 +21,9 @@ struct RecordingReader::State {
   Result<void> read_header();
   Result<void> hold();
   Result<void> read_extent(WithoutTicks without_ticks);
-  Result<void> read_later_tables();
+  Result<void> supply_missing_tables();
+  Result<void> open_readers();
   Result<std::optional<Tick>> state_up_to(Tick tick);
-  Result<std::optional<RecordedState>> state_of_moment(Tick tick);
   Result<void> read_end();
   tl::unexpected<Error> missing(Tick tick);
   template <typename T>
@@ -41,12 +40,9 @@ struct RecordingReader::State {
   bool without_log = false;  ///< it was open for writing when it was left, or copied
   Statement select_frame;
   Statement select_commands;
-  Statement select_state;
-  Statement select_moment;  ///< null: a recording of an earlier release
+  Statement select_moment;
   std::optional<KeyframeReader> keyframe_rows;
-  std::optional<EarlierKeyframes> earlier_keyframes;
   std::optional<EventReader> events;
-  bool has_end = false;  ///< a table that says whether it is ended
 };
 
 Result<void> RecordingReader::State::read_header() {
@@ -54,11 +50,12 @@ Result<void> RecordingReader::State::read_header() {
   const auto bytes_read = TRY(database.get(select, 0));
   if (!bytes_read.has_value()) return fail(database.path() + ": damaged: it has no header");
   const auto recorded = decode_recorded_header(*bytes_read);
-  if (!recorded) return fail(database.path() + ": damaged: " + recorded.error().message);
+  if (!recorded) return fail(fmt::format("{}: damaged: {}", database.path(), recorded.error().message));
   if (recorded->format != recording_format)
-    return fail(database.path() + ": damaged: its header is of format " + std::to_string(recorded->format));
+    return fail(fmt::format("{}: damaged: its header is of format {}", database.path(), recorded->format));
   auto understood = from_recorded(*recorded);
-  if (!understood) return fail(database.path() + ": made by another release: " + understood.error().message);
+  if (!understood)
+    return fail(fmt::format("{}: made by another release: {}", database.path(), understood.error().message));
   header = std::move(*understood);
   return {};
 }
@@ -79,50 +76,55 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   const auto count = database.number("SELECT count(*) FROM frames");
   for (const auto* number : {&first, &last, &count})
     if (!*number) return tl::unexpected(number->error());
-  const auto rows = keyframe_rows->count(), earlier = earlier_keyframes->count();
-  for (const auto* number : {&rows, &earlier})
-    if (!*number) return tl::unexpected(number->error());
+  const auto rows = TRY(keyframe_rows->count());
   if (!first->has_value() && without_ticks == WithoutTicks::awaited && !is_ended) return {};
   if (!first->has_value()) return fail(database.path() + ": the recording holds no tick");
-  if (**first < 1) return fail(database.path() + ": damaged: it begins at tick " + std::to_string(**first));
+  if (**first < 1) return fail(fmt::format("{}: damaged: it begins at tick {}", database.path(), **first));
   const auto begun = TRY(state_up_to(static_cast<Tick>(**first - 1)));
   if (*first != 1 && begun.has_value() && static_cast<Tick>(**first) - 1 - *begun > limits::unseen_ticks_max)
-    return fail(database.path() + ": damaged: its first tick is " + std::to_string(**first) +
-                ", too far from its state after tick " + std::to_string(*begun) +
-                " (limits.unseen_ticks_max)");
+    return fail(fmt::format(
+        "{}: damaged: its first tick is {}, too far from its state after tick {} (limits.unseen_ticks_max)",
+        database.path(), **first, *begun));
   if ((*first != 1 && !begun.has_value()) || **last - **first != **count - 1)
-    return fail(database.path() + ": damaged: ticks are missing (" + std::to_string(**count) + " from " +
-                std::to_string(**first) + " to " + std::to_string(**last) + ")");
+    return fail(fmt::format("{}: damaged: ticks are missing ({} from {} to {})", database.path(), **count,
+                            **first, **last));
   first_tick = static_cast<Tick>(**first);
   last_tick = static_cast<Tick>(**last);
-  keyframes = *rows + *earlier;
+  keyframes = rows;
   return {};
 }
 
-Result<void> RecordingReader::State::read_later_tables() {
-  const auto moments = database.has_table("state_moments"), ended = database.has_table("ended");
-  for (const auto* has : {&moments, &ended})
-    if (!*has) return tl::unexpected(has->error());
-  has_end = *ended;
-  if (*moments) {
-    auto select = TRY(database.prepare(schema::select_from("state_moments")));
-    select_moment = std::move(select);
-  }
+/// Before it looks at rows: a table that is not there has none.
+Result<void> RecordingReader::State::supply_missing_tables() {
+  TRY(database.execute("PRAGMA temp_store = MEMORY"));
+  const auto supply = [this](const char* table) -> Result<void> {
+    const auto has = TRY(database.has_table(table));
+    return has ? Result<void>() : database.execute(schema::create_empty(table));
+  };
+  for (const char* table : schema::row_tables) TRY(supply(table));
+  return supply(schema::chunk_table);
+}
+
+Result<void> RecordingReader::State::open_readers() {
   auto rows = TRY(KeyframeReader::open(database, print(header.world)));
   keyframe_rows = std::move(rows);
-  auto earlier = TRY(EarlierKeyframes::open(database));
-  earlier_keyframes = std::move(earlier);
   auto log = TRY(EventReader::open(database));
   events = std::move(log);
+  for (const auto& [statement, table] :
+       {std::pair(&select_frame, "frames"), std::pair(&select_commands, "commands"),
+        std::pair(&select_moment, "state_moments")}) {
+    auto prepared = TRY(database.prepare(schema::select_from(table)));
+    *statement = std::move(prepared);
+  }
   return {};
 }
 
-/// Who recorded says so, unless that was an earlier release: then the log beside the file was merged.
+/// Who recorded says so, and merged the log beside the file.
 Result<void> RecordingReader::State::read_end() {
   const auto journal = database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
   TRY(journal);
   is_ended = *journal != "wal";
-  if (is_ended || !has_end) return {};
+  if (is_ended) return {};
   const auto row = TRY(database.number("SELECT count(*) FROM ended"));
   is_ended = row != 0;
   return {};
@@ -132,7 +134,7 @@ Result<void> RecordingReader::State::read_end() {
 template <typename T>
 Result<T> RecordingReader::State::decoded(Result<T> result, Tick tick) const {
   if (result) return result;
-  return fail(database.path() + ": damaged at tick " + std::to_string(tick) + ": " + result.error().message);
+  return fail(fmt::format("{}: damaged at tick {}: {}", database.path(), tick, result.error().message));
 }
 
 RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -153,18 +155,13 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database));
   TRY(check_format(state->database, schema::recording));
+  TRY(state->supply_missing_tables());
   TRY(state->hold());
   TRY(check_pages(state->database));
   TRY(state->read_header());
-  TRY(state->read_later_tables());
+  TRY(state->open_readers());
   TRY(state->read_end());
   TRY(state->read_extent(without_ticks));
-  for (const auto& [statement, table] :
-       {std::pair(&state->select_frame, "frames"), std::pair(&state->select_commands, "commands"),
-        std::pair(&state->select_state, "states")}) {
-    auto prepared = TRY(state->database.prepare(schema::select_from(table)));
-    *statement = std::move(prepared);
-  }
   std::error_code ignored;
   state->bytes = std::filesystem::file_size(path, ignored);
   if (const auto log = std::filesystem::file_size(path + "-wal", ignored); !ignored) state->bytes += log;
@@ -203,8 +200,9 @@ Result<void> RecordingReader::look_again() {
   for (const auto* number : {&first, &last})
     if (!*number) return tl::unexpected(number->error());
   if (last->value_or(0) < static_cast<int64_t>(state.last_tick))
-    return fail(path() + ": its ticks after " + std::to_string(last->value_or(0)) +
-                " are gone, because its world was rolled back: open it again");
+    return fail(
+        fmt::format("{}: its ticks after {} are gone, because its world was rolled back: open it again",
+                    path(), last->value_or(0)));
   if (!first->has_value()) return {};
   const Tick before = std::exchange(state.first_tick, static_cast<Tick>(**first));
   state.last_tick = static_cast<Tick>(**last);
@@ -221,25 +219,15 @@ uint64_t RecordingReader::bytes() const {
 }
 
 /// The terrain is that of its tick's keyframe.
-Result<std::optional<RecordedState>> RecordingReader::State::state_of_moment(Tick tick) {
-  const auto row = TRY(database.get(select_moment, tick));
-  if (!row.has_value()) return std::optional<RecordedState>();
-  auto value = TRY(decoded(decode_world(*row), tick));
-  const auto at = TRY(keyframe_rows->tick_before(tick));
-  if (at != tick)
-    return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has no terrain");
+Result<std::optional<WorldSnapshot>> RecordingReader::state(Tick tick) {
+  const auto row = TRY(state_->database.get(state_->select_moment, tick));
+  if (!row.has_value()) return std::optional<WorldSnapshot>();
+  auto value = TRY(state_->decoded(decode_world(*row), tick));
+  const auto at = TRY(state_->keyframe_rows->tick_before(tick));
+  if (at != tick) return fail(fmt::format("{}: damaged: the state of tick {} has no terrain", path(), tick));
   if (!value.bricks.empty())
-    return fail(database.path() + ": damaged: the state of tick " + std::to_string(tick) + " has bricks");
-  return std::optional(RecordedState{std::move(value), true});
-}
-
-Result<std::optional<RecordedState>> RecordingReader::state(Tick tick) {
-  const auto whole = TRY(state_->database.get(state_->select_state, tick));
-  if (whole.has_value()) {
-    auto value = TRY(state_->decoded(decode_world(*whole), tick));
-    return std::optional(RecordedState{std::move(value), false});
-  }
-  return state_->select_moment ? state_->state_of_moment(tick) : std::optional<RecordedState>();
+    return fail(fmt::format("{}: damaged: the state of tick {} has bricks", path(), tick));
+  return std::optional(std::move(value));
 }
 
 Result<void> RecordingReader::each_chunk(Tick tick, const KeyframeReader::TakeChunk& take) {
@@ -255,14 +243,9 @@ Result<std::vector<BrickPatch>> RecordingReader::chunk(ChunkCoord chunk, uint64_
 }
 
 Result<std::optional<Tick>> RecordingReader::State::state_up_to(Tick tick) {
-  std::optional<Tick> latest;
-  for (const char* table : {"states", "state_moments"}) {
-    if (table == std::string_view("state_moments") && !select_moment) break;
-    const auto row = TRY(database.number("SELECT max(tick) FROM " + std::string(table) +
-                                         " WHERE tick >= 0 AND tick <= " + std::to_string(tick)));
-    if (row.has_value()) latest = std::max(latest.value_or(0), static_cast<Tick>(*row));
-  }
-  return latest;
+  const auto row = TRY(database.number(
+      fmt::format("SELECT max(tick) FROM state_moments WHERE tick >= 0 AND tick <= {}", tick)));
+  return row.has_value() ? std::optional(static_cast<Tick>(*row)) : std::nullopt;
 }
 
 Result<Tick> RecordingReader::state_before(Tick tick) {
@@ -271,18 +254,18 @@ Result<Tick> RecordingReader::state_before(Tick tick) {
 }
 
 Result<Tick> RecordingReader::keyframe_tick_before(Tick tick) {
-  const auto rows = TRY(state_->keyframe_rows->tick_before(tick));
-  const auto earlier = TRY(state_->earlier_keyframes->tick_before(tick));
-  return std::max(rows.value_or(0), earlier.value_or(0));
+  const auto at = TRY(state_->keyframe_rows->tick_before(tick));
+  return at.value_or(0);
 }
 
 /// A ring that was gone on with, after it had been opened, may have dropped it.
 tl::unexpected<Error> RecordingReader::State::missing(Tick tick) {
   const auto first = database.number("SELECT min(tick) FROM frames");
   if (first && first->value_or(0) > static_cast<int64_t>(tick))
-    return fail(database.path() + ": its ring moved past tick " + std::to_string(tick) +
-                " while it was read, and begins at tick " + std::to_string(**first) + " now: read it again");
-  return fail(database.path() + ": damaged: tick " + std::to_string(tick) + " is missing");
+    return fail(fmt::format(
+        "{}: its ring moved past tick {} while it was read, and begins at tick {} now: read it again",
+        database.path(), tick, **first));
+  return fail(fmt::format("{}: damaged: tick {} is missing", database.path(), tick));
 }
 
 Result<RecordedFrame> RecordingReader::frame(Tick tick) {
@@ -291,8 +274,8 @@ Result<RecordedFrame> RecordingReader::frame(Tick tick) {
   if (!bytes.has_value()) return state_->missing(tick);
   auto frame = state_->decoded(decode_recorded_frame(*bytes), tick);
   if (frame && frame->tick != tick)
-    return fail(path() + ": damaged: the frame of tick " + std::to_string(tick) + " says that it is tick " +
-                std::to_string(frame->tick));
+    return fail(
+        fmt::format("{}: damaged: the frame of tick {} says that it is tick {}", path(), tick, frame->tick));
   return frame;
 }
 
@@ -337,15 +320,9 @@ Result<std::optional<RecordedKeyframe>> RecordingReader::keyframe_before(Tick ti
 Result<std::optional<KeyframeParts>> RecordingReader::keyframe_before(Tick tick, const KnownParts& known) {
   CHECK(tick <= state_->last_tick);
   const auto at = TRY(state_->keyframe_rows->tick_before(tick));
-  const auto earlier = TRY(state_->earlier_keyframes->tick_before(tick));
-  if (!at && !earlier) return std::optional<KeyframeParts>();
-  if (at >= earlier) {
-    auto parts = TRY(state_->keyframe_rows->read(*at, known));
-    return std::optional(std::move(parts));
-  }
-  auto whole = TRY(state_->earlier_keyframes->read_before(tick));
-  if (!whole.has_value()) return std::optional<KeyframeParts>();  // somebody changes the file
-  return std::optional(KeyframeParts{std::move(*whole), {}});
+  if (!at) return std::optional<KeyframeParts>();
+  auto parts = TRY(state_->keyframe_rows->read(*at, known));
+  return std::optional(std::move(parts));
 }
 
 }  // namespace scree

@@ -15,12 +15,6 @@
 
 namespace scree {
 
-/// A world from which a simulation begins.
-struct RecordedState {
-  WorldSnapshot value;
-  bool has_chunks = false;  ///< the value has no bricks: the terrain comes chunk by chunk
-};
-
 /// What a recording without any tick is: damaged, or one whose first tick will come.
 enum class WithoutTicks : uint8_t { refused, awaited };
 
@@ -54,9 +48,10 @@ class RecordingReader {
   /// Until look_again() what is read is of no one moment; a ring may drop ticks that it had.
   void let_go();
 
-  /// The world after the tick, where the simulation of the next one began with it; most ticks have none.
-  Result<std::optional<RecordedState>> state(Tick tick);
-  /// The terrain of a state that has chunks: KeyframeReader's functions.
+  /// The world after the tick, where the simulation of the next one began with it; most ticks have none. It
+  /// has no bricks: its terrain comes chunk by chunk.
+  Result<std::optional<WorldSnapshot>> state(Tick tick);
+  /// The terrain of a state: KeyframeReader's functions.
   Result<void> each_chunk(Tick tick, const KeyframeReader::TakeChunk& take);
   Result<bool> has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick);
   Result<std::vector<BrickPatch>> chunk(ChunkCoord chunk, uint64_t hash);
@@ -67,8 +62,7 @@ class RecordingReader {
   Result<RecordedFrame> frame(Tick tick);
   /// The commands of a tick up to last_tick(), after the state before first_tick(); most ticks have none.
   Result<std::vector<Command>> commands(Tick tick);
-  /// The first tick that the log of events covers; nothing when the recording has none, as those of earlier
-  /// releases.
+  /// The first tick that the log of events covers; nothing when the recording has no log.
   std::optional<Tick> events_from() const;
   /// What happened in a tick that the log covers; most ticks have nothing. The machine's events are those of
   /// machine().

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fmt/format.h>
 
 #include "server/store/limits.h"
 
@@ -26,8 +27,8 @@ constexpr std::array units = {Unit{'s', 1.0, 0},
 
 Result<RingLimit> ring_limit_of(const std::string& text) {
   const auto refused = [&] {
-    return fail("'" + text +
-                "' is no length of a ring: 10s to 10000000s (s, m or h), or 64M to 100T (M, G or T bytes)");
+    return fail(fmt::format(
+        "'{}' is no length of a ring: 10s to 10000000s (s, m or h), or 64M to 100T (M, G or T bytes)", text));
   };
   if (text.size() < 2) return refused();
   uint32_t number = 0;
@@ -86,15 +87,17 @@ void RecordingRing::drop_before(Tick tick, uint64_t bytes) {
 std::string RecordingRing::over_limit(const RecordingSize& size, uint64_t bytes) const {
   if (limit_.bytes == 0 || size.bytes() <= limit_.bytes) return {};
   constexpr uint64_t megabyte = 1'000'000;
-  const auto mb = [](uint64_t n) { return std::to_string((n + megabyte / 2) / megabyte) + " MB"; };
-  const std::string ring = "its ring of " + mb(limit_.bytes) + " takes " + mb(size.bytes());
+  const auto mb = [](uint64_t n) { return fmt::format("{} MB", (n + megabyte / 2) / megabyte); };
+  const std::string ring = fmt::format("its ring of {} takes {}", mb(limit_.bytes), mb(size.bytes()));
   if (size.log_bytes > 2 * limit_.log_bytes())
-    return ring + ": the log beside it has " + mb(size.log_bytes) +
-           ", as long as somebody reads the recording (replay verify, cut)";
+    return fmt::format(
+        "{}: the log beside it has {}, as long as somebody reads the recording (replay verify, cut)", ring,
+        mb(size.log_bytes));
   if (bytes > room())
-    return ring + ": the terrain's edits and the last " +
-           std::to_string(static_cast<int>(limits::ring_seconds_min)) +
-           " s, which are kept whatever they take, need as much (--record-ring)";
+    return fmt::format(
+        "{}: the terrain's edits and the last {} s, which are kept whatever they take, need as much "
+        "(--record-ring)",
+        ring, static_cast<int>(limits::ring_seconds_min));
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/formats/event_codec.h"
@@ -85,8 +86,8 @@ Result<void> RecordingWriter::State::begin() {
 
 /// The tables and the header of a new file.
 Result<void> RecordingWriter::State::found() {
-  if (auto done = database.execute("PRAGMA page_size = " + std::to_string(limits::recording_page_bytes) +
-                                   "; PRAGMA journal_mode = WAL;");
+  if (auto done = database.execute(
+          fmt::format("PRAGMA page_size = {}; PRAGMA journal_mode = WAL;", limits::recording_page_bytes));
       !done)
     return done;
   if (auto done = database.execute("BEGIN;" + schema::create_tables()); !done) return done;
@@ -98,10 +99,10 @@ Result<void> RecordingWriter::State::found() {
 
 Result<void> RecordingWriter::State::prepare() {
   const uint64_t log_bytes = limit.log_bytes();
-  const std::string settings =
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = " +
-      std::to_string(std::max<uint64_t>(1, log_bytes / limits::recording_page_bytes)) +
-      "; PRAGMA journal_size_limit = " + std::to_string(log_bytes) + ";";
+  const std::string settings = fmt::format(
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = {}; PRAGMA "
+      "journal_size_limit = {};",
+      std::max<uint64_t>(1, log_bytes / limits::recording_page_bytes), log_bytes);
   TRY(database.execute(settings));
   const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = TRY(database.prepare(sql));
@@ -160,8 +161,9 @@ Result<void> RecordingWriter::State::put_part(const WorldMoment& moment) {
   CHECK_EQ(moment.tick, published.tick());
   const std::vector<uint8_t> value = encode(WorldSnapshot{moment, {}});
   if (value.size() > limits::row_bytes_max)
-    return fail(database.path() + ": the world's pieces take " + std::to_string(value.size()) +
-                " bytes, too many for one row of a recording (limits.row_bytes_max)");
+    return fail(fmt::format(
+        "{}: the world's pieces take {} bytes, too many for one row of a recording (limits.row_bytes_max)",
+        database.path(), value.size()));
   TRY(keyframes->put(published));
   TRY(database.put(put_moment, moment.tick, value));
   begin_events(published.settings());
@@ -216,11 +218,8 @@ Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part)
   const std::string tick = std::to_string(part.tick);
   std::string sql;
   for (const char* table : {"frames", "commands", "events", "machine"})
-    sql += std::string("DELETE FROM ") + table + " WHERE tick <= " + tick + ";";
-  for (const char* table : {"states", "state_moments", "keyframes"})
-    sql += std::string("DELETE FROM ") + table + " WHERE tick < " + tick + ";";
-  const auto has_short = TRY(database.has_table("short_keyframes"));
-  if (has_short) sql += "DELETE FROM short_keyframes WHERE tick < " + tick;
+    sql += fmt::format("DELETE FROM {} WHERE tick <= {};", table, tick);
+  sql += fmt::format("DELETE FROM state_moments WHERE tick < {};", tick);
   TRY(database.execute(sql));
   TRY(keyframes->drop_before(part.tick, part.next_piece));
   TRY(count_bytes());
@@ -280,18 +279,13 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   const auto recorded = TRY(header_to_resume(path, header, start.keyframe));
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database), recorded, limit);
-  TRY(state->database.execute(schema::create_later_tables()));
+  TRY(state->database.execute(schema::create_tables()));
   TRY(state->prepare());
   TRY(state->begin());
-  const auto has_short = TRY(state->database.has_table("short_keyframes"));
-  std::vector<std::string> tables = {"frames",  "keyframes",       "commands",       "events",
-                                     "machine", "keyframe_states", "keyframe_chunks"};
-  if (has_short) tables.emplace_back("short_keyframes");
-  std::string sql = "DELETE FROM ended;";
-  for (const std::string& table : tables)
-    sql += "DELETE FROM " + table + " WHERE tick > " + std::to_string(tick) + ";";
-  for (const char* table : {"states", "state_moments"})
-    sql += std::string("DELETE FROM ") + table + " WHERE tick >= " + std::to_string(tick) + ";";
+  const std::string at = std::to_string(tick);
+  std::string sql = fmt::format("DELETE FROM ended; DELETE FROM state_moments WHERE tick >= {};", at);
+  for (const char* table : {"frames", "commands", "events", "machine", "keyframe_states", "keyframe_chunks"})
+    sql += fmt::format("DELETE FROM {} WHERE tick > {};", table, at);
   TRY(state->database.execute(sql));
   TRY(state->keyframes->take_up());
   state->ring.begin({0, 0}, 0);  // all that was there before

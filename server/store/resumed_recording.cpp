@@ -1,5 +1,7 @@
 #include "server/store/resumed_recording.h"
 
+#include <fmt/format.h>
+
 #include "server/store/recording_reader.h"
 
 namespace scree {
@@ -33,9 +35,9 @@ Result<RecordingHeader> header_to_resume(const std::string& path, const Recordin
   const auto another = fail(path + " is the recording of another world: choose another name (--record)");
   if (!alike(recorded->header().world, header.world)) return another;
   if (recorded->last_tick() < tick || recorded->first_tick() > tick + 1)
-    return fail(path + " holds the ticks " + std::to_string(recorded->first_tick()) + " to " +
-                std::to_string(recorded->last_tick()) + ", and the world stands at " + std::to_string(tick) +
-                ": choose another name (--record)");
+    return fail(
+        fmt::format("{} holds the ticks {} to {}, and the world stands at {}: choose another name (--record)",
+                    path, recorded->first_tick(), recorded->last_tick(), tick));
   const auto hash = TRY(hash_after(*recorded, tick));
   // Before its first tick a world is what its configuration says.
   const bool same = hash ? *hash == start.state_hash : tick == 0;

@@ -1,6 +1,7 @@
 // The tables of a recording: one SQLite file. server/formats/recording.proto specifies the blobs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -18,22 +19,16 @@ inline constexpr FileKind recording{.noun = "recording",
                                     .format = recording_format,
                                     .way_out = "play it with the release that recorded it"};
 
-inline std::string create_table(const std::string& table) {
-  return "CREATE TABLE IF NOT EXISTS " + table +
-         " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
-}
-
-/// What recordings of earlier releases have not.
-inline std::string create_later_tables() {
-  std::string sql;
-  for (const char* table :
-       {"events", "machine", "keyframe_states", "keyframe_pieces", "state_moments", "ended"})
-    sql += create_table(table);
-  return sql +
-         "CREATE TABLE IF NOT EXISTS keyframe_chunks (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL,"
-         " chunk INTEGER NOT NULL, hash INTEGER NOT NULL, data BLOB NOT NULL, checksum INTEGER NOT NULL);"
-         "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
-}
+/// Tables of rows by tick, or by id.
+inline constexpr std::array row_tables = {"header",          "frames",          "commands",
+                                          "events",          "machine",         "ended",
+                                          "keyframe_states", "keyframe_pieces", "state_moments"};
+inline constexpr const char* chunk_table = "keyframe_chunks";
+inline constexpr const char* chunk_columns =
+    " (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL, chunk INTEGER NOT NULL, hash INTEGER NOT NULL,"
+    " data BLOB NOT NULL, checksum INTEGER NOT NULL);";
+inline constexpr const char* row_columns =
+    " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
 
 /// The table frames has one row for every tick, without a gap. The table commands has one row for each tick
 /// with commands, also for ticks before the first frame, back to the state from which these are simulated.
@@ -53,15 +48,18 @@ inline std::string create_later_tables() {
 /// has about one row a second, with the durations of the ticks since the last row and the server's own
 /// events. The table ended has one row, of the last tick, when the recorder came to an end.
 ///
-/// Recordings of earlier releases may have none of the tables from keyframe_states on. They have instead:
-/// keyframes, whole ones; short_keyframes, of whose bricks those that changed since the last whole one, or
-/// since the untouched terrain where there is none; states, as state_moments, with the terrain.
+/// Makes those that are not there. Builds before 0.2.0 left out tables without rows.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(recording_format) + ";";
-  for (const char* table : {"header", "frames", "keyframes", "states", "commands"})
-    sql += create_table(table);
-  return sql + create_later_tables();
+  for (const char* table : row_tables)
+    sql += std::string("CREATE TABLE IF NOT EXISTS ") + table + row_columns;
+  return sql + "CREATE TABLE IF NOT EXISTS " + chunk_table + chunk_columns +
+         "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
+}
+/// For a reader of one that lacks the table.
+inline std::string create_empty(const std::string& table) {
+  return "CREATE TEMP TABLE " + table + (table == chunk_table ? chunk_columns : row_columns);
 }
 
 inline std::string insert_into(const std::string& table) {

@@ -1,6 +1,7 @@
 #include "server/store/stored_field.h"
 
 #include <deque>
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/store/ground_mass.h"
@@ -68,7 +69,7 @@ Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, con
   field->page_by([shelf](ChunkCoord chunk) { return shelf->read(chunk); });
   const auto read = rows.each_chunk([&](const WorldChunk& chunk) -> Result<void> {
     const auto left = paged_of(chunk.chunk, chunk.bricks);
-    if (!left) return fail(rows.path() + ": damaged: " + left.error().message);
+    if (!left) return fail(fmt::format("{}: damaged: {}", rows.path(), left.error().message));
     field->add_out(chunk.chunk, *left);
     return {};
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fcntl.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <unistd.h>
@@ -34,7 +35,7 @@ Result<void> check_free(const std::string& path) {
   std::error_code error;
   for (const char* part : {"", "-wal", "-journal"})
     if (std::filesystem::exists(path + part, error))
-      return fail(path + part + " exists already: choose another name, or move it away");
+      return fail(fmt::format("{}{} exists already: choose another name, or move it away", path, part));
   return {};
 }
 
@@ -94,9 +95,8 @@ Result<void> WorldFile::State::prepare() {
 Result<void> WorldFile::State::put(const Statement& statement, uint64_t key,
                                    const std::vector<uint8_t>& data) {
   if (data.size() > limits::row_bytes_max)
-    return fail(database.path() + ": a row of " + std::to_string(data.size()) +
-                " bytes is over the limit of " + std::to_string(limits::row_bytes_max) +
-                " (limits.row_bytes_max)");
+    return fail(fmt::format("{}: a row of {} bytes is over the limit of {} (limits.row_bytes_max)",
+                            database.path(), data.size(), limits::row_bytes_max));
   bytes_written += data.size();
   return database.put(statement, key, data);
 }
@@ -145,8 +145,8 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
     auto database = TRY(Database::create(unfinished));
     State state(std::move(database));
     Database& file = state.database;
-    if (auto done = file.execute("PRAGMA page_size = 4096; PRAGMA synchronous = " + synchronous(durable) +
-                                 "; BEGIN;" + world_schema::create_tables());
+    if (auto done = file.execute(fmt::format("PRAGMA page_size = 4096; PRAGMA synchronous = {}; BEGIN;{}",
+                                             synchronous(durable), world_schema::create_tables()));
         !done)
       return done;
     TRY(state.prepare());
@@ -160,7 +160,7 @@ Result<std::unique_ptr<WorldFile>> WorldFile::create(const std::string& path, co
     return tl::unexpected(made.error());
   }
   std::filesystem::rename(unfinished, path, error);
-  if (error) return fail(path + " cannot be made: " + error.message());
+  if (error) return fail(fmt::format("{} cannot be made: {}", path, error.message()));
   if (durable) sync_folder_of(path);
   auto file = open(path);
   if (file) (*file)->state_->durable = durable;
@@ -224,8 +224,7 @@ Result<std::optional<WorldChunk>> WorldFile::read_chunk(ChunkCoord chunk) {
   if (!row->has_value()) return std::optional<WorldChunk>();
   auto decoded = chunk_of_row(key, **row);
   if (!decoded)
-    return fail(path() + ": damaged: row " + std::to_string(key) +
-                " of its chunks: " + decoded.error().message);
+    return fail(fmt::format("{}: damaged: row {} of its chunks: {}", path(), key, decoded.error().message));
   return std::optional(std::move(*decoded));
 }
 
@@ -238,8 +237,9 @@ Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
 /// The log, the statements, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
-  const std::string settings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = " + synchronous(durable) +
-                               "; PRAGMA wal_autocheckpoint = " + std::to_string(limits::wal_pages_max) + ";";
+  const std::string settings =
+      fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};",
+                  synchronous(durable), limits::wal_pages_max);
   TRY(database.execute(settings));
   const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
     pieces.insert(id);

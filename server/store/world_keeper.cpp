@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <fmt/format.h>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -27,10 +28,8 @@ bool something_happened(const TickDelta& delta) {
 /// Why a save waits for chunks.
 std::string reason_of(const std::map<ChunkCoord, std::string>& lacking) {
   const auto& [chunk, reason] = *lacking.begin();
-  return "chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-         std::to_string(chunk.z) +
-         (lacking.size() == 1 ? "" : " and " + std::to_string(lacking.size() - 1) + " more") +
-         " must be written anew: " + reason;
+  return fmt::format("chunk {}, {}, {}{} must be written anew: {}", chunk.x, chunk.y, chunk.z,
+                     (lacking.size() == 1 ? "" : fmt::format(" and {} more", lacking.size() - 1)), reason);
 }
 
 /// Ticks between saves that are due whatever happens; 0: none.

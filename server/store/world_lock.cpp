@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -35,15 +36,15 @@ Result<WorldLock> WorldLock::take(const std::string& world_path) {
   const std::string path = (real.empty() ? world_path : real.string()) + "-lock";
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file < 0)
-    return fail(world_path + ": " + path + " cannot be written (" + std::strerror(errno) +
-                "): a world needs a folder that can be written");
+    return fail(fmt::format("{}: {} cannot be written ({}): a world needs a folder that can be written",
+                            world_path, path, std::strerror(errno)));
   WorldLock lock(file);
   if (flock(file, LOCK_EX | LOCK_NB) != 0)
-    return fail(world_path + " is in use by " + process_in(file) +
-                ": a world belongs to one server at a time");
+    return fail(fmt::format("{} is in use by {}: a world belongs to one server at a time", world_path,
+                            process_in(file)));
   const std::string number = std::to_string(getpid());
   if (ftruncate(file, 0) != 0 || pwrite(file, number.data(), number.size(), 0) < 0)
-    return fail(path + " cannot be written: " + std::strerror(errno));
+    return fail(fmt::format("{} cannot be written: {}", path, std::strerror(errno)));
   return lock;
 }
 

@@ -1,6 +1,7 @@
 #include "server/store/world_reading.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "server/store/readable_rows.h"
@@ -72,7 +73,7 @@ void WorldReading::begin_anew() {
 }
 
 tl::unexpected<Error> WorldReading::damaged(const std::string& what) const {
-  return fail(database_.path() + ": damaged: " + what);
+  return fail(fmt::format("{}: damaged: {}", database_.path(), what));
 }
 
 Result<void> WorldReading::one(const std::string& table, const TakeBytes& take) {
@@ -81,28 +82,27 @@ Result<void> WorldReading::one(const std::string& table, const TakeBytes& take) 
       database_.each(world_schema::all_of(table), [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
         ++count;
         rows_.bytes += data.size();
-        if (!whole) return damaged("the " + table + " is not what was saved");
+        if (!whole) return damaged(fmt::format("the {} is not what was saved", table));
         if (auto taken = take(key, data); !taken) return damaged(taken.error().message);
         return {};
       });
-  if (read && count != 1) return damaged("it has " + std::to_string(count) + " rows of its " + table);
+  if (read && count != 1) return damaged(fmt::format("it has {} rows of its {}", count, table));
   return read;
 }
 
 Result<void> WorldReading::every(const std::string& table, const TakeBytes& take) {
   const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
     rows_.bytes += data.size();
-    const std::string name = "row " + std::to_string(key) + " of its " + table;
+    const std::string name = fmt::format("row {} of its {}", key, table);
     if (!whole) return lose(name + " is not what was saved");
-    if (auto taken = take(key, data); !taken) return lose(name + ": " + taken.error().message);
+    if (auto taken = take(key, data); !taken) return lose(fmt::format("{}: {}", name, taken.error().message));
     return {};
   };
   if (lost_ == nullptr) return database_.each(world_schema::all_of(table), row);
   return each_readable(database_, world_schema::all_from(table), row,
                        [&](uint64_t first, uint64_t last, const std::string& why) {
-                         lost_->reasons.push_back("rows " + std::to_string(first) + " to " +
-                                                  std::to_string(last) + " of its " + table +
-                                                  " cannot be read (" + why + ")");
+                         lost_->reasons.push_back(fmt::format("rows {} to {} of its {} cannot be read ({})",
+                                                              first, last, table, why));
                        });
 }
 
@@ -117,8 +117,8 @@ Result<void> WorldReading::piece(uint64_t key, Bytes data) {
   if (decoded.id != key) return fail("it is another piece's");
   voxels_ += decoded.volume->window.codes.size();
   if (voxels_ > limits::piece_voxels_max)
-    return fail("pieces of more than " + std::to_string(limits::piece_voxels_max) +
-                " voxels (limits.piece_voxels_max)");
+    return fail(
+        fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   rows_.world.moment.pieces.push_back(std::move(decoded));
   return {};
 }

@@ -26,7 +26,7 @@ TEST_F(RoleTest, each_may_do_what_those_before_it_may_and_no_more) {
     const Shape shape = sphere({}, 1.0F);
     const ClientMessage requests[] = {CarveMessage{{.shape = shape}, 1}, FillMessage{{shape}, 2},
                                       PaintMessage{{shape, Material::ice}, 3},
-                                      AdminMessage{4, "", SettingValues{{"dents", "false"}}}};
+                                      AdminMessage{4, "", SettingsRequest{{{"dents", "false"}}}}};
     const Role needed[] = {Role::carver, Role::builder, Role::builder, Role::admin};
     size_t allowed = 0;
     for (size_t i = 0; i < std::size(requests); ++i) {
@@ -41,7 +41,7 @@ TEST_F(RoleTest, each_may_do_what_those_before_it_may_and_no_more) {
       EXPECT_TRUE(holds(reply->refusal, "this session is a " + std::string(name_of(role)))) << reply->refusal;
     }
     // An answer follows all requests before it.
-    ASSERT_TRUE(client->send(AdminMessage{5, role == Role::admin ? "" : the_admin_token, ListBans{}}));
+    ASSERT_TRUE(client->send(AdminMessage{5, role == Role::admin ? "" : the_admin_token, ListBansRequest{}}));
     ASSERT_TRUE(client->receive_as<AdminListMessage>());
     EXPECT_EQ(commands.drain().size(), allowed) << name_of(role);
   }
@@ -72,7 +72,7 @@ TEST_F(RoleTest, a_full_server_has_room_for_tokens_and_keeps_those_who_hold_one)
   start();
   const auto acts = [](RawClient& client) {
     EXPECT_TRUE(client.send(InterestMessage{{1.0F, 2.0F, 3.0F}, 64.0F}));
-    EXPECT_TRUE(client.send(AdminMessage{1, "", ListBans{}}));
+    EXPECT_TRUE(client.send(AdminMessage{1, "", ListBansRequest{}}));
     EXPECT_TRUE(client.receive_as<ReplyMessage>()) << "it was carried out";
   };
   const auto first = join("", Role::viewer), second = join("", Role::viewer);
@@ -208,9 +208,9 @@ TEST_F(RoleTest, only_administrators_administer) {
   EXPECT_TRUE(list_sessions(admin(the_admin_token)));
   // The token in the message goes on to work, and a wrong one to end the connection.
   const auto client = join("", Role::viewer);
-  ASSERT_TRUE(client->send(AdminMessage{1, the_admin_token, ListSessions{}}));
+  ASSERT_TRUE(client->send(AdminMessage{1, the_admin_token, ListSessionsRequest{}}));
   EXPECT_TRUE(client->receive_as<AdminListMessage>());
-  ASSERT_TRUE(client->send(AdminMessage{2, "another-admin-token", ListSessions{}}));
+  ASSERT_TRUE(client->send(AdminMessage{2, "another-admin-token", ListSessionsRequest{}}));
   const auto refused = client->receive_as<RefusalMessage>();
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->reason, "the admin token is wrong");

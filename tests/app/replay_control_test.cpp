@@ -40,7 +40,7 @@ class ReplayViewer {
     EXPECT_TRUE(applied.has_value()) << applied.error().message;
     return applied.has_value();
   }
-  void ask(const ControlReplay& wish, const std::string& token = "") {
+  void ask(const ControlReplayRequest& wish, const std::string& token = "") {
     EXPECT_TRUE(socket_.send(AdminMessage{1, token, wish}));
   }
 
@@ -89,7 +89,7 @@ class ReplayControlTest : public RecordingTest {
   }
   PlaybackMessage playback() const { return server->last_delta()->playback.value(); }
   /// Steps until the wish is carried out.
-  void carry_out(ReplayViewer& viewer, const ControlReplay& wish) {
+  void carry_out(ReplayViewer& viewer, const ControlReplayRequest& wish) {
     const uint64_t before = playback().heeded;
     viewer.ask(wish);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);

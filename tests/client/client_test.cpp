@@ -199,7 +199,7 @@ TEST_F(ClientTest, a_failed_check_is_followed_by_a_request_for_repair) {
   frame.check = 1;
   server_.coming.push_back(frame);
   events_at(1.0);
-  const std::vector<RepairRequest> repairs = server_.all_sent<RepairRequest>();
+  const std::vector<RepairMessage> repairs = server_.all_sent<RepairMessage>();
   ASSERT_EQ(repairs.size(), 1U);
   EXPECT_EQ(repairs[0].tick, 1U);
   EXPECT_FALSE(repairs[0].chunks.empty());

@@ -111,7 +111,7 @@ TEST_F(GroundJoinTest, tiles_nobody_asked_for_and_tiles_of_another_hash_are_refu
   wrong.back() ^= 1U;
   EXPECT_FALSE(tiles.take({layout.top(), wrong}));
   ReceivedTiles good({layout, ground_->header().ground.top}, TileFolder({}));
-  for (TileRequest request = good.next_request({}, 64.0F); !request.wanted.empty();
+  for (AskTilesMessage request = good.next_request({}, 64.0F); !request.wanted.empty();
        request = good.next_request({}, 64.0F))
     for (const TileKey key : request.wanted) ASSERT_TRUE(good.take({key, ground_->packed(key)}));
   EXPECT_TRUE(good.has_near({}, 64.0F));
@@ -158,7 +158,7 @@ TEST_F(BrickJoinTest, a_stored_chunk_of_another_hash_is_refused_and_the_next_coa
   ReceivedTiles tiles(ground_->header().ground, TileFolder({}));
   const TileKey root = ground_->bricks()->root();
   size_t taken = 0;
-  for (TileRequest request = tiles.next_request({}, 64.0F); !request.wanted.empty();
+  for (AskTilesMessage request = tiles.next_request({}, 64.0F); !request.wanted.empty();
        request = tiles.next_request({}, 64.0F))
     for (const TileKey key : request.wanted) {
       EXPECT_TRUE(taken > 0 || key == root || key.kind == TileKind::heights);

@@ -13,7 +13,7 @@ import { Writer } from './packed.js';
 import { Requests } from './requests.js';
 import { World, bigOf, keyOf } from './world.js';
 
-const PROTOCOL = 2;
+const PROTOCOL = 3;
 const GROUND_WAITING_MAX = 1024;
 const text = (name, fallback) => ({ [name]: { type: 'string', default: fallback } });
 const { values: options } = parseArgs({
@@ -76,6 +76,7 @@ function receive(kind, message) {
 function welcome({ terrain, protocol }) {
   if (protocol !== PROTOCOL) return finish(`protocol ${protocol}`);
   voxelSize = terrain.voxel_size_m;
+  connection.sendUnknown(); // which the server skips
   groundWanted = options.ground === '0' ? [] : chunksAround(eye, Number(options.ground), voxelSize);
   askGround();
   if (groundWanted.length + groundWaiting === 0) begin();

@@ -29,6 +29,11 @@ export class Connection {
     this.socket.write(Buffer.concat([length, body]));
   }
 
+  /** A message of a kind that no release has. */
+  sendUnknown() {
+    this.socket.write(Buffer.from([5, 0, 0, 0, 0xca, 0x3e, 0x02, 0x08, 0x01]));
+  }
+
   receive(bytes) {
     this.receivedBytes += bytes.length;
     this.waiting = Buffer.concat([this.waiting, bytes]);
@@ -46,8 +51,9 @@ export class Connection {
     if (this.waiting.length < 4 + length) return false;
     const message = this.ServerMessage.decode(this.waiting.subarray(4, 4 + length));
     this.waiting = this.waiting.subarray(4 + length);
-    this.bytesByKind[message.kind] = (this.bytesByKind[message.kind] ?? 0) + 4 + length;
-    if (message.kind) this.onMessage(message.kind, message[message.kind]); // others are of a later version
+    const kind = message.kind ?? 'unknown'; // of a later version: skipped
+    this.bytesByKind[kind] = (this.bytesByKind[kind] ?? 0) + 4 + length;
+    if (message.kind) this.onMessage(kind, message[kind]);
     return true;
   }
 

@@ -116,7 +116,7 @@ TEST_F(AttackTest, floods_of_every_kind_of_message) {
     const auto refusal = client.receive_as<RefusalMessage>();
     ASSERT_TRUE(refusal) << message.index();
     const bool admin = std::holds_alternative<AdminMessage>(message);
-    const bool ground = std::holds_alternative<GroundRequest>(message);
+    const bool ground = std::holds_alternative<AskGroundMessage>(message);
     EXPECT_TRUE(admin || ground || refusal->name == "messages_per_second") << refusal->name;
     commands.drain();
     expect_honest_served();
@@ -217,8 +217,8 @@ TEST_F(AttackTest, settings_that_the_world_refuses_are_not_logged_as_set) {
   ASSERT_TRUE(admin.send(as_admin));
   const auto welcome = admin.receive_as<WelcomeMessage>();
   ASSERT_TRUE(welcome);
-  ASSERT_TRUE(admin.send(AdminMessage{1, "", SettingValues{{"dents", "false"}}}));
-  ASSERT_TRUE(admin.send(AdminMessage{2, "", SettingValues{{"pieces-max", "0"}}}));
+  ASSERT_TRUE(admin.send(AdminMessage{1, "", SettingsRequest{{{"dents", "false"}}}}));
+  ASSERT_TRUE(admin.send(AdminMessage{2, "", SettingsRequest{{{"pieces-max", "0"}}}}));
   size_t taken = 0;
   const auto end = std::chrono::steady_clock::now() + patience;
   while (taken < 2 && std::chrono::steady_clock::now() < end) taken += commands.drain().size();

@@ -54,7 +54,7 @@ TEST_F(GroundServerTest, bricks_come_instead_of_operations_and_ground_on_request
   ASSERT_TRUE(frame.has_value());
   EXPECT_TRUE(frame->operations.empty());
   EXPECT_FALSE(frame->patches.empty());
-  ASSERT_TRUE(client->send(GroundRequest{{{0, -1, 0}, {100, 0, 0}}}));
+  ASSERT_TRUE(client->send(AskGroundMessage{{{0, -1, 0}, {100, 0, 0}}}));
   const auto near = answer(*client);
   ASSERT_TRUE(near.has_value());
   EXPECT_FALSE(near->beyond);
@@ -67,10 +67,10 @@ TEST_F(GroundServerTest, bricks_come_instead_of_operations_and_ground_on_request
 TEST_F(GroundServerTest, more_ground_than_may_wait_ends_the_connection_and_is_counted) {
   const auto greedy = join();
   const auto modest = join();
-  ASSERT_TRUE(greedy->send(GroundRequest{std::vector<ChunkCoord>(limits::ground_chunks_max)}));
-  ASSERT_TRUE(greedy->send(GroundRequest{{{1, 2, 3}}}));
+  ASSERT_TRUE(greedy->send(AskGroundMessage{std::vector<ChunkCoord>(limits::ground_chunks_max)}));
+  ASSERT_TRUE(greedy->send(AskGroundMessage{{{1, 2, 3}}}));
   expect_refused(*greedy, "limits.ground_chunks_max");
-  ASSERT_TRUE(modest->send(GroundRequest{{{0, 0, 0}}}));
+  ASSERT_TRUE(modest->send(AskGroundMessage{{{0, 0, 0}}}));
   EXPECT_TRUE(answer(*modest).has_value());
   EXPECT_EQ(server->stats().refusals.of(Refusal::ground_waiting), 1U);
 }
@@ -78,11 +78,11 @@ TEST_F(GroundServerTest, more_ground_than_may_wait_ends_the_connection_and_is_co
 TEST_F(GroundServerTest, a_request_of_too_many_chunks_or_of_one_beyond_all_worlds_is_refused) {
   for (const ChunkCoord bad : {ChunkCoord{1 << 24, 0, 0}, ChunkCoord{0, -(1 << 24), 0}}) {
     const auto client = join();
-    ASSERT_TRUE(client->send(GroundRequest{{bad}}));
+    ASSERT_TRUE(client->send(AskGroundMessage{{bad}}));
     expect_refused(*client, "chunk");
   }
   const auto client = join();
-  ASSERT_TRUE(client->send(GroundRequest{std::vector<ChunkCoord>(limits::ground_chunks_max + 1)}));
+  ASSERT_TRUE(client->send(AskGroundMessage{std::vector<ChunkCoord>(limits::ground_chunks_max + 1)}));
   expect_refused(*client, "chunks of a ground request");
 }
 

@@ -102,7 +102,7 @@ class LinkedWorld final : public SessionHost {
     return welcome;
   }
   tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) override {
-    if (const auto* repair = std::get_if<RepairRequest>(&message)) publisher.repair(session.id(), *repair);
+    if (const auto* repair = std::get_if<RepairMessage>(&message)) publisher.repair(session.id(), *repair);
     return {};
   }
   void refused(ClientSession&, const Refused& refused) override { failure = refused.message; }

@@ -90,7 +90,7 @@ TEST_F(OfferTest, a_liar_gets_what_he_says_he_has_when_he_asks_for_it_and_nobody
   EXPECT_EQ(liar.field.hash(), nothing.field.hash());
   tick({source.carve({0.5F, 0.0F, 0.0F}, 2.0F, 1)});
   EXPECT_EQ(liar.mismatches, 1U) << "the check finds it";
-  RepairRequest repair{source.tick(), source.field().edited_chunks(), {}};
+  RepairMessage repair{source.tick(), source.field().edited_chunks(), {}};
   repair.hashes.assign(repair.chunks.size(), 0);
   publisher.repair(again, repair);
   for (int i = 0; i < 6; ++i) tick();

@@ -209,7 +209,7 @@ TEST_F(PublisherTest, repair_resends_exactly_the_chunks_that_differ) {
   join(session, {0.0F, 2.0F, 0.0F}, 64.0F);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 4)});
   TrustingClient& follower = followers.at(session);
-  RepairRequest request;
+  RepairMessage request;
   request.tick = source.tick();
   request.chunks = source.field().edited_chunks();
   ASSERT_GE(request.chunks.size(), 2U);

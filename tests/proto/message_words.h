@@ -98,6 +98,10 @@ inline Lines describe(const HelloMessage& m) {
     lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
   return lines;
 }
+inline Lines describe(const UnknownMessage& m) {
+  if (!m.request) return {"unknown: skipped"};
+  return {fmt::format("unknown: {}, request {} is refused", m.value, *m.request)};
+}
 inline Lines describe(const OfferMessage& m) {
   Lines lines{fmt::format("offer: world 0x{:016x}", m.world)};
   for (size_t i = 0; i < m.chunks.size(); ++i)
@@ -125,7 +129,7 @@ inline Lines describe(const PaintMessage& m) {
   return {
       fmt::format("paint: request {}, {}, material {}", m.request, words(m.shape), row_of(m.material).name)};
 }
-inline Lines describe(const RepairRequest& m) {
+inline Lines describe(const RepairMessage& m) {
   Lines lines{fmt::format("repair: tick {}", m.tick)};
   for (size_t i = 0; i < m.chunks.size(); ++i)
     lines.push_back(fmt::format("chunk: {}, hash 0x{:016x}", words(m.chunks[i]), m.hashes[i]));
@@ -134,29 +138,30 @@ inline Lines describe(const RepairRequest& m) {
 inline Lines describe(const AckMessage& m) {
   return {fmt::format("ack: tick {}", m.tick)};
 }
-inline Lines words(const AdminAct& act) {
+inline Lines words(const AdminRequest& act) {
   return std::visit(
-      Overloaded{
-          [](const SettingValues& settings) {
-            Lines lines;
-            for (const SettingValue& setting : settings)
-              lines.push_back(fmt::format("setting: {} = {}", setting.name, setting.value));
-            return lines;
-          },
-          [](const ListSessions&) { return Lines{"list sessions"}; },
-          [](const KickSession& kick) {
-            return Lines{fmt::format("kick: session {}, reason '{}'", kick.session, kick.reason)};
-          },
-          [](const BanAddress& ban) {
-            return Lines{fmt::format("ban: session {}, address '{}', {} minutes, reason '{}'", ban.session,
-                                     ban.address, ban.minutes, ban.reason)};
-          },
-          [](const ListBans&) { return Lines{"list bans"}; },
-          [](const ControlReplay& control) {
-            return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
-                                     control.speed, name_of(control.move), control.value)};
-          },
-          [](const LiftBan& lift) { return Lines{fmt::format("lift ban: address '{}'", lift.address)}; }},
+      Overloaded{[](const SettingsRequest& request) {
+                   Lines lines;
+                   for (const SettingValue& setting : request.settings)
+                     lines.push_back(fmt::format("setting: {} = {}", setting.name, setting.value));
+                   return lines;
+                 },
+                 [](const ListSessionsRequest&) { return Lines{"list sessions"}; },
+                 [](const KickRequest& kick) {
+                   return Lines{fmt::format("kick: session {}, reason '{}'", kick.session, kick.reason)};
+                 },
+                 [](const BanRequest& ban) {
+                   return Lines{fmt::format("ban: session {}, address '{}', {} minutes, reason '{}'",
+                                            ban.session, ban.address, ban.minutes, ban.reason)};
+                 },
+                 [](const ListBansRequest&) { return Lines{"list bans"}; },
+                 [](const ControlReplayRequest& control) {
+                   return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
+                                            control.speed, name_of(control.move), control.value)};
+                 },
+                 [](const LiftBanRequest& lift) {
+                   return Lines{fmt::format("lift ban: address '{}'", lift.address)};
+                 }},
       act);
 }
 inline Lines describe(const AdminMessage& m) {
@@ -205,7 +210,7 @@ inline Lines describe(const RecordedCursorsMessage& m) {
 inline Lines describe(const GoodbyeMessage&) {
   return {"goodbye"};
 }
-inline Lines describe(const GroundRequest& m) {
+inline Lines describe(const AskGroundMessage& m) {
   return {fmt::format("ground: {}", words(m.chunks))};
 }
 inline Lines words(const HeightGround& m) {
@@ -228,7 +233,7 @@ inline std::string words(const std::vector<TileKey>& keys) {
                 : fmt::format(" ({}, {}, {})", key.level, key.x, key.z);
   return text;
 }
-inline Lines describe(const TileRequest& m) {
+inline Lines describe(const AskTilesMessage& m) {
   return {"tiles wanted:" + words(m.wanted), "tiles held:" + words(m.held)};
 }
 inline Lines describe(const TileMessage& m) {

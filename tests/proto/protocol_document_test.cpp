@@ -126,7 +126,7 @@ TEST(ProtocolDocument, every_kind_of_message_and_act_has_an_example) {
   }
   EXPECT_EQ(of_clients.size(), std::variant_size_v<ClientMessage>);
   EXPECT_EQ(of_servers.size(), std::variant_size_v<ServerMessage>);
-  EXPECT_EQ(acts.size(), std::variant_size_v<AdminAct>);
+  EXPECT_EQ(acts.size(), std::variant_size_v<AdminRequest>);
 }
 
 /// Those that the document's table names.

@@ -105,18 +105,6 @@ TEST(EventDeriver, merges_near_each_other_within_a_second_are_one_event) {
   EXPECT_EQ(events[1].pieces, 9U);
 }
 
-TEST(EventDeriver, in_recordings_of_earlier_releases_a_burst_is_a_ticks) {
-  EventDeriver deriver(0.25F, {}, 0);
-  EXPECT_TRUE(deriver.events_of(merging(1, 3, 5.0F)).empty());
-  TickDelta both = merging(2, 3, 5.0F);
-  both.operations.push_back(merging(2, 2, 50.0F).operations[0]);
-  const std::vector<Event> events = deriver.events_of(both);
-  ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(
-      events[0],
-      (Event{.kind = EventKind::merge, .tick = 2, .place_m = glm::vec3(5.0F, 0.0F, 0.0F), .pieces = 5}));
-}
-
 TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) {
   World world(small_world());
   for (Tick tick = 1; tick <= 5; ++tick) {
@@ -208,7 +196,7 @@ TEST_F(EventsTest, export_of_ticks_has_a_line_each_whose_ledger_balances) {
   EXPECT_GE(carved["operations"], 2);
 }
 
-TEST_F(EventsTest, a_recording_of_an_earlier_release_has_its_events_derived) {
+TEST_F(EventsTest, a_recording_without_a_log_has_its_events_derived) {
   simulate(150);
   record();
   const auto logged = recorded_events();

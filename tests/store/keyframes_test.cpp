@@ -1,6 +1,5 @@
-// Keyframes of recordings: near every tick, small, and those of earlier releases.
+// Keyframes of recordings: near every tick, and small.
 #include <gtest/gtest.h>
-#include <map>
 #include <set>
 
 #include "server/replay/replay_source.h"
@@ -30,47 +29,6 @@ TEST_F(RecordingTest, a_keyframe_is_near_every_tick_and_has_the_whole_state) {
     const auto keyframe = (*reader)->keyframe_before(tick);
     ASSERT_TRUE(keyframe.has_value() && keyframe->has_value());
     EXPECT_EQ(encode(**keyframe), encode(to_recorded_keyframe(published.as_delta()))) << tick;
-  }
-}
-
-TEST_F(RecordingTest, keyframes_of_an_earlier_release_are_seeked_by) {
-  simulate(400);
-  record();
-  std::map<Tick, std::vector<uint8_t>> whole, later;  // at 120; at 180 and 240 what changed since
-  PublishedState published;
-  std::set<BrickCoord> changed;
-  for (const auto& delta : deltas) {
-    published.apply(*delta);
-    for (const BrickState& brick : delta->bricks) changed.insert(brick.coord);
-    if (delta->tick == 120) {
-      whole[120] = encode(to_recorded_keyframe(published.as_delta()));
-      changed.clear();
-    }
-    if (delta->tick == 180 || delta->tick == 240)
-      later[delta->tick] = encode(to_recorded_keyframe(published.as_delta(changed)));
-  }
-  {
-    auto database = Database::open(path);
-    ASSERT_TRUE(database.has_value());
-    ASSERT_TRUE(
-        database
-            ->execute("DROP TABLE keyframe_states; DROP TABLE keyframe_chunks; DROP TABLE keyframe_pieces;"
-                      "DROP TABLE state_moments;" +
-                      schema::create_table("short_keyframes"))
-            .has_value());
-  }
-  for (const auto& [tick, row] : whole) put_recorded("keyframes", tick, row);
-  for (const auto& [tick, row] : later) put_recorded("short_keyframes", tick, row);
-  const auto reader = RecordingReader::open(path);
-  ASSERT_TRUE(reader.has_value()) << reader.error().message;
-  for (const auto& [tick, near] : {std::pair(119, 0), {121, 120}, {200, 180}, {400, 240}})
-    EXPECT_EQ((*reader)->keyframe_tick_before(static_cast<Tick>(tick)).value_or(1), static_cast<Tick>(near));
-  const auto source = ReplaySource::open(path, 399);
-  ASSERT_TRUE(source.has_value()) << source.error().message;
-  for (const Tick to : {Tick{60}, Tick{185}, Tick{130}, Tick{300}, Tick{119}}) {
-    const auto jumped = (*source)->jump(to);
-    ASSERT_TRUE(jumped.has_value()) << jumped.error().message;
-    EXPECT_EQ((*jumped)->field_hash, deltas[to - 1]->field_hash) << to;
   }
 }
 

@@ -311,7 +311,7 @@ TEST_F(RecordingTest, verify_refuses_a_state_that_is_of_another_tick) {
     ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
     (*recorder)->push(world->step({}), {});
   }
-  put_recorded("states", 5, encode(carved_world(0.0F, 3, nullptr)->snapshot()));
+  put_recorded("state_moments", 5, encode(WorldSnapshot{carved_world(0.0F, 3, nullptr)->moment(), {}}));
   auto reader = RecordingReader::open(path);
   ASSERT_TRUE(reader.has_value()) << reader.error().message;
   const auto report = verify(**reader);

@@ -21,7 +21,7 @@ class ReplayPlayerTest : public RecordingTest {
     ASSERT_TRUE(source.has_value()) << source.error().message;
     player.emplace(std::move(*source), options);
   }
-  void ask(const ControlReplay& wish) { ASSERT_TRUE(player->take(wish).has_value()); }
+  void ask(const ControlReplayRequest& wish) { ASSERT_TRUE(player->take(wish).has_value()); }
   void go_to(Tick tick) { ask({.move = ReplayMove::to_tick, .value = static_cast<int64_t>(tick)}); }
   /// One tick, compared with what was recorded. False at the end.
   bool step() {

@@ -36,8 +36,9 @@ class TrustingClient {
   PieceTable pieces;
   std::vector<Tick> ticks;
   size_t operations = 0, patches = 0, chunks = 0, piece_messages = 0, resets = 0, drops = 0, mismatches = 0;
-  size_t unchecked = 0;    ///< frames that changed something, but carried no check
-  size_t chunk_bytes = 0;  ///< on the wire
+  size_t operation_kinds_seen = 0;  ///< the highest number of a kind, and one
+  size_t unchecked = 0;             ///< frames that changed something, but carried no check
+  size_t chunk_bytes = 0;           ///< on the wire
   size_t largest_chunk_bytes = 0;
   size_t chunk_parts = 0, bricks_of_parts = 0;
   size_t piece_bytes = 0;
@@ -61,6 +62,7 @@ class TrustingClient {
     std::map<ChunkCoord, bool> changed;
     for (const Operation& operation : frame.operations) {
       ++operations;
+      operation_kinds_seen = std::max(operation_kinds_seen, operation.index() + 1);
       ASSERT_TRUE(validate(operation, pieces, field.source().voxel_size_m).has_value());
       const Applied applied = scree::apply(operation, field, pieces);
       for (const BrickCoord brick : applied.changed) changed[chunk_of(brick)] = true;
@@ -156,6 +158,7 @@ class TrustingClient {
   void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }
+  void apply(const UnknownMessage&) { ADD_FAILURE() << "a message of this version is known"; }
   void apply(const PhysicsMessage&) { ADD_FAILURE() << "what bodies do is not the publisher's"; }
 };
 
@@ -179,7 +182,7 @@ class PublisherTest : public ::testing::Test {
     }
   }
   void join(uint64_t id, glm::vec3 eye_m, float radius_m, bool has_kernels = true) {
-    publisher.join(id, eye_m, radius_m, has_kernels);
+    publisher.join(id, eye_m, radius_m, has_kernels ? operation_kinds : 0);
     followers.try_emplace(id);
   }
   /// Every chunk that the client holds reads as the server's.

@@ -36,6 +36,7 @@ class RawServer {
   RawServer& operator=(const RawServer&) = delete;
 
   uint16_t port() const { return port_; }
+  int socket() const { return socket_; }
 
   bool accept(int send_buffer_bytes = 0) {
     if (!ready(listener_, POLLIN)) return false;

@@ -165,7 +165,8 @@ inline std::vector<ServerMessage> server_messages() {
       AdminListMessage{
           3,
           {{7, "Ann", "scree-viewer", "127.0.0.1", Role::builder, 1ULL << 63U, 60, 1ULL << 40U, true}},
-          {{"10.0.0.1", 90, "too loud"}}}};
+          {{"10.0.0.1", 90, "too loud"}}},
+      UnknownMessage{}};
 }
 
 inline std::vector<ClientMessage> client_messages() {
@@ -194,22 +195,23 @@ inline std::vector<ClientMessage> client_messages() {
           authored,
           FillMessage{{sphere({0.0F, 1.0F, 0.0F}, 2.0F)}, 6},
           PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice}, 8},
-          RepairRequest{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
+          RepairMessage{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},
-          AdminMessage{8, "a-token-of-some-length", SettingValues{{"dents", "false"}, {"impacts", ""}}},
-          AdminMessage{9, "", ListSessions{}},
-          AdminMessage{10, "", KickSession{77, "too loud"}},
-          AdminMessage{11, "", BanAddress{0, "2001:db8::1", 90, "no reason"}},
-          AdminMessage{12, "", ListBans{}},
-          AdminMessage{13, "", LiftBan{"2001:db8::/64"}},
-          AdminMessage{14, "", ControlReplay{ReplayPlay::pause, -16.0F, ReplayMove::by_ticks, -7}},
+          AdminMessage{8, "a-token-of-some-length", SettingsRequest{{{"dents", "false"}, {"impacts", ""}}}},
+          AdminMessage{9, "", ListSessionsRequest{}},
+          AdminMessage{10, "", KickRequest{77, "too loud"}},
+          AdminMessage{11, "", BanRequest{0, "2001:db8::1", 90, "no reason"}},
+          AdminMessage{12, "", ListBansRequest{}},
+          AdminMessage{13, "", LiftBanRequest{"2001:db8::/64"}},
+          AdminMessage{14, "", ControlReplayRequest{ReplayPlay::pause, -16.0F, ReplayMove::by_ticks, -7}},
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
           WatchMessage{true},
           SayMessage{"mind the edge"},
-          GroundRequest{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
-          TileRequest{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
+          AskGroundMessage{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
+          AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
-          GoodbyeMessage{}};
+          GoodbyeMessage{},
+          UnknownMessage{}};
 }
 
 /// The message without its length prefix.

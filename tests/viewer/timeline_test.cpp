@@ -74,20 +74,20 @@ TEST(Timeline, keys_are_wishes_in_their_order) {
   Timeline timeline = known_timeline();
   const auto due = [&](Action action) {
     timeline.act(action);
-    return timeline.take_due(10.0).value_or(ControlReplay{.value = -77});
+    return timeline.take_due(10.0).value_or(ControlReplayRequest{.value = -77});
   };
-  EXPECT_EQ(due(Action::replay_play), (ControlReplay{.play = ReplayPlay::pause}));
-  EXPECT_EQ(due(Action::replay_play), (ControlReplay{.play = ReplayPlay::play}));
-  EXPECT_EQ(due(Action::replay_faster), (ControlReplay{.speed = 2.0F}));
-  EXPECT_EQ(due(Action::replay_faster), (ControlReplay{.speed = 4.0F}));
-  EXPECT_EQ(due(Action::replay_turn), (ControlReplay{.play = ReplayPlay::play, .speed = -4.0F}));
-  EXPECT_EQ(due(Action::replay_slower), (ControlReplay{.speed = -2.0F}));
-  EXPECT_EQ(due(Action::replay_next_event), (ControlReplay{.move = ReplayMove::next_event}));
+  EXPECT_EQ(due(Action::replay_play), (ControlReplayRequest{.play = ReplayPlay::pause}));
+  EXPECT_EQ(due(Action::replay_play), (ControlReplayRequest{.play = ReplayPlay::play}));
+  EXPECT_EQ(due(Action::replay_faster), (ControlReplayRequest{.speed = 2.0F}));
+  EXPECT_EQ(due(Action::replay_faster), (ControlReplayRequest{.speed = 4.0F}));
+  EXPECT_EQ(due(Action::replay_turn), (ControlReplayRequest{.play = ReplayPlay::play, .speed = -4.0F}));
+  EXPECT_EQ(due(Action::replay_slower), (ControlReplayRequest{.speed = -2.0F}));
+  EXPECT_EQ(due(Action::replay_next_event), (ControlReplayRequest{.move = ReplayMove::next_event}));
   EXPECT_EQ(due(Action::walk).value, -77) << "another room's";
   timeline.act(Action::replay_second_back);
   timeline.act(Action::replay_tick_on);
   timeline.take(at_moment(700, 7), 10.5);
-  EXPECT_EQ(timeline.take_due(10.5), (ControlReplay{.move = ReplayMove::by_ticks, .value = -60}));
+  EXPECT_EQ(timeline.take_due(10.5), (ControlReplayRequest{.move = ReplayMove::by_ticks, .value = -60}));
 }
 
 TEST(Timeline, who_may_not_control_asks_for_nothing_and_sees_the_moment_go_on) {

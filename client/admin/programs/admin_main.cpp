@@ -114,8 +114,8 @@ int ban(const Options& options) {
                                                   options.minutes, options.reason}));
 }
 
-scree::ControlReplay wish_of(const Options& options) {
-  scree::ControlReplay wish;
+scree::ControlReplayRequest wish_of(const Options& options) {
+  scree::ControlReplayRequest wish;
   if (options.play) wish.play = scree::ReplayPlay::play;
   if (options.pause) wish.play = scree::ReplayPlay::pause;
   wish.speed = static_cast<float>(options.speed);

@@ -13,7 +13,7 @@ namespace {
 constexpr double jump_least_s = 0.5;
 constexpr std::array speeds{0.1F, 0.25F, 0.5F, 1.0F, 2.0F, 4.0F, 8.0F, 16.0F};
 
-bool is_seek(const ControlReplay& wish) {
+bool is_seek(const ControlReplayRequest& wish) {
   return wish.move == ReplayMove::to_tick;
 }
 
@@ -52,14 +52,14 @@ void Timeline::seek(double tick) {
   if (!may_control()) return;
   const double within =
       std::clamp(tick, static_cast<double>(playback_->first), static_cast<double>(playback_->last));
-  const ControlReplay wish{.move = ReplayMove::to_tick, .value = std::llround(within)};
+  const ControlReplayRequest wish{.move = ReplayMove::to_tick, .value = std::llround(within)};
   if (!waiting_.empty() && is_seek(waiting_.back()))
     waiting_.back() = wish;
   else
     ask(wish);
 }
 
-void Timeline::ask(const ControlReplay& wish) {
+void Timeline::ask(const ControlReplayRequest& wish) {
   if (!may_control() || waiting_.size() >= limits::replay_wishes_waiting_max) return;
   if (wish.play != ReplayPlay::as_it_is) playback_->playing = wish.play == ReplayPlay::play;
   if (wish.speed != 0.0F) playback_->speed = wish.speed;
@@ -112,12 +112,12 @@ void Timeline::act(Action action) {
   }
 }
 
-std::optional<ControlReplay> Timeline::take_due(double now_s) {
+std::optional<ControlReplayRequest> Timeline::take_due(double now_s) {
   if (under_way_ && now_s - under_way_->sent_s > limits::replay_move_s) under_way_.reset();
   if (waiting_.empty()) return std::nullopt;
   const bool moves = waiting_.front().move != ReplayMove::stay;
   if (moves && under_way_) return std::nullopt;
-  const ControlReplay wish = waiting_.front();
+  const ControlReplayRequest wish = waiting_.front();
   waiting_.pop_front();
   ++heeded_;
   if (moves) under_way_ = {wish, heeded_, now_s};

@@ -33,15 +33,15 @@ class Timeline {
 
   /// Wants the moment there, within the recording. Does nothing for who may not control it, like ask().
   void seek(double tick);
-  void ask(const ControlReplay& wish);
+  void ask(const ControlReplayRequest& wish);
   /// What the action wants of the replay; nothing if it concerns others.
   void act(Action action);
   /// The next wish to be sent. Call again until there is none.
-  std::optional<ControlReplay> take_due(double now_s);
+  std::optional<ControlReplayRequest> take_due(double now_s);
 
  private:
   struct UnderWay {
-    ControlReplay wish;
+    ControlReplayRequest wish;
     uint64_t heeded = 0;  ///< by the server, once it is done
     double sent_s = 0.0;
   };
@@ -54,7 +54,7 @@ class Timeline {
   double told_s_ = 0.0;
   uint64_t heeded_ = 0;  ///< that the server will have heeded once all that was sent is done
   MarksMessage marks_;
-  std::deque<ControlReplay> waiting_;
+  std::deque<ControlReplayRequest> waiting_;
   std::optional<UnderWay> under_way_;  ///< the last move that was sent
 };
 

@@ -159,7 +159,7 @@ void ViewerSession::take(const RecordedCursorsMessage& recorded) {
 
 /// Wishes of a replay are acts of administrators: a token came with the hello.
 void ViewerSession::control_replay(double now_s) {
-  while (const std::optional<ControlReplay> wish = timeline_.take_due(now_s))
+  while (const std::optional<ControlReplayRequest> wish = timeline_.take_due(now_s))
     client_.send(AdminMessage{++requests_, "", *wish});
 }
 

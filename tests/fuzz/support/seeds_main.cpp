@@ -105,11 +105,11 @@ std::vector<std::vector<ClientMessage>> conversation() {
   said[4] = {FillMessage{{box({21.0F, 1.0F, 16.0F}, {1.0F, 2.0F, 1.0F})}, 2}, AckMessage{3}};
   said[8] = {PaintMessage{{sphere({16.0F, 0.0F, 16.0F}, 3.0F), Material::ice}, 3},
              CursorMessage{{0.0F, 2.0F, 0.0F}, {1.0F, 0.0F, 0.0F}}};
-  said[12] = {carve(21.0F, 4), GroundRequest{{{0, 0, 0}, {1, -1, 0}}}};
+  said[12] = {carve(21.0F, 4), AskGroundMessage{{{0, 0, 0}, {1, -1, 0}}}};
   said[20] = {InterestMessage{{80.0F, 2.0F, 0.0F}, 40.0F}};
-  said[30] = {InterestMessage{{0.0F, 2.0F, 0.0F}, 64.0F}, RepairRequest{3, {{0, 0, 0}}, {7}}};
-  said[40] = {AdminMessage{5, FuzzServer::admin_token, SettingValues{{"recombine", "slices"}}}};
-  said[60] = {AdminMessage{6, FuzzServer::admin_token, ListSessions{}}, WatchMessage{true}};
+  said[30] = {InterestMessage{{0.0F, 2.0F, 0.0F}, 64.0F}, RepairMessage{3, {{0, 0, 0}}, {7}}};
+  said[40] = {AdminMessage{5, FuzzServer::admin_token, SettingsRequest{{{"recombine", "slices"}}}}};
+  said[60] = {AdminMessage{6, FuzzServer::admin_token, ListSessionsRequest{}}, WatchMessage{true}};
   return said;
 }
 
@@ -187,7 +187,8 @@ void write_recording(Corpora& corpora) {
     row(1, tick, encode(to_recorded(*delta, state)));
     if (!commands.empty()) row(3, tick, encode(std::span<const Command>(commands)));
     state.apply(*delta);
-    if (tick == 2) row(2, tick, encode(to_recorded_keyframe(state.as_delta())));
+    if (tick == 2)
+      corpora.add("packed", Seed().byte(7).raw(encode(to_recorded_keyframe(state.as_delta()))).bytes);
     (void)(*writer)->add(*delta, commands);
   }
   (void)(*writer)->finish();

@@ -26,12 +26,12 @@ void check_texts(const ClientMessage& message) {
                           CHECK(may_be_shown(hello.client) && may_be_shown(hello.name));
                         },
                         [](const AdminMessage& admin) {
-                          if (const auto* kick = std::get_if<KickSession>(&admin.act))
+                          if (const auto* kick = std::get_if<KickRequest>(&admin.act))
                             CHECK(may_be_shown(kick->reason));
-                          if (const auto* ban = std::get_if<BanAddress>(&admin.act))
+                          if (const auto* ban = std::get_if<BanRequest>(&admin.act))
                             CHECK(may_be_shown(ban->reason) && may_be_shown(ban->address));
-                          if (const auto* settings = std::get_if<SettingValues>(&admin.act))
-                            for (const SettingValue& setting : *settings)
+                          if (const auto* settings = std::get_if<SettingsRequest>(&admin.act))
+                            for (const SettingValue& setting : settings->settings)
                               CHECK(may_be_shown(setting.name) && may_be_shown(setting.value));
                         }},
              message);

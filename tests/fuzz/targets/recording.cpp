@@ -20,7 +20,7 @@ namespace {
 
 constexpr Tick ticks_max = 16;
 constexpr std::array<const char*, 7> tables = {
-    "header", "frames", "keyframes", "commands", "keyframe_states", "keyframe_pieces", "state_moments"};
+    "header", "frames", "events", "commands", "keyframe_states", "keyframe_pieces", "state_moments"};
 
 void write_rows(FuzzInput& input, const std::string& path) {
   auto database = Database::create(path);

@@ -59,6 +59,7 @@ HelloMessage any_hello(FuzzInput& input, FuzzServer& server) {
   const uint32_t token = input.below(8);
   if (token == 0) hello.token = input.text(limits::access_token_bytes_max);
   if (token == 1) hello.token = FuzzServer::admin_token;
+  if (token == 7) hello.operations = input.below(operation_kinds + 1);
   const uint32_t before = input.below(8);
   if (const FuzzClient* other = before < 4 ? any_client(input, server) : nullptr) {
     if (before % 2 == 0) hello.ticket = other->ticket;
@@ -88,25 +89,25 @@ AdminMessage any_admin(FuzzInput& input) {
   const uint64_t session = input.below(12);
   switch (input.below(7)) {
     case 0:
-      admin.act = ListSessions{};
+      admin.act = ListSessionsRequest{};
       break;
     case 1:
-      admin.act = KickSession{session, input.text(limits::admin_reason_bytes_max)};
+      admin.act = KickRequest{session, input.text(limits::admin_reason_bytes_max)};
       break;
     case 2:
-      admin.act = BanAddress{session, session == 0 ? address : "", input.byte(), "fuzz"};
+      admin.act = BanRequest{session, session == 0 ? address : "", input.byte(), "fuzz"};
       break;
     case 3:
-      admin.act = ListBans{};
+      admin.act = ListBansRequest{};
       break;
     case 4:
-      admin.act = LiftBan{input.flag() ? address : input.text(limits::address_bytes_max)};
+      admin.act = LiftBanRequest{input.flag() ? address : input.text(limits::address_bytes_max)};
       break;
     case 5:
-      admin.act = ControlReplay{ReplayPlay::play, 2.0F, ReplayMove::by_ticks, input.byte()};
+      admin.act = ControlReplayRequest{ReplayPlay::play, 2.0F, ReplayMove::by_ticks, input.byte()};
       break;
     default:
-      admin.act = any_settings(input);
+      admin.act = SettingsRequest{any_settings(input)};
   }
   return admin;
 }
@@ -118,7 +119,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     case 1:
       return InterestMessage{input.place(80.0F), input.coordinate(100.0F)};
     case 2: {
-      RepairRequest repair{input.byte(), any_chunks(input), {}};
+      RepairMessage repair{input.byte(), any_chunks(input), {}};
       for (size_t i = 0; i < repair.chunks.size(); ++i) repair.hashes.push_back(input.byte());
       return repair;
     }
@@ -129,7 +130,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     case 5:
       return WatchMessage{input.flag()};
     case 6:
-      return GroundRequest{any_chunks(input)};
+      return AskGroundMessage{any_chunks(input)};
     case 7:
       return any_admin(input);
     case 8:
@@ -137,7 +138,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     case 9:
       return GoodbyeMessage{};
     case 10: {
-      TileRequest request;
+      AskTilesMessage request;
       for (const ChunkCoord any : any_chunks(input)) request.wanted.push_back({any.y, any.x, any.z});
       request.held = request.wanted;
       return request;
