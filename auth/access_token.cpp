@@ -42,7 +42,7 @@ void write_text(ByteWriter& writer, const std::string& text) {
 }
 
 std::string read_text(ByteReader& reader, const char* what) {
-  const auto bytes = reader.take_bytes(reader.u8(what, UINT8_MAX), what);
+  const auto bytes = reader.read_bytes(reader.u8(what, UINT8_MAX), what);
   return {bytes.begin(), bytes.end()};
 }
 

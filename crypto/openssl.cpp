@@ -7,7 +7,7 @@
 
 namespace scree {
 
-std::string take_openssl_error() {
+std::string pop_openssl_error() {
   const unsigned long first = ERR_get_error();
   ERR_clear_error();
   const char* words = first == 0 ? nullptr : ERR_reason_error_string(first);

@@ -26,7 +26,7 @@ using OwnedContext = std::unique_ptr<SSL_CTX, Released<SSL_CTX_free>>;
 using OwnedSsl = std::unique_ptr<SSL, Released<SSL_free>>;
 
 /// The first error of this thread since the last call, as OpenSSL words it; forgets all.
-std::string take_openssl_error();
+std::string pop_openssl_error();
 
 /// SHA-256 of the certificate, as 32 hex numbers with colons between them.
 std::string fingerprint_of(const X509& certificate);

@@ -23,7 +23,7 @@ Result<OwnedContext> context_for(const SSL_METHOD* method) {
   const bool made = context != nullptr && SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION) == 1 &&
                     SSL_CTX_set_cipher_list(context.get(), aead_ciphers) == 1 &&
                     SSL_CTX_set_num_tickets(context.get(), 0) == 1;
-  if (!made) return fail("OpenSSL cannot be set up: " + take_openssl_error());
+  if (!made) return fail("OpenSSL cannot be set up: " + pop_openssl_error());
   SSL_CTX_set_options(context.get(), SSL_OP_NO_COMPRESSION | SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_TICKET |
                                          SSL_OP_CIPHER_SERVER_PREFERENCE | SSL_OP_PRIORITIZE_CHACHA);
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
@@ -72,13 +72,13 @@ Result<std::shared_ptr<const TlsServerContext>> TlsServerContext::load(const std
   if (!can_be_read(certificate_path)) return fail(certificate + " cannot be read");
   if (!can_be_read(key_path)) return fail(key + " cannot be read");
   if (SSL_CTX_use_certificate_chain_file(tls, certificate_path.c_str()) != 1)
-    return fail(certificate + " is no certificate in PEM form: " + take_openssl_error());
+    return fail(certificate + " is no certificate in PEM form: " + pop_openssl_error());
   if (SSL_CTX_use_PrivateKey_file(tls, key_path.c_str(), SSL_FILETYPE_PEM) != 1) {
     const unsigned long first = ERR_peek_error();
     const int reason = ERR_GET_REASON(first);
     const bool mismatch = ERR_GET_LIB(first) == ERR_LIB_X509 &&
                           (reason == X509_R_KEY_VALUES_MISMATCH || reason == X509_R_KEY_TYPE_MISMATCH);
-    const std::string words = take_openssl_error();
+    const std::string words = pop_openssl_error();
     if (mismatch) return fail(key + " does not belong to " + certificate);
     return fail(key + " is no private key in PEM form without a passphrase: " + words);
   }
@@ -117,7 +117,7 @@ Result<std::shared_ptr<const TlsClientContext>> TlsClientContext::make(const Tls
         return fail("the file of certificates " + trust.ca_path + " cannot be read");
       if (SSL_CTX_load_verify_locations(tls, trust.ca_path.c_str(), nullptr) != 1)
         return fail("the file " + trust.ca_path +
-                    " holds no certificate in PEM form: " + take_openssl_error());
+                    " holds no certificate in PEM form: " + pop_openssl_error());
       // A certificate in the file is trusted, not only as the end of a chain.
       X509_VERIFY_PARAM_set_flags(SSL_CTX_get0_param(tls), X509_V_FLAG_PARTIAL_CHAIN);
     }

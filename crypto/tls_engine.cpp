@@ -101,7 +101,7 @@ std::string TlsEngine::Impl::words_of_failure() const {
   const unsigned long first = ERR_peek_error();
   const int reason = ERR_GET_LIB(first) == ERR_LIB_SSL ? ERR_GET_REASON(first) : 0;
   const long verified = SSL_get_verify_result(ssl.get());
-  const std::string words = take_openssl_error();
+  const std::string words = pop_openssl_error();
   if (client && reason == SSL_R_CERTIFICATE_VERIFY_FAILED) return words_of_verification(verified);
   if (client && !established &&
       (reason == SSL_R_WRONG_VERSION_NUMBER || reason == SSL_R_PACKET_LENGTH_TOO_LONG))
@@ -199,7 +199,7 @@ size_t TlsEngine::output_bytes() const {
   return BIO_ctrl_pending(impl_->out);
 }
 
-void TlsEngine::take_output(std::vector<uint8_t>& into) {
+void TlsEngine::drain_output(std::vector<uint8_t>& into) {
   into.resize(output_bytes());
   if (into.empty()) return;
   CHECK(BIO_read(impl_->out, into.data(), static_cast<int>(into.size())) == static_cast<int>(into.size()));

@@ -41,7 +41,7 @@ class TlsEngine final : public StreamEngine {
   size_t chunk_bytes() const override { return tls_record_bytes; }
   void finish() override;
   size_t output_bytes() const override;
-  void take_output(std::vector<uint8_t>& into) override;
+  void drain_output(std::vector<uint8_t>& into) override;
 
  private:
   struct Impl;

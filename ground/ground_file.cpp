@@ -165,19 +165,19 @@ std::vector<uint8_t> GroundFile::packed(TileKey key) const {
 
 std::shared_ptr<const HeightTile> GroundFile::tile(TileKey key) const {
   const std::scoped_lock lock(mutex_);
-  if (auto kept = kept_.find(key)) return kept;
+  if (auto cached = tile_cache_.find(key)) return cached;
   auto unpacked = unpack_tile(packed(key), key, layout());
   CHECK(unpacked.has_value());
-  return kept_.keep(key, std::move(unpacked->tile));
+  return tile_cache_.insert(key, std::move(unpacked->tile));
 }
 
-ChunkLook GroundFile::chunk(TileKey key) const {
+ChunkLookup GroundFile::chunk(TileKey key) const {
   if (!chunks_.contains(key) || key == bricks()->root()) return {};
   const std::scoped_lock lock(mutex_);
-  if (auto kept = kept_chunks_.find(key)) return {true, std::move(kept)};
+  if (auto cached = chunk_cache_.find(key)) return {true, std::move(cached)};
   auto unpacked = unpack_chunk(packed(key), key, *bricks());
   CHECK(unpacked.has_value());
-  return {true, kept_chunks_.keep(key, std::move(unpacked->chunk))};
+  return {true, chunk_cache_.insert(key, std::move(unpacked->chunk))};
 }
 
 std::vector<TileKey> GroundFile::chunks() const {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "ground/ground_header.h"
-#include "ground/kept_tiles.h"
 #include "ground/limits.h"
+#include "ground/tile_cache.h"
 
 namespace scree {
 
@@ -24,7 +24,7 @@ class GroundFile final : public GroundModel {
   const GroundHeader& header() const { return header_; }
   Digest name() const { return name_of(header_); }
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
-  ChunkLook chunk(TileKey key) const override;
+  ChunkLookup chunk(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
   bool has(TileKey key) const override { return layout().holds(key) || chunks_.contains(key); }
   /// The stored chunks, in order, without the root.
@@ -53,8 +53,8 @@ class GroundFile final : public GroundModel {
   std::vector<Entry> index_;
   std::map<TileKey, Entry> chunks_;  ///< with the root
   mutable std::mutex mutex_;         ///< guards the members below
-  mutable KeptTiles<HeightTile> kept_{limits::file_tiles_kept_max};
-  mutable KeptTiles<GeneratedChunk> kept_chunks_{limits::file_chunks_kept_max};
+  mutable TileCache<HeightTile> tile_cache_{limits::file_tiles_cached_max};
+  mutable TileCache<GeneratedChunk> chunk_cache_{limits::file_chunks_cached_max};
 };
 
 }  // namespace scree

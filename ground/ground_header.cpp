@@ -41,7 +41,7 @@ std::vector<uint8_t> fields_of(const GroundHeader& header) {
 
 Digest read_digest(ByteReader& reader, const char* what) {
   Digest digest{};
-  const std::span<const uint8_t> bytes = reader.take_bytes(sizeof(Digest), what);
+  const std::span<const uint8_t> bytes = reader.read_bytes(sizeof(Digest), what);
   if (bytes.size() == digest.size()) std::ranges::copy(bytes, digest.begin());
   return digest;
 }

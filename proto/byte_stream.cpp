@@ -71,7 +71,7 @@ void ByteReader::refuse(const std::string& reason) {
   if (!failed()) error_.message = fmt::format("{}: {}", subject_, reason);
 }
 
-bool ByteReader::take(size_t count, const char* what) {
+bool ByteReader::advance(size_t count, const char* what) {
   if (failed()) return false;
   if (bytes_.size() - next_ < count) {
     refuse(std::string("ends within ") + what);
@@ -84,7 +84,7 @@ bool ByteReader::take(size_t count, const char* what) {
 uint64_t ByteReader::varint(const char* what, uint64_t max) {
   uint64_t value = 0;
   for (unsigned low_bit = 0; low_bit < 64; low_bit += 7) {
-    if (!take(1, what)) return 0;
+    if (!advance(1, what)) return 0;
     const uint8_t byte = bytes_[next_ - 1];
     if (low_bit == 63 && byte > 1) break;
     value |= static_cast<uint64_t>(byte & 0x7FU) << low_bit;
@@ -105,7 +105,7 @@ int64_t ByteReader::zigzag(const char* what, int64_t max) {
 }
 
 uint8_t ByteReader::u8(const char* what, uint8_t max) {
-  if (!take(1, what)) return 0;
+  if (!advance(1, what)) return 0;
   const uint8_t value = bytes_[next_ - 1];
   if (value <= max) return value;
   refuse(fmt::format("{} is {}, over the limit of {}", what, value, max));
@@ -113,7 +113,7 @@ uint8_t ByteReader::u8(const char* what, uint8_t max) {
 }
 
 uint32_t ByteReader::u32(const char* what) {
-  if (!take(4, what)) return 0;
+  if (!advance(4, what)) return 0;
   uint32_t value = 0;
   for (unsigned i = 0; i < 4; ++i) value |= static_cast<uint32_t>(bytes_[next_ - 4 + i]) << (8 * i);
   return value;
@@ -124,8 +124,8 @@ uint64_t ByteReader::u64(const char* what) {
   return low | uint64_t{u32(what)} << 32U;
 }
 
-std::span<const uint8_t> ByteReader::take_bytes(size_t count, const char* what) {
-  if (!take(count, what)) return {};
+std::span<const uint8_t> ByteReader::read_bytes(size_t count, const char* what) {
+  if (!advance(count, what)) return {};
   return bytes_.subspan(next_ - count, count);
 }
 
@@ -146,7 +146,7 @@ QuantisedPose ByteReader::position(const char* what) {
   uint64_t pending = 0;
   int pending_bits = 0;
   const auto bits = [&](int count) {
-    while (pending_bits < count && take(1, what)) {
+    while (pending_bits < count && advance(1, what)) {
       pending |= static_cast<uint64_t>(bytes_[next_ - 1]) << pending_bits;
       pending_bits += 8;
     }

@@ -67,7 +67,7 @@ class ByteReader {
   /// x, y and z of a pose.
   QuantisedPose position(const char* what);
   /// As many bytes.
-  std::span<const uint8_t> take_bytes(size_t count, const char* what);
+  std::span<const uint8_t> read_bytes(size_t count, const char* what);
   /// All remaining bytes.
   std::span<const uint8_t> rest();
 
@@ -82,7 +82,7 @@ class ByteReader {
   const Error& error() const { return error_; }
 
  private:
-  bool take(size_t count, const char* what);
+  bool advance(size_t count, const char* what);
 
   std::span<const uint8_t> bytes_;
   const char* subject_;

@@ -55,7 +55,9 @@ struct Writing {
     write(*to.mutable_cursor()->mutable_eye(), from.eye_m);
     write(*to.mutable_cursor()->mutable_aim(), from.aim_m);
   }
-  void operator()(const WatchMessage& from) const { to.mutable_watch()->set_physics(from.physics); }
+  void operator()(const PhysicsSubscriptionMessage& from) const {
+    to.mutable_watch()->set_physics(from.physics);
+  }
   void operator()(const AskGroundMessage& from) const {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
@@ -136,7 +138,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(
           CursorMessage{check.vec3(from.cursor().eye(), "eye"), check.vec3(from.cursor().aim(), "aim")});
     case wire::ClientMessage::kWatch:
-      return WatchMessage{from.watch().physics()};
+      return PhysicsSubscriptionMessage{from.watch().physics()};
     case wire::ClientMessage::kGround:
       return checked(AskGroundMessage{
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});

@@ -52,7 +52,7 @@ void unpack_changes(const std::string& packed, FrameMessage& frame, FieldChecker
   if (frame.has_check) frame.check = reader.u32("check");
   const std::span<const uint8_t> operations = reader.rest();
   if (reader.failed()) return check.refuse(reader.error().message);
-  frame.operations = check.take(decode_operations(operations));
+  frame.operations = check.value_or_refuse(decode_operations(operations));
 }
 
 }  // namespace
@@ -69,11 +69,11 @@ void write(wire::Frame& to, const FrameMessage& from) {
 FrameMessage read(const wire::Frame& from, FieldChecker& check) {
   FrameMessage frame;
   unpack_changes(from.changes(), frame, check);
-  frame.patches = check.take(decode_bricks(as_span(from.patches())));
+  frame.patches = check.value_or_refuse(decode_bricks(as_span(from.patches())));
   frame.dropped_chunks = check.chunks(from.dropped_chunks(), limits::entries_per_frame_max, "dropped chunks");
   frame.removed_pieces = unpack_ids(from.removed_pieces(), check);
   frame.transforms.assign(from.transforms().begin(), from.transforms().end());
-  check.take(unpack_transforms(frame.transforms));
+  check.value_or_refuse(unpack_transforms(frame.transforms));
   frame.motions.assign(from.motions().begin(), from.motions().end());
   return frame;
 }

@@ -133,19 +133,20 @@ OfferMessage read_offer(const wire::Offer& from, FieldChecker& check) {
   return offer;
 }
 
-void write(wire::Kept& to, const KeptMessage& from) {
+void write(wire::Kept& to, const UnchangedChunksMessage& from) {
   CHECK_EQ(from.chunks.size(), from.hashes.size());
   to.set_chunks(pack_chunks(from.chunks));
   to.mutable_hashes()->Add(from.hashes.begin(), from.hashes.end());
 }
 
-KeptMessage read_kept(const wire::Kept& from, FieldChecker& check) {
-  KeptMessage kept;
-  kept.chunks = check.chunks(from.chunks(), limits::kept_chunks_max, "chunks kept");
-  kept.hashes.assign(from.hashes().begin(), from.hashes().end());
-  if (kept.hashes.size() != kept.chunks.size())
-    check.refuse(fmt::format("{} hashes for {} chunks kept", kept.hashes.size(), kept.chunks.size()));
-  return kept;
+UnchangedChunksMessage read_unchanged_chunks(const wire::Kept& from, FieldChecker& check) {
+  UnchangedChunksMessage unchanged;
+  unchanged.chunks = check.chunks(from.chunks(), limits::kept_chunks_max, "chunks kept");
+  unchanged.hashes.assign(from.hashes().begin(), from.hashes().end());
+  if (unchanged.hashes.size() != unchanged.chunks.size())
+    check.refuse(
+        fmt::format("{} hashes for {} chunks kept", unchanged.hashes.size(), unchanged.chunks.size()));
+  return unchanged;
 }
 
 }  // namespace scree

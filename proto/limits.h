@@ -87,10 +87,10 @@ inline constexpr size_t cursors_max = 64;
 
 /// Bodies, corners of one body, contacts and bricks in one Physics message: about 150 KiB at most. The rest
 /// is left out.
-inline constexpr size_t watched_bodies_max = 1024;
-inline constexpr size_t watched_corners_max = 64;
-inline constexpr size_t watched_contacts_max = 4096;
-inline constexpr size_t watched_bricks_max = 1024;
+inline constexpr size_t physics_bodies_max = 1024;
+inline constexpr size_t hull_corners_max = 64;
+inline constexpr size_t physics_contacts_max = 4096;
+inline constexpr size_t physics_bricks_max = 1024;
 
 /// Stages of a tick in a status, and the length of a stage's name in bytes.
 inline constexpr size_t stages_max = 32;

@@ -30,7 +30,7 @@ MarksMessage news_since(const MarksMessage& known, const MarksMessage& now) {
   return news;
 }
 
-void take_news(MarksMessage& known, const MarksMessage& news) {
+void apply_news(MarksMessage& known, const MarksMessage& news) {
   if (news.from > 0 && !of_one_bar(known, news)) return;
   std::vector<Mark> marks = news.marks;
   std::ranges::copy_if(known.marks, std::back_inserter(marks),

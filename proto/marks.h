@@ -42,6 +42,6 @@ struct MarksMessage {
 MarksMessage news_since(const MarksMessage& known, const MarksMessage& now);
 
 /// Puts the news over what is known. News that do not fit change nothing.
-void take_news(MarksMessage& known, const MarksMessage& news);
+void apply_news(MarksMessage& known, const MarksMessage& news);
 
 }  // namespace scree

@@ -55,9 +55,9 @@ size_t bytes_of(const std::vector<BanRow>& bans) {
   return bytes;
 }
 
-size_t bytes_of(const std::vector<WatchedBody>& bodies) {
+size_t bytes_of(const std::vector<BodyView>& bodies) {
   size_t bytes = 0;
-  for (const WatchedBody& body : bodies) bytes += sizeof(WatchedBody) + bytes_of(body.hull_m);
+  for (const BodyView& body : bodies) bytes += sizeof(BodyView) + bytes_of(body.hull_m);
   return bytes;
 }
 
@@ -73,7 +73,7 @@ size_t memory_bytes(const ServerMessage& message) {
                               bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
                      },
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
-                     [](const KeptMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
+                     [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },

@@ -61,7 +61,7 @@ struct OfferMessage {
 };
 
 /// The part of a chunk's hash that an offer has. That it agrees by chance is possible, and found out by the
-/// whole hash in the KeptMessage.
+/// whole hash in the UnchangedChunksMessage.
 constexpr uint16_t short_hash(uint64_t hash) {
   return static_cast<uint16_t>(hash);
 }
@@ -126,7 +126,7 @@ struct AdminMessage {
 };
 
 /// Switches PhysicsMessages on or off.
-struct WatchMessage {
+struct PhysicsSubscriptionMessage {
   bool physics = false;
 };
 
@@ -147,8 +147,8 @@ struct AskTilesMessage {
 
 using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
-                 AckMessage, AdminMessage, CursorMessage, WatchMessage, AskGroundMessage, OfferMessage,
-                 GoodbyeMessage, AskTilesMessage, SayMessage, UnknownMessage>;
+                 AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
+                 OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -223,7 +223,7 @@ struct ChunkMessage {
 };
 
 /// In place of as many ChunkMessages: chunks that the client offered, and has as they are.
-struct KeptMessage {
+struct UnchangedChunksMessage {
   std::vector<ChunkCoord> chunks;
   std::vector<uint64_t> hashes;  ///< one per chunk, whole
 };
@@ -326,14 +326,14 @@ struct StatusMessage {
 };
 
 /// A rigid body without its pose.
-struct WatchedBody {
+struct BodyView {
   PieceId id = 0;
   bool awake = false;
   bool island = false;            ///< collides with terrain by points of its own surface
   std::vector<glm::vec3> hull_m;  ///< corners that collide, from the centre of mass, in the volume's axes
 };
 
-struct WatchedContact {
+struct ContactView {
   glm::vec3 point_m{0.0F};
   glm::vec3 normal{0.0F};
   float impulse_n_s = 0.0F;
@@ -372,16 +372,16 @@ struct AdminListMessage {
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
 struct PhysicsMessage {
   Tick tick = 0;
-  std::vector<WatchedBody> bodies;  ///< ordered by id
-  std::vector<WatchedContact> contacts;
+  std::vector<BodyView> bodies;  ///< ordered by id
+  std::vector<ContactView> contacts;
   std::vector<BrickCoord> searched;  ///< bricks of unfinished searches for islands
 };
 
 using ServerMessage =
     std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
-                 KeptMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage, MarksMessage,
-                 RecordedCursorsMessage, UnknownMessage>;
+                 UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
+                 MarksMessage, RecordedCursorsMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

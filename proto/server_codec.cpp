@@ -9,10 +9,10 @@
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/operation_codec.h"
+#include "proto/physics_codec.h"
 #include "proto/playback_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/transforms.h"
-#include "proto/watch_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -87,7 +87,7 @@ struct Writing {
   wire::ServerMessage& to;
 
   void operator()(const WelcomeMessage& from) const { write(*to.mutable_welcome(), from); }
-  void operator()(const KeptMessage& from) const { write(*to.mutable_kept(), from); }
+  void operator()(const UnchangedChunksMessage& from) const { write(*to.mutable_kept(), from); }
   void operator()(const AdminListMessage& from) const { write(*to.mutable_admin_list(), from); }
   void operator()(const RefusalMessage& from) const {
     to.mutable_refusal()->set_reason(showable(from.reason, limits::reason_bytes_max));
@@ -154,7 +154,7 @@ ChunkCoord one_chunk(const std::string& packed, FieldChecker& check) {
 }
 
 std::vector<BrickPatch> bricks_within(ChunkCoord chunk, const std::string& packed, FieldChecker& check) {
-  std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed), bricks_per_chunk));
+  std::vector<BrickPatch> bricks = check.value_or_refuse(decode_bricks(as_span(packed), bricks_per_chunk));
   for (const BrickPatch& patch : bricks)
     if (chunk_of(patch.coord) != chunk) check.refuse("a brick of another chunk");
   return bricks;
@@ -197,7 +197,7 @@ GroundMessage read(const wire::Ground& from, FieldChecker& check) {
 PieceMessage read(const wire::Piece& from, FieldChecker& check) {
   PieceMessage piece;
   piece.id = from.id();
-  piece.volume = check.take(decode_volume(as_span(from.volume())));
+  piece.volume = check.value_or_refuse(decode_volume(as_span(from.volume())));
   for (const int32_t position : {from.x(), from.y(), from.z()})
     if (position < -limits::pose_coordinate_max || position > limits::pose_coordinate_max)
       check.refuse("position of a piece is 2^30 steps or more from the origin");
@@ -306,7 +306,7 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kChunk:
       return checked(read(from.chunk(), check));
     case wire::ServerMessage::kKept:
-      return checked(read_kept(from.kept(), check));
+      return checked(read_unchanged_chunks(from.kept(), check));
     case wire::ServerMessage::kGround:
       return checked(read(from.ground(), check));
     case wire::ServerMessage::kTile:

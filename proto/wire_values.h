@@ -55,7 +55,7 @@ class FieldChecker {
   SettingValues settings(const WireSettings& values);
   /// The value of another decoder's result; keeps its error if it has one.
   template <typename T>
-  T take(Result<T> result) {
+  T value_or_refuse(Result<T> result) {
     if (result) return std::move(*result);
     refuse(result.error().message);
     return T{};

@@ -21,17 +21,17 @@ void LayeredTransport::read_some(std::span<uint8_t> into, Done done) {
 }
 
 /// A copy: one record or frame holds what many buffers do, and each costs some bytes.
-void LayeredTransport::take(Buffers buffers) {
+void LayeredTransport::stage(Buffers buffers) {
   CHECK(!write_done_ && plain_.empty());
   for (const std::span<const uint8_t> bytes : buffers) {
     const auto some = bytes.first(std::min(bytes.size(), engine_->chunk_bytes() - plain_.size()));
     plain_.insert(plain_.end(), some.begin(), some.end());
   }
-  taken_bytes_ = plain_.size();
+  staged_bytes_ = plain_.size();
 }
 
 void LayeredTransport::write_some(Buffers buffers, Done done) {
-  take(buffers);
+  stage(buffers);
   write_done_ = std::move(done);
   go_on();
 }
@@ -40,13 +40,13 @@ void LayeredTransport::write_some(Buffers buffers, Done done) {
 size_t LayeredTransport::write_now(Buffers buffers) {
   const bool waiting = sending_ || unsent_from_ < unsent_.size() || engine_->output_bytes() > 0;
   if (waiting || closed_ || broken_ || !engine_->established()) return 0;
-  take(buffers);
+  stage(buffers);
   pass_on();
   if (broken_) return 0;
-  engine_->take_output(unsent_);
+  engine_->drain_output(unsent_);
   const std::span<const uint8_t> bytes(unsent_);
   unsent_from_ = below_->write_now({&bytes, 1});
-  return taken_bytes_;
+  return staged_bytes_;
 }
 
 void LayeredTransport::send_rest() {
@@ -84,7 +84,7 @@ void LayeredTransport::break_off(const Error& error) {
 void LayeredTransport::send() {
   if (sending_ || closed_) return;
   if (unsent_from_ == unsent_.size()) {
-    engine_->take_output(unsent_);
+    engine_->drain_output(unsent_);
     unsent_from_ = 0;
   }
   if (unsent_.empty()) return;
@@ -107,7 +107,7 @@ void LayeredTransport::sent(const Moved& moved) {
   unsent_from_ = 0;
   if (finishing_) below_->finish_sending();
   if (plain_.empty())
-    if (const Done done = std::exchange(write_done_, nullptr)) done(taken_bytes_);
+    if (const Done done = std::exchange(write_done_, nullptr)) done(staged_bytes_);
   go_on();
 }
 
@@ -173,10 +173,10 @@ void LayeredTransport::close() {
   below_->close();
 }
 
-void LayeredTransport::cut() {
+void LayeredTransport::abort() {
   const auto self = shared_from_this();
   drop();
-  below_->cut();
+  below_->abort();
 }
 
 }  // namespace scree

@@ -28,14 +28,14 @@ class LayeredTransport : public Transport, public std::enable_shared_from_this<L
   }
   void finish_sending() override;
   void close() override;
-  void cut() override;
+  void abort() override;
   bool established() const override { return engine_->established(); }
   bool encrypted() const override { return below_->encrypted(); }
   const std::string& address() const override { return below_->address(); }
   uint16_t port() const override { return below_->port(); }
 
  private:
-  void take(Buffers buffers);
+  void stage(Buffers buffers);
   void go_on();
   void pass_on();
   void send();
@@ -59,7 +59,7 @@ class LayeredTransport : public Transport, public std::enable_shared_from_this<L
   bool receiving_ = false;
 
   std::vector<uint8_t> plain_;  ///< taken from the writer, not through the engine yet
-  size_t taken_bytes_ = 0;
+  size_t staged_bytes_ = 0;
   Done write_done_;              ///< null: nobody writes
   std::vector<uint8_t> unsent_;  ///< from the engine, handed to `below_` from unsent_from_ on
   size_t unsent_from_ = 0;

@@ -33,7 +33,7 @@ class LinkPipe {
   std::optional<double> next_s(double now_s) const;
   bool empty() const { return packets_.empty(); }
   /// Everything before the cut has come out.
-  bool cut() const { return way_.cut_bytes && popped_bytes_ >= *way_.cut_bytes; }
+  bool severed() const { return way_.cut_bytes && popped_bytes_ >= *way_.cut_bytes; }
   uint64_t popped_bytes() const { return popped_bytes_; }
 
  private:

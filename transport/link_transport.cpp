@@ -44,7 +44,7 @@ void LinkTransport::go_on() {
   const double now_s = clock_->now_s();
   while (again_ && !closed_) {
     again_ = false;
-    if (break_if_cut())
+    if (break_if_severed())
       fail_waiting();
     else if (do_some(now_s))
       again_ = true;
@@ -54,11 +54,11 @@ void LinkTransport::go_on() {
 }
 
 bool LinkTransport::do_some(double now_s) {
-  return take_from_writer(now_s) || (!closed_ && send_below(now_s)) ||
+  return pull_from_writer(now_s) || (!closed_ && send_below(now_s)) ||
          (!closed_ && receive_from_below(now_s)) || (!closed_ && give_to_reader(now_s));
 }
 
-bool LinkTransport::take_from_writer(double now_s) {
+bool LinkTransport::pull_from_writer(double now_s) {
   if (!write_done_) return false;
   size_t taken = 0;
   for (const std::span<const uint8_t> bytes : outgoing_) {
@@ -132,14 +132,14 @@ bool LinkTransport::give_to_reader(double now_s) {
 }
 
 /// The cut is seen at both ends at once: here by an error, there by the connection's.
-bool LinkTransport::break_if_cut() {
-  const bool up = up_.cut() && !sending_ && sent_from_ == sent_to_;
-  if (broken_ || (!up && !down_.cut())) return broken_.has_value();
+bool LinkTransport::break_if_severed() {
+  const bool up = up_.severed() && !sending_ && sent_from_ == sent_to_;
+  if (broken_ || (!up && !down_.severed())) return broken_.has_value();
   broken_ =
       StreamEnd{false, fmt::format("the simulated link was cut after {} bytes {}",
                                    up ? up_.popped_bytes() : down_.popped_bytes(), (up ? "up" : "down"))};
   clock_->cancel();
-  below_->cut();
+  below_->abort();
   return true;
 }
 
@@ -171,10 +171,10 @@ void LinkTransport::close() {
   below_->close();
 }
 
-void LinkTransport::cut() {
+void LinkTransport::abort() {
   const auto self = shared_from_this();
   drop();
-  below_->cut();
+  below_->abort();
 }
 
 }  // namespace scree

@@ -25,7 +25,7 @@ class LinkTransport final : public Transport, public std::enable_shared_from_thi
   void write_some(Buffers buffers, Done done) override;
   void finish_sending() override;
   void close() override;
-  void cut() override;
+  void abort() override;
   bool established() const override { return below_->established(); }
   bool encrypted() const override { return below_->encrypted(); }
   const std::string& address() const override { return below_->address(); }
@@ -34,12 +34,12 @@ class LinkTransport final : public Transport, public std::enable_shared_from_thi
  private:
   void go_on();
   bool do_some(double now_s);
-  bool take_from_writer(double now_s);
+  bool pull_from_writer(double now_s);
   bool send_below(double now_s);
   void sending_failed(const Moved& moved);
   bool receive_from_below(double now_s);
   bool give_to_reader(double now_s);
-  bool break_if_cut();
+  bool break_if_severed();
   void fail_waiting();
   void wake_later(double now_s);
   void drop();

@@ -16,7 +16,7 @@ bool is_http_greeting(std::span<const uint8_t> first) {
 }
 
 SniffingTransport::SniffingTransport(std::shared_ptr<Transport> below,
-                                     std::shared_ptr<const TlsServerContext> tls, TakeHttp http)
+                                     std::shared_ptr<const TlsServerContext> tls, HttpHandoff http)
     : chosen_(std::move(below)), tls_(std::move(tls)), http_(std::move(http)) {}
 
 void SniffingTransport::read_some(std::span<uint8_t> into, Done done) {

@@ -22,11 +22,11 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
  public:
   /// Takes a stream of HTTP, and what was read of it. The read under way is never answered, and the
   /// SniffingTransport is empty: nothing done to it reaches the stream any more.
-  using TakeHttp = std::function<void(std::shared_ptr<Transport> stream, std::span<const uint8_t> first)>;
+  using HttpHandoff = std::function<void(std::shared_ptr<Transport> stream, std::span<const uint8_t> first)>;
 
   /// `tls` may be null: TLS is not spoken; so may `http`.
   SniffingTransport(std::shared_ptr<Transport> below, std::shared_ptr<const TlsServerContext> tls,
-                    TakeHttp http);
+                    HttpHandoff http);
 
   void read_some(std::span<uint8_t> into, Done done) override;
   void write_some(Buffers buffers, Done done) override;
@@ -37,8 +37,8 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
   void close() override {
     if (!given_) chosen_->close();
   }
-  void cut() override {
-    if (!given_) chosen_->cut();
+  void abort() override {
+    if (!given_) chosen_->abort();
   }
   bool established() const override { return chosen_->established(); }
   bool encrypted() const override { return chosen_->encrypted(); }
@@ -51,7 +51,7 @@ class SniffingTransport final : public Transport, public std::enable_shared_from
 
   std::shared_ptr<Transport> chosen_;  ///< the one below, until TLS is put over it
   std::shared_ptr<const TlsServerContext> tls_;
-  TakeHttp http_;
+  HttpHandoff http_;
   std::array<uint8_t, tls_greeting_bytes> first_{};
   size_t first_bytes_ = 0;
   std::optional<StreamEnd> end_;  ///< it came before there were enough; told behind those that came

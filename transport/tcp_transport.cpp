@@ -89,7 +89,7 @@ void TcpTransport::close() {
   socket_.close(ignored);
 }
 
-void TcpTransport::cut() {
+void TcpTransport::abort() {
   asio::error_code ignored;
   socket_.set_option(asio::socket_base::linger(true, 0), ignored);
   socket_.close(ignored);

@@ -19,7 +19,7 @@ class TcpTransport final : public Transport, public std::enable_shared_from_this
   size_t unsent_bytes() override;
   void finish_sending() override;
   void close() override;
-  void cut() override;
+  void abort() override;
   bool established() const override { return true; }
   bool encrypted() const override { return false; }
   const std::string& address() const override { return address_; }

@@ -48,7 +48,7 @@ class Transport {
   virtual void finish_sending() = 0;
   virtual void close() = 0;
   /// Closes like a lost link: the other side is not told in order.
-  virtual void cut() = 0;
+  virtual void abort() = 0;
 
   /// Whether bytes pass: a handshake beneath, if there is one, is over.
   virtual bool established() const = 0;

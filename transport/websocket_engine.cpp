@@ -12,10 +12,10 @@ namespace scree {
 struct WebSocketEngine::Library {
   explicit Library(WebSocketEngine& engine, uint64_t frame_bytes_max) {
     wslay_event_callbacks calls{};
-    calls.recv_callback = take_arrived;
+    calls.recv_callback = read_arrived;
     calls.send_callback = put_output;
     calls.on_frame_recv_start_callback = begin_frame;
-    calls.on_frame_recv_chunk_callback = take_payload;
+    calls.on_frame_recv_chunk_callback = add_payload;
     CHECK(wslay_event_context_server_init(&context, &calls, &engine) == 0);
     wslay_event_config_set_no_buffering(context, 1);  // the stream has no messages
     wslay_event_config_set_max_recv_msg_length(context, frame_bytes_max);
@@ -26,7 +26,7 @@ struct WebSocketEngine::Library {
 
   static WebSocketEngine& of(void* engine) { return *static_cast<WebSocketEngine*>(engine); }
 
-  static ssize_t take_arrived(wslay_event_context_ptr context, uint8_t* into, size_t bytes, int /*flags*/,
+  static ssize_t read_arrived(wslay_event_context_ptr context, uint8_t* into, size_t bytes, int /*flags*/,
                               void* engine) {
     std::span<const uint8_t>& arrived = of(engine).arrived_;
     const size_t count = std::min(bytes, arrived.size());
@@ -48,13 +48,13 @@ struct WebSocketEngine::Library {
 
   static void begin_frame(wslay_event_context_ptr /*context*/,
                           const wslay_event_on_frame_recv_start_arg* frame, void* engine) {
-    of(engine).take_frame(frame->opcode, frame->payload_length);
+    of(engine).begin_frame(frame->opcode, frame->payload_length);
   }
 
-  static void take_payload(wslay_event_context_ptr /*context*/,
-                           const wslay_event_on_frame_recv_chunk_arg* chunk, void* engine) {
+  static void add_payload(wslay_event_context_ptr /*context*/,
+                          const wslay_event_on_frame_recv_chunk_arg* chunk, void* engine) {
     WebSocketEngine& self = of(engine);
-    if (self.takes_payload_)
+    if (self.in_data_frame_)
       self.inbox_.insert(self.inbox_.end(), chunk->data, chunk->data + chunk->data_length);
   }
 
@@ -81,15 +81,15 @@ void WebSocketEngine::feed(std::span<const uint8_t> arrived) {
   send_queued();
 }
 
-void WebSocketEngine::take_frame(uint8_t opcode, uint64_t payload_bytes) {
-  takes_payload_ = opcode == WSLAY_BINARY_FRAME || opcode == WSLAY_CONTINUATION_FRAME;
-  const bool bare = !takes_payload_ || payload_bytes == 0;
+void WebSocketEngine::begin_frame(uint8_t opcode, uint64_t payload_bytes) {
+  in_data_frame_ = opcode == WSLAY_BINARY_FRAME || opcode == WSLAY_CONTINUATION_FRAME;
+  const bool bare = !in_data_frame_ || payload_bytes == 0;
   if (opcode == WSLAY_TEXT_FRAME) return refuse(WSLAY_CODE_UNSUPPORTED_DATA);
-  if (bare && !bare_frames_.take(now_s_())) refuse(WSLAY_CODE_POLICY_VIOLATION);
+  if (bare && !bare_frames_.try_spend(now_s_())) refuse(WSLAY_CODE_POLICY_VIOLATION);
 }
 
 void WebSocketEngine::refuse(uint16_t code) {
-  takes_payload_ = false;
+  in_data_frame_ = false;
   static_cast<void>(wslay_event_queue_close(library_->context, code, nullptr, 0));
   wslay_event_shutdown_read(library_->context);
 }
@@ -121,7 +121,7 @@ void WebSocketEngine::finish() {
   send_queued();
 }
 
-void WebSocketEngine::take_output(std::vector<uint8_t>& into) {
+void WebSocketEngine::drain_output(std::vector<uint8_t>& into) {
   into = std::move(output_);
   output_.clear();
 }

@@ -34,11 +34,11 @@ class WebSocketEngine final : public StreamEngine {
   size_t chunk_bytes() const override { return limits::websocket_chunk_bytes; }
   void finish() override;
   size_t output_bytes() const override { return output_.size(); }
-  void take_output(std::vector<uint8_t>& into) override;
+  void drain_output(std::vector<uint8_t>& into) override;
 
  private:
   struct Library;
-  void take_frame(uint8_t opcode, uint64_t payload_bytes);
+  void begin_frame(uint8_t opcode, uint64_t payload_bytes);
   void refuse(uint16_t code);
   void send_queued();
 
@@ -46,7 +46,7 @@ class WebSocketEngine final : public StreamEngine {
   std::function<double()> now_s_;
   RateLimit bare_frames_;
   std::span<const uint8_t> arrived_;  ///< within feed(): what is not looked at yet
-  bool takes_payload_ = false;        ///< of the frame that is being read
+  bool in_data_frame_ = false;        ///< of the frame that is being read
   std::vector<uint8_t> inbox_;        ///< payload, read up to inbox_from_
   size_t inbox_from_ = 0;
   std::vector<uint8_t> output_;

@@ -55,9 +55,9 @@ template <typename F>
 double median_us(int rounds, size_t calls, F&& all) {
   std::vector<double> times;
   for (int i = 0; i < rounds; ++i) {
-    Stopwatch watch;
+    Stopwatch stopwatch;
     all();
-    times.push_back(watch.lap_ms() * 1000.0 / static_cast<double>(calls));
+    times.push_back(stopwatch.lap_ms() * 1000.0 / static_cast<double>(calls));
   }
   return quantile(times, 0.5);
 }
@@ -146,9 +146,9 @@ void report_quads(BenchReport& report, Field& field, int rounds) {
     for (const BlockCoord block : blocks) {
       const std::optional<BlockWindows> windows = gather_windows(field, box_of(block));
       if (!windows) continue;
-      Stopwatch watch;
+      Stopwatch stopwatch;
       ours += windows->mesh().indices.size() / 6;
-      meshing_ms += watch.lap_ms();
+      meshing_ms += stopwatch.lap_ms();
     }
     our_ms.push_back(whole.lap_ms());
     mesh_ms.push_back(meshing_ms);
@@ -195,12 +195,12 @@ void report_delay(BenchReport& report, int carves) {
     const Applied applied =
         apply(CarveOperation{blow.shape, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m, 1}, field,
               pieces);
-    Stopwatch watch;
+    Stopwatch stopwatch;
     MirrorChanges changes;
     changes.bricks = applied.changed;
     (*method)->changed(changes);
     finish();
-    times_ms.push_back(watch.lap_ms());
+    times_ms.push_back(stopwatch.lap_ms());
   }
   report.metric("delta_to_visible_median_ms", quantile(times_ms, 0.5));
   report.metric("delta_to_visible_p99_ms", quantile(times_ms, 0.99));

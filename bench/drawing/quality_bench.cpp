@@ -64,7 +64,7 @@ Result<void> draw(Stage& stage, Subject& subject, Times& times, bool carve, uint
   stage.renderer->set_fineness(traits_of(subject.quality).fineness);
   stage.renderer->set_view_radius(traits_of(subject.quality).view_radius_m);
   const double processor_ms = processor_now_ms();
-  Stopwatch watch;
+  Stopwatch stopwatch;
   if (carve) {
     subject.drawing.carve(1, carved_half_width_m, carve_radius_m, seed);
     subject.drawing.finish();
@@ -72,7 +72,7 @@ Result<void> draw(Stage& stage, Subject& subject, Times& times, bool carve, uint
   const Result<void> drawn =
       stage.renderer->draw_unseen(subject.drawing.method(), subject.drawing.camera, width, height);
   if (!drawn) return drawn;
-  times.clock_ms.push_back(watch.lap_ms());
+  times.clock_ms.push_back(stopwatch.lap_ms());
   times.processor_ms.push_back(processor_now_ms() - processor_ms);
   return {};
 }

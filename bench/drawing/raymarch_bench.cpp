@@ -36,7 +36,7 @@ Result<void> compare_with_fresh(Stage& stage, Drawing& drawing, BenchReport& rep
   const Result<Image> lived = drawing.picture(width, height);
   Result<std::unique_ptr<DrawMethod>> fresh = make_raymarch(stage);
   if (!fresh) return fail(fresh.error().message);
-  drawing.take(std::move(*fresh));
+  drawing.show_by(std::move(*fresh));
   drawing.finish();
   const Result<Image> afresh = drawing.picture(width, height);
   if (!lived || !afresh) return fail((!lived ? lived : afresh).error().message);
@@ -101,7 +101,7 @@ Result<void> measure_list(Stage& stage, const BenchOptions& options, BenchReport
     drawing.carve(carves, half_width_m, radius_m, 107);
     Result<std::unique_ptr<DrawMethod>> list = peers::make_csg_list_method(drawing.balls());
     if (!list) return fail(list.error().message);
-    drawing.take(std::move(*list));
+    drawing.show_by(std::move(*list));
     const Result<double> frame = drawing.frame_ms(width, height, options.quick ? 1 : 5);
     if (!frame) return fail(frame.error().message);
     report.metric(fmt::format("csg_list_{}_carves_frame_ms", carves), *frame);

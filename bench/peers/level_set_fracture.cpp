@@ -31,9 +31,9 @@ LevelSetPieces fracture_ball(float radius_m, float voxel_size_m, float side_m,
   Fracture::GridPtrList rest = {ball};
   Fracture fracture;
   LevelSetPieces found;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   fracture.fracture(rest, *cube, true, &points, &rotations);
-  found.milliseconds = watch.lap_ms();
+  found.milliseconds = stopwatch.lap_ms();
   found.pieces = rest.size() + fracture.fragments().size();
   return found;
 }

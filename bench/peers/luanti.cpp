@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "bench/peers/luanti_game.h"
+#include "bench/support/child_process.h"
 #include "bench/support/text_file.h"
-#include "bench/support/watched_process.h"
 #include "shared/base/timing.h"
 
 namespace scree::peers {
@@ -69,13 +69,13 @@ class Output {
 };
 
 /// A process whose home is a folder of its own: nobody's settings, nobody's cache.
-std::unique_ptr<WatchedProcess> start_at_home(const std::string& home, const char* program,
-                                              std::vector<std::string> options) {
+std::unique_ptr<MeasuredProcess> start_at_home(const std::string& home, const char* program,
+                                               std::vector<std::string> options) {
   std::filesystem::create_directories(home);
   options.insert(options.begin(), {"HOME=" + home, "MINETEST_USER_PATH=" + home + "/.minetest",
                                    "XDG_CACHE_HOME=" + home + "/.cache", program});
   const Output output(home + "/output.txt");
-  return std::make_unique<WatchedProcess>("/usr/bin/env", std::move(options), output.file(), output.file());
+  return std::make_unique<MeasuredProcess>("/usr/bin/env", std::move(options), output.file(), output.file());
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ std::unique_ptr<WatchedProcess> start_at_home(const std::string& home, const cha
 struct Luanti::State {
   std::string folder;
   int view_nodes = 0;
-  std::unique_ptr<WatchedProcess> server;
+  std::unique_ptr<MeasuredProcess> server;
   std::unique_ptr<UdpRelay> relay;
-  std::vector<std::unique_ptr<WatchedProcess>> clients;
+  std::vector<std::unique_ptr<MeasuredProcess>> clients;
 
   std::string world() const { return folder + "/server/.minetest/worlds/peer"; }
   void order(const std::string& line) const {

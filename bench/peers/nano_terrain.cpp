@@ -17,9 +17,9 @@ struct NanoTerrain::Grid {
 
 NanoTerrain::NanoTerrain(Field& field, const VoxelBox& box) : grid_(std::make_unique<Grid>()) {
   const openvdb::FloatGrid::Ptr level_set = level_set_of(field, box);
-  Stopwatch watch;
+  Stopwatch stopwatch;
   grid_->handle = nanovdb::openToNanoVDB(*level_set);
-  grid_->convert_ms = watch.lap_ms();
+  grid_->convert_ms = stopwatch.lap_ms();
   CHECK(grid_->handle.grid<float>() != nullptr);
 }
 

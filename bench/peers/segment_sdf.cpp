@@ -12,9 +12,9 @@ PeerSegments segment_with_openvdb(Field& field, const VoxelBox& box) {
   std::vector<openvdb::FloatGrid::Ptr> segments;
   PeerSegments peer;
   peer.leaves = grid->tree().leafCount();
-  Stopwatch watch;
+  Stopwatch stopwatch;
   openvdb::tools::segmentSDF(*grid, segments);
-  peer.milliseconds = watch.lap_ms();
+  peer.milliseconds = stopwatch.lap_ms();
   peer.segments = segments.size();
   return peer;
 }

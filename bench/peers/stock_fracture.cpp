@@ -75,29 +75,29 @@ StockTerrain::~StockTerrain() = default;
 BreakTimes StockTerrain::carve(glm::vec3 centre_m, float radius_m, const std::vector<glm::vec3>& seeds_m) {
   const float dx = grids_->voxel_size_m;
   BreakTimes times;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const openvdb::Vec3f centre(centre_m.x, centre_m.y, centre_m.z);
   FloatGrid::Ptr ball = openvdb::tools::createLevelSetSphere<FloatGrid>(radius_m, centre, dx, band_voxels);
   FloatGrid::Ptr volume = openvdb::tools::csgIntersectionCopy(*grids_->terrain, *ball);
-  times.extract_ms = watch.lap_ms();
+  times.extract_ms = stopwatch.lap_ms();
   openvdb::tools::csgDifference(*grids_->terrain, *ball);
-  times.carve_ms = watch.lap_ms();
+  times.carve_ms = stopwatch.lap_ms();
   std::vector<Mesh> cells;
   for (const VoroCell& cell : voro_cells(centre_m - radius_m, centre_m + radius_m, seeds_m))
     cells.push_back(mesh_of(cell));
-  times.cells_ms = watch.lap_ms();
+  times.cells_ms = stopwatch.lap_ms();
   grids_->pieces.clear();
   grids_->centre_m = centre_m;
   for (const Mesh& cell : cells) {
-    watch.lap_ms();
+    stopwatch.lap_ms();
     FloatGrid::Ptr solid = openvdb::tools::meshToLevelSet<FloatGrid>(*transform_of(dx), cell.points,
                                                                      cell.triangles, band_voxels);
-    times.cells_ms += watch.lap_ms();
+    times.cells_ms += stopwatch.lap_ms();
     FloatGrid::Ptr piece = openvdb::tools::csgIntersectionCopy(*volume, *solid);
-    times.cut_ms += watch.lap_ms();
+    times.cut_ms += stopwatch.lap_ms();
     Mesh mesh;
     openvdb::tools::volumeToMesh(*piece, mesh.points, mesh.quads);
-    times.mesh_ms += watch.lap_ms();
+    times.mesh_ms += stopwatch.lap_ms();
     if (!mesh.quads.empty()) grids_->pieces.push_back(std::move(mesh));
   }
   times.pieces = grids_->pieces.size();
@@ -114,12 +114,12 @@ MergeTimes StockTerrain::merge(const std::vector<Pose>& poses) {
           poses[i].position_m;
       point = openvdb::Vec3s(at.x, at.y, at.z);
     }
-    Stopwatch watch;
+    Stopwatch stopwatch;
     FloatGrid::Ptr piece = openvdb::tools::meshToLevelSet<FloatGrid>(*transform_of(grids_->voxel_size_m),
                                                                      mesh.points, mesh.quads, band_voxels);
-    times.volume_ms += watch.lap_ms();
+    times.volume_ms += stopwatch.lap_ms();
     openvdb::tools::csgUnion(*grids_->terrain, *piece);
-    times.unite_ms += watch.lap_ms();
+    times.unite_ms += stopwatch.lap_ms();
     ++times.pieces;
   }
   return times;

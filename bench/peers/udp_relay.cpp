@@ -76,7 +76,7 @@ struct UdpRelay::State {
   std::atomic<bool> stopping{false};
   std::thread thread;
 
-  void watch(int socket, uint64_t number) const {
+  void add_to_epoll(int socket, uint64_t number) const {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.u64 = number;
@@ -94,7 +94,7 @@ struct UdpRelay::State {
       clients.push_back({from, to_server, {}});
     }
     numbers[from.sin_port] = number;
-    watch(to_server, number + 1);
+    add_to_epoll(to_server, number + 1);
     return number;
   }
   void from_clients() {
@@ -152,7 +152,7 @@ Result<std::unique_ptr<UdpRelay>> UdpRelay::start(uint16_t server_port) {
   std::tie(state->listening, state->port) = *bound;
   state->epoll = epoll_create1(EPOLL_CLOEXEC);
   state->server = loopback(server_port);
-  state->watch(state->listening, 0);
+  state->add_to_epoll(state->listening, 0);
   state->thread = std::thread([raw = state.get()] { raw->run(); });
   return std::unique_ptr<UdpRelay>(new UdpRelay(std::move(state)));
 }

@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-using Results = std::map<std::string, KeptResult>;
+using Results = std::map<std::string, StoredResult>;
 
 int complain(const std::string& message) {
   std::fprintf(stderr, "scree-bench: %s\n", message.c_str());
@@ -21,7 +21,7 @@ int complain(const std::string& message) {
 /// By name: a file has one, whatever it is called.
 Result<Results> results_at(const std::string& path, bool is_folder) {
   if (is_folder) return read_results(path);
-  KeptResult result = TRY(read_result(path));
+  StoredResult result = TRY(read_result(path));
   return Results{{result.name, std::move(result)}};
 }
 

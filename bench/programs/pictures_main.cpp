@@ -16,7 +16,7 @@
 #include "client/render/methods.h"
 #include "client/render/scene/look_at.h"
 #include "client/viewer/events/dust.h"
-#include "client/viewer/events/piece_watch.h"
+#include "client/viewer/events/piece_event_detector.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/overlay.h"
 #include "server/store/recorder.h"
@@ -48,8 +48,8 @@ class Film {
  public:
   Film(Stage& stage, std::string folder, const WorldConfig& config = canyon_world())
       : stage_(stage), folder_(std::move(folder)), world_(config) {
-    world_.watch(true);
-    watch_.step(pieces_, voxel_m(), -1.0 / world_.config().tick_rate_hz);
+    world_.want_physics(true);
+    piece_events_.step(pieces_, voxel_m(), -1.0 / world_.config().tick_rate_hz);
     stage_.renderer->set_terrain(config.terrain);
   }
 
@@ -107,7 +107,7 @@ class Film {
     for (const PieceState& piece : delta->pieces)
       pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
     if (delta->physics) physics_ = delta->physics;
-    dust_.add(watch_.step(pieces_, voxel_m(), now_s()), now_s());
+    dust_.add(piece_events_.step(pieces_, voxel_m(), now_s()), now_s());
   }
   float voxel_m() const { return world_.config().terrain.voxel_size_m; }
   double now_s() const { return static_cast<double>(world_.tick()) / world_.config().tick_rate_hz; }
@@ -118,7 +118,7 @@ class Film {
   ScenePieces pieces_;
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;
   std::shared_ptr<const PhysicsMessage> physics_;
-  PieceWatch watch_;
+  PieceEventDetector piece_events_;
   Dust dust_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-void print_result(const std::string& summary, const BenchReport& run, const KeptResult& result) {
+void print_result(const std::string& summary, const BenchReport& run, const StoredResult& result) {
   std::printf("%s: %s\n", result.name.c_str(), summary.c_str());
   for (const auto& [condition, text] : result.conditions)
     std::printf("  %-36s %s\n", condition.c_str(), text.c_str());
@@ -18,22 +18,23 @@ void print_result(const std::string& summary, const BenchReport& run, const Kept
     std::printf("\n");
   }
   for (const Check& check : run.checks) {
-    const KeptCheck& kept = result.checks.at(check.name);
-    std::printf("  %s %-33s %s\n", kept.passed ? "ok  " : "MISS", check.name.c_str(), kept.detail.c_str());
+    const StoredCheck& stored = result.checks.at(check.name);
+    std::printf("  %s %-33s %s\n", stored.passed ? "ok  " : "MISS", check.name.c_str(),
+                stored.detail.c_str());
   }
 }
 
-std::map<std::string, std::string> kept_options(const BenchOptions& options) {
-  std::map<std::string, std::string> kept;
-  if (options.quick) kept["quick"] = "yes";
-  if (options.minutes > 0.0) kept["minutes"] = fmt::format("{:.4g}", options.minutes);
-  if (!options.part.empty()) kept["part"] = options.part;
-  if (options.world_mb) kept["world-mb"] = std::to_string(*options.world_mb);
-  if (options.memory_max_mb) kept["memory-max"] = std::to_string(*options.memory_max_mb);
-  return kept;
+std::map<std::string, std::string> asked_options(const BenchOptions& options) {
+  std::map<std::string, std::string> options_asked;
+  if (options.quick) options_asked["quick"] = "yes";
+  if (options.minutes > 0.0) options_asked["minutes"] = fmt::format("{:.4g}", options.minutes);
+  if (!options.part.empty()) options_asked["part"] = options.part;
+  if (options.world_mb) options_asked["world-mb"] = std::to_string(*options.world_mb);
+  if (options.memory_max_mb) options_asked["memory-max"] = std::to_string(*options.memory_max_mb);
+  return options_asked;
 }
 
-bool keep_result(const KeptResult& result, const std::string& path) {
+bool write_stored(const StoredResult& result, const std::string& path) {
   const Result<void> written = write_result(result, path);
   if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
   return written.has_value();

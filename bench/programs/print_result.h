@@ -4,17 +4,17 @@
 #include <map>
 #include <string>
 
-#include "bench/results/kept_result.h"
+#include "bench/results/stored_result.h"
 
 namespace scree {
 
 /// Metrics and checks stand in the order of `run`, which a result does not keep.
-void print_result(const std::string& summary, const BenchReport& run, const KeptResult& result);
+void print_result(const std::string& summary, const BenchReport& run, const StoredResult& result);
 
 /// The options that a result keeps, by name.
-std::map<std::string, std::string> kept_options(const BenchOptions& options);
+std::map<std::string, std::string> asked_options(const BenchOptions& options);
 
 /// Writes the file. An error goes to stderr and returns false.
-bool keep_result(const KeptResult& result, const std::string& path);
+bool write_stored(const StoredResult& result, const std::string& path);
 
 }  // namespace scree

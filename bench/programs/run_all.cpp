@@ -50,16 +50,16 @@ std::vector<std::string> arguments_of(const MeasuredWork& work, const AllRuns& r
 }
 
 bool is_there(const MeasuredWork& work, const AllRuns& runs, const std::string& file) {
-  const Result<KeptResult> result = read_result(file);
+  const Result<StoredResult> result = read_result(file);
   return result && result->kind == work.kind && result->name == work.name &&
-         result->options == kept_options({.quick = runs.quick}) && result->runs >= work.runs;
+         result->options == asked_options({.quick = runs.quick}) && result->runs >= work.runs;
 }
 
 /// How a piece of work came out; the result is missing where it failed.
 struct Outcome {
   MeasuredWork work;
   double seconds = 0.0;
-  std::optional<KeptResult> result{};
+  std::optional<StoredResult> result{};
   std::string failure{};
 };
 
@@ -70,7 +70,7 @@ Outcome carry_out(const MeasuredWork& work, const AllRuns& runs, const std::stri
     if (const auto failure = run_myself(arguments_of(work, runs, file))) outcome.failure = *failure;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (!outcome.failure.empty()) return outcome;
-  Result<KeptResult> result = read_result(file);
+  Result<StoredResult> result = read_result(file);
   if (result)
     outcome.result = std::move(*result);
   else

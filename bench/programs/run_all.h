@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/kept_result.h"
+#include "bench/results/stored_result.h"
 
 namespace scree {
 

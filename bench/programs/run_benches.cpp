@@ -76,19 +76,20 @@ int run_benches(const BenchRuns& runs) {
   for (uint32_t round = 0; round < runs.repeat; ++round)
     for (size_t i = 0; i < benches.size(); ++i, done += 1.0) reports[i].push_back(benches[i]->run(options));
   bar.end();
-  bool kept = true;
+  bool written = true;
   size_t missed = 0;
   for (size_t i = 0; i < benches.size(); ++i) {
-    KeptResult result = kept_result(ResultKind::bench, benches[i]->name, reports[i]);
-    result.options = kept_options(runs.options);
+    StoredResult result = summarised(ResultKind::bench, benches[i]->name, reports[i]);
+    result.options = asked_options(runs.options);
     if (!runs.scene.empty()) result.options["scene"] = runs.scene;
     result.machine = this_machine();
     print_result(benches[i]->summary, reports[i].front(), result);
     missed += result.missed();
-    if (!runs.json_file.empty()) kept = keep_result(result, runs.json_file) && kept;
-    if (!runs.folder.empty()) kept = keep_result(result, runs.folder + "/" + result.name + ".json") && kept;
+    if (!runs.json_file.empty()) written = write_stored(result, runs.json_file) && written;
+    if (!runs.folder.empty())
+      written = write_stored(result, runs.folder + "/" + result.name + ".json") && written;
   }
-  if (!kept) return exit_not_done;
+  if (!written) return exit_not_done;
   return runs.strict && missed > 0 ? exit_worse : exit_done;
 }
 

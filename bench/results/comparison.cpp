@@ -43,7 +43,7 @@ Change change_of(const std::string& metric, const MetricRange& before, const Met
   return (after.value < before.value) == (sense.better == Better::lower) ? Change::better : Change::worse;
 }
 
-MetricChange metric_change(const std::string& metric, const KeptResult& before, const KeptResult& after) {
+MetricChange metric_change(const std::string& metric, const StoredResult& before, const StoredResult& after) {
   MetricChange change{metric, value_in(before.metrics, metric), value_in(after.metrics, metric)};
   const bool noise_known = before.runs >= runs_for_noise && after.runs >= runs_for_noise;
   if (!change.after)
@@ -55,7 +55,7 @@ MetricChange metric_change(const std::string& metric, const KeptResult& before, 
   return change;
 }
 
-CheckChange check_change(const std::string& check, const KeptResult& before, const KeptResult& after) {
+CheckChange check_change(const std::string& check, const StoredResult& before, const StoredResult& after) {
   const auto was = value_in(before.checks, check), is = value_in(after.checks, check);
   if (!is && was->passed) return {check, Change::worse, "not checked any more; before: " + was->detail};
   if (!is) return {check, Change::gone, was->detail};
@@ -72,7 +72,7 @@ std::string options_text(const std::map<std::string, std::string>& options) {
   return text.empty() ? "no options" : text;
 }
 
-std::vector<std::string> notes_of(const KeptResult& before, const KeptResult& after) {
+std::vector<std::string> notes_of(const StoredResult& before, const StoredResult& after) {
   std::vector<std::string> notes;
   const auto differ = [&](const std::string& what, const std::string& was, const std::string& is) {
     if (was != is) notes.push_back(fmt::format("{}: {} before, {} after", what, was, is));
@@ -88,7 +88,7 @@ std::vector<std::string> notes_of(const KeptResult& before, const KeptResult& af
   const std::string advice = before.kind == ResultKind::bench
                                  ? fmt::format(" (run --repeat {})", runs_for_noise)
                                  : std::string();  // studies have no such option
-  for (const KeptResult* result : {&before, &after})
+  for (const StoredResult* result : {&before, &after})
     if (result->runs < runs_for_noise)
       notes.push_back(fmt::format(
           "{} has {} of the {} runs that show its noise: differences up to {:.0f} % count as none{}",
@@ -121,7 +121,7 @@ size_t ResultComparison::count(Change change) const {
                              std::ranges::count(checks, change, &CheckChange::change));
 }
 
-Result<ResultComparison> compare_results(const KeptResult& before, const KeptResult& after) {
+Result<ResultComparison> compare_results(const StoredResult& before, const StoredResult& after) {
   if (before.kind != after.kind || before.name != after.name)
     return fail(fmt::format("they are of different work: {} {}, and {} {}", name_of(before.kind), before.name,
                             name_of(after.kind), after.name));

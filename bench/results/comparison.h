@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/results/kept_result.h"
+#include "bench/results/stored_result.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -76,7 +76,7 @@ struct ResultComparison {
 };
 
 /// An error when they are of different benches or of different work.
-Result<ResultComparison> compare_results(const KeptResult& before, const KeptResult& after);
+Result<ResultComparison> compare_results(const StoredResult& before, const StoredResult& after);
 
 /// A table for people.
 std::string text_of(const ResultComparison& comparison);

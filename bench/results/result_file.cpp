@@ -75,20 +75,20 @@ class Members {
   }
 
   /// Null where there is none of that name: a fault.
-  const json* take(const char* name) {
+  const json* find(const char* name) {
     if (!fault_.empty()) return nullptr;
     const auto found = object_.find(name);
     if (found == object_.end()) complain(std::string("has no member \"") + name + "\"");
     if (!fault_.empty()) return nullptr;
-    taken_.insert(name);
+    known_.insert(name);
     return &*found;
   }
   std::string text(const char* name) {
-    const json* value = take(name);
+    const json* value = find(name);
     return value == nullptr ? std::string() : text_in(*value, name);
   }
   double number(const char* name) {
-    const json* value = take(name);
+    const json* value = find(name);
     if (value == nullptr) return 0.0;
     if (value->is_null()) return std::numeric_limits<double>::quiet_NaN();
     if (!value->is_number()) complain(std::string("\"") + name + "\" is no number");
@@ -96,7 +96,7 @@ class Members {
   }
   /// From 1 on.
   uint32_t count(const char* name, uint32_t most) {
-    const json* value = take(name);
+    const json* value = find(name);
     if (value == nullptr) return 1;
     if (value->is_number_unsigned() && value->get<uint64_t>() >= 1 && value->get<uint64_t>() <= most)
       return value->get<uint32_t>();
@@ -104,14 +104,14 @@ class Members {
     return 1;
   }
   bool truth(const char* name) {
-    const json* value = take(name);
+    const json* value = find(name);
     if (value != nullptr && !value->is_boolean())
       complain(std::string("\"") + name + "\" is neither true nor false");
     return value != nullptr && value->is_boolean() && value->get<bool>();
   }
   std::map<std::string, std::string> texts(const char* name) {
     std::map<std::string, std::string> found;
-    const json* value = take(name);
+    const json* value = find(name);
     if (value == nullptr) return found;
     if (!value->is_object()) complain(std::string("\"") + name + "\" is no object");
     if (!fault_.empty()) return found;
@@ -122,7 +122,7 @@ class Members {
   void end() {
     if (!fault_.empty()) return;
     for (const auto& [name, value] : object_.items())
-      if (!taken_.contains(name))
+      if (!known_.contains(name))
         return complain("has a member \"" + showable(name, 64) + "\" that nobody knows");
   }
   void complain(const std::string& what) {
@@ -143,7 +143,7 @@ class Members {
   const json& object_;
   std::string where_;
   std::string& fault_;
-  std::set<std::string> taken_;
+  std::set<std::string> known_;
 };
 
 Machine machine_in(const json& value, std::string& fault) {
@@ -168,9 +168,9 @@ MetricRange range_in(const json& value, const std::string& where, std::string& f
   return range;
 }
 
-KeptCheck check_in(const json& value, const std::string& where, std::string& fault) {
+StoredCheck check_in(const json& value, const std::string& where, std::string& fault) {
   Members members(value, where, fault);
-  KeptCheck check;
+  StoredCheck check;
   check.passed = members.truth("passed");
   check.detail = members.text("detail");
   members.end();
@@ -186,7 +186,7 @@ bool is_file_name(const std::string& name) {
 template <typename Value, typename Read>
 void each_in(Members& members, const char* name, const std::string& what, std::map<std::string, Value>& found,
              const Read& read) {
-  const json* object = members.take(name);
+  const json* object = members.find(name);
   if (object == nullptr) return;
   if (!object->is_object()) return members.complain(std::string("\"") + name + "\" is no object");
   for (const auto& [key, value] : object->items())
@@ -195,7 +195,7 @@ void each_in(Members& members, const char* name, const std::string& what, std::m
 
 }  // namespace
 
-std::string to_json(const KeptResult& result) {
+std::string to_json(const StoredResult& result) {
   ObjectText metrics("  "), checks("  "), whole("");
   for (const auto& [name, range] : result.metrics)
     metrics.add(name, "{\"value\": " + rounded(range.value).dump() + ", \"min\": " +
@@ -215,7 +215,7 @@ std::string to_json(const KeptResult& result) {
   return whole.end() + "\n";
 }
 
-Result<KeptResult> parse_result(std::string_view text) {
+Result<StoredResult> parse_result(std::string_view text) {
   const json document = json::parse(text, nullptr, false);
   if (document.is_discarded()) return fail("it is no JSON, or not whole");
   if (!document.is_object() || !document.contains("format"))
@@ -225,8 +225,8 @@ Result<KeptResult> parse_result(std::string_view text) {
                 std::to_string(result_format));
   std::string fault;
   Members members(document, "it", fault);
-  members.take("format");
-  KeptResult result;
+  members.find("format");
+  StoredResult result;
   const std::string kind = members.text("kind");
   if (const auto known = kind_named<ResultKind>(kind))
     result.kind = *known;
@@ -236,7 +236,7 @@ Result<KeptResult> parse_result(std::string_view text) {
   if (!is_file_name(result.name)) members.complain("has a name that is none");
   result.runs = members.count("runs", runs_max);
   result.options = members.texts("options");
-  if (const json* machine = members.take("machine")) result.machine = machine_in(*machine, fault);
+  if (const json* machine = members.find("machine")) result.machine = machine_in(*machine, fault);
   result.conditions = members.texts("conditions");
   each_in(members, "metrics", "metric", result.metrics,
           [&](const json& value, const std::string& where) { return range_in(value, where, fault); });
@@ -247,7 +247,7 @@ Result<KeptResult> parse_result(std::string_view text) {
   return result;
 }
 
-Result<void> write_result(const KeptResult& result, const std::string& path) {
+Result<void> write_result(const StoredResult& result, const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path folder = fs::path(path).parent_path();
@@ -262,7 +262,7 @@ Result<void> write_result(const KeptResult& result, const std::string& path) {
   return error ? fail(path + ": " + error.message()) : Result<void>();
 }
 
-Result<KeptResult> read_result(const std::string& path) {
+Result<StoredResult> read_result(const std::string& path) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) return fail(path + ": " + error.message());
@@ -277,9 +277,9 @@ Result<KeptResult> read_result(const std::string& path) {
   return result;
 }
 
-Result<std::map<std::string, KeptResult>> read_results(const std::string& folder) {
+Result<std::map<std::string, StoredResult>> read_results(const std::string& folder) {
   std::error_code error;
-  std::map<std::string, KeptResult> results;
+  std::map<std::string, StoredResult> results;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     if (entry.path().extension() != ".json") continue;
     auto result = read_result(entry.path().string());

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/results/kept_result.h"
+#include "bench/results/stored_result.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -21,19 +21,19 @@ inline constexpr int result_format = 1;
 /// Larger files are refused: one of a thousand metrics takes 100 KB.
 inline constexpr size_t result_bytes_max = size_t{4} << 20U;
 
-std::string to_json(const KeptResult& result);
+std::string to_json(const StoredResult& result);
 
 /// Everything is checked; the error says what is wrong, with the name of the member.
-Result<KeptResult> parse_result(std::string_view text);
+Result<StoredResult> parse_result(std::string_view text);
 
 /// Folders are made if need be; the file appears under its name when it is whole.
-Result<void> write_result(const KeptResult& result, const std::string& path);
+Result<void> write_result(const StoredResult& result, const std::string& path);
 
 /// The error names the file.
-Result<KeptResult> read_result(const std::string& path);
+Result<StoredResult> read_result(const std::string& path);
 
 /// All files NAME.json of a folder, by name. An error if one is damaged, is named otherwise than its result,
 /// or if there is none.
-Result<std::map<std::string, KeptResult>> read_results(const std::string& folder);
+Result<std::map<std::string, StoredResult>> read_results(const std::string& folder);
 
 }  // namespace scree

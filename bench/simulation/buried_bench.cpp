@@ -25,7 +25,7 @@ struct Scene {
 
   void step(std::vector<Command> commands = {}) {
     const auto delta = world.step(commands);
-    travels.look(world, *delta);
+    travels.observe(world, *delta);
     alive = delta->pieces.size();
     ledger_error = std::max(ledger_error, std::abs(delta->ledger.error()));
     for (const AppliedOperation& applied : delta->operations)

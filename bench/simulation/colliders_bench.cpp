@@ -22,7 +22,7 @@ constexpr uint32_t blows_a_side = 3;
 constexpr uint32_t seeds_per_blow = 40;
 constexpr float blast_speed_m_s = 15.0F;
 /// Ticks between two looks at how deep the pieces are.
-constexpr Tick look_ticks = 5;
+constexpr Tick sample_ticks = 5;
 /// A piece whose centre of mass was deeper in the rock than this, voxels, fell through.
 constexpr float fallen_voxels = 1.0F;
 /// Points of a piece's surface that stand for it, at most.
@@ -90,7 +90,7 @@ class Scene {
         surfaces_[piece.id] = surface_of(*piece.volume, world_.config().terrain.voxel_size_m);
       run_.made += last->spawned.size();
       if (commands.empty()) run_.bodies_ms.push_back(last->times[TickStage::bodies]);
-      if (tick % look_ticks == 0) look(*last);
+      if (tick % sample_ticks == 0) observe(*last);
     }
     run_.lost = run_.made - last->pieces.size();
     for (const PieceState& piece : last->pieces)
@@ -103,7 +103,7 @@ class Scene {
   World& world() { return world_; }
 
  private:
-  void look(const TickDelta& delta) {
+  void observe(const TickDelta& delta) {
     for (const PieceState& piece : delta.pieces) {
       const Pose pose = dequantise(piece.pose);
       const glm::mat3 turn = glm::mat3_cast(pose.rotation);
@@ -170,13 +170,13 @@ Contacts time_contacts(TerrainColliderKind kind, Scene& lived) {
   const float reach_m = 0.5F * field.source().voxel_size_m;
   Contacts contacts;
   std::vector<TerrainContact> found;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   for (const auto& [pose, id] : lived.poses()) {
     found.clear();
     probes.at(id)->find(pose, reach_m, found);
     contacts.found += found.size();
   }
-  contacts.us_per_piece = watch.lap_ms() * 1e3 / static_cast<double>(lived.poses().size());
+  contacts.us_per_piece = stopwatch.lap_ms() * 1e3 / static_cast<double>(lived.poses().size());
   return contacts;
 }
 
@@ -208,25 +208,25 @@ Rebuild time_rebuild(TerrainColliderKind kind, int rounds) {
       const float z = spacing_m * (static_cast<float>(i % side) - 0.5F * (side - 1));
       lying.emplace_back(collider->attach(ball), Pose{{x, ground_height_m(terrain, x, z) + 0.25F, z}});
     }
-    const auto look = [&] {
+    const auto collect = [&] {
       std::vector<TerrainContact> found;
       for (const auto& [probe, pose] : lying) probe->find(pose, 0.1F, found);
       return found.size();
     };
-    const size_t before = look();
-    Stopwatch watch;
-    look();
-    best.quiet_ms = std::min(best.quiet_ms, watch.lap_ms());
+    const size_t before = collect();
+    Stopwatch stopwatch;
+    collect();
+    best.quiet_ms = std::min(best.quiet_ms, stopwatch.lap_ms());
     const CarveRequest blow = blow_at(terrain, 0.0F, 0.0F, radius_m, 64, 1);
     PieceTable pieces;
     const CarveOperation carve{blow.shape, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m, 1};
     apply(carve, field, pieces);
     const VoxelBox box = band_box(in_voxels(blow.shape, terrain.voxel_size_m));
-    watch.lap_ms();
+    stopwatch.lap_ms();
     collider->terrain_changed(box);
     for (const auto& [probe, pose] : lying) probe->terrain_changed(box);
-    const size_t after = look();
-    best.after_carve_ms = std::min(best.after_carve_ms, watch.lap_ms());
+    const size_t after = collect();
+    best.after_carve_ms = std::min(best.after_carve_ms, stopwatch.lap_ms());
     best.sees_the_hole = best.sees_the_hole && after < before;
   }
   return best;

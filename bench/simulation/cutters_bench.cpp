@@ -119,9 +119,9 @@ Conservation conservation_of(const PolygonCutting& cutting, int carves) {
     const Window before = gather(field, band_box(shape));
     const Window volume = extract(before, codes_of(shape, before.box));
     const auto seeds = scatter_seeds(volume, blow.pattern, blow.seeds, blow.random_seed, blow.impact_m / dx);
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const PolygonParts cut = cut_polygons(cutting, volume, seeds);
-    times_ms.push_back(watch.lap_ms());
+    times_ms.push_back(stopwatch.lap_ms());
     double sum = 0.0;
     for (const PolygonMesh& part : cut.parts) {
       sum += moments_of(part).volume;

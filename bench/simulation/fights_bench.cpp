@@ -29,7 +29,7 @@ struct Fight {
 using Fights = std::array<Fight, thread_counts.size()>;
 
 /// Generated terrain is made at its first touch; here viewers have been looking at it for long.
-void look_at_fights(World& world) {
+void generate_fights(World& world) {
   const TerrainSource& terrain = world.config().terrain;
   for (const float x_m : {-0.5F * apart_m, 0.5F * apart_m})
     for (const float z_m : {-0.5F * apart_m, 0.5F * apart_m}) {
@@ -43,7 +43,7 @@ Fights fight(uint32_t round) {
   std::array<std::unique_ptr<World>, thread_counts.size()> worlds;
   for (size_t i = 0; i < worlds.size(); ++i) {
     worlds[i] = std::make_unique<World>(WorldConfig(), thread_counts[i]);
-    look_at_fights(*worlds[i]);
+    generate_fights(*worlds[i]);
   }
   FarFights blows(worlds[0]->config().terrain, apart_m, blows_a_fight_side, 2.0F, seeds_per_fight_blow);
   Fights seen;
@@ -61,7 +61,7 @@ Fights fight(uint32_t round) {
   return seen;
 }
 
-void keep_least_times(Fights& least, const Fights& again) {
+void assign_minimum(Fights& least, const Fights& again) {
   for (size_t i = 0; i < least.size(); ++i) {
     CHECK(least[i].hashes == again[i].hashes);
     for (size_t tick = 0; tick < least[i].times.size(); ++tick)
@@ -101,7 +101,7 @@ BenchReport run_fights_bench(const BenchOptions& options) {
     if (round == 0)
       fights = std::move(again);
     else
-      keep_least_times(fights, again);
+      assign_minimum(fights, again);
     options.progress(static_cast<double>(round + 1) / rounds);
   }
   std::array<FightTime, thread_counts.size()> times;

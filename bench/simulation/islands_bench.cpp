@@ -93,23 +93,23 @@ struct Search {
   std::vector<Island> islands;
 
   Search(Scene& scene, const Applied& cut) {
-    Stopwatch watch;
+    Stopwatch stopwatch;
     IslandSearch search(scene.field, cut.changed);
     size_t budget = limits::island_bricks_per_tick_min;
     in_time = search.advance(budget);
     if (in_time) islands = search.islands();
-    milliseconds = watch.lap_ms();
+    milliseconds = stopwatch.lap_ms();
     bricks = search.read();
   }
 };
 
 struct Samples {
   std::vector<double> first_ms, find_ms, lift_ms;
-  size_t cuts = 0, found = 0, late = 0, bricks = 0;
+  size_t carves = 0, found = 0, late = 0, bricks = 0;
 
   /// The search changes nothing: the best of three is its own time, the first one's also the cache's and the
   /// machine's.
-  void cut(Scene& scene, const Applied& applied, size_t expected) {
+  void measure_carve(Scene& scene, const Applied& applied, size_t expected) {
     const Search search(scene, applied);
     const double second_ms = Search(scene, applied).milliseconds;
     const double third_ms = Search(scene, applied).milliseconds;
@@ -117,14 +117,14 @@ struct Samples {
     find_ms.push_back(std::min({search.milliseconds, second_ms, third_ms}));
     bricks += search.bricks;
     late += search.in_time ? 0 : 1;
-    ++cuts;
+    ++carves;
     size_t large = 0;
     for (const Island& island : search.islands) large += island.voxels > 1000 ? 1 : 0;
     found += large == expected ? 1 : 0;
-    Stopwatch watch;
+    Stopwatch stopwatch;
     for (const Island& island : search.islands)
       scene.apply(IslandOperation{island.box, island.start, scene.next_piece});
-    if (!search.islands.empty()) lift_ms.push_back(watch.lap_ms());
+    if (!search.islands.empty()) lift_ms.push_back(stopwatch.lap_ms());
     scene.pieces.clear();
   }
 };
@@ -139,7 +139,7 @@ Window around(Scene& scene, const Spot& spot) {
 void topple_tower(Scene& scene, const Spot& spot, Samples& samples) {
   const Window before = around(scene, spot);
   scene.apply(FillOperation{post_at(spot.left_m)});
-  samples.cut(scene, scene.carve(foot_of_post(spot.left_m), 8), 1);
+  samples.measure_carve(scene, scene.carve(foot_of_post(spot.left_m), 8), 1);
   scatter(scene.field, before);
 }
 
@@ -147,8 +147,8 @@ void drop_arch(Scene& scene, const Spot& spot, Samples& samples) {
   const Window before = around(scene, spot);
   for (const glm::vec3 side : {spot.left_m, spot.right_m}) scene.apply(FillOperation{post_at(side)});
   scene.apply(FillOperation{beam_between(spot.left_m, spot.right_m)});
-  samples.cut(scene, scene.carve(foot_of_post(spot.left_m), 8), 0);
-  samples.cut(scene, scene.carve(foot_of_post(spot.right_m), 8), 1);
+  samples.measure_carve(scene, scene.carve(foot_of_post(spot.left_m), 8), 0);
+  samples.measure_carve(scene, scene.carve(foot_of_post(spot.right_m), 8), 1);
   scatter(scene.field, before);
 }
 
@@ -161,9 +161,9 @@ void report_world(BenchReport& report, const char* world, const char* what, cons
   put("find", samples.find_ms);
   put("lift", samples.lift_ms);
   report.metric(fmt::format("{}_{}_bricks_mean", world, what),
-                static_cast<double>(samples.bricks) / static_cast<double>(samples.cuts));
-  report.check(fmt::format("{}_{}_found", world, what), samples.found == samples.cuts && samples.late == 0,
-               fmt::format("{} of {} cuts found right, {} after their tick", samples.found, samples.cuts,
+                static_cast<double>(samples.bricks) / static_cast<double>(samples.carves));
+  report.check(fmt::format("{}_{}_found", world, what), samples.found == samples.carves && samples.late == 0,
+               fmt::format("{} of {} cuts found right, {} after their tick", samples.found, samples.carves,
                            samples.late));
   const double p99 = quantile(samples.find_ms, 0.99);
   report.check(fmt::format("{}_{}_p99", world, what), p99 <= 2.0, fmt::format("{:.2f} ms, wanted 2", p99));

@@ -27,11 +27,11 @@ struct Run {
 };
 
 /// Heights and speeds by differences of published poses: nothing of the body simulation is asked.
-class Watcher {
+class MotionPeaks {
  public:
-  explicit Watcher(uint32_t rate_hz) : tick_s_(1.0F / static_cast<float>(rate_hz)) {}
+  explicit MotionPeaks(uint32_t rate_hz) : tick_s_(1.0F / static_cast<float>(rate_hz)) {}
 
-  void look(const TickDelta& delta, float blast_speed_m_s) {
+  void observe(const TickDelta& delta, float blast_speed_m_s) {
     for (const PieceState& piece : delta.pieces) {
       const glm::vec3 at_m = dequantise(piece.pose).position_m;
       const auto [found, is_new] = tracks_.try_emplace(piece.id, Track{at_m, at_m});
@@ -72,7 +72,7 @@ WorldConfig config_at(uint32_t rate_hz) {
 /// Plays the commands, one a tick, and then until nothing is alive.
 Run play(uint32_t rate_hz, const std::vector<CarveRequest>& carves, float birth_speed_m_s) {
   World world(config_at(rate_hz));
-  Watcher watcher(rate_hz);
+  MotionPeaks peaks(rate_hz);
   Run run;
   size_t made = 0, merged = 0;
   const auto ticks_max = static_cast<Tick>(seconds_max * rate_hz);
@@ -80,7 +80,7 @@ Run play(uint32_t rate_hz, const std::vector<CarveRequest>& carves, float birth_
     std::vector<Command> commands;
     if (tick < carves.size()) commands.push_back({0, 0, carves[tick]});
     const auto delta = world.step(commands);
-    watcher.look(*delta, birth_speed_m_s);
+    peaks.observe(*delta, birth_speed_m_s);
     made += delta->spawned.size();
     for (const AppliedOperation& applied : delta->operations) merged += pieces_merged_by(applied.operation);
     const double now_s = static_cast<double>(tick + 1) / rate_hz;
@@ -88,8 +88,8 @@ Run play(uint32_t rate_hz, const std::vector<CarveRequest>& carves, float birth_
     if (2 * merged >= made) run.rest_s = std::min(run.rest_s, now_s);
     if (delta->pieces.empty()) run.all_s = now_s;
   }
-  run.above_birth_m = watcher.above_birth_m();
-  run.speed_over_fall = watcher.speed_over_fall();
+  run.above_birth_m = peaks.above_birth_m();
+  run.speed_over_fall = peaks.speed_over_fall();
   return run;
 }
 

@@ -64,11 +64,11 @@ void merge_all(StampMethod method, Field& field, PieceTable pieces, const std::v
   for (const auto& [id, volume] : made) {
     const QuantisedPose pose = quantise(poses[i++]);
     const Window exact = exact_union(field, made, {{id, pose}});
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const PreparedStamp prepared = prepare_stamp(field, pieces, id, pose, method, volume->mass);
-    plan_us += 1000.0 * watch.lap_ms();
+    plan_us += 1000.0 * stopwatch.lap_ms();
     const Applied applied = apply(prepared.operation, field, pieces, &prepared);
-    apply_us += 1000.0 * watch.lap_ms();
+    apply_us += 1000.0 * stopwatch.lap_ms();
     add_error(figures, applied.terrain_gain, volume->mass);
     add_distances(gather(field, exact.box), exact, distance);
   }
@@ -86,22 +86,22 @@ void merge_heap(bool grouped, Field& field, PieceTable pieces, MethodFigures& fi
         {id, quantise({volume->centre_voxels * voxel_size_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)})});
   std::ranges::stable_sort(places, {}, [](const StampedPiece& one) { return one.pose.y; });
   std::vector<std::vector<StampedPiece>> groups;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   if (grouped)
     groups = stamp_groups(places, made, voxel_size_m);
   else
     for (const StampedPiece& one : places) groups.push_back({one});
-  double plan_us = 1000.0 * watch.lap_ms(), apply_us = 0.0;
+  double plan_us = 1000.0 * stopwatch.lap_ms(), apply_us = 0.0;
   SurfaceDistance distance;
   for (const std::vector<StampedPiece>& group : groups) {
     MassUnits mass = 0;
     for (const StampedPiece& one : group) mass += made.at(one.piece)->mass;
     const Window exact = exact_union(field, made, group);
-    watch.lap_ms();
+    stopwatch.lap_ms();
     const PreparedStamp prepared = prepare_group(field, pieces, group, StampMethod::stamp, mass);
-    plan_us += 1000.0 * watch.lap_ms();
+    plan_us += 1000.0 * stopwatch.lap_ms();
     const Applied applied = apply(prepared.operation, field, pieces, &prepared);
-    apply_us += 1000.0 * watch.lap_ms();
+    apply_us += 1000.0 * stopwatch.lap_ms();
     add_error(figures, applied.terrain_gain, mass);
     add_distances(gather(field, exact.box), exact, distance);
   }

@@ -163,13 +163,13 @@ std::unique_ptr<World> wide_world(int chunks_a_side) {
 void pause(BenchReport& report, const ScratchFolder& folder, int chunks_a_side, Tick ticks) {
   const std::unique_ptr<World> world = wide_world(chunks_a_side);
   const size_t chunks = world->field().edited_chunks().size();
-  Stopwatch watch;
+  Stopwatch stopwatch;
   auto recorder =
       Recorder::create(folder / "wide", {"bench", world->config()}, {world->moment(), world->keyframe()});
   CHECK(recorder.has_value());
   (*recorder)->commit_up_to(world->tick());
   report.metric("wide_chunks", static_cast<double>(chunks));
-  report.metric("wide_begin_s", watch.lap_ms() * 1e-3);
+  report.metric("wide_begin_s", stopwatch.lap_ms() * 1e-3);
   ScatteredBlows blows(world->config().terrain, 24.0F, 1.5F, 24, 9);
   std::vector<double> push_ms, cpu_ms, part_ms;
   double due_s = steady_now_s();
@@ -187,9 +187,9 @@ void pause(BenchReport& report, const ScratchFolder& folder, int chunks_a_side, 
       report.metric(fmt::format("part_{}_pieces", part_ms.size()), static_cast<double>(delta->pieces.size()));
     }
     const double before_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
-    watch.lap_ms();
+    stopwatch.lap_ms();
     (*recorder)->push(delta, std::move(commands), {}, std::move(part));
-    push_ms.push_back(watch.lap_ms());
+    push_ms.push_back(stopwatch.lap_ms());
     cpu_ms.push_back((cpu_s(CLOCK_THREAD_CPUTIME_ID) - before_s) * 1e3);
   }
   CHECK_EQ((*recorder)->waits(), 0U);
@@ -243,7 +243,7 @@ std::vector<uint64_t> record_session(BenchReport& report, const std::string& pat
   World world{WorldConfig()};
   Bots bots(WorldConfig().terrain);
   std::vector<uint64_t> hashes;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   for (Tick tick = 1; tick <= ticks; ++tick) {
     const std::vector<Command> commands = bots.at(tick);
     const auto delta = world.step(commands);
@@ -255,7 +255,7 @@ std::vector<uint64_t> record_session(BenchReport& report, const std::string& pat
   CHECK((*writer)->finish().has_value());
   const double minutes = static_cast<double>(ticks) / ticks_per_minute;
   report.metric("session_minutes", minutes);
-  report.metric("session_wall_s", watch.lap_ms() * 1e-3);
+  report.metric("session_wall_s", stopwatch.lap_ms() * 1e-3);
   report.metric("session_edited_chunks", static_cast<double>(world.field().edited_chunks().size()));
   report.metric("session_mb_a_minute", static_cast<double>(std::filesystem::file_size(path)) / mb / minutes);
   return hashes;
@@ -269,11 +269,11 @@ void seek(BenchReport& report, const std::string& path, const std::vector<uint64
   size_t wrong = 0;
   for (size_t i = 0; i < seeks; ++i) {
     const Tick to = 1 + random.below(static_cast<uint32_t>(hashes.size()));
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const double before_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
     const auto jumped = (*source)->jump(to);
     cpu_ms.push_back((cpu_s(CLOCK_THREAD_CPUTIME_ID) - before_s) * 1e3);
-    wall_ms.push_back(watch.lap_ms());
+    wall_ms.push_back(stopwatch.lap_ms());
     if (!jumped || (*jumped)->field_hash != hashes[to - 1]) ++wrong;
   }
   report.metric("seek_median_ms", quantile(wall_ms, 0.5));

@@ -35,7 +35,7 @@ WorldConfig storm_config(bool merging) {
 }
 
 /// Generated terrain is made at its first touch; here a viewer has been looking at it for long.
-void look_around(World& world, const BenchOptions& options) {
+void generate_around(World& world, const BenchOptions& options) {
   const TerrainSource& terrain = world.config().terrain;
   const glm::vec3 centre_m = options.scene != nullptr
                                  ? options.scene->target_m
@@ -59,7 +59,7 @@ std::vector<CarveRequest> storm_blows(const BenchOptions& options, const Terrain
 
 /// All blows, one a tick, until nothing is alive any more or `ticks_max` have passed.
 std::vector<StormTick> rage(World& world, const BenchOptions& options, Tick ticks_max) {
-  look_around(world, options);
+  generate_around(world, options);
   const std::vector<CarveRequest> blows = storm_blows(options, world.config().terrain);
   std::vector<StormTick> ticks;
   while (ticks.size() < ticks_max) {
@@ -75,7 +75,7 @@ std::vector<StormTick> rage(World& world, const BenchOptions& options, Tick tick
 }
 
 /// Keeps each tick's least time over several runs of the same storm, to exclude other work of the machine.
-void keep_least(std::vector<StormTick>& least, const std::vector<StormTick>& again) {
+void assign_minimum(std::vector<StormTick>& least, const std::vector<StormTick>& again) {
   CHECK(least.size() == again.size());
   for (size_t i = 0; i < least.size(); ++i) {
     CHECK(least[i].state_hash == again[i].state_hash);
@@ -109,7 +109,7 @@ void report_work(BenchReport& report, const std::string& when, const std::vector
   double cut = 0.0, sooner = 0.0, waiting = 0.0, put_off = 0.0, left_out = 0.0;
   std::vector<double> per_estimate;
   for (const auto& [total_ms, times, alive, hash, work] : ticks) {
-    cut += work.cut_short() ? 1.0 : 0.0;
+    cut += work.has_leftovers() ? 1.0 : 0.0;
     sooner += work.merging_sooner ? 1.0 : 0.0;
     waiting = std::max(waiting, static_cast<double>(work.requests_waiting));
     put_off = std::max(put_off, static_cast<double>(work.merges_put_off));
@@ -170,7 +170,7 @@ std::vector<StormTick> storm(BenchReport& report, bool merging, size_t threads, 
     if (round == 0)
       ticks = std::move(again);
     else
-      keep_least(ticks, again);
+      assign_minimum(ticks, again);
     if (round + 1 < rounds) continue;
     const auto [before_us, after_us] = idle_us(world, options.quick ? 100 : 2000);
     report.metric(when + "_before_median_us", before_us);

@@ -50,9 +50,9 @@ void Drawing::carve(int carves, float half_width_m, float radius_m, uint64_t ran
 
 double Drawing::finish() {
   const Scene scene{field_, pieces_};
-  Stopwatch watch;
+  Stopwatch stopwatch;
   method_->update(scene, camera);
-  const double first_ms = watch.lap_ms();
+  const double first_ms = stopwatch.lap_ms();
   while (!method_->complete()) {
     std::this_thread::yield();
     method_->update(scene, camera);
@@ -61,19 +61,19 @@ double Drawing::finish() {
 }
 
 double Drawing::shown_after_ms() {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   finish();
-  return watch.lap_ms();
+  return stopwatch.lap_ms();
 }
 
 Result<double> Drawing::frame_ms(int width, int height, int frames) {
   std::vector<double> times_ms;
   // The first one warms up.
   for (int i = 0; i <= frames; ++i) {
-    Stopwatch watch;
+    Stopwatch stopwatch;
     if (Result<void> drawn = stage_.renderer->draw_unseen(*method_, camera, width, height); !drawn)
       return fail(drawn.error().message);
-    if (i > 0) times_ms.push_back(watch.lap_ms());
+    if (i > 0) times_ms.push_back(stopwatch.lap_ms());
   }
   return quantile(times_ms, 0.5);
 }

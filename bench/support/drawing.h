@@ -37,7 +37,7 @@ class Drawing {
   Field& field() { return field_; }
   DrawMethod& method() { return *method_; }
   /// Shows the same field by another method from now on.
-  void take(std::unique_ptr<DrawMethod> method) { method_ = std::move(method); }
+  void show_by(std::unique_ptr<DrawMethod> method) { method_ = std::move(method); }
   const std::vector<glm::vec4>& balls() const {
     return balls_;
   }  ///< carved out now: centre and radius, metres

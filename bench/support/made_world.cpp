@@ -33,13 +33,13 @@ Result<MadeWorld> MadeWorld::create(const std::string& path, const WorldConfig& 
 }
 
 Result<void> MadeWorld::add(ChunkCoord chunk, std::vector<BrickPatch> bricks, MassUnits ground) {
-  WorldChunk& kept = unwritten_.emplace_back(WorldChunk{chunk, 1, 0, std::move(bricks), ground});
-  for (const BrickPatch& patch : kept.bricks) {
-    kept.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+  WorldChunk& made = unwritten_.emplace_back(WorldChunk{chunk, 1, 0, std::move(bricks), ground});
+  for (const BrickPatch& patch : made.bricks) {
+    made.hash += brick_hash(patch.coord, patch.brick, patch.paint);
     gain_ += brick_mass(patch.brick);
   }
   gain_ -= ground;
-  moment_.field_hash += kept.hash;
+  moment_.field_hash += made.hash;
   return unwritten_.size() < chunks_per_save ? Result<void>() : write();
 }
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <poll.h>
 
-#include "bench/support/watched_process.h"
+#include "bench/support/child_process.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -25,7 +25,7 @@ class ServerProcess {
     options.insert(options.end(), {"--port", "0", "--log", "off"});
     std::array<int, 2> out{};
     if (::pipe2(out.data(), O_CLOEXEC) != 0) return;
-    process_ = std::make_unique<WatchedProcess>(program, std::move(options), out[1]);
+    process_ = std::make_unique<MeasuredProcess>(program, std::move(options), out[1]);
     ::close(out[1]);
     const std::string line = first_line(out[0], listens_within_s);
     ::close(out[0]);
@@ -35,7 +35,7 @@ class ServerProcess {
 
   uint16_t port() const { return port_; }
   pid_t process() const { return process_ ? process_->process() : -1; }
-  /// As WatchedProcess says of these.
+  /// As MeasuredProcess says of these.
   double memory_mib(const std::string& name) const { return process_ ? process_->memory_mib(name) : 0.0; }
   double cpu_s() const { return process_ ? process_->cpu_s() : 0.0; }
   double thread_cpu_s(const std::string& name) const { return process_ ? process_->thread_cpu_s(name) : 0.0; }
@@ -54,7 +54,7 @@ class ServerProcess {
     return line;
   }
 
-  std::unique_ptr<WatchedProcess> process_;
+  std::unique_ptr<MeasuredProcess> process_;
   uint16_t port_ = 0;
 };
 

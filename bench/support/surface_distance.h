@@ -21,10 +21,10 @@ struct SurfaceDistance {
   double rms() const { return samples > 0.0 ? std::sqrt(squares / samples) : 0.0; }
 };
 
-/// Calls `take(voxel, step, part)` where an edge of the lattice crosses the surface of the window: at
+/// Calls `visit(voxel, step, part)` where an edge of the lattice crosses the surface of the window: at
 /// voxel + part · step.
-template <typename Take>
-void for_each_crossing(const Window& window, const Take& take) {
+template <typename Visit>
+void for_each_crossing(const Window& window, const Visit& visit) {
   constexpr VoxelCoord steps[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const VoxelBox& box = window.box;
   for (int x = box.lo.x; x < box.hi.x; ++x)
@@ -34,7 +34,7 @@ void for_each_crossing(const Window& window, const Take& take) {
           const VoxelCoord next{x + step.x, y + step.y, z + step.z};
           if (!box.holds(next)) continue;
           const double a = window.at(x, y, z), b = window.at(next.x, next.y, next.z);
-          if ((a < 0.0) != (b < 0.0)) take(VoxelCoord{x, y, z}, step, a / (a - b));
+          if ((a < 0.0) != (b < 0.0)) visit(VoxelCoord{x, y, z}, step, a / (a - b));
         }
 }
 

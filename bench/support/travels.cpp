@@ -27,7 +27,7 @@ bool is_buried(World& world, const Volume& volume, const Pose& pose) {
 
 }  // namespace
 
-void Travels::look(World& world, const TickDelta& delta) {
+void Travels::observe(World& world, const TickDelta& delta) {
   for (const SpawnedPiece& spawned : delta.spawned) volumes_[spawned.id] = spawned.volume;
   for (const PieceState& piece : delta.pieces) follow(world, piece);
 }

@@ -13,7 +13,7 @@ namespace scree {
 class Travels {
  public:
   /// After every step of the world.
-  void look(World& world, const TickDelta& delta);
+  void observe(World& world, const TickDelta& delta);
   float farthest_m() const { return farthest_m_; }
   /// Pieces that went farther than a metre so.
   size_t travellers() const;

@@ -110,7 +110,7 @@ void Askers::stop() {
 }
 
 /// Turns come at their times whatever the server and this thread do.
-void Askers::take_turn(Viewer& viewer) {
+void Askers::begin_turn(Viewer& viewer) {
   viewer.next_s += config_.seconds_per_carve * (0.5 + static_cast<double>(random_.unit()));
   if (config_.carves_max != 0 && asked_ == config_.carves_max) return;
   const bool counted = counting_;
@@ -146,7 +146,7 @@ void Askers::walk(Viewer& viewer, double now_s) {
 }
 
 /// False when it cannot be decoded. Decodes what tells of the viewer's own carve, and nothing else.
-bool Askers::take(Viewer& viewer, std::span<const uint8_t> body, double now_s) {
+bool Askers::receive(Viewer& viewer, std::span<const uint8_t> body, double now_s) {
   const bool wanted = !body.empty() && (body[0] == reply_tag || (body[0] == frame_tag && viewer.unseen));
   if (!wanted) return true;
   const auto message = decode_server(body);
@@ -195,7 +195,7 @@ void Askers::run() {
       if (sound) viewer.reader.push(std::span<const uint8_t>(buffer.data(), static_cast<size_t>(got)));
       while (sound) {
         const auto body = viewer.reader.next();
-        sound = body.has_value() && (!body->has_value() || take(viewer, **body, now_s));
+        sound = body.has_value() && (!body->has_value() || receive(viewer, **body, now_s));
         if (!sound || !body->has_value()) break;
       }
       if (!sound) lose(viewer);
@@ -204,7 +204,7 @@ void Askers::run() {
     for (const auto& viewer : viewers_)
       if (viewer->socket >= 0) walk(*viewer, now_s);
     for (const auto& viewer : viewers_)
-      if (viewer->socket >= 0 && now_s >= viewer->next_s) take_turn(*viewer);
+      if (viewer->socket >= 0 && now_s >= viewer->next_s) begin_turn(*viewer);
     finished_ = (config_.carves_max != 0 && answered_ == config_.carves_max) || lost_ == viewers_.size();
   }
 }

@@ -66,9 +66,9 @@ class Askers {
   explicit Askers(const AskersConfig& config);
   glm::vec3 place_m(size_t viewer);
   void run();
-  void take_turn(Viewer& viewer);
+  void begin_turn(Viewer& viewer);
   void walk(Viewer& viewer, double now_s);
-  bool take(Viewer& viewer, std::span<const uint8_t> body, double now_s);
+  bool receive(Viewer& viewer, std::span<const uint8_t> body, double now_s);
   void lose(Viewer& viewer);
 
   AskersConfig config_;

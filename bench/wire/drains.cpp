@@ -115,7 +115,7 @@ void Drains::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Drains::take(Reader& reader, const uint8_t* bytes, size_t size, double now_s) {
+void Drains::receive(Reader& reader, const uint8_t* bytes, size_t size, double now_s) {
   const auto length = [&] {
     uint32_t value = 0;
     std::memcpy(&value, reader.head.data(), sizeof value);
@@ -158,7 +158,7 @@ void Drains::run() {
       const ssize_t got = recv(reader.socket, buffer.data(), buffer.size(), MSG_DONTWAIT);
       if (got > 0) {
         if (counting_) bytes_ += static_cast<uint64_t>(got);
-        take(reader, buffer.data(), static_cast<size_t>(got), steady_now_s());
+        receive(reader, buffer.data(), static_cast<size_t>(got), steady_now_s());
       } else if (got == 0 || (errno != EAGAIN && errno != EINTR)) {
         ++lost_;
         epoll_ctl(epoll_, EPOLL_CTL_DEL, reader.socket, nullptr);

@@ -68,7 +68,7 @@ class Drains {
   struct Reader;
   explicit Drains(const TickTimes& times);
   void run();
-  void take(Reader& reader, const uint8_t* bytes, size_t size, double now_s);
+  void receive(Reader& reader, const uint8_t* bytes, size_t size, double now_s);
 
   const TickTimes& times_;
   int epoll_ = -1;

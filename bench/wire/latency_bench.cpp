@@ -21,9 +21,9 @@ constexpr uint64_t frames_per_strike = 30;
 constexpr float strikes_within_m = 12.0F;
 
 /// A viewer without a window, frame by frame.
-class Watcher {
+class FrameViewer {
  public:
-  explicit Watcher(uint16_t port) {
+  explicit FrameViewer(uint16_t port) {
     ServerEndpoint server;
     server.port = port;
     session_.emplace(std::make_unique<ServerConnector>(server), SessionChoice{.interest_radius_m = 48.0F});
@@ -31,7 +31,7 @@ class Watcher {
 
   /// Frames for so long. `strikes`: one every half a second; counts frames until it is in the field that is
   /// drawn. The frame that follows the strike is the first.
-  void watch(const TerrainSource& terrain, double seconds, bool strikes) {
+  void run_frames(const TerrainSource& terrain, double seconds, bool strikes) {
     const double end_s = steady_now_s() + seconds;
     Tool tool;
     tool.radius_m = 1.0F;
@@ -40,7 +40,7 @@ class Watcher {
       const double now_s = steady_now_s();
       if (strikes && !struck_m_ && ++frame_ % frames_per_strike == 0) strike(terrain, tool, now_s);
       session_->step(now_s, camera_);
-      if (struck_m_) look(terrain);
+      if (struck_m_) check_drawn(terrain);
     }
     struck_m_.reset();
   }
@@ -48,7 +48,7 @@ class Watcher {
   bool joined() const { return session_->joined(steady_now_s()); }
   uint64_t mismatches() { return session_->mirror() == nullptr ? 0 : session_->mirror()->mismatches(); }
   /// The frames of the strikes since the last call.
-  std::vector<double> take_frames() { return std::exchange(frames_, {}); }
+  std::vector<double> drain_frames() { return std::exchange(frames_, {}); }
   size_t unpredicted() const { return unpredicted_; }
 
  private:
@@ -64,7 +64,7 @@ class Watcher {
     session_->strike(tool, from_m, down, now_s);
     unpredicted_ += session_->predictions() == before ? 1 : 0;
   }
-  void look(const TerrainSource& terrain) {
+  void check_drawn(const TerrainSource& terrain) {
     ++waited_;
     // Where the ray met the rock there is air now, and a good part of the ball beneath.
     const glm::vec3 in_ball_m = *struck_m_ - glm::vec3(0.0F, 0.4F, 0.0F);
@@ -146,28 +146,28 @@ BenchReport run_latency_bench(const BenchOptions& options) {
     return report;
   }
   (*askers)->start();
-  Watcher watcher((*server)->port());
-  watcher.watch(terrain, 4.0, false);
+  FrameViewer viewer((*server)->port());
+  viewer.run_frames(terrain, 4.0, false);
   options.progress(0.1);
   const uint64_t late_before = (*server)->report().late_ticks;
   (*askers)->count(true);
-  watcher.watch(terrain, seconds, true);
-  const std::vector<double> predicted = watcher.take_frames();
-  const size_t unpredicted = watcher.unpredicted();
+  viewer.run_frames(terrain, seconds, true);
+  const std::vector<double> predicted = viewer.drain_frames();
+  const size_t unpredicted = viewer.unpredicted();
   options.progress(0.55);
-  watcher.predict(false);
-  watcher.watch(terrain, seconds, true);
+  viewer.predict(false);
+  viewer.run_frames(terrain, seconds, true);
   (*askers)->count(false);
   const uint64_t late = (*server)->report().late_ticks - late_before;
-  watcher.watch(terrain, 0.5, false);
+  viewer.run_frames(terrain, 0.5, false);
   (*askers)->stop();
   options.progress(1.0);
   report_way(report, (*askers)->times(), ms_per_s / config.world.tick_rate_hz);
-  report_frames(report, predicted, unpredicted, watcher.take_frames());
+  report_frames(report, predicted, unpredicted, viewer.drain_frames());
   report.metric("late_ticks", static_cast<double>(late));
-  report.check("sound", (*askers)->lost() == 0 && watcher.mismatches() == 0,
+  report.check("sound", (*askers)->lost() == 0 && viewer.mismatches() == 0,
                fmt::format("{} viewers lost, {} frames with another hash; wanted none", (*askers)->lost(),
-                           watcher.mismatches()));
+                           viewer.mismatches()));
   return report;
 }
 

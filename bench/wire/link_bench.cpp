@@ -157,12 +157,12 @@ class FarViewer {
       client.poll(steady_now_s());
       while (const std::optional<Client::Event> event = client.next())
         if (const auto* applied = std::get_if<Client::Applied>(&*event))
-          take(applied->received, *client.mirror());
+          receive(applied->received, *client.mirror());
     }
     bytes_ += client.counters().received_bytes;
     seen_ += client.mirror()->counters();
   }
-  void take(const Received& received, Mirror& mirror) {
+  void receive(const Received& received, Mirror& mirror) {
     const double now_s = steady_now_s();
     before_.arrived(received, now_s);
     if (const auto* frame = std::get_if<FrameMessage>(&received.message); frame && counting_) {

@@ -53,11 +53,11 @@ BenchReport run_memory_bench(const BenchOptions& options) {
   }
   (*viewers)->count(true);
   (*viewers)->start();
-  Stopwatch watch;
+  Stopwatch stopwatch;
   double busy_s = 0.0;
   while (!(*viewers)->finished() && busy_s < seconds_max) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    busy_s += watch.lap_ms() * 1e-3;
+    busy_s += stopwatch.lap_ms() * 1e-3;
     options.progress(static_cast<double>((*viewers)->answered()) / static_cast<double>(edits));
   }
   std::this_thread::sleep_for(std::chrono::duration<double>(settle_s));

@@ -78,7 +78,7 @@ std::vector<ChunkCoord> square_of(size_t chunks) {
 
 /// Writes the world; an error when it cannot.
 Result<void> make_world(BenchReport& report, const RoamPlan& plan, const WorldConfig& config) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   std::vector<std::vector<BrickPatch>> carved;
   for (uint32_t i = 0; i < templates; ++i) carved.push_back(carve_chunk(config.terrain, i + 1));
   MassUnits ground = 0;
@@ -94,7 +94,7 @@ Result<void> make_world(BenchReport& report, const RoamPlan& plan, const WorldCo
       return fail(fmt::format("the disk has no room for {:.0f} MB", bytes * 2.5e-6));
   }
   TRY(world.finish());
-  report.metric("paged_made_s", watch.lap_ms() * 1e-3);
+  report.metric("paged_made_s", stopwatch.lap_ms() * 1e-3);
   return {};
 }
 
@@ -120,11 +120,11 @@ void note(BenchReport& report, const nlohmann::json& told, double resident_mib, 
 
 /// Starts the server, and lets viewers roam.
 void roam(BenchReport& report, const RoamPlan& plan, const WorldConfig& config, const char* program) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const std::string told = plan.roamed + ".json";
   ServerProcess server(program, {"--world", plan.roamed, "--report", told}, starts_within_s);
   CHECK(server.port() != 0);
-  report.metric("paged_start_s", watch.lap_ms() * 1e-3);
+  report.metric("paged_start_s", stopwatch.lap_ms() * 1e-3);
   report.metric("paged_start_resident_most_mib", server.memory_mib("VmHWM"));
   report.metric("paged_start_resident_mib", server.memory_mib("VmRSS"));
   const float side_m =

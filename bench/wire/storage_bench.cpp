@@ -30,18 +30,18 @@ constexpr uint32_t read_whole_carves_max = 100000;  ///< a larger world takes gi
 
 /// A world that is saved, or not, and what its ticks took of the simulation's thread.
 struct Run {
-  std::unique_ptr<SavedWorld> kept;  ///< null: not saved
+  std::unique_ptr<SavedWorld> saved_world;  ///< null: not saved
   std::unique_ptr<World> world;
   std::vector<double> wall_ms, cpu_ms;
   uint64_t state_hash = 0;
 
   void step(std::span<const Command> commands) {
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const double before_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
     const auto delta = world->step(commands);
-    if (kept) kept->keep(*delta, *world);
+    if (saved_world) saved_world->note(*delta, *world);
     cpu_ms.push_back((cpu_s(CLOCK_THREAD_CPUTIME_ID) - before_s) * 1e3);
-    wall_ms.push_back(watch.lap_ms());
+    wall_ms.push_back(stopwatch.lap_ms());
     state_hash = delta->state_hash;
   }
 };
@@ -54,11 +54,12 @@ Run unsaved_run() {
 
 Run saved_run(const std::string& path, Durability durability) {
   Run run;
-  auto kept = SavedWorld::open(path, WorldConfig(), 1, {});
-  CHECK(kept.has_value());
-  run.kept = std::move(*kept);
-  run.world = run.kept->take_world();
-  const Result<void> started = run.kept->start(*run.world, {.durability = durability, .before_save = {}});
+  auto saved_world = SavedWorld::open(path, WorldConfig(), 1, {});
+  CHECK(saved_world.has_value());
+  run.saved_world = std::move(*saved_world);
+  run.world = run.saved_world->release_world();
+  const Result<void> started =
+      run.saved_world->start(*run.world, {.durability = durability, .before_save = {}});
   CHECK(started.has_value());
   return run;
 }
@@ -77,9 +78,9 @@ void compare_ticks(BenchReport& report, const ScratchFolder& folder, Durability 
     (tick % 2 == 0 ? plain : saved).step(commands);
     (tick % 2 == 0 ? saved : plain).step(commands);
   }
-  const KeeperStatus status = saved.kept->status();
-  CHECK(saved.kept->finish(*saved.world).has_value());
-  const double bytes = static_cast<double>(saved.kept->status().bytes_written);
+  const SaverStatus status = saved.saved_world->status();
+  CHECK(saved.saved_world->finish(*saved.world).has_value());
+  const double bytes = static_cast<double>(saved.saved_world->status().bytes_written);
   const double p99 = quantile(plain.cpu_ms, 0.99), p99_saved = quantile(saved.cpu_ms, 0.99);
   report.metric(name + "_tick_p99_without_cpu_ms", p99);
   report.metric(name + "_tick_p99_cpu_ms", p99_saved);
@@ -117,13 +118,13 @@ void save_a_crowd(BenchReport& report, const ScratchFolder& folder) {
   std::vector<double> moment_ms, encode_ms, save_ms;
   size_t bytes = 0;
   for (int i = 0; i < 40; ++i) {
-    Stopwatch watch;
+    Stopwatch stopwatch;
     const WorldMoment moment = world.moment();
-    moment_ms.push_back(watch.lap_ms());
+    moment_ms.push_back(stopwatch.lap_ms());
     bytes = encode(moment).size();
-    encode_ms.push_back(watch.lap_ms());
+    encode_ms.push_back(stopwatch.lap_ms());
     CHECK((*file)->save(moment, {}).has_value());
-    save_ms.push_back(watch.lap_ms());
+    save_ms.push_back(stopwatch.lap_ms());
     world.step({});
   }
   report.metric("crowd_alive", static_cast<double>(value.moment.pieces.size()));
@@ -137,14 +138,14 @@ void save_a_crowd(BenchReport& report, const ScratchFolder& folder) {
 void read_whole(BenchReport& report, const std::string& path, const std::string& name) {
   const auto file = WorldFile::open(path);
   CHECK(file.has_value());
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const auto rows = (*file)->read();
   CHECK(rows.has_value());
-  report.metric(name + "read_s", watch.lap_ms() * 1e-3);
+  report.metric(name + "read_s", stopwatch.lap_ms() * 1e-3);
   CHECK(World::restore(rows->world, 1, rows->ground).has_value());
-  report.metric(name + "restore_s", watch.lap_ms() * 1e-3);
+  report.metric(name + "restore_s", stopwatch.lap_ms() * 1e-3);
   CHECK(World::restore(rows->world).has_value());
-  report.metric(name + "restore_measuring_ground_s", watch.lap_ms() * 1e-3);
+  report.metric(name + "restore_measuring_ground_s", stopwatch.lap_ms() * 1e-3);
 }
 
 /// Starts a server on a world of so many carves.
@@ -163,10 +164,10 @@ void start_up(BenchReport& report, const std::string& path, uint32_t carves_a_si
   config.world_path = path;
   config.net.port = 0;
   config.pacing = Pacing::by_hand;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const double before_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
   const auto server = LiveServer::start(config);
-  const double wall_s = watch.lap_ms() * 1e-3, busy_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - before_s;
+  const double wall_s = stopwatch.lap_ms() * 1e-3, busy_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - before_s;
   CHECK(server.has_value());
   report.metric(name + "wall_s", wall_s);
   report.metric(name + "cpu_s", busy_s);
@@ -181,7 +182,7 @@ void start_up(BenchReport& report, const std::string& path, uint32_t carves_a_si
 }
 
 /// The file of a world that takes long to make: in the folder where it is kept, if there is one.
-std::string kept_world(const BenchOptions& options, const ScratchFolder& folder, const std::string& name) {
+std::string world_on_disk(const BenchOptions& options, const ScratchFolder& folder, const std::string& name) {
   if (options.folder.empty()) return folder / name;
   fs::create_directories(options.folder);
   return (fs::path(options.folder) / name).string();
@@ -191,8 +192,8 @@ void roam(BenchReport& report, const BenchOptions& options, const ScratchFolder&
   const uint32_t world_mb = options.world_mb.value_or(options.quick ? 64 : 4096);
   const uint32_t memory_max_mb = options.memory_max_mb.value_or(options.quick ? 256 : 512);
   const std::string name = fmt::format("paged_{}_of_{}", memory_max_mb, world_mb);
-  roam_a_paged_world(report, {.made = kept_world(options, folder, name),
-                              .roamed = kept_world(options, folder, name + "_roamed"),
+  roam_a_paged_world(report, {.made = world_on_disk(options, folder, name),
+                              .roamed = world_on_disk(options, folder, name + "_roamed"),
                               .world_mb = world_mb,
                               .memory_max_mb = memory_max_mb,
                               .seconds = options.quick ? 5.0 : 60.0});
@@ -215,7 +216,7 @@ BenchReport run_storage_bench(const BenchOptions& options) {
     if (wanted("start") && (!options.quick || carves_a_side <= 32))
       start_up(report, folder / fmt::format("start_{}", carves_a_side), carves_a_side);
   options.progress(0.7);
-  if (options.part == "million") start_up(report, kept_world(options, folder, "million"), 1000);
+  if (options.part == "million") start_up(report, world_on_disk(options, folder, "million"), 1000);
   if (wanted("roam")) roam(report, options, folder);
   options.progress(1.0);
   return report;

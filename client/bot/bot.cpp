@@ -37,7 +37,7 @@ Bot::Bot(BotConfig config, Log log)
 /// A hostile server cannot fill the disk.
 void Bot::log(std::string_view kind, const std::string& line) {
   if (!log_) return;
-  if (const auto more = log_limit_.take(kind, steady_now_s())) log_(line + *more);
+  if (const auto more = log_limit_.admit(kind, steady_now_s())) log_(line + *more);
 }
 
 Result<void> Bot::join() {
@@ -62,7 +62,7 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
 
 /// Once, when the ground is known: as a rule from the welcome on, else when its tiles have come.
 void Bot::stand_on_ground() {
-  if (stands_ || !client_.kept().has_near_ground()) return;
+  if (stands_ || !client_.rejoin().has_near_ground()) return;
   stands_ = true;
   const float ground_m = ground_height_m(client_.mirror()->terrain(), eye_m_.x, eye_m_.z);
   set_interest({eye_m_.x, ground_m, eye_m_.z}, config_.interest_radius_m);
@@ -181,7 +181,7 @@ void Bot::receive_status(const StatusMessage& status) {
 
 void Bot::ask(Clock::time_point now) {
   stand_on_ground();
-  if (first_frame_ == 0 || !client_.kept().has_near_ground()) return;
+  if (first_frame_ == 0 || !client_.rejoin().has_near_ground()) return;
   while (report_.carves_asked < config_.carves && requests_.size() < limits::bot_requests_waiting_max) {
     const double due_ms = config_.rate_hz > 0.0 ? 1000.0 * report_.carves_asked / config_.rate_hz : 0.0;
     if (ms_between(first_frame_at_, now) < due_ms) return;

@@ -33,7 +33,7 @@ std::vector<glm::vec3> masonry(glm::vec3 centre_m, float radius_m, uint32_t coun
 
 }  // namespace
 
-Carver::Hit Carver::look(Field& field) {
+Carver::Hit Carver::find_target(Field& field) {
   const TerrainSource& terrain = field.source();
   const auto around = [&](float half) { return (random_.unit() * 2.0F - 1.0F) * half; };
   const float x_m = config_.centre_m.x + around(config_.area_m);
@@ -45,15 +45,15 @@ Carver::Hit Carver::look(Field& field) {
   const glm::vec3 slanted = glm::normalize(glm::vec3(around(1.0F), -0.2F - random_.unit(), around(1.0F)));
   if (random_.below(2) == 1) direction = slanted;
   const float dx = terrain.voxel_size_m;
-  for (const glm::vec3 look : {direction, glm::vec3(0.0F, -1.0F, 0.0F)}) {
-    const auto distance = trace(field, eye_m / dx, look, limits::bot_sight_m / dx);
-    if (distance) return {eye_m + look * (*distance * dx), look};
+  for (const glm::vec3 direction_tried : {direction, glm::vec3(0.0F, -1.0F, 0.0F)}) {
+    const auto distance = trace(field, eye_m / dx, direction_tried, limits::bot_sight_m / dx);
+    if (distance) return {eye_m + direction_tried * (*distance * dx), direction_tried};
   }
   return {glm::vec3(x_m, ground_m, z_m), glm::vec3(0.0F, -1.0F, 0.0F)};
 }
 
 CarveMessage Carver::next(Field& field, uint32_t request) {
-  const Hit hit = look(field);
+  const Hit hit = find_target(field);
   CarveMessage carve;
   carve.request = request;
   carve.shape = {config_.shape, hit.point_m + hit.direction * (config_.radius_m * carve_depth_in_radii),

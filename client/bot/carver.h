@@ -41,7 +41,7 @@ class Carver {
     glm::vec3 point_m{0.0F};
     glm::vec3 direction{0.0F};  ///< of the look that found it
   };
-  Hit look(Field& field);
+  Hit find_target(Field& field);
 
   CarverConfig config_;
   Random random_;

@@ -42,7 +42,7 @@ void tally(const Received& received, BotReport& report) {
                           tally_operations(frame, received.bytes - transforms, report);
                         },
                         [&](const ChunkMessage&) { bytes.chunks += received.bytes; },
-                        [&](const KeptMessage&) { bytes.chunks += received.bytes; },
+                        [&](const UnchangedChunksMessage&) { bytes.chunks += received.bytes; },
                         [&](const TileMessage&) { bytes.tiles += received.bytes; },
                         [&](const PieceMessage&) { bytes.pieces += received.bytes; },
                         [&](const StatusMessage& status) {

@@ -40,13 +40,13 @@ std::string name_of_address(const std::string& address) {
   return name + "_";
 }
 
-std::vector<uint8_t> bytes_of(const KeptWorld& kept) {
+std::vector<uint8_t> bytes_of(const CachedWorld& cached) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
   writer.u64(file_kind);
-  writer.u64(kept.world);
-  writer.f32(kept.voxel_size_m);
-  for (const KeptChunk& chunk : kept.chunks) {
+  writer.u64(cached.world);
+  writer.f32(cached.voxel_size_m);
+  for (const CachedChunk& chunk : cached.chunks) {
     writer.u32(static_cast<uint32_t>(chunk.bricks->size()));
     for (const int32_t axis : {chunk.chunk.x, chunk.chunk.y, chunk.chunk.z})
       writer.u32(static_cast<uint32_t>(axis));
@@ -56,12 +56,12 @@ std::vector<uint8_t> bytes_of(const KeptWorld& kept) {
   return bytes;
 }
 
-KeptWorld world_of(std::span<const uint8_t> bytes) {
+CachedWorld world_of(std::span<const uint8_t> bytes) {
   ByteReader reader(bytes, "cache file");
   if (reader.u64("kind") != file_kind) reader.refuse("is none");
-  KeptWorld kept{reader.u64("world"), reader.f32("voxel size")};
-  if (reader.failed() || kept.voxel_size_m < limits::voxel_size_min_m ||
-      kept.voxel_size_m > limits::voxel_size_max_m)
+  CachedWorld cached{reader.u64("world"), reader.f32("voxel size")};
+  if (reader.failed() || cached.voxel_size_m < limits::voxel_size_min_m ||
+      cached.voxel_size_m > limits::voxel_size_max_m)
     return {};
   const auto axis = [&] {
     const auto value = std::bit_cast<int32_t>(reader.u32("coordinate"));
@@ -70,19 +70,19 @@ KeptWorld world_of(std::span<const uint8_t> bytes) {
     return value;
   };
   while (!reader.at_end()) {
-    KeptChunk chunk;
+    CachedChunk chunk;
     const size_t size = reader.u32("bytes of bricks");
     if (size == 0 || size > limits::message_bytes_max) reader.refuse("a chunk of no or too many bytes");
     chunk.chunk.x = axis();
     chunk.chunk.y = axis();
     chunk.chunk.z = axis();
     chunk.hash = reader.u64("hash");
-    const std::span<const uint8_t> bricks = reader.take_bytes(reader.failed() ? 0 : size, "bricks");
+    const std::span<const uint8_t> bricks = reader.read_bytes(reader.failed() ? 0 : size, "bricks");
     if (reader.failed()) break;
     chunk.bricks = std::make_shared<const std::vector<uint8_t>>(bricks.begin(), bricks.end());
-    kept.chunks.push_back(std::move(chunk));
+    cached.chunks.push_back(std::move(chunk));
   }
-  return kept;
+  return cached;
 }
 
 /// Whether a file of that name is one of ours: an address, a world, the extension.
@@ -125,7 +125,8 @@ std::string CacheFolder::file_of(const std::string& address, uint64_t world) con
   return fmt::format("{}/{}{}{}", path_, name_of_address(address), hex(world), extension);
 }
 
-std::optional<KeptWorld> CacheFolder::read(const std::string& address, std::optional<uint64_t> world) const {
+std::optional<CachedWorld> CacheFolder::read(const std::string& address,
+                                             std::optional<uint64_t> world) const {
   if (path_.empty()) return std::nullopt;
   std::string file;
   if (world) {
@@ -142,11 +143,11 @@ std::optional<KeptWorld> CacheFolder::read(const std::string& address, std::opti
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<size_t>(in.gcount()));
-  KeptWorld kept = world_of(bytes);
+  CachedWorld cached = world_of(bytes);
   // A file under another's name, or of another form.
-  if (kept.world == 0 || fs::path(file_of(address, kept.world)).filename() != fs::path(file).filename())
+  if (cached.world == 0 || fs::path(file_of(address, cached.world)).filename() != fs::path(file).filename())
     return std::nullopt;
-  return kept;
+  return cached;
 }
 
 Result<void> CacheFolder::try_writing() const {
@@ -164,14 +165,14 @@ Result<void> CacheFolder::try_writing() const {
   return {};
 }
 
-void CacheFolder::write(const std::string& address, const KeptWorld& kept) const {
-  if (path_.empty() || kept.chunks.empty()) return;
+void CacheFolder::write(const std::string& address, const CachedWorld& cached) const {
+  if (path_.empty() || cached.chunks.empty()) return;
   std::error_code error;
   if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
-  const std::string file = file_of(address, kept.world);
+  const std::string file = file_of(address, cached.world);
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::string partial = fmt::format("{}.{}.{}{}", file, getpid(), now, unfinished);
-  const std::vector<uint8_t> bytes = bytes_of(kept);
+  const std::vector<uint8_t> bytes = bytes_of(cached);
   {
     std::ofstream out(partial, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -18,10 +18,10 @@
 namespace scree {
 
 /// What is kept of a world.
-struct KeptWorld {
+struct CachedWorld {
   uint64_t world = 0;
   float voxel_size_m = 0.0F;
-  std::vector<KeptChunk> chunks{};
+  std::vector<CachedChunk> chunks{};
 };
 
 class CacheFolder {
@@ -31,11 +31,11 @@ class CacheFolder {
 
   /// What the address' file of that world has, or, without a world, of the one written last. Stops at the
   /// first thing that is wrong; that the bricks have their hashes is not checked here.
-  std::optional<KeptWorld> read(const std::string& address, std::optional<uint64_t> world) const;
+  std::optional<CachedWorld> read(const std::string& address, std::optional<uint64_t> world) const;
   /// The error says why nothing can be kept there.
   Result<void> try_writing() const;
   /// Then calls bound().
-  void write(const std::string& address, const KeptWorld& kept) const;
+  void write(const std::string& address, const CachedWorld& cached) const;
   /// Removes the files written longest ago, as far as all, tiles of grounds among them, are more than the
   /// bound.
   void bound() const;

@@ -14,29 +14,29 @@ namespace {
 
 constexpr size_t bricks_per_chunk = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
 
-size_t bytes_of(const KeptChunk& kept) {
-  return kept.bricks->size() + limits::kept_chunk_bytes;
+size_t bytes_of(const CachedChunk& cached) {
+  return cached.bricks->size() + limits::cache_entry_bytes;
 }
 
 /// Nothing when the bytes are not the bricks of this chunk with this hash.
-std::vector<BrickPatch> unpacked(const KeptChunk& kept) {
-  auto bricks = decode_bricks(*kept.bricks, bricks_per_chunk);
+std::vector<BrickPatch> unpacked(const CachedChunk& cached) {
+  auto bricks = decode_bricks(*cached.bricks, bricks_per_chunk);
   if (!bricks) return {};
   uint64_t hash = 0;
   for (const BrickPatch& patch : *bricks) {
-    if (chunk_of(patch.coord) != kept.chunk) return {};
+    if (chunk_of(patch.coord) != cached.chunk) return {};
     hash += brick_hash(patch.coord, patch.brick, patch.paint);
   }
-  if (hash != kept.hash) return {};
+  if (hash != cached.hash) return {};
   return std::move(*bricks);
 }
 
 }  // namespace
 
-bool ChunkCache::keep(Field& field, ChunkCoord chunk) {
+bool ChunkCache::store(Field& field, ChunkCoord chunk) {
   const uint64_t hash = field.chunk_hash(chunk);
   const auto found = entries_.find(chunk);
-  if (found != entries_.end() && found->second.proven && found->second.kept.hash == hash) {
+  if (found != entries_.end() && found->second.proven && found->second.cached.hash == hash) {
     use(found->second);
     return false;
   }
@@ -49,21 +49,21 @@ bool ChunkCache::keep(Field& field, ChunkCoord chunk) {
   return true;
 }
 
-void ChunkCache::load(const std::vector<KeptChunk>& chunks) {
-  for (const KeptChunk& kept : chunks) put(kept, false);
+void ChunkCache::load(const std::vector<CachedChunk>& chunks) {
+  for (const CachedChunk& cached : chunks) put(cached, false);
 }
 
-std::vector<KeptChunk> ChunkCache::all() const {
-  std::vector<KeptChunk> all;
+std::vector<CachedChunk> ChunkCache::all() const {
+  std::vector<CachedChunk> all;
   all.reserve(by_use_.size());
-  for (const auto& [used, chunk] : by_use_) all.push_back(entries_.at(chunk).kept);
+  for (const auto& [used, chunk] : by_use_) all.push_back(entries_.at(chunk).cached);
   return all;
 }
 
 std::vector<BrickPatch> ChunkCache::find(ChunkCoord chunk) {
   const auto found = entries_.find(chunk);
   if (found == entries_.end()) return {};
-  std::vector<BrickPatch> bricks = unpacked(found->second.kept);
+  std::vector<BrickPatch> bricks = unpacked(found->second.cached);
   if (bricks.empty())
     drop(chunk);
   else
@@ -89,15 +89,15 @@ OfferMessage ChunkCache::offer(glm::vec3 eye_m, float radius_m, float voxel_size
   }
   std::ranges::sort(offer.chunks);
   for (const ChunkCoord chunk : offer.chunks)
-    offer.hashes.push_back(short_hash(entries_.at(chunk).kept.hash));
+    offer.hashes.push_back(short_hash(entries_.at(chunk).cached.hash));
   return offer;
 }
 
-void ChunkCache::put(KeptChunk kept, bool proven) {
-  drop(kept.chunk);
-  const ChunkCoord chunk = kept.chunk;
-  bytes_ += bytes_of(kept);
-  const auto [entry, fresh] = entries_.emplace(chunk, Entry{std::move(kept), proven});
+void ChunkCache::put(CachedChunk cached, bool proven) {
+  drop(cached.chunk);
+  const ChunkCoord chunk = cached.chunk;
+  bytes_ += bytes_of(cached);
+  const auto [entry, fresh] = entries_.emplace(chunk, Entry{std::move(cached), proven});
   CHECK(fresh);
   use(entry->second);
   while (bytes_ > bytes_max_) drop(by_use_.begin()->second);
@@ -107,7 +107,7 @@ void ChunkCache::put(KeptChunk kept, bool proven) {
 void ChunkCache::drop(ChunkCoord chunk) {
   const auto found = entries_.find(chunk);
   if (found == entries_.end()) return;
-  bytes_ -= bytes_of(found->second.kept);
+  bytes_ -= bytes_of(found->second.cached);
   by_use_.erase(found->second.used);
   entries_.erase(found);
 }
@@ -115,11 +115,11 @@ void ChunkCache::drop(ChunkCoord chunk) {
 void ChunkCache::use(Entry& entry) {
   by_use_.erase(entry.used);
   entry.used = ++uses_;
-  by_use_.emplace(entry.used, entry.kept.chunk);
+  by_use_.emplace(entry.used, entry.cached.chunk);
 }
 
 bool ChunkCache::prove(Entry& entry) const {
-  if (!entry.proven) entry.proven = !unpacked(entry.kept).empty();
+  if (!entry.proven) entry.proven = !unpacked(entry.cached).empty();
   return entry.proven;
 }
 

@@ -17,7 +17,7 @@
 
 namespace scree {
 
-struct KeptChunk {
+struct CachedChunk {
   ChunkCoord chunk;
   uint64_t hash = 0;
   std::shared_ptr<const std::vector<uint8_t>> bricks;  ///< encode_bricks()
@@ -28,11 +28,11 @@ class ChunkCache {
   explicit ChunkCache(size_t bytes_max) : bytes_max_(bytes_max) {}
 
   /// Keeps the chunk's edits as they are now. False when they were kept already, or there are none.
-  bool keep(Field& field, ChunkCoord chunk);
+  bool store(Field& field, ChunkCoord chunk);
   /// Takes what a file has, the chunks used last at the end.
-  void load(const std::vector<KeptChunk>& chunks);
+  void load(const std::vector<CachedChunk>& chunks);
   /// All of it, the chunks used last at the end.
-  std::vector<KeptChunk> all() const;
+  std::vector<CachedChunk> all() const;
 
   /// The chunk's edits; empty when none are kept.
   std::vector<BrickPatch> find(ChunkCoord chunk);
@@ -45,11 +45,11 @@ class ChunkCache {
 
  private:
   struct Entry {
-    KeptChunk kept;
+    CachedChunk cached;
     bool proven = false;  ///< its bricks have its hash
     uint64_t used = 0;
   };
-  void put(KeptChunk kept, bool proven);
+  void put(CachedChunk cached, bool proven);
   void drop(ChunkCoord chunk);
   void use(Entry& entry);
   bool prove(Entry& entry) const;

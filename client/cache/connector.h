@@ -30,7 +30,7 @@ class Connector {
   /// the one that brings the bytes.
   virtual void await(std::chrono::milliseconds within) = 0;
   /// How the attempt ended; nothing while it is under way.
-  virtual std::optional<Attempt> take(double now_s) = 0;
+  virtual std::optional<Attempt> poll(double now_s) = 0;
   /// The server, for people.
   virtual std::string where() const = 0;
 };

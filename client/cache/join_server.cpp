@@ -34,7 +34,7 @@ void ServerConnector::begin(Rejoin& rejoin, const HelloMessage& hello, double /*
   });
 }
 
-std::optional<Connector::Attempt> ServerConnector::take(double /*now_s*/) {
+std::optional<Connector::Attempt> ServerConnector::poll(double /*now_s*/) {
   if (!busy() || attempt_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
   return attempt_.get();
 }

@@ -36,7 +36,7 @@ class ServerConnector final : public Connector {
   void await(std::chrono::milliseconds within) override {
     if (busy()) attempt_.wait_for(within);
   }
-  std::optional<Attempt> take(double now_s) override;
+  std::optional<Attempt> poll(double now_s) override;
   std::string where() const override;
 
  private:

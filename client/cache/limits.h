@@ -12,7 +12,7 @@ inline constexpr size_t cache_mib_default = 128;
 inline constexpr size_t cache_mib_max = 16384;
 
 /// Bytes that a kept chunk takes beside its packed bricks.
-inline constexpr size_t kept_chunk_bytes = 128;
+inline constexpr size_t cache_entry_bytes = 128;
 
 /// Chunks that are packed in one call while a session lasts: a frame is not to notice.
 inline constexpr size_t chunks_packed_at_once = 2;
@@ -22,7 +22,7 @@ inline constexpr size_t chunks_packed_at_once = 2;
 inline constexpr size_t chunks_packed_at_end = 8192;
 
 /// Seconds between two times that a lasting session's chunks are packed, and written: what a crash may lose.
-inline constexpr double keep_interval_s = 120.0;
+inline constexpr double cache_interval_s = 120.0;
 
 /// Seconds after which a file that was never finished is removed.
 inline constexpr double unfinished_seconds_max = 3600.0;

@@ -64,7 +64,7 @@ ReceivedTiles::Found ReceivedTiles::find_chunk(TileKey key) const {
   return found;
 }
 
-ChunkLook ReceivedTiles::chunk(TileKey key) const {
+ChunkLookup ReceivedTiles::chunk(TileKey key) const {
   const std::scoped_lock lock(mutex_);
   const Found found = find_chunk(key);
   if (!found.stored) return {};
@@ -120,7 +120,7 @@ TileKey ReceivedTiles::above(TileKey key) const {
   return key.kind == TileKind::bricks ? bricks()->parent(key) : parent_of(key);
 }
 
-Result<void> ReceivedTiles::take(const TileMessage& message) {
+Result<void> ReceivedTiles::accept(const TileMessage& message) {
   if (asked_.erase(message.key) == 0) return fail("a tile of the ground that was not asked for");
   const Digest& digest = digests_.at(message.key);
   if (sha256(message.bytes) != digest)

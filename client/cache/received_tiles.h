@@ -23,14 +23,14 @@ class ReceivedTiles final : public GroundModel {
   const HeightGround& ground() const { return ground_; }
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
-  ChunkLook chunk(TileKey key) const override;
+  ChunkLookup chunk(TileKey key) const override;
   bool has(TileKey key) const override;
 
   /// Says what a new session may count on: all that has come so far is to be told, what was asked for is to
   /// be asked for again.
   void begin_session();
   /// Takes a tile that was asked for. The error says what is wrong with it.
-  Result<void> take(const TileMessage& message);
+  Result<void> accept(const TileMessage& message);
   /// The next request to send; reads the cache. Empty when all is asked for. Tiles around the eye, as far as
   /// the radius, are wanted whether somebody missed them or not. Metres.
   AskTilesMessage next_request(glm::vec3 eye_m, float radius_m);

@@ -10,18 +10,18 @@ Rejoin::Rejoin(const CacheConfig& config)
     : config_(config), folder_(config.folder, config.bytes_max), cache_(config.bytes_max) {}
 
 void Rejoin::load(std::optional<uint64_t> world) {
-  const auto kept = folder_.read(address_, world);
-  if (!kept) return;
-  world_ = kept->world;
-  voxel_size_m_ = kept->voxel_size_m;
+  const auto cached = folder_.read(address_, world);
+  if (!cached) return;
+  world_ = cached->world;
+  voxel_size_m_ = cached->voxel_size_m;
   cache_ = ChunkCache(config_.bytes_max);
-  cache_.load(kept->chunks);
+  cache_.load(cached->chunks);
 }
 
 Rejoin::Opening Rejoin::open(const std::string& address, HelloMessage hello) {
   save();
   address_ = address;
-  if (keeps() && world_ == 0) load(std::nullopt);
+  if (enabled() && world_ == 0) load(std::nullopt);
   eye_m_ = hello.eye_m;
   radius_m_ = hello.interest_radius_m;
   hello.ticket = ticket_;
@@ -42,7 +42,7 @@ WelcomeMessage Rejoin::with_ground(const WelcomeMessage& welcome) {
     tiles_.reset();
   } else if (tiles_ == nullptr || tiles_->ground() != *welcome.heights) {
     tiles_ = std::make_shared<ReceivedTiles>(*welcome.heights,
-                                             TileFolder(keeps() ? folder_.path() : std::string()));
+                                             TileFolder(enabled() ? folder_.path() : std::string()));
   } else {
     tiles_->begin_session();
   }
@@ -61,7 +61,7 @@ std::unique_ptr<Mirror> Rejoin::begin(ServerChannel& connection) {
   ask_for_tiles(connection);
   ticket_ = welcome.ticket;
   to_pack_.clear();
-  if (!keeps()) return std::make_unique<Mirror>(welcome);
+  if (!enabled()) return std::make_unique<Mirror>(welcome);
   if (welcome.world != world_) {
     world_ = 0;
     offered_.clear();
@@ -92,21 +92,21 @@ void Rejoin::offer(const Mirror& mirror, ServerChannel& connection) {
 Result<void> Rejoin::before(const ServerMessage& message, Mirror& mirror) {
   if (const auto* tile = std::get_if<TileMessage>(&message)) {
     if (tiles_ == nullptr) return fail("a tile of a ground that has none");
-    TRY(tiles_->take(*tile));
+    TRY(tiles_->accept(*tile));
     if (tiles_->tiles_received() % limits::tiles_between_bounds == 0) folder_.bound();
   }
-  if (!keeps()) return {};
-  if (std::holds_alternative<ResetMessage>(message)) keep(mirror);
+  if (!enabled()) return {};
+  if (std::holds_alternative<ResetMessage>(message)) store(mirror);
   const auto* frame = std::get_if<FrameMessage>(&message);
   if (frame == nullptr) return {};
   if (!frame->dropped_chunks.empty()) offered_.clear();
   for (const ChunkCoord chunk : frame->dropped_chunks)
-    if (mirror.held_chunks().contains(chunk)) changed_ = cache_.keep(mirror.field(), chunk) || changed_;
+    if (mirror.held_chunks().contains(chunk)) changed_ = cache_.store(mirror.field(), chunk) || changed_;
   return {};
 }
 
 void Rejoin::after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection) {
-  if (!keeps() || !std::holds_alternative<ResetMessage>(message)) return;
+  if (!enabled() || !std::holds_alternative<ResetMessage>(message)) return;
   offered_.clear();
   offer(mirror, connection);
 }
@@ -115,52 +115,52 @@ void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChann
   eye_m_ = eye_m;
   radius_m_ = radius_m;
   connection.send(InterestMessage{eye_m, radius_m});
-  if (keeps()) offer(mirror, connection);
+  if (enabled()) offer(mirror, connection);
 }
 
 void Rejoin::tend(double now_s, Mirror& mirror, ServerChannel& connection) {
   ask_for_tiles(connection);
-  keep_chunks(now_s, mirror);
+  store_chunks(now_s, mirror);
 }
 
-void Rejoin::keep_chunks(double now_s, Mirror& mirror) {
-  if (!keeps()) return;
+void Rejoin::store_chunks(double now_s, Mirror& mirror) {
+  if (!enabled()) return;
   for (size_t packed = 0; packed < limits::chunks_packed_at_once && !to_pack_.empty();) {
     const ChunkCoord chunk = to_pack_.back();
     to_pack_.pop_back();
-    if (!mirror.held_chunks().contains(chunk) || !cache_.keep(mirror.field(), chunk)) continue;
+    if (!mirror.held_chunks().contains(chunk) || !cache_.store(mirror.field(), chunk)) continue;
     changed_ = true;
     ++packed;
   }
-  if (!to_pack_.empty() || now_s < next_keep_s_) return;
-  if (next_keep_s_ > 0.0) {
+  if (!to_pack_.empty() || now_s < next_store_s_) return;
+  if (next_store_s_ > 0.0) {
     to_pack_.assign(mirror.held_chunks().begin(), mirror.held_chunks().end());
     const bool busy =
         writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
     if (changed_ && !busy && !config_.folder.empty()) {
       changed_ = false;
       writing_ = std::async(std::launch::async, [folder = folder_, address = address_,
-                                                 kept = KeptWorld{world_, voxel_size_m_, cache_.all()}] {
-        folder.write(address, kept);
+                                                 cached = CachedWorld{world_, voxel_size_m_, cache_.all()}] {
+        folder.write(address, cached);
       });
     }
   }
-  next_keep_s_ = now_s + limits::keep_interval_s;
+  next_store_s_ = now_s + limits::cache_interval_s;
 }
 
-void Rejoin::keep(Mirror& mirror) {
-  if (!keeps()) return;
+void Rejoin::store(Mirror& mirror) {
+  if (!enabled()) return;
   size_t packed = 0;
   for (const ChunkCoord chunk : mirror.held_chunks()) {
     if (packed == limits::chunks_packed_at_end) break;
-    packed += cache_.keep(mirror.field(), chunk) ? 1 : 0;
+    packed += cache_.store(mirror.field(), chunk) ? 1 : 0;
   }
   changed_ = changed_ || packed > 0;
 }
 
 void Rejoin::finish(Mirror* mirror) {
   if (config_.folder.empty()) return;
-  if (mirror != nullptr) keep(*mirror);
+  if (mirror != nullptr) store(*mirror);
   save();
 }
 

@@ -55,7 +55,7 @@ class Rejoin {
   /// Whether the ground within the interest is known, as far as its heights go.
   bool has_near_ground() const { return tiles_ == nullptr || tiles_->has_near(eye_m_, radius_m_); }
   /// Keeps all that the mirror holds: its connection is lost.
-  void keep(Mirror& mirror);
+  void store(Mirror& mirror);
   /// Writes what is kept. Returns when it is written.
   void save();
   /// Before the program ends: keeps and writes what the mirror holds, if there is a folder. May be null.
@@ -66,13 +66,13 @@ class Rejoin {
   const ReceivedTiles* tiles() const { return tiles_.get(); }
 
  private:
-  bool keeps() const { return config_.bytes_max != 0; }
+  bool enabled() const { return config_.bytes_max != 0; }
   void load(std::optional<uint64_t> world);
   OfferMessage next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held);
   void offer(const Mirror& mirror, ServerChannel& connection);
   WelcomeMessage with_ground(const WelcomeMessage& welcome);
   void ask_for_tiles(ServerChannel& connection);
-  void keep_chunks(double now_s, Mirror& mirror);
+  void store_chunks(double now_s, Mirror& mirror);
 
   CacheConfig config_;
   CacheFolder folder_;
@@ -87,7 +87,7 @@ class Rejoin {
   std::vector<ChunkCoord> offered_;  ///< last, as far as the server may still know of it
   bool changed_ = false;             ///< since the last write
   std::vector<ChunkCoord> to_pack_;
-  double next_keep_s_ = 0.0;
+  double next_store_s_ = 0.0;
   std::future<void> writing_;
 };
 

@@ -69,9 +69,9 @@ struct Connection::Impl {
   void try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
                 const std::vector<ClientMessage>& first, const asio::error_code& before);
   void end(const std::string& why, const std::string& refusal = {});
-  void watch_silence();
+  void check_silence();
   void read();
-  void take_messages();
+  void queue_messages();
   void note_unknown();
   void enqueue(ServerMessage message, size_t bytes);
   void open_up();
@@ -79,7 +79,7 @@ struct Connection::Impl {
   void note_sent(size_t bytes);
   void write();
   void leave();
-  std::vector<Received> take_all();
+  std::vector<Received> page_out_all();
 };
 
 Result<void> Connection::Impl::start(const ServerEndpoint& server, const std::vector<ClientMessage>& first) {
@@ -161,12 +161,12 @@ void Connection::Impl::read() {
     }
     heard = Clock::now();
     intake.push(std::span<const uint8_t>(buffer).first(*moved));
-    take_messages();
+    queue_messages();
   });
 }
 
 /// Ends the connection when the server has fallen silent.
-void Connection::Impl::watch_silence() {
+void Connection::Impl::check_silence() {
   const std::chrono::duration<double> most(silent_seconds_max);
   silence.expires_after(std::chrono::duration_cast<Clock::duration>(most / 4));
   silence.async_wait([this, most](const asio::error_code& error) {
@@ -175,12 +175,12 @@ void Connection::Impl::watch_silence() {
     if (Clock::now() - heard > most)
       return end(fmt::format("the connection was lost: the server has been silent for {} s",
                              std::lround(most.count())));
-    watch_silence();
+    check_silence();
   });
 }
 
 /// Moves the reader's messages into the queue, as far as it has room; then continues to read.
-void Connection::Impl::take_messages() {
+void Connection::Impl::queue_messages() {
   while (!ended) {
     {
       const std::scoped_lock lock(mutex);
@@ -280,13 +280,13 @@ void Connection::Impl::leave() {
   push(encode(ClientMessage(GoodbyeMessage{})));
 }
 
-std::vector<Received> Connection::Impl::take_all() {
+std::vector<Received> Connection::Impl::page_out_all() {
   std::vector<Received> all;
   all.reserve(queue.size());
   for (Waiting& waiting : queue) all.push_back(std::move(waiting.received));
   queue.clear();
   queue_memory = 0;
-  if (starved) asio::post(context, [this] { take_messages(); });
+  if (starved) asio::post(context, [this] { queue_messages(); });
   starved = false;
   return all;
 }
@@ -314,7 +314,7 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
       return failed(impl->reason.message, impl->reason.refusal);
     }
     impl->context.restart();
-    if (!impl->ended) impl->watch_silence();
+    if (!impl->ended) impl->check_silence();
     impl->thread = std::thread([context = &impl->context] { context->run(); });
     return std::unique_ptr<Connection>(new Connection(std::move(impl)));
   } catch (const std::exception& error) {
@@ -333,7 +333,7 @@ const WelcomeMessage& Connection::welcome() const {
 
 std::vector<Received> Connection::poll() {
   const std::scoped_lock lock(impl_->mutex);
-  return impl_->take_all();
+  return impl_->page_out_all();
 }
 
 void Connection::await(std::chrono::milliseconds within) {
@@ -388,13 +388,13 @@ void Connection::leave() {
 void Connection::pause_reading(bool pause) {
   asio::post(impl_->context, [impl = impl_.get(), pause] {
     impl->paused = pause;
-    if (!pause) impl->take_messages();
+    if (!pause) impl->queue_messages();
   });
 }
 
-void Connection::cut() {
+void Connection::abort() {
   asio::post(impl_->context, [impl = impl_.get()] {
-    if (!impl->ended) impl->transport->cut();
+    if (!impl->ended) impl->transport->abort();
     impl->end("cut here");
   });
 }

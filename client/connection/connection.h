@@ -44,10 +44,10 @@ class Connection final : public ServerChannel {
   void close();
   void leave() override;
 
-  /// For tests: pause_reading() stops reading the socket, as a stuck client does; cut() ends the connection
+  /// For tests: pause_reading() stops reading the socket, as a stuck client does; abort() ends the connection
   /// without closing it in order, as a lost link does.
   void pause_reading(bool pause);
-  void cut();
+  void abort();
 
  private:
   struct Impl;

@@ -62,7 +62,7 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
 }
 
 /// A colon divides host and port, unless it is one of several without brackets: an IPv6 address alone.
-Result<void> EndpointOptions::take_server() {
+Result<void> EndpointOptions::parse_server() {
   const size_t colon = server_.rfind(':');
   const bool bracketed = server_.starts_with('[');
   const bool has_port = colon != std::string::npos &&
@@ -83,7 +83,7 @@ Result<void> EndpointOptions::take_server() {
 }
 
 Result<void> EndpointOptions::complete() {
-  if (names_server()) TRY(take_server());
+  if (names_server()) TRY(parse_server());
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
   if (!link_.empty()) {
     const auto link = read_link(link_);

@@ -32,7 +32,7 @@ class EndpointOptions {
   bool names_server() const { return !server_.empty(); }
 
  private:
-  Result<void> take_server();
+  Result<void> parse_server();
 
   ServerEndpoint& endpoint_;
   std::string server_;

@@ -21,13 +21,13 @@ tl::expected<std::optional<Intake::Next>, ConnectionEnd> Intake::next() {
     Result<ServerMessage> message = decode_server(**bytes);
     if (!message) return end("what the server sent is not this protocol: " + message.error().message);
     if (std::holds_alternative<UnknownMessage>(*message)) continue;
-    if (tl::expected<void, ConnectionEnd> fits = look_at(*message); !fits)
+    if (tl::expected<void, ConnectionEnd> fits = inspect(*message); !fits)
       return tl::unexpected(fits.error());
     return Next{std::move(*message), (*bytes)->size() + length_prefix_bytes};
   }
 }
 
-tl::expected<void, ConnectionEnd> Intake::look_at(const ServerMessage& message) {
+tl::expected<void, ConnectionEnd> Intake::inspect(const ServerMessage& message) {
   if (const auto* refusal = std::get_if<RefusalMessage>(&message))
     return end("the server refused: " + refusal->reason, refusal->name);
   const auto* first = std::get_if<WelcomeMessage>(&message);

@@ -33,7 +33,7 @@ class Intake {
   bool sends_frames() const { return sends_frames_; }
 
  private:
-  tl::expected<void, ConnectionEnd> look_at(const ServerMessage& message);
+  tl::expected<void, ConnectionEnd> inspect(const ServerMessage& message);
 
   FrameReader reader_;
   std::optional<WelcomeMessage> welcome_;

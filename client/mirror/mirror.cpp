@@ -43,8 +43,8 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   return *this;
 }
 
-Mirror::Mirror(const WelcomeMessage& welcome, KeptChunks kept)
-    : kept_(std::move(kept)),
+Mirror::Mirror(const WelcomeMessage& welcome, FindCachedChunk find_cached)
+    : find_cached_(std::move(find_cached)),
       field_(welcome.terrain),
       known_motions_(motion_rules(welcome.tick_rate_hz, welcome.ticks_per_transform),
                      welcome.terrain.voxel_size_m),
@@ -60,8 +60,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const RefusalMessage& refusal) -> Done { return fail("the server refused: " + refusal.reason); },
           [&](const FrameMessage& frame) { return apply_frame(frame, changes); },
           [&](const ChunkMessage& chunk) { return apply_chunk(chunk, changes); },
-          [&](const KeptMessage& kept) -> Done {
-            apply_kept(kept, changes);
+          [&](const UnchangedChunksMessage& unchanged) -> Done {
+            apply_unchanged(unchanged, changes);
             return {};
           },
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
@@ -202,7 +202,7 @@ void Mirror::check(const FrameMessage& frame, const ChunkSet& changed) {
   }
 }
 
-std::optional<RepairMessage> Mirror::take_repair_request() {
+std::optional<RepairMessage> Mirror::next_repair_request() {
   if (mismatched_.empty()) return std::nullopt;
   RepairMessage request;
   request.tick = mismatched_.begin()->second.tick;
@@ -313,10 +313,10 @@ void Mirror::forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& ch
 }
 
 /// Where what was kept is not what the server takes it for, its hash is sent, and the chunk comes whole.
-void Mirror::apply_kept(const KeptMessage& message, MirrorChanges& changes) {
+void Mirror::apply_unchanged(const UnchangedChunksMessage& message, MirrorChanges& changes) {
   for (size_t i = 0; i < message.chunks.size(); ++i) {
     const ChunkCoord chunk = message.chunks[i];
-    replace_chunk(chunk, kept_ ? kept_(chunk) : std::vector<BrickPatch>(), changes);
+    replace_chunk(chunk, find_cached_ ? find_cached_(chunk) : std::vector<BrickPatch>(), changes);
     held_.insert(chunk);
     repairs_awaited_.erase(chunk);
     ++counters_.chunks_kept;

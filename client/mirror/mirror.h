@@ -67,12 +67,12 @@ struct MirrorCounters {
 };
 
 /// The edits of a chunk that the client has kept from earlier; empty when it has none.
-using KeptChunks = std::function<std::vector<BrickPatch>(ChunkCoord)>;
+using FindCachedChunk = std::function<std::vector<BrickPatch>(ChunkCoord)>;
 
 class Mirror {
  public:
-  /// `kept`: what was offered to the server.
-  explicit Mirror(const WelcomeMessage& welcome, KeptChunks kept = {});
+  /// `find_cached`: what was offered to the server.
+  explicit Mirror(const WelcomeMessage& welcome, FindCachedChunk find_cached = {});
 
   /// Applies one message. A message that cannot be applied (unknown piece, wrong base) is an error: the
   /// mirror cannot be used any more, and the caller connects again.
@@ -80,7 +80,7 @@ class Mirror {
 
   /// Takes the next request to send to the server, of chunks whose frame had another check. Call until there
   /// is nothing.
-  std::optional<RepairMessage> take_repair_request();
+  std::optional<RepairMessage> next_repair_request();
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
   /// Pose at a (fractional) tick, clamped to the known poses.
@@ -119,7 +119,7 @@ class Mirror {
   Result<void> apply_motions(const std::vector<uint8_t>& motions, Tick tick);
   void move_piece(PieceMotion& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
-  void apply_kept(const KeptMessage& message, MirrorChanges& changes);
+  void apply_unchanged(const UnchangedChunksMessage& message, MirrorChanges& changes);
   Result<void> apply_part(const ChunkMessage& message, MirrorChanges& changes);
   void forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& changes);
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
@@ -135,7 +135,7 @@ class Mirror {
   void remove_piece(PieceId id, MirrorChanges& changes);
   void count(const Operation& operation);
 
-  KeptChunks kept_;
+  FindCachedChunk find_cached_;
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses

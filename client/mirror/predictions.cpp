@@ -99,7 +99,7 @@ void Predictions::notice(const ServerMessage& message) {
   if (predictions_.empty()) return;
   if (const auto* reply = std::get_if<ReplyMessage>(&message))
     return remove([&](const Prediction& prediction) { return prediction.request == reply->request; });
-  if (std::holds_alternative<ResetMessage>(message)) return take_back();
+  if (std::holds_alternative<ResetMessage>(message)) return revert();
   const auto* frame = std::get_if<FrameMessage>(&message);
   if (frame == nullptr) return;
   remove([&](const Prediction& prediction) {
@@ -109,7 +109,7 @@ void Predictions::notice(const ServerMessage& message) {
   });
 }
 
-void Predictions::take_back() {
+void Predictions::revert() {
   remove([](const Prediction&) { return true; });
 }
 

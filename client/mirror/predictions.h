@@ -32,7 +32,7 @@ class Predictions {
   /// Looks for answers in a message that the mirror has just applied.
   void notice(const ServerMessage& message);
   /// Takes all back.
-  void take_back();
+  void revert();
   /// Call after the mirror's changes, once a frame. `changes`: the mirror's since the last call; adds what
   /// the predictions change.
   void settle(double now_s, MirrorChanges& changes);

@@ -26,7 +26,7 @@ namespace {
 const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
 
 /// The far plane, in reaches: beyond the terrain that a method keeps, and the corners of its box.
-constexpr float far_per_reach = limits::view_radius_keep * 2.0F;
+constexpr float far_per_reach = limits::view_radius_hysteresis * 2.0F;
 
 std::string describe() {
   const auto text = [](GLenum what) {

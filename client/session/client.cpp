@@ -32,7 +32,7 @@ void Client::join(const HelloMessage& hello, double now_s) {
 
 void Client::drop() {
   if (!channel_) return;
-  rejoin_.keep(*mirror_);
+  rejoin_.store(*mirror_);
   counters_ = channel_->counters();
   channel_.reset();
   over_ = false;
@@ -68,7 +68,7 @@ void Client::receive() {
 
 std::optional<Client::Event> Client::next() {
   if (!channel_) {
-    std::optional<Connector::Attempt> attempt = joining() ? connector_->take(now_s_) : std::nullopt;
+    std::optional<Connector::Attempt> attempt = joining() ? connector_->poll(now_s_) : std::nullopt;
     if (!attempt) return std::nullopt;
     if (!attempt->channel) return Lost{attempt->end};
     return begin(std::move(attempt->channel));
@@ -80,7 +80,7 @@ std::optional<Client::Event> Client::next() {
 }
 
 std::optional<Received> Client::next_due() {
-  return delayed_ ? playback_.take_next(now_s_) : playback_.take_first();
+  return delayed_ ? playback_.pop_next(now_s_) : playback_.take_first();
 }
 
 Client::Joined Client::begin(std::unique_ptr<ServerChannel> channel) {
@@ -98,7 +98,8 @@ Client::Joined Client::begin(std::unique_ptr<ServerChannel> channel) {
 
 Client::Event Client::apply(Received received) {
   const ServerMessage& message = received.message;
-  if (std::holds_alternative<ChunkMessage>(message) || std::holds_alternative<KeptMessage>(message) ||
+  if (std::holds_alternative<ChunkMessage>(message) ||
+      std::holds_alternative<UnchangedChunksMessage>(message) ||
       std::holds_alternative<ResetMessage>(message))
     last_chunk_s_ = now_s_;
   const Result<void> taken = rejoin_.before(message, *mirror_);
@@ -106,7 +107,7 @@ Client::Event Client::apply(Received received) {
   if (!changes) return lose({{"what the server sent cannot be applied: " + changes.error().message}, {}});
   predictions_->notice(message);
   rejoin_.after(message, *mirror_, *channel_);
-  while (const std::optional<RepairMessage> repair = mirror_->take_repair_request()) channel_->send(*repair);
+  while (const std::optional<RepairMessage> repair = mirror_->next_repair_request()) channel_->send(*repair);
   return Applied{std::move(received), std::move(*changes)};
 }
 
@@ -164,7 +165,7 @@ void Client::foresee(const Request& request, uint32_t number, double now_s) {
 
 void Client::settle(double now_s, MirrorChanges& changes) {
   if (!predictions_) return;
-  if (!channel_ || !predict_) predictions_->take_back();
+  if (!channel_ || !predict_) predictions_->revert();
   predictions_->settle(now_s, changes);
 }
 

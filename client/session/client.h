@@ -107,7 +107,7 @@ class Client {
   /// The tick, with its fraction, at which pieces are to be drawn; for delayed messages.
   double draw_tick(double now_s) { return playback_.draw_tick(now_s); }
   /// The cache, and the tiles of the ground.
-  const Rejoin& kept() const { return rejoin_; }
+  const Rejoin& rejoin() const { return rejoin_; }
   /// The server, for people.
   std::string where() const { return connector_->where(); }
 

@@ -44,7 +44,7 @@ double Playback::clock(double now_s) {
   return clock_;
 }
 
-std::optional<Received> Playback::take_next(double now_s) {
+std::optional<Received> Playback::pop_next(double now_s) {
   overfull_ = !waiting_.empty() && (overfull_ || waiting_.size() > limits::playback_messages_max);
   if (waiting_.empty()) return std::nullopt;
   const auto* frame = std::get_if<FrameMessage>(&waiting_.front().message);

@@ -19,10 +19,10 @@ class Playback {
   void start(const WelcomeMessage& welcome);
   void push(Received received);
   /// The next message that is due, in order; nothing when none is.
-  std::optional<Received> take_next(double now_s);
+  std::optional<Received> pop_next(double now_s);
   /// The next message, due or not.
   std::optional<Received> take_first();
-  /// The tick (with its fraction) at which pieces are drawn now. It is behind the frames that take_next()
+  /// The tick (with its fraction) at which pieces are drawn now. It is behind the frames that pop_next()
   /// returned by the interval of the transforms, so that the poses before and after it are known.
   double draw_tick(double now_s);
 

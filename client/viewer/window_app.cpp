@@ -32,14 +32,14 @@ std::string new_file(const char* what, const char* ending) {
 
 }  // namespace
 
-WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept)
+WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded)
     : window_(window),
       viewing_(viewing),
       screen_(window),
-      choice_(kept.hud),
-      hand_(kept.hand),
-      overlay_(kept.overlay),
-      tool_(kept.tool),
+      choice_(loaded.hud),
+      hand_(loaded.hand),
+      overlay_(loaded.overlay),
+      tool_(loaded.tool),
       method_options_(viewing.options.method_options),
       particles_(viewing.options.particles),
       predict_(viewing.options.predict),
@@ -136,7 +136,7 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     change_hand(action, now_s);
     act_on_view(action);
     viewing_.session.timeline().act(action);
-    if (action == Action::next_eye && !whereabouts_.look_through_next(viewing_.session, now_s))
+    if (action == Action::next_eye && !whereabouts_.follow_next_eye(viewing_.session, now_s))
       say("there is nobody here through whose eye to look", now_s);
     if (action == Action::walk) {
       whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
@@ -206,26 +206,26 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
 Result<void> WindowApp::frame() {
   AppInput input = window_.poll();
   const double now_s = steady_now_s();
-  input.fly.look *= hand_.mouse_speed;
+  input.fly.turn *= hand_.mouse_speed;
   viewing_.camera.field_of_view = glm::radians(hand_.field_of_view_degrees);
   whereabouts_.step(viewing_.camera, input.fly, input.elapsed_s, viewing_.session, now_s);
   if (viewing_.options.path) follow_path(now_s);
   record_path(now_s);
   TRY(act(input, now_s));
   FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
-  Stopwatch watch;
+  Stopwatch stopwatch;
   TRY(viewing_.step(now_s));
-  parts.update_ms = static_cast<float>(watch.lap_ms());
+  parts.update_ms = static_cast<float>(stopwatch.lap_ms());
   if (!window_.minimised()) {
     View& view = *viewing_.view;
     view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
                          viewing_.lines(tool_, overlay_, eye().person(), now_s));
-    parts.draw_ms = static_cast<float>(watch.lap_ms());
+    parts.draw_ms = static_cast<float>(stopwatch.lap_ms());
     TRY(draw_hud(parts, now_s));
   }
   window_.show_frame();
   if (!window_.minimised()) choose_quality(parts.frame_ms, now_s);
-  return viewing_.take_due(now_s);
+  return viewing_.shoot_due(now_s);
 }
 
 Settings WindowApp::settings() const {
@@ -246,8 +246,8 @@ Settings WindowApp::settings() const {
 namespace {
 
 Result<void> run(ViewerOptions options) {
-  const KeptSettings kept(settings_file());
-  apply_settings(kept.loaded(), options);
+  const SettingsFile settings_file(settings_file());
+  apply_settings(settings_file.loaded(), options);
   const Result<std::unique_ptr<AppWindow>> window =
       AppWindow::open(options.width, options.height, options.gl_debug);
   if (!window) return fail(window.error().message);
@@ -255,10 +255,10 @@ Result<void> run(ViewerOptions options) {
   if (!options.given.method && options.method->missing()) options.method = &all_methods().front();
   const Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options);
   if (!viewing) return fail(viewing.error().message);
-  WindowApp app(**window, **viewing, kept.loaded());
+  WindowApp app(**window, **viewing, settings_file.loaded());
   const Settings start = app.settings();
   while (!(*window)->should_close()) TRY(app.frame());
-  kept.keep(start, app.settings());
+  settings_file.save(start, app.settings());
   return (*viewing)->finish();
 }
 

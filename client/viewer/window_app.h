@@ -16,7 +16,7 @@ namespace scree {
 class WindowApp {
  public:
   /// `window` and `viewing` must outlive the app.
-  WindowApp(AppWindow& window, Viewing& viewing, const Settings& kept);
+  WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded);
 
   /// From the person's input to the picture.
   Result<void> frame();

@@ -147,7 +147,7 @@ int scree_set_token(const char* token) {
 int scree_set_camera(const char* text) {
   Result<Camera> place = parse_camera(text);
   if (!place) return 0;
-  client().visit().look_from(*place);
+  client().visit().place_camera(*place);
   return 1;
 }
 
@@ -204,7 +204,7 @@ int scree_set_overlay(int on) {
 // ---- the hand
 
 void scree_look(float right, float down) {
-  if (std::isfinite(right) && std::isfinite(down)) client().input.look(right, down);
+  if (std::isfinite(right) && std::isfinite(down)) client().input.turn(right, down);
 }
 
 void scree_move(float right, float up, float forward, int fast) {
@@ -242,7 +242,7 @@ int scree_act(const char* action) {
 }
 
 const char* scree_asked() {
-  page().asked = actions_text(client().take_asked());
+  page().asked = actions_text(client().drain_asked());
   return page().asked.c_str();
 }
 

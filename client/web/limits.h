@@ -35,7 +35,7 @@ inline constexpr size_t page_message_bytes_max = size_t{32} << 20;
 inline constexpr size_t page_cache_bytes = size_t{16} << 20;
 
 /// Frames whose times the figures are of: two seconds at 60 a second.
-inline constexpr size_t page_frames_kept = 120;
+inline constexpr size_t page_frames_max = 120;
 
 /// Longest frame that moves the camera, seconds: a page that was hidden does not jump.
 inline constexpr float page_elapsed_max_s = 0.25F;

@@ -4,11 +4,11 @@
 
 namespace scree {
 
-std::optional<KeptWorld> CacheFolder::read(const std::string&, std::optional<uint64_t>) const {
+std::optional<CachedWorld> CacheFolder::read(const std::string&, std::optional<uint64_t>) const {
   return std::nullopt;
 }
 
-void CacheFolder::write(const std::string&, const KeptWorld&) const {}
+void CacheFolder::write(const std::string&, const CachedWorld&) const {}
 
 void CacheFolder::bound() const {}
 

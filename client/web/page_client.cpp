@@ -53,7 +53,7 @@ void PageClient::act(Action action, double now_s) {
     case Action::walk:
       return whereabouts_.walk_or_fly(visit_.camera, visit_.session);
     case Action::next_eye:
-      static_cast<void>(whereabouts_.look_through_next(visit_.session, now_s));
+      static_cast<void>(whereabouts_.follow_next_eye(visit_.session, now_s));
       return;
     case Action::next_method:
       // It is one that this context can draw.
@@ -88,8 +88,8 @@ Result<void> PageClient::frame() {
   const double elapsed_s = last_s_ ? now_s - *last_s_ : 0.0;
   last_s_ = now_s;
   const float moved_s = std::min(static_cast<float>(elapsed_s), limits::page_elapsed_max_s);
-  PageIntents intents = input.take(moved_s);
-  intents.fly.look *= hand.mouse_speed;
+  PageIntents intents = input.drain(moved_s);
+  intents.fly.turn *= hand.mouse_speed;
   visit_.camera.field_of_view = glm::radians(hand.field_of_view_degrees);
   whereabouts_.step(visit_.camera, intents.fly, moved_s, visit_.session, now_s);
   for (const Action action : intents.actions) act(action, now_s);
@@ -97,14 +97,14 @@ Result<void> PageClient::frame() {
   if (intents.strike) visit_.session.strike(tool, visit_.camera.eye_m, visit_.camera.forward(), now_s);
   visit_.show_particles(particles);
   visit_.session.predict(predicts);
-  Stopwatch watch;
+  Stopwatch stopwatch;
   if (stepped_) stepped_ = visit_.step(now_s);
   if (!stepped_) return stepped_;
-  const double update_ms = watch.lap_ms();
+  const double update_ms = stopwatch.lap_ms();
   if (width_ > 0 && height_ > 0)
     visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
                                  visit_.lines(tool, overlay, whereabouts_.eye().person(), now_s));
-  note(elapsed_s * 1000.0, update_ms, watch.lap_ms());
+  note(elapsed_s * 1000.0, update_ms, stopwatch.lap_ms());
   if (visit_.view->work_for(0.0)) work_later();
   if (visit_.session.timeline().is_known() && visit_.session.timeline().marks() != marks_) {
     marks_ = visit_.session.timeline().marks();
@@ -129,7 +129,7 @@ void PageClient::work() {
 
 void PageClient::note(double elapsed_ms, double update_ms, double draw_ms) {
   if (elapsed_ms > 0.0) frames_ms_.push_back(static_cast<float>(elapsed_ms));
-  if (frames_ms_.size() > limits::page_frames_kept) frames_ms_.pop_front();
+  if (frames_ms_.size() > limits::page_frames_max) frames_ms_.pop_front();
   times_.last = elapsed_ms;
   times_.update = update_ms;
   times_.draw = draw_ms;

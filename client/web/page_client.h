@@ -38,7 +38,7 @@ class PageClient {
   void set_token(const std::string& token) { connector_->set_token(token); }
   Result<void> choose_method(const MethodEntry& entry) { return visit_.view->methods().choose(entry); }
   /// Actions that are the page's to do; takes them.
-  std::vector<Action> take_asked() { return std::exchange(asked_, {}); }
+  std::vector<Action> drain_asked() { return std::exchange(asked_, {}); }
   FrameTimes frame_times() const;
   HudFacts facts();
   float aspect() const;

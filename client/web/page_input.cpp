@@ -102,7 +102,7 @@ void PageInput::pad(const PadState& sticks, uint32_t pressed) {
       pad_->buttons |= 1U << static_cast<unsigned>(standard_buttons[i]);
 }
 
-PageIntents PageInput::take(float elapsed_s) {
+PageIntents PageInput::drain(float elapsed_s) {
   const auto axis = [this](int plus, int minus) {
     return static_cast<float>(is_down(plus)) - static_cast<float>(is_down(minus));
   };
@@ -110,7 +110,7 @@ PageIntents PageInput::take(float elapsed_s) {
   intents.fly.move = move_ + glm::vec3(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_SPACE, GLFW_KEY_C),
                                        axis(GLFW_KEY_W, GLFW_KEY_S));
   intents.fly.fast = fast_ || is_down(GLFW_KEY_LEFT_SHIFT);
-  intents.fly.look = std::exchange(look_, glm::vec2(0.0F));
+  intents.fly.turn = std::exchange(turn_, glm::vec2(0.0F));
   intents.strike = std::exchange(strike_, false);
   intents.wheel = std::exchange(wheel_, 0.0F);
   intents.actions = std::exchange(actions_, {});

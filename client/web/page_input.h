@@ -22,7 +22,7 @@ struct PageIntents {
 class PageInput {
  public:
   /// Pixels as the native viewer counts them.
-  void look(float right, float down) { look_ += glm::vec2(right, down); }
+  void turn(float right, float down) { turn_ += glm::vec2(right, down); }
   void move(const glm::vec3& way, bool fast);
   void strike() { strike_ = true; }
   void grow(float notches) { wheel_ += notches; }
@@ -33,12 +33,12 @@ class PageInput {
   /// As of the W3C's standard mapping; triggers from 0 to 1.
   void pad(const PadState& sticks, uint32_t standard_buttons);
 
-  PageIntents take(float elapsed_s);
+  PageIntents drain(float elapsed_s);
 
  private:
   bool is_down(int key) const { return down_.contains(key); }
 
-  glm::vec2 look_{0.0F};
+  glm::vec2 turn_{0.0F};
   glm::vec3 move_{0.0F};
   bool fast_ = false;
   bool strike_ = false;

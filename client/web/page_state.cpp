@@ -173,7 +173,7 @@ Json draw_json(PageClient& client, const HudFacts& facts) {
           {"draws", facts.draw.draws},
           {"triangles", facts.draw.triangles},
           {"pieces", facts.draw.pieces},
-          {"kept", facts.draw.kept},
+          {"kept", facts.draw.resident},
           {"waiting", facts.draw.waiting},
           {"driver", facts.driver},
           {"gl_errors", renderer.gl_errors()},

@@ -31,7 +31,7 @@ PageSocket& page_socket() {
 using namespace scree;
 
 int scree_socket_wish() {
-  switch (page_socket().take_wish()) {
+  switch (page_socket().pop_wish()) {
     case PageSocket::Wish::nothing:
       return 0;
     case PageSocket::Wish::open:
@@ -60,7 +60,7 @@ void scree_received(uint32_t bytes) {
 }
 
 uint32_t scree_outgoing() {
-  buffers().outgoing = page_socket().take_outgoing();
+  buffers().outgoing = page_socket().drain_outgoing();
   return static_cast<uint32_t>(buffers().outgoing.size());
 }
 

@@ -48,13 +48,13 @@ std::vector<Received> SocketChannel::poll() {
     if (!next) break;
     taken.push_back(std::move(*next));
   }
-  socket_.watch_silence(Clock::now());
+  socket_.check_silence(Clock::now());
   return taken;
 }
 
 }  // namespace
 
-PageSocket::Wish PageSocket::take_wish() {
+PageSocket::Wish PageSocket::pop_wish() {
   if (std::exchange(must_close_, false)) return Wish::close;
   if (state_ != State::wanted) return Wish::nothing;
   state_ = State::opening;
@@ -89,7 +89,7 @@ void PageSocket::received(std::span<const uint8_t> bytes) {
   arrived_.push_back({{bytes.begin(), bytes.end()}, heard_});
 }
 
-std::vector<uint8_t> PageSocket::take_outgoing() {
+std::vector<uint8_t> PageSocket::drain_outgoing() {
   if (state_ != State::open) return {};
   return std::exchange(outgoing_, {});
 }
@@ -152,7 +152,7 @@ ConnectionCounters PageSocket::counters() const {
   return counters;
 }
 
-void PageSocket::watch_silence(Clock::time_point now) {
+void PageSocket::check_silence(Clock::time_point now) {
   if (state_ != State::open || !intake_.sends_frames() || !arrived_.empty()) return;
   const double silent_s = std::chrono::duration<double>(now - heard_).count();
   if (silent_s > limits::silent_seconds_max)
@@ -172,7 +172,7 @@ void SocketConnector::begin(Rejoin& rejoin, const HelloMessage& hello, double no
   until_s_ = now_s + limits::page_join_s;
 }
 
-std::optional<Connector::Attempt> SocketConnector::take(double now_s) {
+std::optional<Connector::Attempt> SocketConnector::poll(double now_s) {
   if (!busy_) return std::nullopt;
   const std::optional<Received> first = socket_.next();  // only a welcome can be
   if (!first && !socket_.is_closed() && now_s > until_s_)

@@ -26,12 +26,12 @@ class PageSocket {
   // ---- the page's calls
 
   /// What it is to do with its socket; each wish is told once.
-  Wish take_wish();
+  Wish pop_wish();
   void opened();
   void closed(const std::string& why);
   void received(std::span<const uint8_t> bytes);
   /// The bytes to be sent now, as one binary message; takes them.
-  std::vector<uint8_t> take_outgoing();
+  std::vector<uint8_t> drain_outgoing();
 
   // ---- a connection's calls
 
@@ -48,7 +48,7 @@ class PageSocket {
   const Intake& intake() const { return intake_; }
   ConnectionCounters counters() const;
   /// Ends the connection when the server has fallen silent.
-  void watch_silence(std::chrono::steady_clock::time_point now);
+  void check_silence(std::chrono::steady_clock::time_point now);
 
  private:
   enum class State { closed, wanted, opening, open };
@@ -80,7 +80,7 @@ class SocketConnector final : public Connector {
   void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) override;
   bool busy() const override { return busy_; }
   void await(std::chrono::milliseconds /*within*/) override {}
-  std::optional<Attempt> take(double now_s) override;
+  std::optional<Attempt> poll(double now_s) override;
   std::string where() const override { return where_; }
 
  private:

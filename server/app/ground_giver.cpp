@@ -21,11 +21,11 @@ GroundGiver ground_giver(const std::string& path, const WorldConfig& given) {
 Result<GroundGiver> ground_giver(const std::string& path, const std::string& ground_path) {
   WorldConfig given;
   if (ground_path.empty()) return ground_giver(path, given);
-  TRY(take_ground(ground_path, given));
+  TRY(set_ground(ground_path, given));
   return ground_giver(path, given);
 }
 
-Result<void> take_ground(const std::string& ground_path, WorldConfig& config) {
+Result<void> set_ground(const std::string& ground_path, WorldConfig& config) {
   auto file = TRY(GroundFile::open(ground_path));
   // Bricks are of one size; another one that is asked for is refused by name.
   const auto& bricks = file->bricks();

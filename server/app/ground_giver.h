@@ -16,7 +16,7 @@ GroundGiver ground_giver(const std::string& path, const WorldConfig& given);
 Result<GroundGiver> ground_giver(const std::string& path, const std::string& ground_path);
 
 /// Opens a ground file as the terrain of a configuration.
-Result<void> take_ground(const std::string& ground_path, WorldConfig& config);
+Result<void> set_ground(const std::string& ground_path, WorldConfig& config);
 
 /// For programs: the ground's hash, or the name of the kind that generates it.
 std::string terrain_text(const Digest& ground, const TerrainSource& terrain);

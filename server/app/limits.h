@@ -14,7 +14,7 @@ inline constexpr int catch_up_ticks_max = 5;
 inline constexpr int ahead_chunks = 4;
 
 /// Chunks that a tick tests for being generated: a few microseconds.
-inline constexpr size_t ahead_looks_per_tick = 64;
+inline constexpr size_t ahead_chunks_per_tick = 64;
 
 /// Chunks that edits wait for at once, to be generated: some two seconds' work. Above: more are asked for
 /// when these have come.
@@ -24,11 +24,11 @@ inline constexpr size_t ahead_asked_max = 1024;
 inline constexpr double generated_wait_s = 0.25;
 
 /// Chunks that a tick tests for being out of memory, around eyes: some 10 us. The radius is ahead_chunks.
-inline constexpr size_t pager_looks_per_tick = 128;
+inline constexpr size_t pager_chunks_per_tick = 128;
 
 /// A piece is looked at every so many ticks, where it is and where it will be so many ticks later: reading a
 /// chunk takes less.
-inline constexpr unsigned piece_look_ticks = 8;
+inline constexpr unsigned piece_forecast_ticks = 8;
 inline constexpr unsigned piece_ahead_ticks = 30;
 
 /// Places of pieces that are gone are forgotten when there are more than so many.
@@ -44,7 +44,7 @@ inline constexpr size_t page_in_per_tick = 16;
 
 /// Ticks between two looks for chunks that nobody needs, at least, and between two counts of the regions of
 /// OpenVDB's tree: each looks at all chunks in memory.
-inline constexpr uint64_t pager_look_ticks = 8;
+inline constexpr uint64_t idle_scan_ticks = 8;
 inline constexpr unsigned pager_count_ticks = 64;
 
 /// Share of memory-max that the process should leave free in RAM. Above: malloc gives back what it holds for
@@ -65,19 +65,19 @@ inline constexpr int heap_block_bytes = 4 * 1024 * 1024;
 
 /// Seconds of ticks between two looks of the governor; in so many looks, ticks must be lost so many times
 /// before the simulation may take only so many percent of what it took. Once may be anything.
-inline constexpr double governor_look_s = 0.5;
-inline constexpr size_t governor_looks = 8;
+inline constexpr double governor_interval_s = 0.5;
+inline constexpr size_t governor_intervals = 8;
 inline constexpr uint32_t governor_losses_min = 2;
 inline constexpr uint32_t governor_lower_percent = 80;
 
 /// Looks in a row without a lost tick, and with no greater share of late ones, after which it may take so
 /// much more of a tick's length, percent.
-inline constexpr uint32_t governor_calm_looks = 4;
+inline constexpr uint32_t governor_calm_intervals = 4;
 inline constexpr double governor_late_share = 0.2;
 inline constexpr uint32_t governor_raise_percent = 5;
 
 /// Milliseconds between two looks at what the process has in RAM.
-inline constexpr int resident_look_ms = 500;
+inline constexpr int resident_sample_ms = 500;
 
 /// Seconds that an edit waits for its terrain to be read, or for room in memory. Above: it is refused.
 inline constexpr double held_seconds_max = 5.0;

@@ -37,7 +37,7 @@ void LiveEvents::note(Event event) {
   if (noted_.size() < limits::noted_events_max) noted_.push_back(std::move(event));
 }
 
-std::vector<Event> LiveEvents::take(const TickDelta& delta) {
+std::vector<Event> LiveEvents::drain(const TickDelta& delta) {
   std::vector<Event> machine;
   {
     const std::scoped_lock lock(mutex_);

@@ -24,7 +24,7 @@ class LiveEvents {
   void note(Event event);
 
   /// The machine's events up to this tick, the next one; logs these and the world's.
-  std::vector<Event> take(const TickDelta& delta);
+  std::vector<Event> drain(const TickDelta& delta);
 
   const std::string& path() const { return path_; }
   EventLog::Status status() const { return log_ ? log_->status() : EventLog::Status{}; }

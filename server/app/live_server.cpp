@@ -26,12 +26,12 @@ Saving LiveServer::State::saving() const {
 
 /// Once a tick: how the world is kept, and where its terrain is.
 void LiveServer::State::tell() {
-  const KeeperStatus status = kept->status();
+  const SaverStatus status = saved_world->status();
   const PagerStatus paged = pager->status();
   Saving now;
   now.how = status.given_up ? "failed" : std::string(row_of(config.durability).name);
   now.tick = status.saved_tick;
-  if (kept->is_temporary()) now = {};
+  if (saved_world->is_temporary()) now = {};
   if (feed->world()->tick() % config.world.tick_rate_hz == 0)
     read_last_second =
         static_cast<uint32_t>(paged.chunks_read - std::exchange(read_before, paged.chunks_read));
@@ -62,7 +62,7 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
                                std::vector<Event> noted) {
   auto part = begin_part(*delta);
   std::optional<std::vector<PlayerCursor>> cursors;
-  if (delta->tick % ticks_per_watch == 0) cursors = net->cursors();
+  if (delta->tick % ticks_per_physics == 0) cursors = net->cursors();
   recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part),
                  std::move(cursors));
   if (record_failed) return;
@@ -91,23 +91,23 @@ bool sets_work_percent(const Command& command) {
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
   const double cpu_before_s = thread_cpu_s();
-  Stopwatch watch;
+  Stopwatch stopwatch;
   Admitted admitted{commands.drain(), {}};
   if (World* world = feed->world()) {
-    world->watch(net->is_watched());
+    world->want_physics(net->wants_physics());
     ahead->serve(world->field(), net->eyes_m());
     pager->begin_tick();
     // Steps by hand do not wait for a thread.
     TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
-    admitted =
-        admission.admit(std::move(admitted.commands), {*world, *pager, generator, !kept->status().error});
+    admitted = admission.admit(std::move(admitted.commands),
+                               {*world, *pager, generator, !saved_world->status().error});
   }
   const bool is_chosen = std::ranges::any_of(admitted.commands, sets_work_percent);
   if (work_percent_next && !is_chosen)
     admitted.commands.push_back(
         {0, 0, SettingsRequest{{{"work-percent", std::to_string(*work_percent_next)}}}});
   work_percent_next.reset();
-  const double terrain_in_ms = watch.lap_ms();
+  const double terrain_in_ms = stopwatch.lap_ms();
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
@@ -124,11 +124,11 @@ bool LiveServer::State::step() {
   }
   if (governor && is_chosen) governor->chosen(feed->world()->config().work_percent);
   if (trace) trace_tick(*trace, begin, *delta);
-  std::vector<Event> noted = events ? events->take(*delta) : std::vector<Event>();
+  std::vector<Event> noted = events ? events->drain(*delta) : std::vector<Event>();
   if (recorder) record(delta, std::move(admitted.commands), std::move(noted));
-  watch.lap_ms();
-  if (kept) delta = keep(std::move(delta), std::move(admitted.refused));
-  const double keep_ms = watch.lap_ms();
+  stopwatch.lap_ms();
+  if (saved_world) delta = save_and_filter(std::move(delta), std::move(admitted.refused));
+  const double keep_ms = stopwatch.lap_ms();
   const Clock::time_point handing_over = Clock::now();
   {
     const TraceSpan span(trace.get(), "simulation", "hand over");
@@ -138,7 +138,7 @@ bool LiveServer::State::step() {
   report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
   report.whole_tick_cpu.add((thread_cpu_s() - cpu_before_s) * 1e3);
   report.terrain_in.add(terrain_in_ms);
-  report.keep.add(keep_ms);
+  report.after_tick.add(keep_ms);
   report.add(*delta);
   last_delta = delta;
   if (config.ticks_max != 0 && report.ticks >= config.ticks_max) running = false;
@@ -148,15 +148,16 @@ bool LiveServer::State::step() {
 
 /// Saves the tick when it is due, and lets terrain go that nobody needs. Returns what clients are told: the
 /// recording has no requests that never reached the simulation.
-std::shared_ptr<const TickDelta> LiveServer::State::keep(std::shared_ptr<const TickDelta> delta,
-                                                         std::vector<Reply> refused) {
+std::shared_ptr<const TickDelta> LiveServer::State::save_and_filter(std::shared_ptr<const TickDelta> delta,
+                                                                    std::vector<Reply> refused) {
   World& world = *feed->world();
   admission.answered(delta->replies);
-  kept->keep(*delta, world, pager->pressed());
-  const std::vector<ChunkCoord>& soon = outlook.look(*delta, world.config().terrain.voxel_size_m);
+  saved_world->note(*delta, world, pager->pressed());
+  const std::vector<ChunkCoord>& soon = forecast.update(*delta, world.config().terrain.voxel_size_m);
   static_cast<void>(ahead->has(world.field(), soon));
   resident->bound(world.config().memory_max_mb * bytes_per_mb * (1.0 - limits::resident_margin_share));
-  pager->end_tick(*delta, kept->status().saved_tick, net->eyes_m(), soon, world.config().memory_max_mb);
+  pager->end_tick(*delta, saved_world->status().saved_tick, net->eyes_m(), soon,
+                  world.config().memory_max_mb);
   tell();
   if (refused.empty()) return delta;
   auto told_delta = std::make_shared<TickDelta>(*delta);
@@ -256,11 +257,11 @@ Result<void> LiveServer::stop() {
   if (state_->thread.joinable()) state_->thread.join();
   state_->end("");
   state_->net->stop();
-  if (state_->kept && !state_->saved) {
+  if (state_->saved_world && !state_->saved) {
     state_->saved = true;
     if (state_->broken)
-      state_->kept->abandon();
-    else if (const auto finished = state_->kept->finish(*state_->feed->world()); !finished)
+      state_->saved_world->abandon();
+    else if (const auto finished = state_->saved_world->finish(*state_->feed->world()); !finished)
       state_->end(finished.error().message);
   }
   if (state_->recorder)
@@ -285,7 +286,7 @@ ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyC
     now.record_size = recorder->size();
     if (!now.error) now.error = recorder->error();
   }
-  if (kept && !kept->is_temporary()) now.saving = kept->status();
+  if (saved_world && !saved_world->is_temporary()) now.saving = saved_world->status();
   now.resident_mb = resident_bytes() / bytes_per_mb;
   if (pager) {
     now.paging = pager->status();

@@ -14,7 +14,7 @@
 #include "server/app/tick_feed.h"
 #include "server/net/net_server.h"
 #include "server/store/recording_ring.h"
-#include "server/store/world_keeper.h"
+#include "server/store/world_saver.h"
 #include "server/world/world.h"
 
 namespace scree {

@@ -44,7 +44,7 @@ Result<void> LiveServer::State::open() {
   auto listening = TRY(NetServer::listen(config.net, commands));
   net = std::move(listening);
   TRY(open_recorder());
-  if (kept != nullptr) TRY(start_keeping());
+  if (saved_world != nullptr) TRY(start_saving());
   if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
     const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
     report.settings = keyframe->settings;  // ticks say only what changes
@@ -66,12 +66,12 @@ Result<void> LiveServer::State::open_world() {
                              : SavedWorld::open(path, config.world, config.sim_threads,
                                                 ground_giver(path, config.world), config.bricks_in_max);
   TRY(opened);
-  kept = std::move(*opened);
-  feed = feed_of(kept->take_world());
+  saved_world = std::move(*opened);
+  feed = feed_of(saved_world->release_world());
   config.world = feed->world()->config();
   config.net.service = config.world.service;
-  config.net.world = kept->number();
-  config.net.first_session = kept->first_session();
+  config.net.world = saved_world->number();
+  config.net.first_session = saved_world->first_session();
   config.net.chunks = for_clients;
   config.net.saving = [this] { return saving(); };
   report.world_path = path;
@@ -79,14 +79,14 @@ Result<void> LiveServer::State::open_world() {
 }
 
 /// The file of a new world is made here.
-Result<void> LiveServer::State::start_keeping() {
-  KeeperConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
-  if (kept->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
+Result<void> LiveServer::State::start_saving() {
+  SaverConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
+  if (saved_world->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
   if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
   World& world = *feed->world();
-  TRY(kept->start(world, std::move(keeping)));
+  TRY(saved_world->start(world, std::move(keeping)));
   resident = std::make_unique<ResidentMemory>();
-  auto opened = TerrainPager::open(kept->path(), world.field(), for_clients, config.bricks_in_max,
+  auto opened = TerrainPager::open(saved_world->path(), world.field(), for_clients, config.bricks_in_max,
                                    [seen = resident.get()] { return seen->bytes(); });
   TRY(opened);
   pager = std::move(*opened);
@@ -99,8 +99,8 @@ Result<void> LiveServer::State::open_recorder() {
   const RecordingHeader header{"scree-server " SCREE_VERSION, config.world};
   World& world = *feed->world();
   std::error_code ignored;  // a kept world may stand at tick 0 again: ended at once, or rolled back
-  const bool goes_on =
-      world.tick() > 0 || (kept && !kept->is_new() && std::filesystem::exists(config.record_path, ignored));
+  const bool goes_on = world.tick() > 0 || (saved_world && !saved_world->is_new() &&
+                                            std::filesystem::exists(config.record_path, ignored));
   // Its terrain comes chunk by chunk: it may be larger than memory.
   auto recording =
       goes_on ? Recorder::create(config.record_path, header,

@@ -12,7 +12,7 @@
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
 #include "server/app/load_governor.h"
-#include "server/app/piece_outlook.h"
+#include "server/app/piece_forecast.h"
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
@@ -40,8 +40,9 @@ struct LiveServer::State {
   std::string status(const NetFigures& figures) const;
   Saving saving() const;
   void tell();
-  std::shared_ptr<const TickDelta> keep(std::shared_ptr<const TickDelta> delta, std::vector<Reply> refused);
-  Result<void> start_keeping();
+  std::shared_ptr<const TickDelta> save_and_filter(std::shared_ptr<const TickDelta> delta,
+                                                   std::vector<Reply> refused);
+  Result<void> start_saving();
   void run();
   bool step();
   bool wait_for_clients();
@@ -63,10 +64,10 @@ struct LiveServer::State {
   std::unique_ptr<TickFeed> feed;      ///< used by the simulation thread only, but for control()
   std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
   std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<SavedWorld> kept;          ///< null: a replay
+  std::unique_ptr<SavedWorld> saved_world;   ///< null: a replay
   std::unique_ptr<TerrainPager> pager;       ///< likewise
   std::unique_ptr<ResidentMemory> resident;  ///< likewise
-  PieceOutlook outlook;
+  PieceForecast forecast;
   Admission admission;
   std::unique_ptr<LoadGovernor> governor;     ///< null: a replay, or not wanted
   std::optional<uint32_t> work_percent_next;  ///< the governor's wish, for the next tick

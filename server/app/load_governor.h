@@ -26,19 +26,19 @@ class LoadGovernor {
 
   /// A tick ended: it took `length` of a tick's length by the clock, and `lost` ticks of real time were lost
   /// after it. `percent` is what its work may take now. Returns what it should be from now on, if that is
-  /// something else; a new answer comes after limits::governor_look_s at the soonest.
+  /// something else; a new answer comes after limits::governor_interval_s at the soonest.
   std::optional<uint32_t> tick_ended(double length, uint64_t lost, uint32_t percent);
 
  private:
-  uint32_t wanted_after_look(uint32_t percent);
+  uint32_t wanted_after_interval(uint32_t percent);
 
-  uint32_t ticks_a_look_;
+  uint32_t ticks_per_interval_;
   uint32_t most_;       ///< that it raises to
   uint32_t ticks_ = 0;  ///< since the last look
   uint32_t late_ = 0;   ///< of these
-  std::array<uint32_t, limits::governor_looks>
-      losses_{};             ///< times that ticks were lost, by look; this one last
-  uint32_t calm_looks_ = 0;  ///< in a row
+  std::array<uint32_t, limits::governor_intervals>
+      losses_{};                 ///< times that ticks were lost, by look; this one last
+  uint32_t calm_intervals_ = 0;  ///< in a row
 };
 
 }  // namespace scree

@@ -47,7 +47,7 @@ Result<void> exchange(const std::string& path, const std::string& made, const st
 
 Result<PastWorld> world_of_recording(const std::string& path, const std::string& recording,
                                      std::optional<Tick> tick, const GroundGiver& ground) {
-  const auto lock = TRY(WorldLock::take(path));
+  const auto lock = TRY(WorldLock::acquire(path));
   const auto reader = TRY(RecordingReader::open(recording));
   RecordedTerrain terrain(*reader);
   const auto world = TRY(simulated_to(*reader, tick.value_or(reader->last_tick()), terrain, ground));
@@ -58,7 +58,7 @@ Result<PastWorld> world_of_recording(const std::string& path, const std::string&
 
 Result<PastWorld> roll_back(const std::string& path, const std::string& recording, Tick tick,
                             const GroundGiver& ground) {
-  const auto lock = TRY(WorldLock::take(path));
+  const auto lock = TRY(WorldLock::acquire(path));
   const std::string made = path + "-past", before = path + "-before-" + std::to_string(tick);
   std::error_code error;
   if (fs::exists(before, error)) return fail(before + " exists already: move it away");

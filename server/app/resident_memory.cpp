@@ -18,7 +18,7 @@ double resident_bytes() {
   return static_cast<double>(resident_pages) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-void keep_heap_compact() {
+void bound_heap_arenas() {
   mallopt(M_ARENA_MAX, limits::heap_arenas);
   mallopt(M_MMAP_THRESHOLD, limits::heap_block_bytes);
   mallopt(M_TRIM_THRESHOLD, 2 * limits::heap_block_bytes);
@@ -39,7 +39,7 @@ ResidentMemory::~ResidentMemory() {
 }
 
 void ResidentMemory::run() {
-  const std::chrono::milliseconds period(limits::resident_look_ms);
+  const std::chrono::milliseconds period(limits::resident_sample_ms);
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, period, [this] { return stopping_; })) {
     lock.unlock();

@@ -13,9 +13,9 @@ double resident_bytes();
 
 /// Has malloc keep few arenas, and return large blocks at once. Before the first thread starts: threads that
 /// allocate for each other would otherwise leave holes in an arena each.
-void keep_heap_compact();
+void bound_heap_arenas();
 
-/// Looks every limits::resident_look_ms, on a thread of its own.
+/// Looks every limits::resident_sample_ms, on a thread of its own.
 class ResidentMemory {
  public:
   ResidentMemory();

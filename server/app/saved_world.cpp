@@ -19,10 +19,10 @@ namespace scree {
 namespace {
 
 /// What was asked for, and the file says otherwise: the file has the last word.
-void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& kept) {
-  if (!is_same_terrain(asked, kept) || asked.tick_rate_hz != kept.tick_rate_hz)
+void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& saved_world) {
+  if (!is_same_terrain(asked, saved_world) || asked.tick_rate_hz != saved_world.tick_rate_hz)
     spdlog::info("{}: terrain and tick rate are the file's", path);
-  const SettingValues wanted = print(asked), stand = print(kept);
+  const SettingValues wanted = print(asked), stand = print(saved_world);
   for (size_t i = 0; i < stand.size(); ++i)
     if (stand[i] != wanted[i])
       spdlog::info("{}: {} is {}, as it was saved, not {}", path, stand[i].name, stand[i].value,
@@ -34,30 +34,30 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
                                                      size_t threads, const GroundGiver& ground,
                                                      size_t bricks_max) {
-  auto lock = TRY(WorldLock::take(path));
-  std::unique_ptr<SavedWorld> kept(new SavedWorld(path, std::move(lock)));
+  auto lock = TRY(WorldLock::acquire(path));
+  std::unique_ptr<SavedWorld> saved_world(new SavedWorld(path, std::move(lock)));
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     auto world = TRY(World::create(config, threads));
-    kept->world_ = std::move(world);
-    kept->number_ = std::max<uint64_t>(1, random_number());
-    return kept;
+    saved_world->world_ = std::move(world);
+    saved_world->number_ = std::max<uint64_t>(1, random_number());
+    return saved_world;
   }
   auto file = TRY(WorldFile::open(path));
   size_t chunks = 0;
-  auto world = TRY(restored(*file, threads, ground, bricks_max, *kept, chunks));
+  auto world = TRY(restored(*file, threads, ground, bricks_max, *saved_world, chunks));
   tell_differences(path, config, world->config());
   spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, world->tick(),
                chunks, world->field().chunks_in().size());
-  kept->file_ = std::move(file);
-  kept->world_ = std::move(world);
-  return kept;
+  saved_world->file_ = std::move(file);
+  saved_world->world_ = std::move(world);
+  return saved_world;
 }
 
 /// The world of the file; of its terrain as much as there is memory for.
 Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t threads,
                                                     const GroundGiver& ground, size_t bricks_max,
-                                                    SavedWorld& kept, size_t& chunks) {
+                                                    SavedWorld& saved_world, size_t& chunks) {
   const std::string& path = file.path();
   auto rows = TRY(file.read_moment());
   RecordedHeader& header = rows.world.moment.config;
@@ -72,29 +72,29 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
   auto world = World::restore(rows.world, terrain, threads, masses);
   if (!world) return fail(path + ": damaged: " + world.error().message);
   chunks = (*world)->field().chunks_in().size() + (*world)->field().chunks_out();
-  kept.number_ = rows.header.world;
-  kept.first_session_ = first_free_session(rows.world.moment);
+  saved_world.number_ = rows.header.world;
+  saved_world.first_session_ = first_free_session(rows.world.moment);
   return world;
 }
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open_temporary(const WorldConfig& config, size_t threads) {
   auto path = TRY(temporary_world_path());
-  auto kept = open(path, config, threads, {});
-  if (!kept) {
+  auto saved_world = open(path, config, threads, {});
+  if (!saved_world) {
     remove_world(path);
-    return kept;
+    return saved_world;
   }
-  (*kept)->temporary_ = true;
-  return kept;
+  (*saved_world)->temporary_ = true;
+  return saved_world;
 }
 
 SavedWorld::~SavedWorld() {
-  keeper_.reset();
+  saver_.reset();
   file_.reset();
   if (temporary_) remove_world(path_);
 }
 
-Result<void> SavedWorld::start(World& world, KeeperConfig config) {
+Result<void> SavedWorld::start(World& world, SaverConfig config) {
   if (file_ == nullptr) {
     const WorldSnapshot value = world.snapshot();
     WorldHeader header{.world = number_, .config = value.moment.config};
@@ -102,20 +102,20 @@ Result<void> SavedWorld::start(World& world, KeeperConfig config) {
     auto file = TRY(WorldFile::create(path_, header, value, !temporary_));
     file_ = std::move(file);
   }
-  keeper_ = std::make_unique<WorldKeeper>(std::move(file_), world.tick(), world.config().terrain,
-                                          std::move(config));
+  saver_ =
+      std::make_unique<WorldSaver>(std::move(file_), world.tick(), world.config().terrain, std::move(config));
   return {};
 }
 
-void SavedWorld::keep(const TickDelta& delta, World& world, bool pressed) {
-  const KeeperStatus status = keeper_->status();
-  if (keeper_->note(delta, pressed || !status.lacking.empty()))
-    keeper_->save(world.moment(), chunk_now(world.field()));
+void SavedWorld::note(const TickDelta& delta, World& world, bool pressed) {
+  const SaverStatus status = saver_->status();
+  if (saver_->note(delta, pressed || !status.lacking.empty()))
+    saver_->save(world.moment(), chunk_now(world.field()));
   complain(status);
 }
 
 /// Each failure once.
-void SavedWorld::complain(const KeeperStatus& status) {
+void SavedWorld::complain(const SaverStatus& status) {
   const std::string now = status.error.value_or("");
   if (now == complaint_) return;
   complaint_ = now;
@@ -133,7 +133,7 @@ void SavedWorld::complain(const KeeperStatus& status) {
 }
 
 void SavedWorld::abandon() {
-  keeper_.reset();
+  saver_.reset();
 }
 
 Result<void> SavedWorld::finish(World& world) {
@@ -141,8 +141,8 @@ Result<void> SavedWorld::finish(World& world) {
     abandon();
     return {};
   }
-  const Result<void> finished = keeper_->finish(world.moment(), chunk_now(world.field()));
-  complain(keeper_->status());
+  const Result<void> finished = saver_->finish(world.moment(), chunk_now(world.field()));
+  complain(saver_->status());
   return finished;
 }
 

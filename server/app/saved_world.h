@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "server/store/world_keeper.h"
 #include "server/store/world_lock.h"
+#include "server/store/world_saver.h"
 #include "server/world/world.h"
 
 namespace scree {
@@ -26,16 +26,16 @@ class SavedWorld {
   static Result<std::unique_ptr<SavedWorld>> open_temporary(const WorldConfig& config, size_t threads);
 
   /// The world, once: the file's, or a new one of the configuration.
-  std::unique_ptr<World> take_world() { return std::move(world_); }
+  std::unique_ptr<World> release_world() { return std::move(world_); }
   uint64_t number() const { return number_; }  ///< WelcomeMessage::world
   uint64_t first_session() const { return first_session_; }
   bool is_new() const { return file_ == nullptr; }
 
   /// Writes a new world's file, and begins to save. `world` is the one that was taken, and has not ticked
   /// yet.
-  Result<void> start(World& world, KeeperConfig config);
+  Result<void> start(World& world, SaverConfig config);
   /// After each tick of the world. `pressed`: memory is short until it is saved.
-  void keep(const TickDelta& delta, World& world, bool pressed = false);
+  void note(const TickDelta& delta, World& world, bool pressed = false);
   /// Saves the world as it stands, and ends. Returns the last error. A temporary one is removed.
   Result<void> finish(World& world);
   /// Ends with what was saved: the world does not stand between two ticks.
@@ -44,13 +44,13 @@ class SavedWorld {
   bool is_temporary() const { return temporary_; }
   ~SavedWorld();
   /// From any thread, after start().
-  KeeperStatus status() const { return keeper_->status(); }
+  SaverStatus status() const { return saver_->status(); }
 
  private:
   SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
   static Result<std::unique_ptr<World>> restored(WorldFile& file, size_t threads, const GroundGiver& ground,
-                                                 size_t bricks_max, SavedWorld& kept, size_t& chunks);
-  void complain(const KeeperStatus& status);
+                                                 size_t bricks_max, SavedWorld& saved_world, size_t& chunks);
+  void complain(const SaverStatus& status);
 
   std::string path_;
   WorldLock lock_;
@@ -59,7 +59,7 @@ class SavedWorld {
   bool temporary_ = false;
   uint64_t number_ = 0;
   uint64_t first_session_ = 1;
-  std::unique_ptr<WorldKeeper> keeper_;
+  std::unique_ptr<WorldSaver> saver_;
   std::string complaint_;  ///< the last that was logged
 };
 

@@ -107,11 +107,11 @@ void add_world(CLI::App& app, Raw& raw) {
 void add_settings(CLI::App& app, Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   for (const Setting& row : settings()) {
-    const auto take = [&world, name = std::string(row.name)](const std::string& value) {
+    const auto set_value = [&world, name = std::string(row.name)](const std::string& value) {
       if (Result<void> done = set(world, {name, value}); !done)
         throw CLI::ValidationError(done.error().message);
     };
-    app.add_option_function<std::string>("--" + std::string(row.name), take,
+    app.add_option_function<std::string>("--" + std::string(row.name), set_value,
                                          std::string(row.help) + ": " + row.may_be())
         ->default_str(row.print(WorldConfig{}));
   }
@@ -150,14 +150,14 @@ void add_access(CLI::App& app, Raw& raw) {
 }
 
 /// Who has a key for tokens wants them.
-void take_anonymous(Raw& raw) {
+void parse_anonymous(Raw& raw) {
   AccessConfig& access = raw.options.live.net.access;
   if (raw.anonymous.empty() && !access.token_key_path.empty()) raw.anonymous = nobody;
   if (!raw.anonymous.empty()) access.anonymous = kind_named<Role>(raw.anonymous);  // none: no role
 }
 
 /// The world's file.
-void add_keeping(CLI::App& app, Raw& raw) {
+void add_saving_options(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
   CLI::Option* world =
       app.add_option("--world", live.world_path,
@@ -181,13 +181,13 @@ void add_recordings(CLI::App& app, Raw& raw) {
   CLI::Option* record =
       app.add_option("--record", live.record_path,
                      "records the session to this new file; goes on with it where the --world does");
-  const auto take_ring = [&live](const std::string& text) {
+  const auto parse_ring = [&live](const std::string& text) {
     const auto limit = ring_limit_of(text);
     if (!limit) throw CLI::ValidationError("--record-ring", limit.error().message);
     live.record_ring = *limit;
   };
   app.add_option_function<std::string>(
-         "--record-ring", take_ring,
+         "--record-ring", parse_ring,
          "keeps of the recording the last minutes or bytes alone: 90s, 10m or 2h; "
          "500M, 2G or 1T")
       ->needs(record);
@@ -235,7 +235,7 @@ void add_run(CLI::App& app, Raw& raw) {
 }
 
 /// A folder that was named has a page; the one beside the program may be missing.
-void take_web(Raw& raw) {
+void parse_web(Raw& raw) {
   WebConfig& web = raw.options.live.net.web;
   web.on = raw.web != "off";
   web.folder = raw.web.empty() ? web_folder_beside_program() : raw.web;
@@ -251,13 +251,13 @@ void take_web(Raw& raw) {
   if (!files) throw CLI::ValidationError("--web", files.error().message);
 }
 
-void take_end(Raw& raw) {
+void parse_end(Raw& raw) {
   if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
   if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
 }
 
 /// The token is looked at where mistakes in options are.
-void take_token(Raw& raw) {
+void parse_token(Raw& raw) {
   std::string& token = raw.options.live.net.admin_token;
   if (!raw.token_path.empty()) {
     Result<std::string> read = read_token(raw.token_path);
@@ -270,10 +270,10 @@ void take_token(Raw& raw) {
 }
 
 /// A world's own limits are the only ones. Settings come in any order, so they are compared here, at last.
-void take_world(Raw& raw) {
+void parse_world(Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   if (!raw.ground.empty()) {
-    if (auto taken = take_ground(raw.ground, world); !taken)
+    if (auto taken = set_ground(raw.ground, world); !taken)
       throw CLI::ValidationError("--ground", taken.error().message);
   }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
@@ -321,7 +321,7 @@ void declare(CLI::App& app, Raw& raw) {
   add_settings(app, raw);
   add_admin(app, raw);
   add_access(app, raw);
-  add_keeping(app, raw);
+  add_saving_options(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
   refuse_empty(app);
@@ -362,12 +362,12 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     app.parse(argc, argv);
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
     refuse_shared_files(raw, named_file(*config));
-    take_token(raw);
-    take_anonymous(raw);
+    parse_token(raw);
+    parse_anonymous(raw);
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
-    take_end(raw);
-    take_web(raw);
-    take_world(raw);
+    parse_end(raw);
+    parse_web(raw);
+    parse_world(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0;
     const std::string fault = mistaken ? fault_in_file(named_file(*config), fault_of) : std::string();

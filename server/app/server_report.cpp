@@ -49,7 +49,7 @@ Json json_of(const WorkReport& work) {
           {"last_cut_short", work.last_cut_short},
           {"ticks_merging_sooner", work.ticks_merging_sooner},
           {"requests_waiting_most", work.requests_waiting_most},
-          {"cuts_put_off_most", work.cuts_put_off_most},
+          {"cuts_put_off_most", work.refractures_put_off_most},
           {"merges_put_off_most", work.merges_put_off_most},
           {"breaks_left_out", work.breaks_left_out},
           {"dents_left_out", work.dents_left_out},
@@ -84,7 +84,7 @@ Json json_of(const NetStats& net) {
           {"resumed", net.sessions_resumed},
           {"tickets_void", net.tickets_void},
           {"refused", net.sessions_refused},
-          {"cut", net.sessions_cut},
+          {"cut", net.sessions_disconnected},
           {"turned_away", net.turned_away},
           {"resets", sent.resets},
           {"repairs", sent.repairs},
@@ -110,7 +110,7 @@ Json recording_json(const ServerReport& report) {
   return json;
 }
 
-Json json_of(const std::string& path, const KeeperStatus& saving) {
+Json json_of(const std::string& path, const SaverStatus& saving) {
   Json json{{"path", path},
             {"saved_tick", saving.saved_tick},
             {"saves", saving.saves},
@@ -127,14 +127,14 @@ Json json_of(const std::string& path, const KeeperStatus& saving) {
 void WorkReport::add(Tick tick, const TickWork& work) {
   budget_us = work.budget_us;
   worst_us = std::max(worst_us, work.estimate_us);
-  if (work.cut_short()) {
+  if (work.has_leftovers()) {
     ++ticks_cut_short;
     if (first_cut_short == 0) first_cut_short = tick;
     last_cut_short = tick;
   }
   ticks_merging_sooner += work.merging_sooner ? 1 : 0;
   requests_waiting_most = std::max(requests_waiting_most, work.requests_waiting);
-  cuts_put_off_most = std::max(cuts_put_off_most, work.cuts_put_off);
+  refractures_put_off_most = std::max(refractures_put_off_most, work.refractures_put_off);
   merges_put_off_most = std::max(merges_put_off_most, work.merges_put_off);
   breaks_left_out += work.breaks_left_out;
   dents_left_out += work.dents_left_out;
@@ -202,7 +202,7 @@ std::string to_json(const ServerReport& report) {
   stages["whole_tick"] = json_of(report.whole_tick);
   stages["whole_tick_cpu"] = json_of(report.whole_tick_cpu);
   stages["terrain_in"] = json_of(report.terrain_in);
-  stages["keep"] = json_of(report.keep);
+  stages["keep"] = json_of(report.after_tick);
   json["stages_ms"] = stages;
   json["resident_mb"] = report.resident_mb;
   if (!report.record_path.empty()) json["recording"] = recording_json(report);

@@ -10,7 +10,7 @@
 #include "server/net/net_server.h"
 #include "server/store/event_log.h"
 #include "server/store/recording_ring.h"
-#include "server/store/world_keeper.h"
+#include "server/store/world_saver.h"
 #include "server/world/tick_delta.h"
 
 namespace scree {
@@ -24,7 +24,7 @@ struct WorkReport {
   Tick last_cut_short = 0;
   uint64_t ticks_merging_sooner = 0;
   uint32_t requests_waiting_most = 0;
-  uint32_t cuts_put_off_most = 0;
+  uint32_t refractures_put_off_most = 0;
   uint32_t merges_put_off_most = 0;
   uint64_t breaks_left_out = 0;
   uint64_t dents_left_out = 0;
@@ -54,10 +54,11 @@ struct ServerReport {
   uint64_t overruns = 0;                             ///< ticks of real time that were lost
   std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
   Durations tick;
-  Durations whole_tick;        ///< with all that the server does between two ticks of the world
-  Durations whole_tick_cpu;    ///< of it the processor time of the simulation's thread
-  Durations terrain_in, keep;  ///< of it before the world's tick, and after it: saving, terrain that goes out
-  double resident_mb = 0.0;    ///< what the process has in RAM
+  Durations whole_tick;      ///< with all that the server does between two ticks of the world
+  Durations whole_tick_cpu;  ///< of it the processor time of the simulation's thread
+  Durations terrain_in,
+      after_tick;            ///< of it before the world's tick, and after it: saving, terrain that goes out
+  double resident_mb = 0.0;  ///< what the process has in RAM
   NetStats net;
   LatencyCounts latency;
   std::string record_path;
@@ -67,7 +68,7 @@ struct ServerReport {
   std::string events_path;  ///< empty: no log
   EventLog::Status events;
   std::string world_path;  ///< empty: the world ends with the server
-  KeeperStatus saving;
+  SaverStatus saving;
   PagerStatus paging;
   uint64_t requests_held = 0;        ///< that waited for their terrain to be read
   std::optional<std::string> error;  ///< the reason of an early end

@@ -26,7 +26,7 @@ void remove_left_behind(const fs::path& folder) {
     if (name.starts_with(prefix) && name.ends_with(suffix)) found.push_back(entry.path().string());
   }
   for (const std::string& path : found)
-    if (const auto lock = WorldLock::take(path)) remove_world(path);
+    if (const auto lock = WorldLock::acquire(path)) remove_world(path);
 }
 
 }  // namespace

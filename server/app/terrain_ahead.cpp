@@ -53,7 +53,7 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
     field.adopt_generated(each.coord, std::move(each.chunk));
   }
   if (!idle || eyes_m.empty()) return;
-  std::vector<ChunkCoord> wanted = look_around(field, eyes_m);
+  std::vector<ChunkCoord> wanted = missing_around(field, eyes_m);
   if (wanted.empty()) return;
   const size_t chunk_bytes = field.generated_bytes() / std::max<size_t>(1, field.generated_chunks());
   if (round_.size() * chunk_bytes > field.generated_bytes_max() / 2) return;
@@ -72,7 +72,7 @@ bool TerrainAhead::has(Field& field, const VoxelBox& box) {
 bool TerrainAhead::has(Field& field, std::span<const ChunkCoord> chunks) {
   std::vector<ChunkCoord> lacking;
   for (const ChunkCoord chunk : chunks)
-    if (!field.keep_generated(chunk)) lacking.push_back(chunk);
+    if (!field.touch_generated(chunk)) lacking.push_back(chunk);
   if (lacking.empty()) return true;
   const std::scoped_lock lock(mutex_);
   for (const ChunkCoord chunk : lacking)
@@ -81,8 +81,8 @@ bool TerrainAhead::has(Field& field, std::span<const ChunkCoord> chunks) {
   return false;
 }
 
-/// Those of the next limits::ahead_looks_per_tick chunks around an eye that the field lacks.
-std::vector<ChunkCoord> TerrainAhead::look_around(Field& field, std::span<const glm::vec3> eyes_m) {
+/// Those of the next limits::ahead_chunks_per_tick chunks around an eye that the field lacks.
+std::vector<ChunkCoord> TerrainAhead::missing_around(Field& field, std::span<const glm::vec3> eyes_m) {
   if (step_ >= around_.size()) {
     step_ = 0;
     if (++eye_ % eyes_m.size() == 0) round_.clear();
@@ -92,11 +92,11 @@ std::vector<ChunkCoord> TerrainAhead::look_around(Field& field, std::span<const 
   const ChunkCoord middle =
       chunk_of(VoxelCoord{floor_to_int(eye.x), floor_to_int(eye.y), floor_to_int(eye.z)});
   std::vector<ChunkCoord> lacking;
-  const size_t end = std::min(step_ + limits::ahead_looks_per_tick, around_.size());
+  const size_t end = std::min(step_ + limits::ahead_chunks_per_tick, around_.size());
   for (; step_ < end; ++step_) {
     const ChunkCoord chunk = middle + around_[step_];
     round_.insert(chunk);
-    if (!field.keep_generated(chunk)) lacking.push_back(chunk);
+    if (!field.touch_generated(chunk)) lacking.push_back(chunk);
   }
   return lacking;
 }

@@ -30,8 +30,8 @@ class TerrainAhead {
   TerrainAhead& operator=(const TerrainAhead&) = delete;
 
   /// Hands the generated chunks to the field, which has the constructor's source, and requests chunks that it
-  /// lacks around the eyes (metres): the nearest first, limits::ahead_looks_per_tick at a time; those that it
-  /// has count as used. Requests none when all that lies around the eyes would fill more than half of what
+  /// lacks around the eyes (metres): the nearest first, limits::ahead_chunks_per_tick at a time; those that
+  /// it has count as used. Requests none when all that lies around the eyes would fill more than half of what
   /// the field may keep (Field::generated_bytes_max): it would drop what was made before. Call once a tick.
   void serve(Field& field, std::span<const glm::vec3> eyes_m);
 
@@ -48,7 +48,7 @@ class TerrainAhead {
     GeneratedChunk chunk;
   };
 
-  std::vector<ChunkCoord> look_around(Field& field, std::span<const glm::vec3> eyes_m);
+  std::vector<ChunkCoord> missing_around(Field& field, std::span<const glm::vec3> eyes_m);
   void run();
 
   const TerrainSource source_;

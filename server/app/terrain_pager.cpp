@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "server/app/limits.h"
-#include "server/app/piece_outlook.h"
+#include "server/app/piece_forecast.h"
 #include "server/app/terrain_ahead.h"
 #include "shared/base/check.h"
 
@@ -40,7 +40,7 @@ Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path
 /// A chunk that does not fit came in meanwhile, or was read before its last change was saved.
 void TerrainPager::begin_tick() {
   field_.begin_turn();
-  for (const SuppliedChunk& chunk : own_->take(limits::page_in_per_tick))
+  for (const SuppliedChunk& chunk : own_->collect(limits::page_in_per_tick))
     if (field_.is_out(chunk.chunk)) static_cast<void>(field_.page_in(chunk.chunk, chunk.bricks));
 }
 
@@ -48,7 +48,7 @@ void TerrainPager::want(ChunkCoord chunk) {
   if (field_.is_out(chunk))
     own_->ask(chunk);
   else
-    field_.keep(chunk);
+    field_.touch(chunk);
 }
 
 bool TerrainPager::is_in(const VoxelBox& box) {
@@ -68,10 +68,10 @@ std::optional<std::string> TerrainPager::unreadable(const VoxelBox& box) const {
   return reason;
 }
 
-void TerrainPager::look_around_eyes(std::span<const glm::vec3> eyes_m) {
+void TerrainPager::request_around_eyes(std::span<const glm::vec3> eyes_m) {
   if (eyes_m.empty() || !is_crowded()) return;
-  ticks_around_ = eyes_m.size() * around_.size() / limits::pager_looks_per_tick;
-  for (size_t looks = 0; looks < limits::pager_looks_per_tick; ++looks) {
+  ticks_around_ = eyes_m.size() * around_.size() / limits::pager_chunks_per_tick;
+  for (size_t asked = 0; asked < limits::pager_chunks_per_tick; ++asked) {
     const glm::vec3 eye_m = eyes_m[eye_ % eyes_m.size()];
     want(chunk_at(eye_m, field_.source().voxel_size_m) + around_[step_]);
     if (++step_ < around_.size()) continue;
@@ -92,8 +92,8 @@ void TerrainPager::page_out(Tick tick, Tick saved) {
   }
   const uint64_t idle = std::max<uint64_t>(limits::pager_idle_ticks, 2 * ticks_around_);
   if (idle_.empty()) {
-    if (tick < look_again_) return;
-    look_again_ = tick + limits::pager_look_ticks;
+    if (tick < next_idle_scan_) return;
+    next_idle_scan_ = tick + limits::idle_scan_ticks;
     any_went_ = any_unsaved_ = false;
     idle_ = field_.idle_chunks(idle);
     std::ranges::reverse(idle_);
@@ -135,7 +135,7 @@ void TerrainPager::end_tick(const TickDelta& delta, Tick saved, std::span<const 
   memory_.bricks = field_.bricks_in();
   memory_.chunks_out = field_.chunks_out();
   bricks_allowed_ = bricks_max_ != 0 ? bricks_max_ : bricks_within(memory_max_mb, memory_);
-  look_around_eyes(eyes_m);
+  request_around_eyes(eyes_m);
   if (is_crowded())
     for (const ChunkCoord chunk : soon) want(chunk);
   page_out(delta.tick, saved);

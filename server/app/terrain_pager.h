@@ -62,7 +62,7 @@ class TerrainPager {
   TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
                std::shared_ptr<ChunkFetcher> clients, std::function<double()> resident_bytes);
   void want(ChunkCoord chunk);
-  void look_around_eyes(std::span<const glm::vec3> eyes_m);
+  void request_around_eyes(std::span<const glm::vec3> eyes_m);
   void page_out(Tick tick, Tick saved);
   /// Whether chunks are out, or may soon have to go.
   bool is_crowded() const { return field_.chunks_out() > 0 || field_.bricks_in() > bricks_allowed_ / 2; }
@@ -84,7 +84,7 @@ class TerrainPager {
   bool counted_ = false;  ///< memory_ is of this field
 
   std::vector<ChunkCoord> idle_;  ///< that nobody needed at the last look, the longest idle last
-  Tick look_again_ = 0;           ///< for idle chunks, not before
+  Tick next_idle_scan_ = 0;       ///< for idle chunks, not before
   bool any_went_ = false, any_unsaved_ = false;  ///< since the last look
   bool pressed_ = false;
 

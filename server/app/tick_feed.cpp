@@ -29,7 +29,7 @@ class RecordedFeed final : public TickFeed {
   RecordedFeed(std::unique_ptr<ReplaySource> source, const PlayerOptions& options)
       : player_(std::move(source), options) {}
   Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override { return player_.next(); }
-  Result<void> control(const ControlReplayRequest& wish) override { return player_.take(wish); }
+  Result<void> control(const ControlReplayRequest& wish) override { return player_.request(wish); }
 
  private:
   ReplayPlayer player_;

@@ -266,15 +266,15 @@ size_t Bodies::overlaps() const {
 
 void Bodies::describe(PhysicsMessage& to) const {
   for (const auto& [id, body] : state_->bodies) {
-    WatchedBody watched{id, !body.frozen && body.rigid->isActive(), body.touches_by_surface, {}};
-    if (body.parts.empty()) watched.hull_m = corners_of(*body.shape);
+    BodyView view{id, !body.frozen && body.rigid->isActive(), body.touches_by_surface, {}};
+    if (body.parts.empty()) view.hull_m = corners_of(*body.shape);
     for (const auto& part : body.parts) {
       const std::vector<glm::vec3> corners = corners_of(*part);
-      watched.hull_m.insert(watched.hull_m.end(), corners.begin(), corners.end());
+      view.hull_m.insert(view.hull_m.end(), corners.begin(), corners.end());
     }
     const glm::mat3 turned = glm::mat3_cast(body.axes);
-    for (glm::vec3& corner : watched.hull_m) corner = turned * corner;
-    to.bodies.push_back(std::move(watched));
+    for (glm::vec3& corner : view.hull_m) corner = turned * corner;
+    to.bodies.push_back(std::move(view));
   }
   list_contacts(state_->dispatcher, to.contacts);
 }

@@ -124,21 +124,21 @@ void Bodies::State::step() {
     if (loose.size() > limits::bodies_per_part) return batch.run(workers);
     batch.run_alone();
   };
-  WorkBatch turning, looking, touching, moving;
+  WorkBatch turning, copying, touching, moving;
   dynamics.begin(step_size.step_s);
   dynamics.foresee(turning);
   for_all(turning, [this](std::span<Body*> some) {
     for (Body* body : some) terrain.turn(*body);
   });
   run(turning);
-  looking.add([this] { dynamics.find_pairs(); });
-  if (std::ranges::any_of(loose, &Body::looks))
-    looking.add([this] {
+  copying.add([this] { dynamics.find_pairs(); });
+  if (std::ranges::any_of(loose, &Body::needs_copy))
+    copying.add([this] {
       for (Body* body : loose)
-        if (body->looks) body->probe->look();
+        if (body->needs_copy) body->probe->copy_terrain();
     });
-  for_all(looking, [this](std::span<Body*> some) { terrain.refill(some, false); });
-  run(looking);
+  for_all(copying, [this](std::span<Body*> some) { terrain.refill(some, false); });
+  run(copying);
   dynamics.find_contacts(touching);
   for_all(touching, [this](std::span<Body*> some) {
     terrain.refill(some, true);

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-void list_contacts(const btCollisionDispatcher& dispatcher, std::vector<WatchedContact>& to) {
+void list_contacts(const btCollisionDispatcher& dispatcher, std::vector<ContactView>& to) {
   const auto vector_of = [](const btVector3& v) { return glm::vec3(v.x(), v.y(), v.z()); };
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     // Bullet's own accessor of one manifold is const where that of all of them is not.

@@ -10,6 +10,6 @@ class btCollisionDispatcher;
 namespace scree {
 
 /// Appends every point of contact of the last step that is nearer than limits::contact_slack_m.
-void list_contacts(const btCollisionDispatcher& dispatcher, std::vector<WatchedContact>& to);
+void list_contacts(const btCollisionDispatcher& dispatcher, std::vector<ContactView>& to);
 
 }  // namespace scree

@@ -58,8 +58,8 @@ struct HullAlgorithm::Meeting {
   }
 };
 
-struct HullAlgorithm::Taker final : btDiscreteCollisionDetectorInterface::Result {
-  Taker(btManifoldResult* to, std::vector<Contact>& without, float told)
+struct HullAlgorithm::ContactSink final : btDiscreteCollisionDetectorInterface::Result {
+  ContactSink(btManifoldResult* to, std::vector<Contact>& without, float told)
       : result(to), first(without), told_m(told) {}
   void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
   void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
@@ -100,7 +100,7 @@ HullAlgorithm::~HullAlgorithm() {
 void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                      const btDispatcherInfo& info, btManifoldResult* /*result*/) {
   find(*a, *b, info.m_timeStep);
-  if (must_keep()) keep(*a, *b);
+  if (manifold_outdated()) update_manifold(*a, *b);
 }
 
 void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s) {
@@ -114,8 +114,8 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
   overlaps_ = 0;
   btManifoldResult result(&a, &b);
   result.setPersistentManifold(manifold_);
-  Taker taker(manifold_ == nullptr ? nullptr : &result, first_,
-              told_overlap_m(limits::undo_pieces_m_s, step_s));
+  ContactSink taker(manifold_ == nullptr ? nullptr : &result, first_,
+                    told_overlap_m(limits::undo_pieces_m_s, step_s));
   size_t pair = 0;
   for (const CollisionHulls::Part& part_a : parts_a)
     for (const CollisionHulls::Part& part_b : parts_b) {
@@ -131,7 +131,7 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
   if (manifold_ != nullptr) result.refreshContactPoints();
 }
 
-void HullAlgorithm::keep(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+void HullAlgorithm::update_manifold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
   if (manifold_ == nullptr) {
     manifold_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
     btManifoldResult result(&a, &b);
@@ -145,7 +145,7 @@ void HullAlgorithm::keep(const btCollisionObjectWrapper& a, const btCollisionObj
   manifold_ = nullptr;
 }
 
-bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Taker& to) {
+bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to) {
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;

@@ -36,7 +36,7 @@ class CollisionHulls {
 };
 
 /// The user pointers of both objects must be their CollisionHulls, turned to their present poses. A step is
-/// find(), then keep(): what Bullet's processCollision() does in one.
+/// find(), then update_manifold(): what Bullet's processCollision() does in one.
 class HullAlgorithm final : public btCollisionAlgorithm {
  public:
   using btCollisionAlgorithm::btCollisionAlgorithm;
@@ -44,15 +44,17 @@ class HullAlgorithm final : public btCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
-  /// Finds the contacts; those of a pair that has no manifold yet wait for keep(). Changes this pair alone:
-  /// threads may look at different pairs at once.
+  /// Finds the contacts; those of a pair that has no manifold yet wait for update_manifold(). Changes this
+  /// pair alone: threads may look at different pairs at once.
   void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
   /// Pairs of parts that overlapped when find() looked: each takes as long as several that only touch.
   uint32_t overlaps() const { return overlaps_; }
-  /// Whether keep() has anything to do.
-  bool must_keep() const { return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0; }
+  /// Whether update_manifold() has anything to do.
+  bool manifold_outdated() const {
+    return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0;
+  }
   /// Makes the manifold for the first contacts; releases the one that has none any more.
-  void keep(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+  void update_manifold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
@@ -65,9 +67,9 @@ class HullAlgorithm final : public btCollisionAlgorithm {
     float distance_m;
   };
   /// Hands contacts on, none deeper than `told_m`: to the manifold, or to `first_`.
-  struct Taker;
+  struct ContactSink;
   /// True when the two overlap by more than their margins, so that their depth had to be sought.
-  static bool meet(const Meeting& meeting, NearestCorners& nearest, Taker& to);
+  static bool meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
   std::vector<Contact> first_;                ///< contacts found while there is no manifold

@@ -79,8 +79,8 @@ inline constexpr uint32_t bodies_per_manifold = 6;
 
 /// Masses of bodies that come from a file, kg: of far less than a piece of the smallest voxels has, and far
 /// more than the largest window of the largest ones; beyond, a step gives numbers that are none. Refused.
-inline constexpr float kept_mass_min_kg = 1e-3F;
-inline constexpr float kept_mass_max_kg = 1e12F;
+inline constexpr float restored_mass_min_kg = 1e-3F;
+inline constexpr float restored_mass_max_kg = 1e12F;
 
 /// Least of a body's moments of inertia, as a share of its greatest: thinner splinters spin up without bound.
 inline constexpr float inertia_ratio_min = 0.25F;

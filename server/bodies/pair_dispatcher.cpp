@@ -60,17 +60,19 @@ void PairDispatcher::search(WorkBatch& batch, float step_s) {
       with_bodies(*pair, [&](const auto& a, const auto& b, HullAlgorithm* algorithm) {
         algorithm->find(a, b, step_s);
         overlaps += algorithm->overlaps();
-        if (!algorithm->must_keep()) pair = nullptr;
+        if (!algorithm->manifold_outdated()) pair = nullptr;
       });
     overlaps_ += overlaps;
   });
 }
 
-void PairDispatcher::keep() {
+void PairDispatcher::update_manifolds() {
   std::erase(awake_, nullptr);
   std::ranges::sort(awake_, comes_before);
   for (const btBroadphasePair* pair : awake_)
-    with_bodies(*pair, [](const auto& a, const auto& b, HullAlgorithm* algorithm) { algorithm->keep(a, b); });
+    with_bodies(*pair, [](const auto& a, const auto& b, HullAlgorithm* algorithm) {
+      algorithm->update_manifold(a, b);
+    });
 }
 
 }  // namespace scree

@@ -12,23 +12,26 @@
 
 namespace scree {
 
-/// Every pair's algorithm must be a HullAlgorithm. A step is list(), what search() adds, and keep().
+/// Every pair's algorithm must be a HullAlgorithm. A step is list(), what search() adds, and
+/// update_manifolds().
 class PairDispatcher final : public btCollisionDispatcher {
  public:
   using btCollisionDispatcher::btCollisionDispatcher;
 
-  /// Lists the pairs of which a body is awake, and makes their algorithms. The pairs must stay until keep().
+  /// Lists the pairs of which a body is awake, and makes their algorithms. The pairs must stay until
+  /// update_manifolds().
   void list(btOverlappingPairCache& pairs);
   /// Adds the search for the contacts of the listed pairs. It reads poses and hulls.
   void search(WorkBatch& batch, float step_s);
   /// Makes and releases manifolds.
-  void keep();
+  void update_manifolds();
   /// Sum of HullAlgorithm::overlaps() of the last step.
   size_t overlaps() const { return overlaps_; }
 
  private:
   std::atomic<size_t> overlaps_{0};
-  std::vector<btBroadphasePair*> awake_;  ///< listed; after the search, those that keep() has to do with
+  std::vector<btBroadphasePair*>
+      awake_;  ///< listed; after the search, those that update_manifolds() has to do with
 };
 
 }  // namespace scree

@@ -89,7 +89,7 @@ void PieceWorld::gather() {
 
 void PieceWorld::solve() {
   CHECK_EQ(getNumConstraints(), 0);
-  pairs_.keep();
+  pairs_.update_manifolds();
   getSolverInfo().m_timeStep = step_s_;
   gather();
   const std::span<SolverGroups::Group> groups = groups_.divide();

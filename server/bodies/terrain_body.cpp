@@ -62,17 +62,17 @@ void TerrainBody::turn(Body& body) const {
   const btRigidBody& rigid = *body.rigid;
   body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
   body.awake = rigid.isActive();
-  body.looks = false;
+  body.needs_copy = false;
   if (!body.awake) return;
   body.last = rigid.getWorldTransform();
-  body.looks =
+  body.needs_copy =
       !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, surface_.step_s));
 }
 
-void TerrainBody::refill(std::span<Body*> some, bool looking) const {
+void TerrainBody::refill(std::span<Body*> some, bool copying) const {
   std::vector<TerrainContact> found;
   for (Body* body : some) {
-    if (!body->awake || body->looks != looking) continue;
+    if (!body->awake || body->needs_copy != copying) continue;
     found.clear();
     body->probe->list(found);
     CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {

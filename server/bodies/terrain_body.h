@@ -44,7 +44,7 @@ class TerrainBody {
   /// Turns the body's hulls and, if it is awake, its points. Sets Body::awake and looks.
   void turn(Body& body) const;
   /// Refills the contacts of the bodies that are awake; of those that look, or of the others.
-  void refill(std::span<Body*> some, bool looking) const;
+  void refill(std::span<Body*> some, bool copying) const;
   /// Gives the contacts with the terrain its friction.
   void roughen(std::span<Body*> some) const;
 

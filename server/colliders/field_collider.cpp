@@ -25,7 +25,7 @@ class FieldProbe final : public TerrainProbe {
     return codes_.has(lo(), hi());
   }
 
-  void look() override { codes_.look(lo(), hi()); }
+  void copy_terrain() override { codes_.copy_around(lo(), hi()); }
 
   void list(std::vector<TerrainContact>& out) const override {
     if (codes_.all_air()) return;

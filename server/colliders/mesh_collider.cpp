@@ -27,7 +27,7 @@ class MeshProbe final : public TerrainProbe {
            needed.hi.x <= box.hi.x && needed.hi.y <= box.hi.y && needed.hi.z <= box.hi.z;
   }
 
-  void look() override {
+  void copy_terrain() override {
     const VoxelBox wider = bounds().grown(limits::probe_slack_voxels);
     triangles_ = TriangleBins(mesh_.near(wider), wider);
   }

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-void NearbyCodes::look(glm::vec3 lo, glm::vec3 hi) {
+void NearbyCodes::copy_around(glm::vec3 lo, glm::vec3 hi) {
   CHECK_DEBUG(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z);
   if (has(lo, hi)) return;
   codes_ = gather(field_, box_around(lo, hi).grown(limits::probe_slack_voxels));

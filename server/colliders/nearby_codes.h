@@ -14,7 +14,7 @@ class NearbyCodes {
   /// Whether codes() covers the bounds, for sampling anywhere between `lo` and `hi`.
   bool has(glm::vec3 lo, glm::vec3 hi) const { return covers(codes_, lo) && covers(codes_, hi); }
   /// Makes codes() cover the bounds. Reads the field.
-  void look(glm::vec3 lo, glm::vec3 hi);
+  void copy_around(glm::vec3 lo, glm::vec3 hi);
   /// Drops the copy if it overlaps this box.
   void terrain_changed(const VoxelBox& box);
 

@@ -66,9 +66,9 @@ class RaysProbe final : public TerrainProbe {
     return codes_.has(lo, hi);
   }
 
-  void look() override {
+  void copy_terrain() override {
     const auto [lo, hi] = cast_bounds();
-    codes_.look(lo, hi);
+    codes_.copy_around(lo, hi);
   }
 
   void list(std::vector<TerrainContact>& out) const override {

@@ -27,17 +27,18 @@ class TerrainProbe {
   virtual ~TerrainProbe() = default;
 
   /// Appends to `out` the points of the body, at `pose`, that are nearer to the ground than `reach_m`:
-  /// turn(), look() if it is wanted, and list().
+  /// turn(), copy_terrain() if it is wanted, and list().
   void find(const Pose& pose, float reach_m, std::vector<TerrainContact>& out) {
-    if (!turn(pose, reach_m)) look();
+    if (!turn(pose, reach_m)) copy_terrain();
     list(out);
   }
 
-  /// Turns the points to the pose, and tells whether the copy covers what list() will read; if not, look()
-  /// comes first. Reads and changes this probe alone: threads may turn different probes at once.
+  /// Turns the points to the pose, and tells whether the copy covers what list() will read; if not,
+  /// copy_terrain() comes first. Reads and changes this probe alone: threads may turn different probes at
+  /// once.
   virtual bool turn(const Pose& pose, float reach_m) = 0;
   /// Copies the terrain around the pose. Reads the field and what all probes share.
-  virtual void look() = 0;
+  virtual void copy_terrain() = 0;
   /// Appends the points that are nearer to the ground than the reach. Reads this probe alone, as turn() does.
   virtual void list(std::vector<TerrainContact>& out) const = 0;
 

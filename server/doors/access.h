@@ -48,7 +48,7 @@ class Access {
 
   /// Null: this server has no certificate.
   const std::shared_ptr<const TlsServerContext>& tls() const { return tls_; }
-  bool takes_tokens() const { return key_.has_value(); }
+  bool accepts_tokens() const { return key_.has_value(); }
 
  private:
   Access() = default;

@@ -32,14 +32,14 @@ class Authorizer {
   /// Reads certificate, keys, revoked tokens and bans. The error names the file.
   Result<void> open();
   /// Replaces certificate, keys and revoked tokens.
-  void take_access(std::shared_ptr<const Access> access) { access_ = std::move(access); }
+  void set_access(std::shared_ptr<const Access> access) { access_ = std::move(access); }
   const Access& access() const { return *access_; }
   Bans& bans() { return bans_; }
   const Bans& bans() const { return bans_; }
 
   bool has_admin_token() const { return !admin_token_.empty(); }
   /// Whether anybody could be an administrator here.
-  bool knows_administrators() const { return has_admin_token() || access_->takes_tokens(); }
+  bool knows_administrators() const { return has_admin_token() || access_->accepts_tokens(); }
 
   /// A wrong token ends the connection, so that each connection has one attempt, and its address must wait
   /// before the next one (Door). The right token waits, too: any answer meanwhile would answer a guess.

@@ -20,7 +20,7 @@ bool has_ended(const Ban& ban, uint64_t now_s) {
   return ban.until_s != 0 && ban.until_s <= now_s;
 }
 
-Result<void> take_line(const std::string& line, std::map<std::string, Ban>& bans) {
+Result<void> parse_line(const std::string& line, std::map<std::string, Ban>& bans) {
   std::istringstream words(line);
   std::string address;
   Ban ban;
@@ -64,7 +64,7 @@ Result<Bans> Bans::open(const std::string& path) {
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.empty()) continue;
-    if (Result<void> taken = take_line(line, bans.bans_); !taken)
+    if (Result<void> taken = parse_line(line, bans.bans_); !taken)
       return fail(path + ", line " + std::to_string(number) + ": " + taken.error().message);
   }
   return bans;

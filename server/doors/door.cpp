@@ -63,7 +63,7 @@ void Door::forget_the_gone(double now_s) {
 std::optional<Refusal> Door::enter(const std::string& address, double now_s) {
   Visitor& from = visitor(address, now_s);
   if (!is_free(address)) {
-    if (!from.connects.take(now_s)) return Refusal::connects_per_second;
+    if (!from.connects.try_spend(now_s)) return Refusal::connects_per_second;
     if (from.connections >= rules_.connections_max) return Refusal::connections_per_address;
   }
   ++from.connections;
@@ -77,7 +77,7 @@ void Door::leave(const std::string& address, double now_s) {
 }
 
 bool Door::may_request(const std::string& address, double now_s) {
-  return is_free(address) || visitor(address, now_s).requests.take(now_s);
+  return is_free(address) || visitor(address, now_s).requests.try_spend(now_s);
 }
 
 double Door::wait_for_guess_s(const std::string& address, double now_s) const {

@@ -72,13 +72,13 @@ void Tickets::forget_departed(const std::function<bool(const Departed&)>& unwant
   for (const uint64_t session : sessions) forget(session);
 }
 
-size_t Tickets::places_kept(double now_s) const {
+size_t Tickets::reserved_places(double now_s) const {
   return static_cast<size_t>(
       std::ranges::count_if(departed_, [&](const auto& entry) { return has_place(entry.second, now_s); }));
 }
 
 bool has_place(const Departed& departed, double now_s) {
-  return departed.keeps_place && now_s <= departed.departed_s + limits::place_kept_seconds_max;
+  return departed.reserves_place && now_s <= departed.departed_s + limits::place_kept_seconds_max;
 }
 
 }  // namespace scree

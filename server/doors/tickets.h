@@ -25,7 +25,7 @@ struct Departed {
   double joined_s = 0.0;
   uint64_t party = 0;  ///< Parties
   double departed_s = 0.0;
-  bool keeps_place = false;  ///< in a full server, for limits::place_kept_seconds_max
+  bool reserves_place = false;  ///< in a full server, for limits::place_kept_seconds_max
 };
 
 class Tickets {
@@ -48,7 +48,7 @@ class Tickets {
   void expire(double now_s);
   /// Forgets departed sessions of which it is true.
   void forget_departed(const std::function<bool(const Departed&)>& unwanted);
-  size_t places_kept(double now_s) const;
+  size_t reserved_places(double now_s) const;
 
  private:
   std::function<void(uint64_t session)> over_;

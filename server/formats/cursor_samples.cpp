@@ -152,7 +152,7 @@ class Unpacker {
 
   std::string name() {
     const uint64_t length = reader_.varint("length of a name", limits::person_name_bytes_max);
-    const auto bytes = reader_.take_bytes(length, "name");
+    const auto bytes = reader_.read_bytes(length, "name");
     return check_.text({bytes.begin(), bytes.end()}, limits::person_name_bytes_max, "name");
   }
 

@@ -24,14 +24,14 @@ std::string without_length(const std::vector<uint8_t>& message) {
 }
 
 PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
-  ServerMessage message = check.take(decode_server(bytes));
+  ServerMessage message = check.value_or_refuse(decode_server(bytes));
   if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
   check.refuse("what should be a piece is another message");
   return {};
 }
 
 Command read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
-  const ClientMessage message = check.take(decode_client(as_span(bytes)));
+  const ClientMessage message = check.value_or_refuse(decode_client(as_span(bytes)));
   return std::visit(
       Overloaded{
           [&]<typename Asks>(const RequestMessage<Asks>& asked) {
@@ -96,8 +96,8 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   FieldChecker check("frame of the recording");
   RecordedFrame frame;
   frame.tick = from.tick();
-  frame.operations = check.take(decode_operations(as_span(from.operations())));
-  frame.moved = check.take(unpack_transforms(as_span(from.moved())));
+  frame.operations = check.value_or_refuse(decode_operations(as_span(from.operations())));
+  frame.moved = check.value_or_refuse(unpack_transforms(as_span(from.moved())));
   frame.ledger = read(from.ledger());
   frame.field_hash = from.field_hash();
   frame.state_hash = from.state_hash();
@@ -129,7 +129,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   RecordedKeyframe keyframe;
   keyframe.tick = from.tick();
   for (const std::string& packed : from.bricks()) {
-    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(packed)));
+    const std::vector<BrickPatch> bricks = check.value_or_refuse(decode_bricks(as_span(packed)));
     if (check.failed()) break;
     keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
@@ -146,7 +146,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.field_hash = from.field_hash();
   keyframe.state_hash = from.state_hash();
   keyframe.settings = check.settings(from.settings());
-  keyframe.poses = check.take(unpack_transforms(as_span(from.poses())));
+  keyframe.poses = check.value_or_refuse(unpack_transforms(as_span(from.poses())));
   return checked(std::move(keyframe), check);
 }
 

@@ -6,7 +6,7 @@
 
 #include "proto/operation_codec.h"
 #include "proto/wire_values.h"
-#include "server/formats/kept_lists.h"
+#include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
@@ -26,7 +26,7 @@ void write(kept::Turns& to, const TurnsValue& from) {
 }
 
 TurnsValue read(const kept::Turns& from, FieldChecker& check) {
-  return {check.take(unpack_turns(from.turns())), from.served_ns()};
+  return {check.value_or_refuse(unpack_turns(from.turns())), from.served_ns()};
 }
 
 void write(kept::Session& to, const SessionValue& from) {
@@ -45,8 +45,8 @@ SessionValue read(const kept::Session& from, FieldChecker& check) {
   SessionValue session;
   session.session = from.session();
   session.waiting_us = check.finite(from.waiting_us(), "waiting_us");
-  const auto commands = check.take(decode_recorded_commands(as_span(from.requests())));
-  const auto waiting = check.take(
+  const auto commands = check.value_or_refuse(decode_recorded_commands(as_span(from.requests())));
+  const auto waiting = check.value_or_refuse(
       unpacked<WaitingValue>(from.waiting(), "waiting requests", commands.size(), [](ByteReader& reader) {
         WaitingValue value;
         value.cost_us = reader.f32("cost");
@@ -61,7 +61,7 @@ SessionValue read(const kept::Session& from, FieldChecker& check) {
   return session;
 }
 
-void write(kept::Cut& to, const PendingCut& from) {
+void write(kept::Cut& to, const PendingRefracture& from) {
   to.set_piece(from.piece);
   to.set_pieces(from.pieces);
   to.set_pattern(static_cast<uint32_t>(from.pattern));
@@ -72,27 +72,27 @@ void write(kept::Cut& to, const PendingCut& from) {
   to.set_thrown_by(to_string(encode(std::span(&carve, 1))));
 }
 
-PendingCut read(const kept::Cut& from, FieldChecker& check) {
-  PendingCut cut;
-  cut.piece = from.piece();
-  cut.pieces = from.pieces();
-  cut.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
-  cut.random_seed = from.random_seed();
-  const auto impact = check.take(unpack_vec3s(from.impact(), "impact of a cut", 1));
+PendingRefracture read(const kept::Cut& from, FieldChecker& check) {
+  PendingRefracture pending;
+  pending.piece = from.piece();
+  pending.pieces = from.pieces();
+  pending.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
+  pending.random_seed = from.random_seed();
+  const auto impact = check.value_or_refuse(unpack_vec3s(from.impact(), "impact of a cut", 1));
   if (impact.size() == 1)
-    cut.impact_m = impact.front();
+    pending.impact_m = impact.front();
   else
     check.refuse("a cut without an impact");
-  if (from.thrown_by().empty()) return cut;
-  const auto commands = check.take(decode_recorded_commands(as_span(from.thrown_by())));
+  if (from.thrown_by().empty()) return pending;
+  const auto commands = check.value_or_refuse(decode_recorded_commands(as_span(from.thrown_by())));
   if (commands.size() == 1 && std::holds_alternative<CarveRequest>(commands.front().body))
-    cut.thrown_by = std::make_shared<const CarveRequest>(std::get<CarveRequest>(commands.front().body));
+    pending.thrown_by = std::make_shared<const CarveRequest>(std::get<CarveRequest>(commands.front().body));
   else
     check.refuse("what throws a cut's pieces is no carve");
-  return cut;
+  return pending;
 }
 
-void write(kept::Piece& to, const KeptPiece& from) {
+void write(kept::Piece& to, const PieceRecord& from) {
   const BodyShape& shape = *from.shape;
   to.set_id(from.id);
   to.set_generation(from.traits.generation);
@@ -111,27 +111,27 @@ BodyShape read_shape(const kept::Piece& from, FieldChecker& check) {
   BodyShape shape;
   shape.mass_kg = check.finite(from.mass_kg(), "mass_kg");
   shape.friction = check.not_negative(from.friction(), "friction");
-  const auto inertia = check.take(unpack_vec3s(from.inertia(), "inertia", 3));
+  const auto inertia = check.value_or_refuse(unpack_vec3s(from.inertia(), "inertia", 3));
   if (inertia.size() == 3)
     shape.inertia_kg_m2 = glm::mat3(inertia[0], inertia[1], inertia[2]);
   else
     check.refuse("a tensor of inertia without nine numbers");
-  shape.hull_m = check.take(unpack_vec3s(from.hull(), "hull", hull_points_max));
-  shape.surface_m = check.take(unpack_vec3s(from.surface(), "surface", surface_points_max));
+  shape.hull_m = check.value_or_refuse(unpack_vec3s(from.hull(), "hull", hull_points_max));
+  shape.surface_m = check.value_or_refuse(unpack_vec3s(from.surface(), "surface", surface_points_max));
   if (from.parts_size() > parts_max) check.refuse(fmt::format("more than {} parts", parts_max));
   for (int i = 0; i < from.parts_size() && !check.failed(); ++i)
-    shape.parts_m.push_back(check.take(unpack_vec3s(from.parts(i), "part", hull_points_max)));
+    shape.parts_m.push_back(check.value_or_refuse(unpack_vec3s(from.parts(i), "part", hull_points_max)));
   return shape;
 }
 
-KeptPiece read(const kept::Piece& from, FieldChecker& check) {
-  KeptPiece piece;
+PieceRecord read(const kept::Piece& from, FieldChecker& check) {
+  PieceRecord piece;
   piece.id = from.id();
   piece.traits.generation =
       static_cast<uint8_t>(check.within(from.generation(), 0, UINT8_MAX, "generation of a piece"));
   piece.traits.fell = from.fell();
   piece.traits.owner = from.owner();
-  piece.volume = std::make_shared<const Volume>(check.take(decode_volume(as_span(from.volume()))));
+  piece.volume = std::make_shared<const Volume>(check.value_or_refuse(decode_volume(as_span(from.volume()))));
   piece.shape = std::make_shared<const BodyShape>(read_shape(from, check));
   return piece;
 }
@@ -146,7 +146,7 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_bodies(pack_bodies(from.motion.bodies));
   to.set_freed(pack_bounds(from.motion.freed));
   to.set_changes(pack_boxes(from.motion.changes));
-  to.set_rest(pack_watches(from.rest.watches));
+  to.set_rest(pack_timers(from.rest.timers));
   to.set_rest_put_off(from.rest.put_off);
   write(*to.mutable_party_turns(), from.requests.turns);
   for (const PartyValue& party : from.requests.parties) {
@@ -157,15 +157,15 @@ void write(kept::Moment& to, const WorldMoment& from) {
   }
   to.set_requested(from.requested);
   to.set_debt_us(from.debt_us);
-  for (const PendingCut& cut : from.cuts) write(*to.add_cuts(), cut);
-  to.set_cut_at(from.cut_at);
+  for (const PendingRefracture& pending : from.refractures) write(*to.add_cuts(), pending);
+  to.set_cut_at(from.refractured_at);
   to.set_island_at(from.island_at);
-  for (const IslandCut& search : from.islands) {
+  for (const LooseningEdit& search : from.islands) {
     kept::Search& added = *to.add_searches();
     added.set_bricks(pack_bricks(search.bricks));
     added.set_restarts(search.restarts);
   }
-  to.set_cut(pack_bricks(from.cut));
+  to.set_cut(pack_bricks(from.loosened_bricks));
   to.set_strained(pack_bricks(from.strained));
   to.set_gained(pack_boxes(from.gained));
   to.set_buried(pack_ids(from.buried));
@@ -192,25 +192,25 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.ledger = scree::read(from.ledger());
   moment.field_hash = from.field_hash();
   moment.state_hash = from.state_hash();
-  moment.motion.bodies = check.take(unpack_bodies(from.bodies()));
-  moment.motion.freed = check.take(unpack_bounds(from.freed(), "places of removed bodies"));
-  moment.motion.changes = check.take(unpack_boxes(from.changes(), "changes of terrain"));
-  moment.rest.watches = check.take(unpack_watches(from.rest()));
+  moment.motion.bodies = check.value_or_refuse(unpack_bodies(from.bodies()));
+  moment.motion.freed = check.value_or_refuse(unpack_bounds(from.freed(), "places of removed bodies"));
+  moment.motion.changes = check.value_or_refuse(unpack_boxes(from.changes(), "changes of terrain"));
+  moment.rest.timers = check.value_or_refuse(unpack_timers(from.rest()));
   moment.rest.put_off = from.rest_put_off();
   moment.requests = read_requests(from, check);
   moment.requested = from.requested();
   moment.debt_us = check.not_negative(from.debt_us(), "debt_us");
-  for (const kept::Cut& cut : from.cuts()) moment.cuts.push_back(read(cut, check));
-  moment.cut_at = from.cut_at();
+  for (const kept::Cut& pending : from.cuts()) moment.refractures.push_back(read(pending, check));
+  moment.refractured_at = from.refractured_at();
   moment.island_at = from.island_at();
   for (const kept::Search& search : from.searches())
     moment.islands.push_back(
-        {check.take(unpack_bricks(search.bricks(), "searched bricks")), search.restarts()});
-  moment.cut = check.take(unpack_bricks(from.cut(), "cut bricks"));
-  moment.strained = check.take(unpack_bricks(from.strained(), "strained bricks"));
-  moment.gained = check.take(unpack_boxes(from.gained(), "gained terrain"));
-  moment.buried = check.take(unpack_piece_ids(from.buried(), "buried pieces"));
-  moment.sunk = check.take(unpack_piece_ids(from.sunk(), "sunk pieces"));
+        {check.value_or_refuse(unpack_bricks(search.bricks(), "searched bricks")), search.restarts()});
+  moment.loosened_bricks = check.value_or_refuse(unpack_bricks(from.cut(), "cut bricks"));
+  moment.strained = check.value_or_refuse(unpack_bricks(from.strained(), "strained bricks"));
+  moment.gained = check.value_or_refuse(unpack_boxes(from.gained(), "gained terrain"));
+  moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
+  moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
   return moment;
 }
 
@@ -259,7 +259,7 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   const auto from = TRY(parsed<kept::Chunk>(bytes, chunk_subject));
   FieldChecker check(chunk_subject);
   WorldChunk chunk{{from.x(), from.y(), from.z()}, from.version(), from.hash(), {}, {}};
-  chunk.bricks = check.take(decode_bricks(as_span(from.bricks())));
+  chunk.bricks = check.value_or_refuse(decode_bricks(as_span(from.bricks())));
   uint64_t hash = 0;
   for (const BrickPatch& patch : chunk.bricks) {
     hash += brick_hash(patch.coord, patch.brick, patch.paint);
@@ -278,13 +278,13 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   return checked(std::move(chunk), check);
 }
 
-std::vector<uint8_t> encode(const KeptPiece& piece) {
+std::vector<uint8_t> encode(const PieceRecord& piece) {
   kept::Piece to;
   write(to, piece);
   return bytes_of(to);
 }
 
-Result<KeptPiece> decode_kept_piece(std::span<const uint8_t> bytes) {
+Result<PieceRecord> decode_piece_record(std::span<const uint8_t> bytes) {
   const auto from = TRY(parsed<kept::Piece>(bytes, piece_subject));
   FieldChecker check(piece_subject);
   return checked(read(from, check), check);
@@ -305,7 +305,7 @@ Result<WorldMoment> decode_world_moment(std::span<const uint8_t> bytes) {
 std::vector<uint8_t> encode(const WorldSnapshot& world) {
   kept::World to;
   write(*to.mutable_moment(), world.moment);
-  for (const KeptPiece& piece : world.moment.pieces) write(*to.add_pieces(), piece);
+  for (const PieceRecord& piece : world.moment.pieces) write(*to.add_pieces(), piece);
   const std::span<const BrickPatch> bricks(world.bricks);
   for (size_t at = 0; at < bricks.size(); at += limits::bricks_per_message_max)
     to.add_bricks(to_string(
@@ -326,7 +326,7 @@ Result<WorldSnapshot> decode_world(std::span<const uint8_t> bytes) {
           fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   }
   for (int i = 0; i < from.bricks_size() && !check.failed(); ++i) {
-    const std::vector<BrickPatch> bricks = check.take(decode_bricks(as_span(from.bricks(i))));
+    const std::vector<BrickPatch> bricks = check.value_or_refuse(decode_bricks(as_span(from.bricks(i))));
     world.bricks.insert(world.bricks.end(), bricks.begin(), bricks.end());
   }
   return checked(std::move(world), check);

@@ -36,7 +36,7 @@ struct WorldChunk {
 
 std::vector<uint8_t> encode(const WorldHeader& header);
 std::vector<uint8_t> encode(const WorldChunk& chunk);
-std::vector<uint8_t> encode(const KeptPiece& piece);
+std::vector<uint8_t> encode(const PieceRecord& piece);
 /// Without the pieces, which are rows of their own.
 std::vector<uint8_t> encode(const WorldMoment& moment);
 std::vector<uint8_t> encode(const WorldSnapshot& world);
@@ -44,7 +44,7 @@ std::vector<uint8_t> encode(const WorldSnapshot& world);
 Result<WorldHeader> decode_world_header(std::span<const uint8_t> bytes);
 /// Refuses bricks of another chunk, and a hash that is not that of the bricks.
 Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes);
-Result<KeptPiece> decode_kept_piece(std::span<const uint8_t> bytes);
+Result<PieceRecord> decode_piece_record(std::span<const uint8_t> bytes);
 Result<WorldMoment> decode_world_moment(std::span<const uint8_t> bytes);
 Result<WorldSnapshot> decode_world(std::span<const uint8_t> bytes);
 

@@ -54,7 +54,7 @@ struct PieceTraits {
 };
 
 /// What never changes of a piece. Neither buffer is null.
-struct KeptPiece {
+struct PieceRecord {
   PieceId id = 0;
   PieceTraits traits;
   std::shared_ptr<const Volume> volume;
@@ -91,7 +91,7 @@ struct MotionValue {
 };
 
 /// How long a piece has been still (RestDetector).
-struct RestWatch {
+struct StillnessTimer {
   PieceId id = 0;
   glm::vec3 anchor_m{0.0F};
   std::array<float, 4> anchor_rotation{};  ///< w, x, y, z
@@ -99,11 +99,11 @@ struct RestWatch {
   uint32_t still_ticks = 0;
   uint32_t terrain_ticks = 0;
 
-  bool operator==(const RestWatch&) const = default;
+  bool operator==(const StillnessTimer&) const = default;
 };
 
 struct RestValue {
-  std::vector<RestWatch> watches;  ///< ordered by id
+  std::vector<StillnessTimer> timers;  ///< ordered by id
   uint64_t put_off = 0;
 
   bool operator==(const RestValue&) const = default;
@@ -146,8 +146,8 @@ struct RequestsValue {
   std::vector<PartyValue> parties;
 };
 
-/// A piece that is still to be cut into so many (server/world/cut_stage.h).
-struct PendingCut {
+/// A piece that is still to be cut into so many (server/world/refracture_stage.h).
+struct PendingRefracture {
   PieceId piece = 0;
   uint32_t pieces = 0;
   SeedPattern pattern = SeedPattern::uniform;
@@ -159,11 +159,11 @@ struct PendingCut {
 };
 
 /// Changed bricks around which islands are searched for.
-struct IslandCut {
+struct LooseningEdit {
   std::vector<BrickCoord> bricks;
   uint32_t restarts = 0;
 
-  bool operator==(const IslandCut&) const = default;
+  bool operator==(const LooseningEdit&) const = default;
 };
 
 /// All but the terrain: cheap to make, so that every tick can be saved.
@@ -173,21 +173,21 @@ struct WorldMoment {
   PieceId next_piece = 1;
   Ledger ledger;
   uint64_t field_hash = 0;
-  uint64_t state_hash = 0;        ///< of field, bodies and ledger, as a tick publishes it
-  std::vector<KeptPiece> pieces;  ///< ordered by id, as motion.bodies
+  uint64_t state_hash = 0;          ///< of field, bodies and ledger, as a tick publishes it
+  std::vector<PieceRecord> pieces;  ///< ordered by id, as motion.bodies
   MotionValue motion;
   RestValue rest;
   RequestsValue requests;
   Tick requested = 0;  ///< tick in which a request that costs time was carried out last
   float debt_us = 0.0F;
-  std::vector<PendingCut> cuts;  ///< in order
-  Tick cut_at = 0;               ///< tick of the last cut, as island_at of the last fall
+  std::vector<PendingRefracture> refractures;  ///< in order
+  Tick refractured_at = 0;                     ///< tick of the last cut, as island_at of the last fall
   Tick island_at = 0;
-  std::vector<IslandCut> islands;    ///< searches, in order
-  std::vector<BrickCoord> cut;       ///< ordered; await a search for islands
-  std::vector<BrickCoord> strained;  ///< ordered; await a search for support
-  std::vector<VoxelBox> gained;      ///< around terrain that gained rock
-  std::vector<PieceId> buried;       ///< ordered, as `sunk`; may be gone
+  std::vector<LooseningEdit> islands;       ///< searches, in order
+  std::vector<BrickCoord> loosened_bricks;  ///< ordered; await a search for islands
+  std::vector<BrickCoord> strained;         ///< ordered; await a search for support
+  std::vector<VoxelBox> gained;             ///< around terrain that gained rock
+  std::vector<PieceId> buried;              ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
 };
 

@@ -60,7 +60,7 @@ void Administration::log_settings(const TickDelta& delta) {
 
 void Administration::act(ClientSession& session, const AdminMessage& message) {
   ++counts_.requests;
-  if (!sessions_.at(session.id()).requests.take(steady_now_s()))
+  if (!sessions_.at(session.id()).requests.try_spend(steady_now_s()))
     return requests_.refuse(session, message.request,
                             {Refusal::requests_per_second, "too many requests: ask again more slowly"});
   const auto list = [&](AdminListMessage rows) {

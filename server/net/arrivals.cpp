@@ -41,7 +41,7 @@ void Arrivals::accepting_failed(const std::string& why) {
 
 void Arrivals::begin(std::shared_ptr<Transport> transport, const std::string& address) {
   const uint64_t id = next_session_++;
-  SniffingTransport::TakeHttp http;
+  SniffingTransport::HttpHandoff http;
   if (parts_.web.speaks_http())
     http = [this, id](std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived) {
       begin_http(id, std::move(stream), arrived);
@@ -84,7 +84,7 @@ void Arrivals::close_oldest_outsider(const std::string& why) {
   if (!outsider) return;
   const auto session = parts_.sessions.at(*outsider).session;
   if (session->phase() == ClientSession::Phase::refused) return session->close("refused before");
-  session->cut_off(Refusal::outsiders_max, why);
+  session->disconnect(Refusal::outsiders_max, why);
 }
 
 }  // namespace scree

@@ -46,22 +46,22 @@ void ClientSession::read_failed(const StreamEnd& end) {
   if (phase_ == Phase::refused) return close("refused before");
   peer_ended_ = true;
   if (!transport_->established()) {
-    cut_for_ = Refusal::tls_failed;
+    disconnect_reason_ = Refusal::tls_failed;
     return close(end.why);
   }
-  const std::string cut_short = "the connection ended in the middle of a message, after " +
-                                std::to_string(reader_.buffered_bytes()) + " bytes of it";
+  const std::string has_leftovers = "the connection ended in the middle of a message, after " +
+                                    std::to_string(reader_.buffered_bytes()) + " bytes of it";
   const bool within_message = end.orderly && reader_.buffered_bytes() != 0;
-  if (within_message && phase_ == Phase::hello) return refuse({Refusal::message_cut_short, cut_short});
+  if (within_message && phase_ == Phase::hello) return refuse({Refusal::message_cut_short, has_leftovers});
   was_lost_ = true;
-  if (end.broken) return cut_off(Refusal::stream_malformed, end.why);
-  if (within_message) return cut_off(Refusal::message_cut_short, cut_short);
+  if (end.broken) return disconnect(Refusal::stream_malformed, end.why);
+  if (within_message) return disconnect(Refusal::message_cut_short, has_leftovers);
   close(end.orderly ? "its end of the connection is closed" : end.why);
 }
 
 void ClientSession::read_done(size_t bytes) {
   now_s_ = times_.now_s();
-  if (phase_ != Phase::refused && !bytes_.take(now_s_, static_cast<double>(bytes)))
+  if (phase_ != Phase::refused && !bytes_.try_spend(now_s_, static_cast<double>(bytes)))
     refuse({Refusal::bytes_per_second,
             fmt::format("more than {} bytes a second (limits.client_bytes_per_second_max)",
                         limits::client_bytes_per_second_max)});
@@ -73,19 +73,19 @@ void ClientSession::read_done(size_t bytes) {
         refuse({Refusal::message_malformed, message.error().message});
         break;
       }
-      if (!message->has_value() || !take_message(**message)) break;
+      if (!message->has_value() || !receive_message(**message)) break;
     }
   }
   if (phase_ != Phase::closed) read();
 }
 
 /// False when the session was ended by it.
-bool ClientSession::take_message(std::span<const uint8_t> body) {
+bool ClientSession::receive_message(std::span<const uint8_t> body) {
   const auto fail_with = [&](const Refused& refused) {
     refuse(refused);
     return false;
   };
-  if (!messages_.take(now_s_))
+  if (!messages_.try_spend(now_s_))
     return fail_with({Refusal::messages_per_second,
                       "more than " + std::to_string(static_cast<int>(limits::messages_per_second_max)) +
                           " messages a second (limits.messages_per_second_max)"});
@@ -116,7 +116,7 @@ void ClientSession::send(const ServerMessage& message) {
 
 void ClientSession::send(SharedBytes bytes) {
   queue(std::move(bytes));
-  if (keeps_up()) write();
+  if (has_acceptable_backlog()) write();
 }
 
 void ClientSession::queue(SharedBytes bytes) {
@@ -128,11 +128,11 @@ void ClientSession::queue(SharedBytes bytes) {
   CHECK_DEBUG(backlog_adds_up());
 }
 
-bool ClientSession::keeps_up() {
+bool ClientSession::has_acceptable_backlog() {
   if (phase_ == Phase::closed) return false;
   if (backlog_bytes_ <= limits::outbox_hard_bytes) return true;
-  cut_off(Refusal::outbox_full, "read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
-                                    " bytes waited for it (limits.outbox_hard_bytes)");
+  disconnect(Refusal::outbox_full, "read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
+                                       " bytes waited for it (limits.outbox_hard_bytes)");
   return false;
 }
 
@@ -198,7 +198,7 @@ void ClientSession::send_now() {
 }
 
 void ClientSession::settle() {
-  if (!keeps_up()) return;
+  if (!has_acceptable_backlog()) return;
   transport_->send_rest();
   write();
 }
@@ -253,11 +253,11 @@ void ClientSession::check_time(double now_s) {
         {Refusal::hello_late, "no hello within " + std::to_string(times_.hello_s) + " s of connecting"});
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");
   if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s)
-    cut_off(Refusal::reading_stalled, "read nothing for " + std::to_string(times_.stall_s) + " s");
+    disconnect(Refusal::reading_stalled, "read nothing for " + std::to_string(times_.stall_s) + " s");
 }
 
-void ClientSession::cut_off(Refusal reason, const std::string& words) {
-  cut_for_ = reason;
+void ClientSession::disconnect(Refusal reason, const std::string& words) {
+  disconnect_reason_ = reason;
   close(words);
 }
 

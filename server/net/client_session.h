@@ -73,7 +73,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void settle();
   void send(const ServerMessage& message);
   /// Closes at once, and is counted by this reason.
-  void cut_off(Refusal reason, const std::string& words);
+  void disconnect(Refusal reason, const std::string& words);
   /// Sends the reason, and closes when the client has read it or limits::linger_seconds_max are over.
   void refuse(const Refused& refused);
   /// Closes at once.
@@ -111,7 +111,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
     return backlog;
   }
   /// Why it was cut off, if it was.
-  std::optional<Refusal> cut_for() const { return cut_for_; }
+  std::optional<Refusal> disconnect_reason() const { return disconnect_reason_; }
   /// For a closed session: whether it had joined, was not refused and did not leave, and whether its
   /// connection ended by itself, in order or not, rather than by the server.
   bool may_go_on() const { return may_go_on_; }
@@ -121,7 +121,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void read();
   void read_done(size_t bytes);
   void read_failed(const StreamEnd& end);
-  bool take_message(std::span<const uint8_t> body);
+  bool receive_message(std::span<const uint8_t> body);
   void write();
   void write_done(size_t bytes);
   void count_sent(size_t bytes);
@@ -135,7 +135,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   Gathered gather() const;
   void finish_sending();
   /// False when it is closed, or was cut off for too long a backlog.
-  bool keeps_up();
+  bool has_acceptable_backlog();
   /// Whether backlog_bytes_ is the rest of the outbox's bytes; for CHECK_DEBUG.
   bool backlog_adds_up() const;
 
@@ -146,7 +146,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   std::string peer_;
   std::string address_;
   Phase phase_ = Phase::hello;
-  std::optional<Refusal> cut_for_;
+  std::optional<Refusal> disconnect_reason_;
   double phase_since_s_;
   double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;

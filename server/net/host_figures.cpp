@@ -3,7 +3,7 @@
 namespace scree {
 
 void HostFigures::show(const Publisher& publisher, bool with_cursors) {
-  watched_ = publisher.is_watched();
+  wants_physics_ = publisher.has_physics_subscribers();
   counts_.published = publisher.stats();
   const std::scoped_lock lock(mutex_);
   stats_ = counts_;

@@ -23,11 +23,11 @@ class HostFigures {
   LatencyCounts latency() const;
   std::vector<glm::vec3> eyes_m() const;
   std::vector<PlayerCursor> cursors() const;
-  bool is_watched() const { return watched_; }
+  bool wants_physics() const { return wants_physics_; }
 
  private:
   NetStats counts_;
-  std::atomic<bool> watched_{false};
+  std::atomic<bool> wants_physics_{false};
   mutable std::mutex mutex_;
   NetStats stats_;  ///< guarded by mutex_, as all below
   LatencyCounts latency_;

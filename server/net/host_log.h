@@ -14,7 +14,7 @@ namespace scree {
 class HostLog {
  public:
   void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line) {
-    if (const auto more = limit_.take(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
+    if (const auto more = limit_.admit(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
   }
 
  private:

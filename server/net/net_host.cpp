@@ -120,8 +120,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
 tl::expected<void, Refused> NetHost::find_room(const ClientSession& newcomer, const Grant& grant,
                                                const std::optional<Departed>& before, double now_s) {
   const bool comes_first = (before && has_place(*before, now_s)) || holds_token(grant);
-  const size_t kept = comes_first ? 0 : returns_.tickets().places_kept(now_s);
-  return room_.find_place(sessions_, newcomer, grant, kept, now_s);
+  const size_t reserved = comes_first ? 0 : returns_.tickets().reserved_places(now_s);
+  return room_.find_place(sessions_, newcomer, grant, reserved, now_s);
 }
 
 void NetHost::join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
@@ -194,8 +194,8 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             pass_on(said, session, talk_, sessions_, steady_now_s());
             return {};
           },
-          [&](const WatchMessage& watch) -> Done {
-            publisher_.watch(session.id(), watch.physics);
+          [&](const PhysicsSubscriptionMessage& subscription) -> Done {
+            publisher_.subscribe_physics(session.id(), subscription.physics);
             return {};
           },
           [&](const AskGroundMessage& ground) -> Done {
@@ -252,10 +252,10 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
 
 void NetHost::closed(ClientSession& session, const std::string& reason) {
   CHECK(!workers_.at_work());
-  if (const std::optional<Refusal> cut_for = session.cut_for()) {
-    ++figures_.counts().sessions_cut;
-    figures_.counts().refusals.add(*cut_for);
-    log_.say(spdlog::level::warn, name_of(*cut_for),
+  if (const std::optional<Refusal> disconnect_reason = session.disconnect_reason()) {
+    ++figures_.counts().sessions_disconnected;
+    figures_.counts().refusals.add(*disconnect_reason);
+    log_.say(spdlog::level::warn, name_of(*disconnect_reason),
              fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
   } else {
     log_.say(spdlog::level::info, "closed",
@@ -302,16 +302,16 @@ void NetHost::check_time() {
   tick_timer();
 }
 
-void NetHost::take_access(std::shared_ptr<const Access> access) {
+void NetHost::set_access(std::shared_ptr<const Access> access) {
   CHECK(network_thread_.is_the_same());
-  authorizer_.take_access(std::move(access));
+  authorizer_.set_access(std::move(access));
   log_access(authorizer_.access());
   end_lapsed_grants(sessions_, authorizer_.access());
 }
 
-void NetHost::take_files(std::shared_ptr<const WebFiles> files) {
+void NetHost::set_files(std::shared_ptr<const WebFiles> files) {
   CHECK(network_thread_.is_the_same());
-  web_.take_files(std::move(files));
+  web_.set_files(std::move(files));
 }
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.
@@ -344,7 +344,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   for (const Reply& reply : delta.replies)
     if (reply.reason) refusals.add(*reply.reason);
   publisher_.set_refusals(refusals);
-  if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().take_status());
+  if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().drain_status());
   if (config_.saving) publisher_.set_saving(config_.saving());
   queue_frames(delta);
   administration_.log_settings(delta);
@@ -403,7 +403,7 @@ void NetHost::update_stats() {
   counts.sessions = static_cast<uint32_t>(sessions_.joined());
   counts.tickets_void = returns_.tickets_void();
   counts.web.connections = static_cast<uint32_t>(web_.size());
-  figures_.show(publisher_, config_.takes_cursors && publisher_.state().tick() % ticks_per_watch == 0);
+  figures_.show(publisher_, config_.takes_cursors && publisher_.state().tick() % ticks_per_physics == 0);
 }
 
 }  // namespace scree

@@ -54,9 +54,9 @@ class NetHost final : public SessionHost, public WebHost {
   /// `more`: the next tick waits already; then this one's messages may go together with that one's.
   void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.
-  void take_access(std::shared_ptr<const Access> access);
+  void set_access(std::shared_ptr<const Access> access);
   /// The files of the page, from now on.
-  void take_files(std::shared_ptr<const WebFiles> files);
+  void set_files(std::shared_ptr<const WebFiles> files);
   /// Hands all that is queued to the sockets.
   void flush() { flush_queue_.send_all(); }
   void shut_down();

@@ -82,8 +82,8 @@ Result<void> NetServer::reload() {
   auto files = web_files(impl_->config.web);
   TRY(files);
   asio::post(impl_->host.context(), [host = &impl_->host, access = std::move(*access), files = *files] {
-    host->take_access(access);
-    host->take_files(files);
+    host->set_access(access);
+    host->set_files(files);
   });
   return {};
 }
@@ -112,8 +112,8 @@ std::vector<PlayerCursor> NetServer::cursors() const {
   return impl_->host.figures().cursors();
 }
 
-bool NetServer::is_watched() const {
-  return impl_->host.figures().is_watched();
+bool NetServer::wants_physics() const {
+  return impl_->host.figures().wants_physics();
 }
 
 void NetServer::stop() {

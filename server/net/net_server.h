@@ -33,11 +33,11 @@ struct NetStats {
   PublisherStats published;
   uint32_t sessions = 0;  ///< now
   uint64_t sessions_joined = 0;
-  uint64_t sessions_resumed = 0;  ///< of those that joined: went on by a ticket
-  uint64_t tickets_void = 0;      ///< presented, and did not hold
-  uint64_t sessions_refused = 0;  ///< refused, or closed with a reason
-  uint64_t sessions_cut = 0;      ///< cut off: they did not read, or said no hello
-  uint64_t turned_away = 0;       ///< connections closed without a session
+  uint64_t sessions_resumed = 0;       ///< of those that joined: went on by a ticket
+  uint64_t tickets_void = 0;           ///< presented, and did not hold
+  uint64_t sessions_refused = 0;       ///< refused, or closed with a reason
+  uint64_t sessions_disconnected = 0;  ///< cut off: they did not read, or said no hello
+  uint64_t turned_away = 0;            ///< connections closed without a session
   uint64_t requests = 0;
   uint64_t requests_refused = 0;  ///< by a limit of the network side
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
@@ -118,7 +118,7 @@ class NetServer {
   /// Persons' cursors as of the last tick that was sent, by session. From any thread.
   std::vector<PlayerCursor> cursors() const;
   /// Whether any client asked for PhysicsMessages. From any thread.
-  bool is_watched() const;
+  bool wants_physics() const;
 
   /// Tells every client that the server stops, closes, and joins the thread. A second call does nothing.
   void stop();

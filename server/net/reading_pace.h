@@ -20,17 +20,17 @@ class ReadingPace {
   /// The socket took some of the bytes that it was offered `waited_s` ago.
   void took(size_t bytes, size_t offered, double waited_s) {
     if (full_) {
-      taken_bytes_ += static_cast<double>(bytes);
+      staged_bytes_ += static_cast<double>(bytes);
       taken_s_ += waited_s;
       if (taken_s_ >= limits::pace_sample_s) {
-        set(taken_bytes_ / taken_s_ * limits::outbox_wait_s);
-        taken_bytes_ = taken_s_ = 0.0;
+        set(staged_bytes_ / taken_s_ * limits::outbox_wait_s);
+        staged_bytes_ = taken_s_ = 0.0;
       }
     } else if (bytes == offered && 2 * offered >= bytes_max_) {
       set(static_cast<double>(bytes_max_ + bytes));
     }
     full_ = bytes < offered;
-    if (!full_) taken_bytes_ = taken_s_ = 0.0;
+    if (!full_) staged_bytes_ = taken_s_ = 0.0;
   }
 
  private:
@@ -41,7 +41,7 @@ class ReadingPace {
 
   size_t bytes_max_ = limits::outbox_soft_bytes;
   bool full_ = false;  ///< it took less than offered, the last time
-  double taken_bytes_ = 0.0;
+  double staged_bytes_ = 0.0;
   double taken_s_ = 0.0;  ///< while it was full
 };
 

@@ -54,7 +54,7 @@ ServerLatency RequestTimes::answered(uint64_t session, uint32_t request, const T
   return latency;
 }
 
-LatencyStatus RequestTimes::take_status() {
+LatencyStatus RequestTimes::drain_status() {
   LatencyStatus status;
   for (const LatencyStageRow& stage : latency_stages) {
     std::vector<double> samples;

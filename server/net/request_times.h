@@ -38,7 +38,7 @@ class RequestTimes {
   ServerLatency answered(uint64_t session, uint32_t request, const TickSpan& tick, double now_s);
 
   /// Over the requests answered since the last call, which is a second ago.
-  LatencyStatus take_status();
+  LatencyStatus drain_status();
   const LatencyCounts& counts() const { return counts_; }
 
  private:

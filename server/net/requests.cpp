@@ -24,7 +24,7 @@ bool Requests::pass(ClientSession& session, const Command& command) {
   };
   if (replay_) return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
   const double now_s = steady_now_s();
-  if (!sessions_.at(session.id()).requests.take(now_s))
+  if (!sessions_.at(session.id()).requests.try_spend(now_s))
     return refused(Refusal::requests_per_second,
                    fmt::format("more than {} requests a second (requests-per-second); ask again more slowly",
                                sessions_.requests_per_second()));

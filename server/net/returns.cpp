@@ -28,7 +28,7 @@ std::optional<Departed> Returns::resume(const std::string& ticket, const Grant& 
     return std::nullopt;
   }
   Departed before = *departed;
-  before.keeps_place = before.keeps_place || connected;
+  before.reserves_place = before.reserves_place || connected;
   return before;
 }
 

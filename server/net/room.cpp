@@ -28,10 +28,10 @@ size_t Room::sessions_max() const {
 }
 
 tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
-                                             const Grant& grant, size_t kept, double now_s) const {
+                                             const Grant& grant, size_t reserved, double now_s) const {
   const size_t most = sessions_max();
   const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
-  if (sessions.joined() + std::min(kept, kept_max) < most) return {};
+  if (sessions.joined() + std::min(reserved, kept_max) < most) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
     leaver->session->refuse(
         {Refusal::idle_made_room, "the server is full, and " + leaver->why + ": another has your place"});

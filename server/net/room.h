@@ -23,10 +23,10 @@ class Room {
   /// Outsiders (SessionTable) and HTTP connections, all together.
   size_t outsiders_max() const { return outsiders_max_; }
 
-  /// Finds a place for the newcomer; ends a session for it if need be. `kept`: places kept for lost
+  /// Finds a place for the newcomer; ends a session for it if need be. `reserved`: places kept for lost
   /// connections, of which limits::places_kept_part at most count.
   tl::expected<void, Refused> find_place(const SessionTable& sessions, const ClientSession& newcomer,
-                                         const Grant& grant, size_t kept, double now_s) const;
+                                         const Grant& grant, size_t reserved, double now_s) const;
 
  private:
   uint32_t sessions_max_ = 0;

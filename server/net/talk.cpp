@@ -32,13 +32,13 @@ void Talk::leave(uint64_t session) {
 }
 
 bool Talk::may_say(Entry& speaker, double now_s) {
-  if (!speaker.lines.take(now_s)) return false;
+  if (!speaker.lines.try_spend(now_s)) return false;
   std::erase_if(parties_,
                 [&](const auto& entry) { return now_s - entry.second.said_s >= limits::lines_memory_s; });
   const RateLimit whole(limits::lines_per_second_party, limits::lines_burst_party);
   PartyLines& party = parties_.try_emplace(speaker.party, PartyLines{whole, now_s}).first->second;
   party.said_s = now_s;
-  return party.lines.take(now_s);
+  return party.lines.try_spend(now_s);
 }
 
 std::optional<Talk::Heard> Talk::say(uint64_t session, const std::string& text, double now_s) {
@@ -53,7 +53,7 @@ std::optional<Talk::Heard> Talk::say(uint64_t session, const std::string& text, 
         fmt::format("more than {} lines at once, or {} a second, or too many by all who share with you: that "
                     "one was not passed on",
                     limits::lines_burst_max, limits::lines_per_second_max));
-  if (!all_lines_.take(now_s)) return answer("too many speak at once: that line was not passed on");
+  if (!all_lines_.try_spend(now_s)) return answer("too many speak at once: that line was not passed on");
   return Heard{{session, speaker->second.name, std::move(line)}, true};
 }
 

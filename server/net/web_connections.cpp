@@ -38,8 +38,8 @@ Result<void> WebConnections::open() {
   return {};
 }
 
-void WebConnections::take_files(std::shared_ptr<const WebFiles> files) {
-  if (site_) site_->take_files(std::move(files));
+void WebConnections::set_files(std::shared_ptr<const WebFiles> files) {
+  if (site_) site_->set_files(std::move(files));
 }
 
 void WebConnections::begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
@@ -81,7 +81,7 @@ void WebConnections::close_one() {
   const auto found = idle();
   const bool is_idle = found != connections_.end();
   const auto connection = (is_idle ? found : connections_.cbegin())->second;
-  if (!is_idle) cut_off(*connection, Refusal::outsiders_max);
+  if (!is_idle) disconnect(*connection, Refusal::outsiders_max);
   connection->close();
 }
 
@@ -151,7 +151,7 @@ void WebConnections::opened_websocket(HttpConnection& from, std::shared_ptr<Tran
   host_.web_changed();
 }
 
-void WebConnections::cut_off(const HttpConnection& connection, Refusal reason) {
+void WebConnections::disconnect(const HttpConnection& connection, Refusal reason) {
   counts_.refusals.add(reason);
   log_.say(spdlog::level::warn, name_of(reason),
            fmt::format("connection {}: cut off ({}): it speaks HTTP", connection.id(), name_of(reason)));

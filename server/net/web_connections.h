@@ -44,7 +44,7 @@ class WebConnections final : public HttpHost {
   /// Reads the page's files, if HTTP is spoken at all.
   Result<void> open();
   bool speaks_http() const { return site_ != nullptr; }
-  void take_files(std::shared_ptr<const WebFiles> files);
+  void set_files(std::shared_ptr<const WebFiles> files);
 
   /// A connection has spoken HTTP. `arrived`: what was read of it already.
   void begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
@@ -69,7 +69,7 @@ class WebConnections final : public HttpHost {
   void answered(const HttpResponse& response, size_t bytes) override;
   void opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
                         std::span<const uint8_t> arrived) override;
-  void cut_off(const HttpConnection& connection, Refusal reason) override;
+  void disconnect(const HttpConnection& connection, Refusal reason) override;
   void ended(HttpConnection& connection) override;
   HttpResponse status_json(const HttpConnection& from, const HttpRequest& request);
   tl::expected<void, Refused> may_see_status(const HttpConnection& from, const HttpRequest& request);

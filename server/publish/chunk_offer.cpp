@@ -4,7 +4,7 @@
 
 namespace scree {
 
-void ChunkOffer::take(OfferMessage offer, uint32_t ticks) {
+void ChunkOffer::accept(OfferMessage offer, uint32_t ticks) {
   offer_ = std::move(offer);
   answered_.assign(offer_.chunks.size(), false);
   ticks_to_wait_ = 0;

@@ -14,7 +14,7 @@ class ChunkOffer {
   /// An offer is announced: no chunks are sent for so many ticks, unless it comes earlier.
   void await(uint32_t ticks) { ticks_to_wait_ = ticks; }
   /// From now on, for so many ticks; what was offered before is forgotten.
-  void take(OfferMessage offer, uint32_t ticks);
+  void accept(OfferMessage offer, uint32_t ticks);
   void forget();
 
   /// Call once a tick: whether chunks may be sent in it.

@@ -9,9 +9,9 @@ namespace scree {
 
 /// A chunk that does not fit is older or newer than the state, or damaged: it is asked for again while
 /// somebody wants it.
-void ChunkPager::take(PublishedState& state) {
+void ChunkPager::page_in(PublishedState& state) {
   if (supply_ == nullptr) return;
-  for (const SuppliedChunk& chunk : supply_->take(limits::chunks_taken_per_tick)) {
+  for (const SuppliedChunk& chunk : supply_->collect(limits::chunks_taken_per_tick)) {
     const auto known = state.chunks().find(chunk.chunk);
     if (known == state.chunks().end() || known->second.is_whole()) continue;
     static_cast<void>(state.page_in(chunk.chunk, chunk.bricks));

@@ -18,7 +18,7 @@ class ChunkPager {
   explicit ChunkPager(std::shared_ptr<ChunkSupply> supply) : supply_(std::move(supply)) {}
 
   /// Puts chunks that were read into the state.
-  void take(PublishedState& state);
+  void page_in(PublishedState& state);
   /// Clients want these chunks, which are out.
   void want(std::span<const ChunkCoord> chunks);
   /// Asks for the chunks that are wanted, and drops chunks that nobody used lately when there are too many.

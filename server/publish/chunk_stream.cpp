@@ -19,15 +19,15 @@ static_assert(chunk_batch <= limits::kept_chunks_max);
 void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part) {
   credit_bytes_ = std::min(credit_bytes_ + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (!offer_.ready() || credit_bytes_ <= 0 || view.wanted_chunks() == 0) return;
-  KeptMessage kept;
+  UnchangedChunksMessage unchanged;
   size_t read_ahead = 0;
   for (const ChunkCoord coord : view.next_chunks(tick.changes, chunk_batch)) {
     if (credit_bytes_ <= 0 || outlet.room_bytes() <= 0) break;
     const PublishedChunk& chunk = tick.changes.state.chunks().at(coord);
     if (offer_.answers(coord, chunk.hash)) {
       view.sent_chunk(coord);
-      kept.chunks.push_back(coord);
-      kept.hashes.push_back(chunk.hash);
+      unchanged.chunks.push_back(coord);
+      unchanged.hashes.push_back(chunk.hash);
       continue;
     }
     if (!chunk.is_whole()) {
@@ -42,7 +42,7 @@ void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
     part.stats.chunk_bytes += bytes->size();
     outlet.send(bytes, part);
   }
-  if (!kept.chunks.empty()) send_kept(kept, outlet, part);
+  if (!unchanged.chunks.empty()) send_unchanged(unchanged, outlet, part);
   if (view.wanted_chunks() == 0) offer_.forget();
 }
 
@@ -65,11 +65,11 @@ SharedBytes ChunkStream::next_part(const ServedTick& tick, ClientView& view, con
   return share(part_of_chunk(coord, chunk, chosen.bricks, more));
 }
 
-void ChunkStream::send_kept(const KeptMessage& kept, Outlet& outlet, ServedPart& part) {
-  const SharedBytes bytes = share(kept);
+void ChunkStream::send_unchanged(const UnchangedChunksMessage& unchanged, Outlet& outlet, ServedPart& part) {
+  const SharedBytes bytes = share(unchanged);
   credit_bytes_ -= size_of(bytes);
   part.stats.kept_bytes += bytes->size();
-  part.stats.chunks_kept += kept.chunks.size();
+  part.stats.chunks_kept += unchanged.chunks.size();
   outlet.send(bytes, part);
 }
 

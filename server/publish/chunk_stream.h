@@ -22,7 +22,7 @@ class ChunkStream {
                     const PublishedChunk& chunk) const;
   SharedBytes next_part(const ServedTick& tick, ClientView& view, const Outlet& outlet, ChunkCoord coord,
                         const PublishedChunk& chunk);
-  void send_kept(const KeptMessage& kept, Outlet& outlet, ServedPart& part);
+  void send_unchanged(const UnchangedChunksMessage& unchanged, Outlet& outlet, ServedPart& part);
 
   int64_t credit_bytes_ = 0;
   int next_brick_ = 0;  ///< of a chunk, where the next part begins

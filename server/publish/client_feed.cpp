@@ -37,7 +37,7 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   if (with_poses) pieces_.serve(tick, view_, outlet_, part);
   if (reads_along) chunks_.serve(tick, view_, outlet_, part);
   if (with_status) send_status(tick, part);
-  if (reads_along) watch_.serve(tick, view_, outlet_, part);
+  if (reads_along) physics_feed_.serve(tick, view_, outlet_, part);
 }
 
 /// Whether the client gets a frame in this tick. A stopped client that has read everything starts again.

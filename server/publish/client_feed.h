@@ -29,7 +29,7 @@ class ClientFeed {
   Outlet& outlet() { return outlet_; }
   ChunkOffer& offer() { return chunks_.offer(); }
   ReplayNews& replay() { return replay_; }
-  WatchFeed& watch() { return watch_; }
+  PhysicsFeed& physics_feed() { return physics_feed_; }
   /// Gets no frames until it has read all that waits.
   bool stopped() const { return stopped_; }
 
@@ -52,7 +52,7 @@ class ClientFeed {
   ChunkStream chunks_;
   PieceStream pieces_;
   ReplayNews replay_;
-  WatchFeed watch_;
+  PhysicsFeed physics_feed_;
   bool stopped_ = false;
   bool reset_due_ = false;
   Tick last_frame_ = 0;  ///< tick of the last frame that it got; 0: none

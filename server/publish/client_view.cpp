@@ -17,10 +17,10 @@ namespace {
 
 /// Keeps the `count` smallest, in order.
 template <typename T>
-void keep_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
-  const size_t kept = std::min(count, candidates.size());
-  std::ranges::partial_sort(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(kept));
-  candidates.resize(kept);
+void retain_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
+  const size_t retained = std::min(count, candidates.size());
+  std::ranges::partial_sort(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(retained));
+  candidates.resize(retained);
 }
 
 uint32_t fold(uint64_t hash) {
@@ -253,7 +253,7 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
   auto piece = alive.begin();
   bool moves = false;
   if (has_kernels()) frame.steps.reserve(known_.size());
-  auto kept = known_.begin();
+  auto retained = known_.begin();
   for (auto known = known_.begin(); known != known_.end(); ++known) {
     if (known->second.gone) continue;
     while (piece != alive.end() && piece->id < known->first) ++piece;
@@ -265,10 +265,10 @@ void ClientView::select_poses(const TickChanges& changes, FrameSelection& frame)
     }
     select_pose(*piece, changes, known->second, frame);
     moves = moves || piece->changed == changes.delta.tick;
-    if (kept != known) *kept = *known;
-    ++kept;
+    if (retained != known) *retained = *known;
+    ++retained;
   }
-  known_.erase(kept, known_.end());
+  known_.erase(retained, known_.end());
   if (!moves && frame.wholes.empty()) frame.steps.clear();  // all rest where the client has them
   stepped_ = changes.delta.tick;
 }
@@ -326,7 +326,7 @@ std::vector<ChunkCoord> ClientView::next_chunks(const TickChanges& changes, size
   candidates.reserve(wanted_.size());
   for (const ChunkCoord chunk : wanted_)
     candidates.emplace_back(distance_m(chunk, changes.voxel_size_m), chunk);
-  keep_nearest(candidates, count);
+  retain_nearest(candidates, count);
   std::vector<ChunkCoord> chunks;
   for (const auto& [distance, chunk] : candidates) chunks.push_back(chunk);
   return chunks;
@@ -341,7 +341,7 @@ std::vector<PieceId> ClientView::next_pieces(const Motions& motions, size_t coun
     if (known != known_.end() && known->first == piece.id) continue;
     if (near(piece.place_m, 1.0F)) candidates.emplace_back(glm::distance(piece.place_m, eye_m_), piece.id);
   }
-  keep_nearest(candidates, count);
+  retain_nearest(candidates, count);
   std::vector<PieceId> pieces;
   for (const auto& [distance, id] : candidates) pieces.push_back(id);
   return pieces;

@@ -44,18 +44,18 @@ size_t GroundStream::waiting(uint64_t session) const {
 }
 
 SharedBytes GroundStream::generated(ChunkCoord chunk, int& work_left) {
-  if (const auto found = kept_.find(chunk); found != kept_.end()) return found->second;
+  if (const auto found = encoded_.find(chunk); found != encoded_.end()) return found->second;
   if (work_left <= 0) return nullptr;
   const GroundMessage message = ground_of(source_, chunk);
   work_left -= message.bricks.empty() ? 1 : 8;
   SharedBytes bytes = share(message);
-  if (kept_bytes_ > limits::ground_kept_bytes_max) {
-    kept_.clear();
-    kept_bytes_ = 0;
+  if (encoded_bytes_ > limits::ground_cache_bytes_max) {
+    encoded_.clear();
+    encoded_bytes_ = 0;
   }
-  kept_.emplace(chunk, bytes);
+  encoded_.emplace(chunk, bytes);
   constexpr size_t entry_bytes = 128;  // of the map, and the vector's own
-  kept_bytes_ += bytes->size() + entry_bytes;
+  encoded_bytes_ += bytes->size() + entry_bytes;
   return bytes;
 }
 

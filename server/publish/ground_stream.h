@@ -42,8 +42,8 @@ class GroundStream {
   TerrainSource source_;
   std::map<uint64_t, Queue> queues_;
   uint64_t served_last_ = 0;  ///< the session whose chunk was generated last: others come first
-  std::unordered_map<ChunkCoord, SharedBytes, CoordHash> kept_;
-  size_t kept_bytes_ = 0;
+  std::unordered_map<ChunkCoord, SharedBytes, CoordHash> encoded_;
+  size_t encoded_bytes_ = 0;
 };
 
 }  // namespace scree

@@ -50,7 +50,7 @@ inline constexpr int ground_work_per_tick = 8;
 
 /// Bytes of encoded ground kept to be sent to several clients. Above: all of it is forgotten, and generated
 /// again on demand.
-inline constexpr size_t ground_kept_bytes_max = 8 * 1024 * 1024;
+inline constexpr size_t ground_cache_bytes_max = 8 * 1024 * 1024;
 
 /// Ticks between two scans of the edited chunks for one client that moves: bounds the cost of fast movement.
 inline constexpr uint32_t rescan_ticks_min = 6;

@@ -77,7 +77,7 @@ class Outlet {
   /// By a slow link chunks go in parts.
   bool is_slow() const { return is_slow_; }
   /// Whether a slow link still has room in this tick; others have budgets.
-  bool takes_more() const { return !is_slow_ || room_bytes_ > 0; }
+  bool has_room() const { return !is_slow_ || room_bytes_ > 0; }
 
   void send(SharedBytes bytes, ServedPart& part) {
     sent_bytes_ += bytes->size();

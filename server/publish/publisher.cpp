@@ -7,7 +7,7 @@
 
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
-#include "server/publish/limits.h"
+#include "server/publish/interest_filter.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -46,11 +46,11 @@ void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t o
 
 void Publisher::offer(uint64_t session, const OfferMessage& offer) {
   if (ClientFeed* client = find(session))
-    client->offer().take(offer, rates_.ticks_of(limits::offer_seconds_max));
+    client->offer().accept(offer, rates_.ticks_of(limits::offer_seconds_max));
 }
 
 void Publisher::leave(uint64_t session) {
-  watch(session, false);
+  subscribe_physics(session, false);
   clients_.erase(session);
   cursors_.erase(session);
   ground_.leave(session);
@@ -69,9 +69,10 @@ void Publisher::set_control_refusal(uint64_t session, const std::string& refusal
   if (ClientFeed* client = find(session)) client->replay().set_control_refusal(refusal);
 }
 
-void Publisher::watch(uint64_t session, bool physics) {
+void Publisher::subscribe_physics(uint64_t session, bool physics) {
   ClientFeed* const client = find(session);
-  if (client != nullptr && client->watch().set_physics(physics)) watchers_ += physics ? 1 : -1;
+  if (client != nullptr && client->physics_feed().set_physics(physics))
+    physics_subscribers_ += physics ? 1 : -1;
 }
 
 void Publisher::repair(uint64_t session, const RepairMessage& request) {
@@ -111,7 +112,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   // same object after apply(), so that no copy is needed.
   const TickChanges changes(delta, state_, state_, motions_, config_.terrain);
   state_.apply(delta);
-  pager_.take(state_);
+  pager_.page_in(state_);
   motions_.track(delta, state_, rates_.has_poses(delta.tick));
   board_.add(delta);
   count_operations(delta);
@@ -157,7 +158,7 @@ void Publisher::serve_all(const TickChanges& changes, const std::function<Backlo
 ClientView* Publisher::reader(uint64_t session, const Backlog& backlog) {
   ClientFeed& client = clients_.at(session);
   const bool reads_along = !client.stopped() && backlog.reads_along();
-  return reads_along && client.outlet().takes_more() ? &client.view() : nullptr;
+  return reads_along && client.outlet().has_room() ? &client.view() : nullptr;
 }
 
 /// Ground and tiles follow the tick's frames, which therefore do not count on them; the next ones do.
@@ -167,7 +168,7 @@ void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog) {
   const auto send_to = [&](uint64_t session, const SharedBytes& bytes) {
     Outlet& outlet = clients_.at(session).outlet();
     outlet.send(bytes, part);
-    return outlet.takes_more();
+    return outlet.has_room();
   };
   ground_.serve(reader_of, [&](uint64_t session, const SharedBytes& bytes) {
     part.stats.ground_bytes += bytes->size();

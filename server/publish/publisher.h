@@ -81,8 +81,8 @@ class Publisher {
   /// What all clients are told alike, of the last second.
   StatusMessage status() const { return board_.status(state_, clients_.size()); }
   /// Whether the client gets PhysicsMessages of the ticks that have them.
-  void watch(uint64_t session, bool physics);
-  bool is_watched() const { return watchers_ > 0; }
+  void subscribe_physics(uint64_t session, bool physics);
+  bool has_physics_subscribers() const { return physics_subscribers_ > 0; }
   /// Eyes of all clients, by session, as of the last tick.
   const std::vector<glm::vec3>& eyes_m() const { return eyes_m_; }
 
@@ -130,7 +130,7 @@ class Publisher {
   PublisherStats stats_;
   std::vector<Outgoing> out_;
   std::vector<glm::vec3> eyes_m_;
-  size_t watchers_ = 0;
+  size_t physics_subscribers_ = 0;
 };
 
 }  // namespace scree

@@ -56,7 +56,7 @@ class TickClock {
       sum.merges_put_off = std::max(sum.merges_put_off, work.merges_put_off);
       sum.breaks_left_out += work.breaks_left_out;
       sum.dents_left_out += work.dents_left_out;
-      sum.ticks_cut_short += work.cut_short() ? 1 : 0;
+      sum.ticks_cut_short += work.has_leftovers() ? 1 : 0;
       sum.ticks_merging_sooner += work.merging_sooner ? 1 : 0;
       sum.supports_put_off = std::max(sum.supports_put_off, work.supports_put_off);
       sum.islands_put_off = std::max(sum.islands_put_off, work.islands_put_off);

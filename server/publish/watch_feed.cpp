@@ -3,31 +3,31 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/publish/watching.h"
+#include "server/publish/interest_filter.h"
 #include "server/world/world.h"
 
 namespace scree {
 
-bool WatchFeed::set_physics(bool on) {
+bool PhysicsFeed::set_physics(bool on) {
   return std::exchange(physics_, on) != on;
 }
 
-void WatchFeed::serve(const ServedTick& tick, const ClientView& view, Outlet& outlet, ServedPart& part) {
-  if (tick.tick() % ticks_per_watch == 0) send_cursors(tick, view, outlet, part);
+void PhysicsFeed::serve(const ServedTick& tick, const ClientView& view, Outlet& outlet, ServedPart& part) {
+  if (tick.tick() % ticks_per_physics == 0) send_cursors(tick, view, outlet, part);
   if (physics_ && tick.changes.delta.physics) send_physics(tick, view, outlet, part);
 }
 
-void WatchFeed::send_cursors(const ServedTick& tick, const ClientView& view, Outlet& outlet,
-                             ServedPart& part) {
+void PhysicsFeed::send_cursors(const ServedTick& tick, const ClientView& view, Outlet& outlet,
+                               ServedPart& part) {
   std::vector<PlayerCursor> now = cursors_for(outlet.session(), tick.cursors, view.eye_m(), view.radius_m());
   if (now == cursors_) return;
   cursors_ = now;
   outlet.send(share(CursorsMessage{std::move(now)}), part);
 }
 
-void WatchFeed::send_physics(const ServedTick& tick, const ClientView& view, Outlet& outlet,
-                             ServedPart& part) {
-  constexpr int64_t budget = limits::physics_bytes_per_tick * int64_t{ticks_per_watch};
+void PhysicsFeed::send_physics(const ServedTick& tick, const ClientView& view, Outlet& outlet,
+                               ServedPart& part) {
+  constexpr int64_t budget = limits::physics_bytes_per_tick * int64_t{ticks_per_physics};
   credit_bytes_ = std::min(credit_bytes_ + budget, budget);
   if (credit_bytes_ <= 0 || outlet.room_bytes() <= 0) return;
   const PhysicsMessage near = physics_for(*tick.changes.delta.physics, tick.changes.state,

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-class WatchFeed {
+class PhysicsFeed {
  public:
   /// Whether the client gets PhysicsMessages. Returns whether that has changed.
   bool set_physics(bool on);

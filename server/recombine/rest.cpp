@@ -79,23 +79,23 @@ RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
   CHECK(config.leash_m > 0.0F && config.leash_m <= config.leash_max_m && config.leash_growth_m_s >= 0.0F);
 }
 
-bool RestDetector::watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks) {
-  const auto [found, is_new] = watches_.try_emplace(piece.id);
-  Watch& watch = found->second;
-  ++watch.age_ticks;
-  ++watch.still_ticks;
+bool RestDetector::advance_timer(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks) {
+  const auto [found, is_new] = timers_.try_emplace(piece.id);
+  Timer& timer = found->second;
+  ++timer.age_ticks;
+  ++timer.still_ticks;
   if (on_terrain)
-    watch.terrain_ticks = 1;
-  else if (watch.terrain_ticks > 0 && watch.terrain_ticks <= contact_ticks_)
-    ++watch.terrain_ticks;
-  const uint32_t impatient = watch.age_ticks - std::min(watch.age_ticks, patience_ticks_);
+    timer.terrain_ticks = 1;
+  else if (timer.terrain_ticks > 0 && timer.terrain_ticks <= contact_ticks_)
+    ++timer.terrain_ticks;
+  const uint32_t impatient = timer.age_ticks - std::min(timer.age_ticks, patience_ticks_);
   const float leash_m =
       std::min(config_.leash_m + leash_growth_m_tick_ * static_cast<float>(impatient), config_.leash_max_m);
-  if (is_new || !(strayed_m(watch.anchor, piece.pose, piece.reach_m) <= leash_m)) {
-    watch.anchor = piece.pose;
-    watch.still_ticks = 0;
+  if (is_new || !(strayed_m(timer.anchor, piece.pose, piece.reach_m) <= leash_m)) {
+    timer.anchor = piece.pose;
+    timer.still_ticks = 0;
   }
-  return watch.still_ticks >= rest_ticks;
+  return timer.still_ticks >= rest_ticks;
 }
 
 std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
@@ -107,19 +107,19 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   CHECK_DEBUG(std::ranges::is_sorted(on_terrain));
   const uint32_t rest_ticks = hurried ? (rest_ticks_ + 1) / 2 : rest_ticks_;
   std::vector<Resting> resting;
-  auto known = watches_.begin();
+  auto known = timers_.begin();
   for (const RestPiece& piece : pieces) {
-    while (known != watches_.end() && known->first < piece.id) known = watches_.erase(known);
-    if (known != watches_.end() && known->first == piece.id) ++known;
+    while (known != timers_.end() && known->first < piece.id) known = timers_.erase(known);
+    if (known != timers_.end() && known->first == piece.id) ++known;
     const bool touching = std::ranges::binary_search(on_terrain, piece.id);
-    if (!watch(piece, touching, rest_ticks)) continue;
-    const uint32_t touched = watches_.find(piece.id)->second.terrain_ticks;
+    if (!advance_timer(piece, touching, rest_ticks)) continue;
+    const uint32_t touched = timers_.find(piece.id)->second.terrain_ticks;
     const bool grounded = touched > 0 && touched <= contact_ticks_;
     resting.push_back({piece.id, piece.pose.position_m.y, grounded ? 1U : 0U});
   }
-  watches_.erase(known, watches_.end());
+  timers_.erase(known, timers_.end());
   at_rest_ = resting.size();
-  CHECK_EQ(watches_.size(), pieces.size());
+  CHECK_EQ(timers_.size(), pieces.size());
 
   stack(resting, supports);
   std::erase_if(resting, [](const Resting& piece) { return piece.layer == 0; });
@@ -135,25 +135,25 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
 RestValue RestDetector::value() const {
   RestValue value;
   value.put_off = put_off_;
-  for (const auto& [id, watch] : watches_) {
-    const glm::quat& q = watch.anchor.rotation;
-    value.watches.push_back({id,
-                             watch.anchor.position_m,
-                             {q.w, q.x, q.y, q.z},
-                             watch.age_ticks,
-                             watch.still_ticks,
-                             watch.terrain_ticks});
+  for (const auto& [id, timer] : timers_) {
+    const glm::quat& q = timer.anchor.rotation;
+    value.timers.push_back({id,
+                            timer.anchor.position_m,
+                            {q.w, q.x, q.y, q.z},
+                            timer.age_ticks,
+                            timer.still_ticks,
+                            timer.terrain_ticks});
   }
   return value;
 }
 
 void RestDetector::restore(const RestValue& value) {
   put_off_ = static_cast<size_t>(value.put_off);
-  watches_.clear();
-  for (const RestWatch& watch : value.watches) {
-    const auto& [w, x, y, z] = watch.anchor_rotation;
-    watches_[watch.id] = {
-        {watch.anchor_m, glm::quat(w, x, y, z)}, watch.age_ticks, watch.still_ticks, watch.terrain_ticks};
+  timers_.clear();
+  for (const StillnessTimer& timer : value.timers) {
+    const auto& [w, x, y, z] = timer.anchor_rotation;
+    timers_[timer.id] = {
+        {timer.anchor_m, glm::quat(w, x, y, z)}, timer.age_ticks, timer.still_ticks, timer.terrain_ticks};
   }
 }
 

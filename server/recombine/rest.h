@@ -69,7 +69,7 @@ class RestDetector {
   size_t put_off() const { return put_off_; }
 
  private:
-  struct Watch {
+  struct Timer {
     Pose anchor;  ///< pose from which the leash is measured
     uint32_t age_ticks = 0;
     uint32_t still_ticks = 0;    ///< since the anchor was set
@@ -77,12 +77,12 @@ class RestDetector {
   };
 
   /// Whether the piece is at rest.
-  bool watch(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks);
+  bool advance_timer(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks);
 
   RestConfig config_;
   uint32_t rest_ticks_, patience_ticks_, contact_ticks_;
   float leash_growth_m_tick_;
-  std::map<PieceId, Watch> watches_;
+  std::map<PieceId, Timer> timers_;
   size_t at_rest_ = 0;
   size_t put_off_ = 0;
 };

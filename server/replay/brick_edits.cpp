@@ -46,12 +46,12 @@ BricksBefore edits_within(Field& field, const VoxelBox& voxels) {
   return edits;
 }
 
-void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<const ChunkCoord> kept,
+void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<const ChunkCoord> unchanged,
                    BricksBefore& before) {
   PatchesByChunk wanted;
   for (const BrickPatch& patch : bricks) wanted[chunk_of(patch.coord)].push_back(&patch);
   for (const ChunkCoord chunk : field.edited_chunks())
-    if (!std::ranges::binary_search(kept, chunk)) wanted.try_emplace(chunk);
+    if (!std::ranges::binary_search(unchanged, chunk)) wanted.try_emplace(chunk);
   for (const auto& [chunk, patches] : wanted) {
     if (field.has_edits(chunk) && !patches.empty() && field.chunk_hash(chunk) == hash_of(patches)) continue;
     for (const BrickCoord brick : field.edited_bricks(chunk))
@@ -62,7 +62,7 @@ void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<c
   }
 }
 
-void take_back(Field& field, const BricksBefore& edits, BricksBefore& before) {
+void revert_bricks(Field& field, const BricksBefore& edits, BricksBefore& before) {
   std::map<ChunkCoord, std::set<BrickCoord>> gone;
   for (const auto& [brick, edit] : edits) {
     before.try_emplace(brick, edit_of(field, brick));

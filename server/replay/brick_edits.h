@@ -30,14 +30,14 @@ std::optional<PaintedBrick> edit_of(Field& field, BrickCoord brick);
 /// How every edited brick of the box stands, in voxels.
 BricksBefore edits_within(Field& field, const VoxelBox& voxels);
 
-/// Gives the field these edited bricks and no others, but for chunks that stay as they are (`kept`, ordered);
-/// those that have their bricks already are left alone. What changes is noted in `before`, unless it is
-/// there.
-void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<const ChunkCoord> kept,
+/// Gives the field these edited bricks and no others, but for chunks that stay as they are (`unchanged`,
+/// ordered); those that have their bricks already are left alone. What changes is noted in `before`, unless
+/// it is there.
+void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<const ChunkCoord> unchanged,
                    BricksBefore& before);
 
 /// Takes the field back to how these bricks stood; what that changes is noted in `before`.
-void take_back(Field& field, const BricksBefore& edits, BricksBefore& before);
+void revert_bricks(Field& field, const BricksBefore& edits, BricksBefore& before);
 
 /// Adds to the delta the bricks that differ from how they stood before: TickDelta::bricks and reverted.
 void add_differences(Field& field, const BricksBefore& before, TickDelta& delta);

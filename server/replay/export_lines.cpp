@@ -45,14 +45,14 @@ std::optional<float> ms_of(const Durations& ms, Tick tick) {
   return known == ms.end() ? std::nullopt : std::optional(known->second);
 }
 
-Result<void> derive_events(const std::string& path, const GroundGiver& ground, const TakeEvent& take) {
+Result<void> derive_events(const std::string& path, const GroundGiver& ground, const EventVisitor& visit) {
   auto source = TRY(ReplaySource::open(path, 0, ground));
   const WorldConfig& world = source->header().world;
   EventDeriver deriver(world.terrain.voxel_size_m, print(world));
   for (;;) {
     const auto delta = TRY(source->next());
     if (delta == nullptr) return {};
-    for (const Event& event : deriver.events_of(*delta)) take(event, std::nullopt);
+    for (const Event& event : deriver.events_of(*delta)) visit(event, std::nullopt);
   }
 }
 
@@ -94,36 +94,36 @@ std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, cons
 
 }  // namespace
 
-Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const TakeEvent& take) {
-  if (!recording.events_from()) return derive_events(recording.path(), ground, take);
+Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const EventVisitor& visit) {
+  if (!recording.events_from()) return derive_events(recording.path(), ground, visit);
   const Tick last = recording.last_tick();
   for (Tick from = recording.first_tick(); from <= last; from += batch_ticks) {
     const auto batch = TRY(read_batch(recording, from, std::min(last, from + batch_ticks - 1)));
-    for (const Event& event : batch.events) take(event, ms_of(batch.ms, event.tick));
+    for (const Event& event : batch.events) visit(event, ms_of(batch.ms, event.tick));
   }
   return {};
 }
 
 Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
-                           const TakeLine& take) {
+                           const LineSink& write) {
   const auto recording = TRY(RecordingReader::open(path));
   const bool csv = format == LineFormat::csv;
-  if (csv) take(std::string(event_csv_heads));
+  if (csv) write(std::string(event_csv_heads));
   const uint32_t tick_rate_hz = recording->header().world.tick_rate_hz;
   return each_event(*recording, ground, [&](const Event& event, std::optional<float> tick_ms) {
     const EventContext context{tick_rate_hz, tick_ms};
-    take(csv ? csv_line(event, context) : json_line(event, context));
+    write(csv ? csv_line(event, context) : json_line(event, context));
   });
 }
 
-Result<void> export_ticks(RecordingReader& recording, LineFormat format, const TakeLine& take) {
+Result<void> export_ticks(RecordingReader& recording, LineFormat format, const LineSink& write) {
   if (format == LineFormat::csv) {
     std::string heads = "tick,time_s,ms,operations";
     for (const LedgerColumn& column : ledger_columns) {
       heads += ',';
       heads += column.name;
     }
-    take(heads);
+    write(heads);
   }
   Batch batch;
   for (Tick tick = recording.first_tick(), read = tick; tick <= recording.last_tick(); ++tick) {
@@ -134,7 +134,7 @@ Result<void> export_ticks(RecordingReader& recording, LineFormat format, const T
     }
     const auto frame = recording.frame(tick);
     TRY(frame);
-    take(tick_line(*frame, recording.header().world, batch.ms, format));
+    write(tick_line(*frame, recording.header().world, batch.ms, format));
   }
   return {};
 }

@@ -14,21 +14,21 @@ namespace scree {
 enum class LineFormat : uint8_t { csv, jsonl };
 
 /// Takes a line without its end.
-using TakeLine = std::function<void(const std::string& line)>;
+using LineSink = std::function<void(const std::string& line)>;
 
 /// Takes an event, and its tick's duration in milliseconds, where that is recorded.
-using TakeEvent = std::function<void(const Event& event, std::optional<float> tick_ms)>;
+using EventVisitor = std::function<void(const Event& event, std::optional<float> tick_ms)>;
 
 /// Every event, ordered by tick. A recording without a log of events is played, and its world's events are
 /// derived from that (event_deriver.h).
-Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const TakeEvent& take);
+Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const EventVisitor& visit);
 
 /// A line for each of these.
 Result<void> export_events(const std::string& path, const GroundGiver& ground, LineFormat format,
-                           const TakeLine& take);
+                           const LineSink& write);
 
 /// Every tick: how long its simulation took, where that is recorded, how many operations it applied, and the
 /// ledger after it, in m³.
-Result<void> export_ticks(RecordingReader& recording, LineFormat format, const TakeLine& take);
+Result<void> export_ticks(RecordingReader& recording, LineFormat format, const LineSink& write);
 
 }  // namespace scree

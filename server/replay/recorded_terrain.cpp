@@ -25,13 +25,13 @@ Result<std::unique_ptr<World>> RecordedTerrain::restore(const WorldSnapshot& sta
   PagedTerrain paged;
   paged.bricks_max = bricks_max_;
   paged.read = [this](ChunkCoord chunk) { return read(chunk); };
-  paged.each = [&](const PagedTerrain::Take& take) {
+  paged.each = [&](const PagedTerrain::Visit& visit) {
     return recording_->each_chunk(state.moment.tick,
                                   [&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
                                     uint64_t hash = 0;
                                     for (const BrickPatch& brick : bricks)
                                       hash += brick_hash(brick.coord, brick.brick, brick.paint);
-                                    TRY(take(chunk, bricks));  // it lies in the world
+                                    TRY(visit(chunk, bricks));  // it lies in the world
                                     hashes_[chunk] = hash;
                                     masses[chunk] = ground_under(terrain, chunk, bricks);
                                     return {};

@@ -48,7 +48,7 @@ namespace {
 Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
                                         const GroundGiver& ground,
                                         const std::function<void(Tick, Tick)>& progress,
-                                        const LookAtTick& look) {
+                                        const TickObserver& observe) {
   const Tick first = recording.first_tick() - 1, last = recording.last_tick();
   if (tick < first || tick > last)
     return fail(fmt::format("{} has the ticks {} to {}, not {} (--to)", recording.path(), first, last, tick));
@@ -68,7 +68,7 @@ Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, R
       if (const std::string differs = difference_of(*delta, *frame); !differs.empty())
         return fail(fmt::format("{}: at tick {}, {}", recording.path(), next, differs));
     }
-    if (look) look(**world, *delta);
+    if (observe) observe(**world, *delta);
     if (progress && (next % progress_ticks == 0 || next == tick)) progress(next - *start, tick - *start);
   }
   return world;
@@ -79,8 +79,8 @@ Result<std::unique_ptr<World>> simulate(RecordingReader& recording, Tick tick, R
 Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
                                             const GroundGiver& ground,
                                             const std::function<void(Tick, Tick)>& progress,
-                                            const LookAtTick& look) {
-  return with_terrain([&] { return simulate(recording, tick, terrain, ground, progress, look); });
+                                            const TickObserver& observe) {
+  return with_terrain([&] { return simulate(recording, tick, terrain, ground, progress, observe); });
 }
 
 }  // namespace scree

@@ -22,12 +22,12 @@ Result<std::unique_ptr<World>> world_at(RecordingReader& recording, Tick tick, R
 
 /// The world after a tick of the recording, or before its first one: simulated from the latest state up to
 /// there, by the commands. The hash of every tick is compared; the error names the first that differs. Calls
-/// `look` after each tick.
-using LookAtTick = std::function<void(World&, const TickDelta&)>;
+/// `observe` after each tick.
+using TickObserver = std::function<void(World&, const TickDelta&)>;
 Result<std::unique_ptr<World>> simulated_to(RecordingReader& recording, Tick tick, RecordedTerrain& terrain,
                                             const GroundGiver& ground,
                                             const std::function<void(Tick, Tick)>& progress = {},
-                                            const LookAtTick& look = {});
+                                            const TickObserver& observe = {});
 
 /// Two hashes, in words.
 std::string hashes_differ(const char* what, uint64_t simulated, uint64_t recorded);

@@ -26,7 +26,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<ReplaySource> source, const PlayerOpt
   source_->let_go();
 }
 
-Result<void> ReplayPlayer::take(const ControlReplayRequest& wish) {
+Result<void> ReplayPlayer::request(const ControlReplayRequest& wish) {
   const std::scoped_lock lock(mutex_);
   if (wishes_.size() >= limits::replay_wishes_max)
     return fail("too many wishes wait for the replay's next tick (limits.replay_wishes_max)");
@@ -87,7 +87,7 @@ bool ReplayPlayer::at_border() const {
   return source_->tick() == (speed_ > 0.0F ? source_->last_tick() : source_->first_tick());
 }
 
-Tick ReplayPlayer::take_due() {
+Tick ReplayPlayer::spend_credit() {
   const double whole = std::floor(credit_);
   credit_ -= whole;
   return static_cast<Tick>(whole);
@@ -105,18 +105,18 @@ Result<std::shared_ptr<const TickDelta>> ReplayPlayer::move() {
   credit_ += std::abs(static_cast<double>(speed_));
   const bool back = speed_ < 0.0F;
   if (credit_ < 1.0 || (back && !may_jump())) return source_->same();
-  const Tick count = take_due();
+  const Tick count = spend_credit();
   return back ? source_->jump(within(static_cast<double>(source_->tick()) - static_cast<double>(count)))
               : source_->next(count);
 }
 
-Result<void> ReplayPlayer::look() {
+Result<void> ReplayPlayer::refresh_source() {
   if (source_->is_ended()) {
     grows_ = false;
     return {};
   }
   const Tick before = source_->last_tick();
-  TRY(source_->look_again());
+  TRY(source_->refresh());
   quiet_ticks_ = source_->last_tick() > before ? 0 : quiet_ticks_ + 1;
   grows_ = !source_->is_ended() &&
            static_cast<double>(quiet_ticks_) < limits::quiet_s_max * header().world.tick_rate_hz;
@@ -155,7 +155,7 @@ Result<void> ReplayPlayer::add_company(TickDelta& delta) {
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplayPlayer::next() {
-  TRY(look());
+  TRY(refresh_source());
   {
     std::vector<ControlReplayRequest> wishes;
     {

@@ -1,7 +1,7 @@
 // Plays a recording as those who control it want: one tick for each tick of the server's time. The numbers of
 // ticks go on without a gap whatever the moment of the recording does, so that no viewer is reset or cut off.
 //
-// take() may be called from any thread; all else from one.
+// request() may be called from any thread; all else from one.
 #pragma once
 
 #include <functional>
@@ -43,7 +43,7 @@ class ReplayPlayer {
   const RecordingHeader& header() const { return source_->header(); }
 
   /// What somebody wants, for the next ticks. Refused when too much waits.
-  Result<void> take(const ControlReplayRequest& wish);
+  Result<void> request(const ControlReplayRequest& wish);
 
   /// The next tick, with TickDelta::playback; null at the end, when it ends there.
   Result<std::shared_ptr<const TickDelta>> next();
@@ -53,7 +53,7 @@ class ReplayPlayer {
  private:
   Result<void> heed(const ControlReplayRequest& wish);
   /// Whether the recording has grown. A ring may have dropped the moment: then its first tick is gone to.
-  Result<void> look();
+  Result<void> refresh_source();
   Result<void> leave_dropped(bool was_there);
   void tell_dropped(Tick tick, const char* what, std::optional<Tick>& told);
   /// What goes with the moment: events, and who was there.
@@ -62,7 +62,7 @@ class ReplayPlayer {
   Tick within(double tick) const;
   Result<std::shared_ptr<const TickDelta>> move();
   /// The whole ticks of the credit.
-  Tick take_due();
+  Tick spend_credit();
   bool at_border() const;
   /// At the end of a recording that is being written: more will come, and its first tick whenever it does.
   bool waits_for_more() const {

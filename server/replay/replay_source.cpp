@@ -70,8 +70,8 @@ Tick ReplaySource::last_tick() const {
 bool ReplaySource::is_ended() const {
   return state_->reader->is_ended();
 }
-Result<void> ReplaySource::look_again() {
-  return state_->reader->look_again();
+Result<void> ReplaySource::refresh() {
+  return state_->reader->refresh();
 }
 void ReplaySource::let_go() {
   state_->reader->let_go();

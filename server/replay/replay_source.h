@@ -27,9 +27,9 @@ class ReplaySource {
   Tick first_tick() const;  ///< the state before the recording's first tick
   Tick last_tick() const;
   bool is_ended() const;  ///< RecordingReader::is_ended()
-  /// RecordingReader::look_again(): the last tick of a recording that is being written may move on, and the
+  /// RecordingReader::refresh(): the last tick of a recording that is being written may move on, and the
   /// first one of a ring past tick(): then only jump() and seek() go on.
-  Result<void> look_again();
+  Result<void> refresh();
   /// RecordingReader::let_go().
   void let_go();
 

@@ -111,13 +111,13 @@ Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickD
   return {};
 }
 
-Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* before, bool keeps) {
+Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* before, bool undoable) {
   CHECK(tick < reader->last_tick());
   const auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
-  if (keeps) undo = {{}, pieces, poses, ledger, settings, state_hash};
-  const bool notes = before != nullptr || keeps;
+  if (undoable) undo = {{}, pieces, poses, ledger, settings, state_hash};
+  const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
   work_us = 0.0F;
@@ -135,17 +135,17 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   delta->field_hash = frame->field_hash;
   delta->state_hash = state_hash;
   if (before != nullptr) before->insert(undo.bricks.begin(), undo.bricks.end());
-  if (!keeps) played.clear();
-  if (keeps) played.push_back(std::move(undo));
+  if (!undoable) played.clear();
+  if (undoable) played.push_back(std::move(undo));
   if (played.size() > played_ticks_max) played.pop_front();
   return delta;
 }
 
-void ReplaySource::State::take_back_one(BricksBefore& before) {
+void ReplaySource::State::revert_tick(BricksBefore& before) {
   CHECK(!played.empty());
   PlayedTick last = std::move(played.back());
   played.pop_back();
-  take_back(field, last.bricks, before);
+  revert_bricks(field, last.bricks, before);
   pieces = std::move(last.pieces);
   poses = std::move(last.poses);
   ledger = last.ledger;
@@ -159,7 +159,7 @@ void ReplaySource::State::take_back_one(BricksBefore& before) {
 Result<void> ReplaySource::State::go_to(Tick wanted, BricksBefore& before) {
   const bool back = wanted < tick;
   if (back && tick - wanted <= played.size()) {
-    while (tick > wanted) take_back_one(before);
+    while (tick > wanted) revert_tick(before);
     return {};
   }
   const auto nearest = reader->keyframe_tick_before(wanted);

@@ -32,11 +32,11 @@ struct ReplaySource::State {
   /// The latest keyframe up to that tick, or the untouched terrain before tick 1; what it changes of the
   /// bricks is noted.
   Result<void> restore_before(Tick wanted, BricksBefore& before);
-  /// The next tick. What it changes of the bricks is noted in `before`, if that is not null; `keeps`: it can
-  /// be taken back.
-  Result<std::shared_ptr<TickDelta>> advance(BricksBefore* before = nullptr, bool keeps = false);
+  /// The next tick. What it changes of the bricks is noted in `before`, if that is not null; `undoable`: it
+  /// can be taken back.
+  Result<std::shared_ptr<TickDelta>> advance(BricksBefore* before = nullptr, bool undoable = false);
   Result<void> go_to(Tick wanted, BricksBefore& before);
-  void take_back_one(BricksBefore& before);
+  void revert_tick(BricksBefore& before);
   std::shared_ptr<const TickDelta> whole_state();
   /// Pieces, ledger and hashes as they stand.
   std::shared_ptr<TickDelta> unchanged() const;

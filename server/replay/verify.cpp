@@ -56,7 +56,7 @@ Result<void> compare_events(RecordingReader& recording, const std::vector<Event>
 
 Result<VerifyReport> verify_ticks(RecordingReader& recording, const std::function<void(Tick, Tick)>& progress,
                                   const GroundGiver& ground, size_t bricks_max) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   VerifyReport report;
   const Tick start = recording.first_tick() - 1;
   RecordedTerrain terrain(recording, bricks_max);
@@ -83,7 +83,7 @@ Result<VerifyReport> verify_ticks(RecordingReader& recording, const std::functio
     if (progress && (tick % progress_ticks == 0 || tick == recording.last_tick()))
       progress(tick, recording.last_tick());
   }
-  report.seconds = watch.lap_ms() / 1000.0;
+  report.seconds = stopwatch.lap_ms() / 1000.0;
   return report;
 }
 

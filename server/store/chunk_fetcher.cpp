@@ -98,7 +98,7 @@ void ChunkFetcher::ask(ChunkCoord chunk) {
   s.changed.notify_all();
 }
 
-std::vector<SuppliedChunk> ChunkFetcher::take(size_t chunks_max) {
+std::vector<SuppliedChunk> ChunkFetcher::collect(size_t chunks_max) {
   State& s = *state_;
   std::vector<State::Came> came;
   {

@@ -22,7 +22,7 @@ class ChunkFetcher final : public ChunkSupply {
   Tick saved_tick() override { return saved_.load(std::memory_order_acquire); }
   /// A chunk that could not be read is not asked for again for limits::unreadable_retry_s.
   void ask(ChunkCoord chunk) override;
-  std::vector<SuppliedChunk> take(size_t chunks_max) override;
+  std::vector<SuppliedChunk> collect(size_t chunks_max) override;
 
   /// From any thread.
   void allow_bricks(size_t bricks) { bricks_max_.store(bricks, std::memory_order_relaxed); }

@@ -149,18 +149,18 @@ Result<void> Database::run(const Statement& prepared, uint64_t key) {
   return {};
 }
 
-Result<void> Database::each(const std::string& select, const TakeRow& take) {
+Result<void> Database::each(const std::string& select, const RowVisitor& visit) {
   const auto prepared = TRY(prepare(select));
-  return each_of(prepared, take);
+  return each_of(prepared, visit);
 }
 
-Result<void> Database::each(const std::string& select, uint64_t key, const TakeRow& take) {
+Result<void> Database::each(const std::string& select, uint64_t key, const RowVisitor& visit) {
   const auto prepared = TRY(prepare(select));
   sqlite3_bind_int64(prepared.get(), 1, static_cast<int64_t>(key));
-  return each_of(prepared, take);
+  return each_of(prepared, visit);
 }
 
-Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
+Result<void> Database::each_of(const Statement& prepared, const RowVisitor& visit) {
   sqlite3_stmt* statement = prepared.get();
   CHECK_EQ(sqlite3_column_count(statement), 3);
   for (;;) {
@@ -170,13 +170,13 @@ Result<void> Database::each_of(const Statement& prepared, const TakeRow& take) {
     const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(statement, 1));
     const std::span<const uint8_t> bytes(data, static_cast<size_t>(sqlite3_column_bytes(statement, 1)));
     const bool whole = sqlite3_column_int64(statement, 2) == checksum_of(bytes);
-    if (Result<void> taken = take(static_cast<uint64_t>(sqlite3_column_int64(statement, 0)), bytes, whole);
+    if (Result<void> taken = visit(static_cast<uint64_t>(sqlite3_column_int64(statement, 0)), bytes, whole);
         !taken)
       return taken;
   }
 }
 
-Result<void> Database::each_number(const std::string& select, const TakeNumbers& take) {
+Result<void> Database::each_number(const std::string& select, const NumbersVisitor& visit) {
   const auto prepared = TRY(prepare(select));
   std::vector<int64_t> columns(static_cast<size_t>(sqlite3_column_count(prepared.get())));
   for (;;) {
@@ -185,7 +185,7 @@ Result<void> Database::each_number(const std::string& select, const TakeNumbers&
     if (code != SQLITE_ROW) return failure("cannot be read");
     for (size_t i = 0; i < columns.size(); ++i)
       columns[i] = sqlite3_column_int64(prepared.get(), static_cast<int>(i));
-    TRY(take(columns));
+    TRY(visit(columns));
   }
 }
 

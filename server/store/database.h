@@ -48,15 +48,15 @@ class Database {
   Result<void> put(const Statement& insert, std::span<const int64_t> keys, std::span<const uint8_t> data);
   /// Runs a statement with the parameter (key).
   Result<void> run(const Statement& statement, uint64_t key);
-  /// Calls `take(key, data, whole)` for each row of a select of (key, data, checksum); `whole`: the data
-  /// matches its checksum. Ends at the first error, also one of `take`.
-  using TakeRow = std::function<Result<void>(uint64_t key, std::span<const uint8_t> data, bool whole)>;
-  Result<void> each(const std::string& select, const TakeRow& take);
+  /// Calls `visit(key, data, whole)` for each row of a select of (key, data, checksum); `whole`: the data
+  /// matches its checksum. Ends at the first error, also one of `visit`.
+  using RowVisitor = std::function<Result<void>(uint64_t key, std::span<const uint8_t> data, bool whole)>;
+  Result<void> each(const std::string& select, const RowVisitor& visit);
   /// The same with the parameter (key).
-  Result<void> each(const std::string& select, uint64_t key, const TakeRow& take);
-  /// Calls `take` with the columns of each row, which are whole numbers; ends at its first error.
-  using TakeNumbers = std::function<Result<void>(std::span<const int64_t> columns)>;
-  Result<void> each_number(const std::string& select, const TakeNumbers& take);
+  Result<void> each(const std::string& select, uint64_t key, const RowVisitor& visit);
+  /// Calls `visit` with the columns of each row, which are whole numbers; ends at its first error.
+  using NumbersVisitor = std::function<Result<void>(std::span<const int64_t> columns)>;
+  Result<void> each_number(const std::string& select, const NumbersVisitor& visit);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
   /// Whether the last failure was that the disk, or the limit of a file's size, has no room.
@@ -74,7 +74,7 @@ class Database {
   const std::string& path() const { return path_; }
 
  private:
-  Result<void> each_of(const Statement& prepared, const TakeRow& take);
+  Result<void> each_of(const Statement& prepared, const RowVisitor& visit);
   Database(std::string path, sqlite3* database) : path_(std::move(path)), database_(database) {}
   tl::unexpected<Error> failure(const std::string& what) const;
 

@@ -29,7 +29,7 @@ class Telling {
     return at(EventKind::paint, middle_of(paint.shape));
   }
   std::optional<Event> operator()(const ShatterOperation&) const {
-    if (applied_.stage == TickStage::cut) return std::nullopt;
+    if (applied_.stage == TickStage::refracture) return std::nullopt;
     Event broke{.kind = EventKind::broke, .tick = delta_.tick};
     for (const PieceId id : applied_.created)
       if (const auto state = std::ranges::lower_bound(delta_.pieces, id, {}, &PieceState::id);

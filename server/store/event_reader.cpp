@@ -21,12 +21,12 @@ tl::unexpected<Error> EventReader::damaged(const std::string& what) const {
 
 Result<EventReader> EventReader::open(Database& database) {
   EventReader reader(database);
-  TRY(reader.look());
+  TRY(reader.find_start());
   return reader;
 }
 
 /// Where the first row of the machine's begins. A recording that was gone on with may have it later.
-Result<void> EventReader::look() {
+Result<void> EventReader::find_start() {
   if (from_) return {};
   const auto row = TRY(database_->number("SELECT min(tick) FROM machine"));
   if (!row.has_value()) return {};
@@ -43,21 +43,21 @@ Result<void> EventReader::look() {
 Result<std::vector<Event>> EventReader::events(Tick from, Tick to) {
   std::vector<Event> events;
   if (!from_) return events;
-  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
+  const auto add_row = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
     if (!whole) return damaged(fmt::format(": the events of tick {}", tick));
     const auto row = decode_recorded_events(data, tick);
     if (!row) return damaged(fmt::format(" at tick {}: {}", tick, row.error().message));
     events.insert(events.end(), row->begin(), row->end());
     return {};
   };
-  TRY(database_->each(rows_of("events", from, to), take));
+  TRY(database_->each(rows_of("events", from, to), add_row));
   return events;
 }
 
 Result<std::vector<RecordedMachine>> EventReader::machine(Tick from, Tick to) {
   std::vector<RecordedMachine> rows;
   if (!from_) return rows;
-  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
+  const auto add_row = [&](uint64_t tick, std::span<const uint8_t> data, bool whole) -> Result<void> {
     if (!whole) return damaged(fmt::format(": the durations up to tick {}", tick));
     auto row = decode_recorded_machine(data);
     if (!row) return damaged(fmt::format(" at tick {}: {}", tick, row.error().message));
@@ -66,7 +66,7 @@ Result<std::vector<RecordedMachine>> EventReader::machine(Tick from, Tick to) {
     return {};
   };
   // A row that ends after `to` has ticks before it.
-  TRY(database_->each(rows_of("machine", from, to + limits::ticks_per_row_max), take));
+  TRY(database_->each(rows_of("machine", from, to + limits::ticks_per_row_max), add_row));
   return rows;
 }
 

@@ -16,7 +16,7 @@ class EventReader {
   static Result<EventReader> open(Database& database);
 
   /// Looks where the log begins, unless that is known.
-  Result<void> look();
+  Result<void> find_start();
   /// The first tick that it covers; nothing when there is none, or none yet.
   std::optional<Tick> from() const { return from_; }
 

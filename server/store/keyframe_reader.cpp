@@ -43,7 +43,7 @@ Result<std::optional<Tick>> KeyframeReader::tick_before(Tick tick) {
 
 /// Rows come in the order of their ids, and of a chunk in that of their ticks.
 Result<void> KeyframeReader::index() {
-  const auto take = [this](std::span<const int64_t> row) -> Result<void> {
+  const auto add_row = [this](std::span<const int64_t> row) -> Result<void> {
     chunks_[static_cast<uint64_t>(row[1])].push_back(
         {static_cast<Tick>(row[2]), row[0], static_cast<uint64_t>(row[3])});
     indexed_ = std::max(indexed_, row[0]);
@@ -53,7 +53,8 @@ Result<void> KeyframeReader::index() {
   if (latest.value_or(0) <= indexed_) return {};
   // Without the blobs: from the index alone, unless few rows are new.
   const std::string since = indexed_ == 0 ? "" : fmt::format(" NOT INDEXED WHERE id > {}", indexed_);
-  if (auto read = database_->each_number("SELECT id, chunk, tick, hash FROM keyframe_chunks" + since, take);
+  if (auto read =
+          database_->each_number("SELECT id, chunk, tick, hash FROM keyframe_chunks" + since, add_row);
       !read)
     return read;
   for (auto& [key, rows] : chunks_)
@@ -83,14 +84,14 @@ Result<std::vector<BrickPatch>> KeyframeReader::read_chunk(const Row& row, Chunk
   return bricks;
 }
 
-Result<void> KeyframeReader::each_chunk(Tick tick, const TakeChunk& take) {
+Result<void> KeyframeReader::each_chunk(Tick tick, const ChunkVisitor& visit) {
   TRY(index());
   for (const auto& [key, rows] : chunks_) {
     const Row* const row = latest(rows, tick);
     if (row == nullptr) continue;
     const ChunkCoord chunk = world_schema::chunk_of_key(key);
     const auto bricks = TRY(read_chunk(*row, chunk));
-    TRY(take(chunk, bricks));
+    TRY(visit(chunk, bricks));
   }
   return {};
 }

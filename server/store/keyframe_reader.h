@@ -39,9 +39,9 @@ class KeyframeReader {
   Result<uint64_t> count();
 
   /// The terrain of the keyframe of a tick that has one, chunk by chunk, in no order; ends at the first
-  /// error, also one of `take`.
-  using TakeChunk = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
-  Result<void> each_chunk(Tick tick, const TakeChunk& take);
+  /// error, also one of `visit`.
+  using ChunkVisitor = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
+  Result<void> each_chunk(Tick tick, const ChunkVisitor& visit);
   /// Whether a row has the chunk with that hash, up to a tick; and its bricks.
   Result<bool> has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick);
   Result<std::vector<BrickPatch>> chunk(ChunkCoord chunk, uint64_t hash);

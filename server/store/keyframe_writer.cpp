@@ -35,7 +35,7 @@ Result<KeyframeWriter> KeyframeWriter::create(Database& database, SettingValues 
   return writer;
 }
 
-Result<void> KeyframeWriter::take_up() {
+Result<void> KeyframeWriter::resume() {
   return database_->each_number("SELECT chunk, hash FROM keyframe_chunks ORDER BY tick, id",
                                 [this](std::span<const int64_t> row) -> Result<void> {
                                   written_[world_schema::chunk_of_key(static_cast<uint64_t>(row[0]))] =
@@ -48,7 +48,7 @@ Result<void> KeyframeWriter::take_up() {
 Result<void> KeyframeWriter::bring_in(ChunkCoord chunk, PublishedState& state) {
   const auto damaged = [this] { return fail(database_->path() + ": the last row of a chunk is damaged"); };
   std::optional<std::vector<BrickPatch>> bricks;
-  const auto take = [&](uint64_t, std::span<const uint8_t> data, bool whole) -> Result<void> {
+  const auto add_row = [&](uint64_t, std::span<const uint8_t> data, bool whole) -> Result<void> {
     auto decoded = decode_bricks(data);
     if (!whole || !decoded) return damaged();
     bricks = std::move(*decoded);
@@ -57,7 +57,7 @@ Result<void> KeyframeWriter::bring_in(ChunkCoord chunk, PublishedState& state) {
   const std::string select = fmt::format(
       "SELECT tick, data, checksum FROM keyframe_chunks WHERE chunk = {} ORDER BY tick DESC, id DESC LIMIT 1",
       key_text(chunk));
-  TRY(database_->each(select, take));
+  TRY(database_->each(select, add_row));
   if (!bricks || !state.page_in(chunk, *bricks)) return damaged();
   return {};
 }
@@ -163,7 +163,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
 Result<void> KeyframeWriter::drop_before(Tick tick, PieceId next_piece) {
   const std::string at = std::to_string(tick);
   std::string alive;
-  const auto take = [&](uint64_t, std::span<const uint8_t> data, bool) -> Result<void> {
+  const auto add_row = [&](uint64_t, std::span<const uint8_t> data, bool) -> Result<void> {
     const auto keyframe = TRY(decode_recorded_keyframe(data));
     for (const PieceState& piece : keyframe.poses) {
       if (!alive.empty()) alive += ',';
@@ -172,7 +172,7 @@ Result<void> KeyframeWriter::drop_before(Tick tick, PieceId next_piece) {
     return {};
   };
   if (auto read =
-          database_->each("SELECT tick, data, checksum FROM keyframe_states WHERE tick = " + at, take);
+          database_->each("SELECT tick, data, checksum FROM keyframe_states WHERE tick = " + at, add_row);
       !read)
     return read;
   return database_->execute(

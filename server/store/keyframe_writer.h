@@ -17,7 +17,7 @@ class KeyframeWriter {
   static Result<KeyframeWriter> create(Database& database, SettingValues header);
 
   /// Takes the rows that are there for written: a recording is gone on with.
-  Result<void> take_up();
+  Result<void> resume();
 
   /// Puts the next tick into the state. Bricks that it lacks are read from the rows first; more than
   /// limits::recorded_bricks_max are dropped.

@@ -66,8 +66,8 @@ void fill_to_its_length(const std::string& path) {
 
 }  // namespace
 
-Result<void> each_readable(Database& database, const std::string& select_from, const Database::TakeRow& take,
-                           const LoseRows& lose) {
+Result<void> each_readable(Database& database, const std::string& select_from,
+                           const Database::RowVisitor& visit, const LoseRows& lose) {
   for (uint64_t from = 0;;) {
     std::optional<Error> refused;
     uint64_t next = from;
@@ -75,7 +75,7 @@ Result<void> each_readable(Database& database, const std::string& select_from, c
         database.each(select_from, from, [&](uint64_t key, auto data, bool whole) -> Result<void> {
           if (key < next) return fail("keys are out of order");  // a damaged page may have any
           next = key + 1;
-          auto taken = take(key, data, whole);
+          auto taken = visit(key, data, whole);
           if (!taken) refused = taken.error();
           return taken;
         });

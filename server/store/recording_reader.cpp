@@ -189,7 +189,7 @@ bool RecordingReader::is_ended() const {
 bool RecordingReader::may_lack_ticks() const {
   return state_->without_log && !state_->is_ended;
 }
-Result<void> RecordingReader::look_again() {
+Result<void> RecordingReader::refresh() {
   State& state = *state_;
   if (state.is_ended) return {};
   let_go();
@@ -207,7 +207,7 @@ Result<void> RecordingReader::look_again() {
   const Tick before = std::exchange(state.first_tick, static_cast<Tick>(**first));
   state.last_tick = static_cast<Tick>(**last);
   if (state.first_tick > before) state.keyframe_rows->forget_before(state.first_tick - 1);
-  return state.events->look();
+  return state.events->find_start();
 }
 
 void RecordingReader::let_go() {
@@ -230,8 +230,8 @@ Result<std::optional<WorldSnapshot>> RecordingReader::state(Tick tick) {
   return std::optional(std::move(value));
 }
 
-Result<void> RecordingReader::each_chunk(Tick tick, const KeyframeReader::TakeChunk& take) {
-  return state_->keyframe_rows->each_chunk(tick, take);
+Result<void> RecordingReader::each_chunk(Tick tick, const KeyframeReader::ChunkVisitor& visit) {
+  return state_->keyframe_rows->each_chunk(tick, visit);
 }
 
 Result<bool> RecordingReader::has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick) {

@@ -28,7 +28,7 @@ class RecordingReader {
 
   const std::string& path() const;
   const RecordingHeader& header() const;
-  /// As of open(), or of look_again(), while somebody still writes: the recording holds the ticks
+  /// As of open(), or of refresh(), while somebody still writes: the recording holds the ticks
   /// first_tick() … last_tick() without a gap, at least one, or 1 … 0 while they are awaited. Where the first
   /// is not 1, there is a state() before it, from which it is simulated: by commands alone up to the first
   /// tick.
@@ -44,15 +44,15 @@ class RecordingReader {
   bool may_lack_ticks() const;
   /// Looks again how far a recording goes that is being written, and from where on, if it is a ring; what is
   /// read from now on is of this moment. Refuses one whose last ticks were taken back, with their world.
-  Result<void> look_again();
-  /// Until look_again() what is read is of no one moment; a ring may drop ticks that it had.
+  Result<void> refresh();
+  /// Until refresh() what is read is of no one moment; a ring may drop ticks that it had.
   void let_go();
 
   /// The world after the tick, where the simulation of the next one began with it; most ticks have none. It
   /// has no bricks: its terrain comes chunk by chunk.
   Result<std::optional<WorldSnapshot>> state(Tick tick);
   /// The terrain of a state: KeyframeReader's functions.
-  Result<void> each_chunk(Tick tick, const KeyframeReader::TakeChunk& take);
+  Result<void> each_chunk(Tick tick, const KeyframeReader::ChunkVisitor& visit);
   Result<bool> has_chunk(ChunkCoord chunk, uint64_t hash, Tick tick);
   Result<std::vector<BrickPatch>> chunk(ChunkCoord chunk, uint64_t hash);
   /// The latest tick up to `tick` whose state() there is; 0 when there is none: then a world begins

@@ -27,7 +27,7 @@ namespace {
 /// Ticks of one row of durations: a second of them at 60 Hz. Each begins with a tick in which cursors are
 /// sampled.
 constexpr Tick ticks_per_machine_row = 60;
-static_assert(ticks_per_machine_row % ticks_per_watch == 0);
+static_assert(ticks_per_machine_row % ticks_per_physics == 0);
 static_assert(ticks_per_machine_row <= limits::ticks_per_row_max);
 constexpr double us_per_ms = 1000.0;
 
@@ -104,16 +104,16 @@ Result<void> RecordingWriter::State::prepare() {
       "journal_size_limit = {};",
       std::max<uint64_t>(1, log_bytes / limits::recording_page_bytes), log_bytes);
   TRY(database.execute(settings));
-  const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
+  const auto prepare = [this](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = TRY(database.prepare(sql));
     statement = std::move(prepared);
     return {};
   };
-  TRY(take(insert_frame, schema::insert_into("frames")));
-  TRY(take(insert_commands, schema::insert_into("commands")));
-  TRY(take(insert_events, schema::insert_into("events")));
-  TRY(take(put_machine_row, schema::put_into("machine")));
-  TRY(take(put_moment, schema::put_into("state_moments")));
+  TRY(prepare(insert_frame, schema::insert_into("frames")));
+  TRY(prepare(insert_commands, schema::insert_into("commands")));
+  TRY(prepare(insert_events, schema::insert_into("events")));
+  TRY(prepare(put_machine_row, schema::put_into("machine")));
+  TRY(prepare(put_moment, schema::put_into("state_moments")));
   auto writer = TRY(KeyframeWriter::create(database, print(header.world)));
   keyframes = std::move(writer);
   return {};
@@ -287,7 +287,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   for (const char* table : {"frames", "commands", "events", "machine", "keyframe_states", "keyframe_chunks"})
     sql += fmt::format("DELETE FROM {} WHERE tick > {};", table, at);
   TRY(state->database.execute(sql));
-  TRY(state->keyframes->take_up());
+  TRY(state->keyframes->resume());
   state->ring.begin({0, 0}, 0);  // all that was there before
   TRY(state->count_bytes());
   TRY(state->put_start(start));

@@ -36,10 +36,10 @@ class Shelf {
 }  // namespace
 
 PagedTerrain terrain_of(WorldFile& file, ReadChunk read, GroundMasses& ground, size_t bricks_max) {
-  const auto each = [&file, &ground](const PagedTerrain::Take& take) -> Result<void> {
+  const auto each = [&file, &ground](const PagedTerrain::Visit& visit) -> Result<void> {
     const auto bytes = file.each_chunk([&](const WorldChunk& chunk) {
       if (chunk.ground_mass) ground[chunk.chunk] = *chunk.ground_mass;
-      return take(chunk.chunk, chunk.bricks);
+      return visit(chunk.chunk, chunk.bricks);
     });
     return bytes ? Result<void>() : tl::unexpected(bytes.error());
   };

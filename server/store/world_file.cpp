@@ -80,16 +80,16 @@ struct WorldFile::State {
 };
 
 Result<void> WorldFile::State::prepare() {
-  const auto take = [this](Statement& statement, const std::string& sql) -> Result<void> {
+  const auto prepare = [this](Statement& statement, const std::string& sql) -> Result<void> {
     auto prepared = TRY(database.prepare(sql));
     statement = std::move(prepared);
     return {};
   };
-  TRY(take(put_header, world_schema::put_into("header")));
-  TRY(take(put_moment, world_schema::put_into("moment")));
-  TRY(take(put_chunk, world_schema::put_into("chunks")));
-  TRY(take(put_piece, world_schema::put_into("pieces")));
-  return take(delete_piece, world_schema::delete_from("pieces"));
+  TRY(prepare(put_header, world_schema::put_into("header")));
+  TRY(prepare(put_moment, world_schema::put_into("moment")));
+  TRY(prepare(put_chunk, world_schema::put_into("chunks")));
+  TRY(prepare(put_piece, world_schema::put_into("pieces")));
+  return prepare(delete_piece, world_schema::delete_from("pieces"));
 }
 
 Result<void> WorldFile::State::put(const Statement& statement, uint64_t key,
@@ -108,7 +108,7 @@ Result<void> WorldFile::State::write(const WorldChunk& chunk) {
 /// With the pieces.
 Result<void> WorldFile::State::write(const WorldMoment& moment) {
   std::set<PieceId> alive;
-  for (const KeptPiece& piece : moment.pieces) {
+  for (const PieceRecord& piece : moment.pieces) {
     alive.insert(piece.id);
     if (pieces.contains(piece.id)) continue;
     TRY(put(put_piece, piece.id, encode(piece)));
@@ -205,10 +205,10 @@ Result<WorldRows> WorldFile::read_moment(LostRows* lost) {
   return WorldReading(file, lost).run(false);
 }
 
-Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& take,
+Result<uint64_t> WorldFile::each_chunk(const std::function<Result<void>(const WorldChunk&)>& visit,
                                        LostRows* lost) {
   WorldReading reading(state_->database, lost);
-  TRY(reading.chunks(take));
+  TRY(reading.chunks(visit));
   return reading.bytes();
 }
 
@@ -263,7 +263,7 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
     return saved;
   }
   state_->pieces.clear();
-  for (const KeptPiece& piece : moment.pieces) state_->pieces.insert(piece.id);
+  for (const PieceRecord& piece : moment.pieces) state_->pieces.insert(piece.id);
   return {};
 }
 

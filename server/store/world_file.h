@@ -62,10 +62,10 @@ class WorldFile {
   Result<void> hold_moment();
   /// As read(), but of the terrain nothing: the header, and the world's moment; the bytes are theirs.
   Result<WorldRows> read_moment(LostRows* lost = nullptr);
-  /// Calls `take` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of
-  /// `take`, or a damaged row. Returns the bytes of the rows.
+  /// Calls `visit` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of
+  /// `visit`, or a damaged row. Returns the bytes of the rows.
   /// Rows that are lost are told to `lost` instead, if it is not null.
-  Result<uint64_t> each_chunk(const std::function<Result<void>(const WorldChunk&)>& take,
+  Result<uint64_t> each_chunk(const std::function<Result<void>(const WorldChunk&)>& visit,
                               LostRows* lost = nullptr);
   /// One chunk as it was saved last; nothing when it has no row. From any thread, if no other uses this file.
   Result<std::optional<WorldChunk>> read_chunk(ChunkCoord chunk);

@@ -26,7 +26,7 @@ std::string process_in(int file) {
 }  // namespace
 
 /// By links a file has several paths: all of them lead to the same lock, or are refused.
-Result<WorldLock> WorldLock::take(const std::string& world_path) {
+Result<WorldLock> WorldLock::acquire(const std::string& world_path) {
   std::error_code unknown;  // then the path is as it was given, and opening it says why
   const std::filesystem::path real = std::filesystem::weakly_canonical(world_path, unknown);
   if (std::filesystem::hard_link_count(real, unknown) > 1 && !unknown)

@@ -11,7 +11,7 @@ namespace scree {
 class WorldLock {
  public:
   /// Refuses a world that another process holds, by that one's number; and a folder that cannot be written.
-  static Result<WorldLock> take(const std::string& world_path);
+  static Result<WorldLock> acquire(const std::string& world_path);
   ~WorldLock();
   WorldLock(WorldLock&& other) noexcept;
   WorldLock& operator=(WorldLock&& other) noexcept;

@@ -43,7 +43,7 @@ Result<WorldRows> WorldReading::run(bool with_chunks) {
   if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
     return tl::unexpected(done.error());
   if (with_chunks) {
-    const auto keep = [&](WorldChunk decoded) {
+    const auto add_chunk = [&](WorldChunk decoded) {
       auto& bricks = rows_.world.bricks;
       bricks.insert(bricks.end(), decoded.bricks.begin(), decoded.bricks.end());
       decoded.bricks.clear();
@@ -51,17 +51,17 @@ Result<WorldRows> WorldReading::run(bool with_chunks) {
       rows_.chunks.push_back(std::move(decoded));
       return Result<void>();
     };
-    TRY(chunks(keep));
+    TRY(chunks(add_chunk));
   }
   std::ranges::sort(rows_.world.bricks, {}, &BrickPatch::coord);
   if (!has_moment_) begin_anew();
   return std::move(rows_);
 }
 
-Result<void> WorldReading::chunks(const TakeChunk& take) {
+Result<void> WorldReading::chunks(const ChunkVisitor& visit) {
   return every("chunks", [&](uint64_t key, auto data) -> Result<void> {
     auto decoded = TRY(chunk_of_row(key, data));
-    return take(std::move(decoded));
+    return visit(std::move(decoded));
   });
 }
 
@@ -69,33 +69,35 @@ Result<void> WorldReading::chunks(const TakeChunk& take) {
 void WorldReading::begin_anew() {
   WorldMoment& moment = rows_.world.moment;
   for (const WorldChunk& chunk : rows_.chunks) moment.tick = std::max(moment.tick, chunk.version);
-  for (const KeptPiece& piece : moment.pieces) moment.next_piece = std::max(moment.next_piece, piece.id + 1);
+  for (const PieceRecord& piece : moment.pieces)
+    moment.next_piece = std::max(moment.next_piece, piece.id + 1);
 }
 
 tl::unexpected<Error> WorldReading::damaged(const std::string& what) const {
   return fail(fmt::format("{}: damaged: {}", database_.path(), what));
 }
 
-Result<void> WorldReading::one(const std::string& table, const TakeBytes& take) {
+Result<void> WorldReading::one(const std::string& table, const BytesVisitor& visit) {
   size_t count = 0;
   auto read =
       database_.each(world_schema::all_of(table), [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
         ++count;
         rows_.bytes += data.size();
         if (!whole) return damaged(fmt::format("the {} is not what was saved", table));
-        if (auto taken = take(key, data); !taken) return damaged(taken.error().message);
+        if (auto taken = visit(key, data); !taken) return damaged(taken.error().message);
         return {};
       });
   if (read && count != 1) return damaged(fmt::format("it has {} rows of its {}", count, table));
   return read;
 }
 
-Result<void> WorldReading::every(const std::string& table, const TakeBytes& take) {
+Result<void> WorldReading::every(const std::string& table, const BytesVisitor& visit) {
   const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
     rows_.bytes += data.size();
     const std::string name = fmt::format("row {} of its {}", key, table);
     if (!whole) return lose(name + " is not what was saved");
-    if (auto taken = take(key, data); !taken) return lose(fmt::format("{}: {}", name, taken.error().message));
+    if (auto taken = visit(key, data); !taken)
+      return lose(fmt::format("{}: {}", name, taken.error().message));
     return {};
   };
   if (lost_ == nullptr) return database_.each(world_schema::all_of(table), row);
@@ -113,7 +115,7 @@ Result<void> WorldReading::lose(const std::string& what) {
 }
 
 Result<void> WorldReading::piece(uint64_t key, Bytes data) {
-  auto decoded = TRY(decode_kept_piece(data));
+  auto decoded = TRY(decode_piece_record(data));
   if (decoded.id != key) return fail("it is another piece's");
   voxels_ += decoded.volume->window.codes.size();
   if (voxels_ > limits::piece_voxels_max)

@@ -18,19 +18,19 @@ class WorldReading {
 
   /// All rows; of chunks only with_chunks.
   Result<WorldRows> run(bool with_chunks);
-  /// Calls `take` for each chunk.
-  using TakeChunk = std::function<Result<void>(WorldChunk)>;
-  Result<void> chunks(const TakeChunk& take);
+  /// Calls `visit` for each chunk.
+  using ChunkVisitor = std::function<Result<void>(WorldChunk)>;
+  Result<void> chunks(const ChunkVisitor& visit);
   uint64_t bytes() const { return rows_.bytes; }  ///< of the rows that were read
 
  private:
   using Bytes = std::span<const uint8_t>;
-  using TakeBytes = std::function<Result<void>(uint64_t key, Bytes data)>;
+  using BytesVisitor = std::function<Result<void>(uint64_t key, Bytes data)>;
 
   /// The only row of a table.
-  Result<void> one(const std::string& table, const TakeBytes& take);
+  Result<void> one(const std::string& table, const BytesVisitor& visit);
   /// All rows of a table.
-  Result<void> every(const std::string& table, const TakeBytes& take);
+  Result<void> every(const std::string& table, const BytesVisitor& visit);
   Result<void> piece(uint64_t key, Bytes data);
   Result<void> lose(const std::string& what);
   tl::unexpected<Error> damaged(const std::string& what) const;

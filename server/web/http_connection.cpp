@@ -25,7 +25,7 @@ HttpConnection::HttpConnection(std::shared_ptr<Transport> stream, std::string ad
 
 void HttpConnection::start(std::span<const uint8_t> arrived) {
   buffer_.assign(arrived.begin(), arrived.end());
-  look_for_head();
+  parse_head();
 }
 
 void HttpConnection::read() {
@@ -42,11 +42,11 @@ void HttpConnection::read_done(size_t bytes) {
   if (!begun_) since_s_ = now_s_;
   begun_ = true;
   buffer_.append(reinterpret_cast<const char*>(incoming_.data()), bytes);
-  look_for_head();
+  parse_head();
 }
 
 /// Empty lines before a request are passed over (RFC 9112, 2.2).
-void HttpConnection::look_for_head() {
+void HttpConnection::parse_head() {
   if (searched_ == 0) buffer_.erase(0, buffer_.find_first_not_of("\r\n"));
   const size_t found = buffer_.find(end_of_head, searched_);
   if (found == std::string::npos) {
@@ -106,7 +106,7 @@ void HttpConnection::written() {
   buffer_.erase(0, head_bytes_);
   begun_ = !buffer_.empty();
   searched_ = 0;
-  look_for_head();
+  parse_head();
 }
 
 void HttpConnection::open_websocket() {
@@ -140,11 +140,11 @@ void HttpConnection::check_time(double now_s) {
   if (phase_ == Phase::lingering && passed_s > times_.linger_s) return close();
   if (phase_ == Phase::head && idle && passed_s > times_.idle_s) return close();
   if (phase_ == Phase::head && !idle && passed_s > times_.head_s) {
-    host_.cut_off(*this, Refusal::http_late);
+    host_.disconnect(*this, Refusal::http_late);
     return close();
   }
   if (phase_ == Phase::answering && passed_s > times_.stall_s) {
-    host_.cut_off(*this, Refusal::reading_stalled);
+    host_.disconnect(*this, Refusal::reading_stalled);
     close();
   }
 }

@@ -30,7 +30,7 @@ class HttpHost {
   virtual void opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
                                 std::span<const uint8_t> arrived) = 0;
   /// Cut off for this reason, before ended().
-  virtual void cut_off(const HttpConnection& connection, Refusal reason) = 0;
+  virtual void disconnect(const HttpConnection& connection, Refusal reason) = 0;
   /// The last call for this connection.
   virtual void ended(HttpConnection& connection) = 0;
 };
@@ -69,7 +69,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void read();
   void read_done(size_t bytes);
-  void look_for_head();
+  void parse_head();
   void respond(HttpResponse response, bool head_only, bool keep_alive);
   void write();
   void written();

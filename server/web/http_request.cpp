@@ -29,7 +29,7 @@ HttpMethod method_of(const Head& head) {
 }
 
 /// "gzip", but not "gzip;q=0" (RFC 9110, 12.5.3).
-bool takes_gzip(const Head& head) {
+bool accepts_gzip(const Head& head) {
   for (const auto& [coding, parameters] : http::ext_list(head[http::field::accept_encoding])) {
     if (!boost::beast::iequals(coding, "gzip")) continue;
     for (const auto& [name, value] : parameters)
@@ -72,7 +72,7 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   if (head.count(http::field::origin) > 0) request.origin = text_of(head, http::field::origin);
   request.authorization = text_of(head, http::field::authorization);
   request.if_none_match = text_of(head, http::field::if_none_match);
-  request.takes_gzip = takes_gzip(head);
+  request.accepts_gzip = accepts_gzip(head);
   request.relayed = is_relayed(head);
   request.keep_alive = head.keep_alive();
   // HTTP/1.0 knows no upgrade (RFC 9110, 7.8).

@@ -19,7 +19,7 @@ struct HttpRequest {
   std::optional<std::string> origin;
   std::string authorization;
   std::string if_none_match;
-  bool takes_gzip = false;
+  bool accepts_gzip = false;
   /// A proxy passed it on, as far as that shows: fields that proxies add, or HTTP/1.0, which is left to them.
   bool relayed = false;
   bool keep_alive = true;           ///< the client wants to ask again on this connection

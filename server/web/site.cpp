@@ -92,7 +92,7 @@ HttpResponse Site::file(const HttpRequest& request) const {
   if (found == nullptr && !files_->has_page() && (request.path == "/" || request.path == "/status"))
     return without_page();
   if (found == nullptr) return words(404, "there is no such file");
-  const bool gzip = request.takes_gzip && found->gzip != nullptr;
+  const bool gzip = request.accepts_gzip && found->gzip != nullptr;
   HttpResponse response;
   response.is_file = true;
   response.fields = {{"Content-Type", found->type},

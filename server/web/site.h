@@ -20,7 +20,7 @@ class Site {
       : files_(std::move(files)), origins_(std::move(origins)) {}
 
   /// From now on.
-  void take_files(std::shared_ptr<const WebFiles> files) { files_ = std::move(files); }
+  void set_files(std::shared_ptr<const WebFiles> files) { files_ = std::move(files); }
   /// `from_here`: the request came from this machine.
   HttpResponse answer(const HttpRequest& request, bool from_here) const;
 

@@ -47,17 +47,17 @@ inline constexpr float support_part_cost_us = 0.7F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
-inline constexpr float cut_at_once_us = 5000.0F;
+inline constexpr float first_fracture_us = 5000.0F;
 
 /// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
-inline constexpr float cut_rest_s = 0.1F;
+inline constexpr float refracture_rest_s = 0.1F;
 
 /// Islands fall while the tick's budget has room and bodies are no crowd; where that never is so, one every
 /// so many seconds.
 inline constexpr float island_rest_s = 0.2F;
 
 /// Pieces that a volume is cut into at once, however large it is.
-inline constexpr uint32_t cut_at_once_min = 8;
+inline constexpr uint32_t first_fracture_pieces_min = 8;
 
 /// Price of a carve's voxels and of its first cut, by `field`, above which it takes its volume out whole:
 /// that is cut from the next tick on. A longer tick's budget, where that is more.

@@ -36,10 +36,10 @@ struct Pricing {
 
 uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted) {
   const CutPrice& least = traits_of(cheapest_cutter).price;
-  const float left_us = limits::cut_at_once_us - least.volume_us - least.voxel_us * voxels;
+  const float left_us = limits::first_fracture_us - least.volume_us - least.voxel_us * voxels;
   const float each_us = traits_of(cutter).price.piece_us;
   const auto paid =
-      std::max(limits::cut_at_once_min, static_cast<uint32_t>(std::max(left_us, 0.0F) / each_us));
+      std::max(limits::first_fracture_pieces_min, static_cast<uint32_t>(std::max(left_us, 0.0F) / each_us));
   return wanted <= paid + paid / 2 ? wanted : paid;
 }
 

@@ -14,7 +14,7 @@
 namespace scree {
 
 /// How many of the wanted pieces a volume of so many voxels is cut into at once: all of them, or as many as
-/// limits::cut_at_once_us pays, if that is much less.
+/// limits::first_fracture_us pays, if that is much less.
 uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted);
 /// The cutter for a volume of so many voxels: the one that is wanted, or cheapest_cutter where that
 /// one's price is over the limit.

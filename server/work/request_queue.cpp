@@ -183,7 +183,7 @@ bool agrees(const TurnsValue& turns, const std::vector<uint64_t>& with_requests)
 
 }  // namespace
 
-Result<void> RequestQueue::take(const PartyValue& value) {
+Result<void> RequestQueue::restore_party(const PartyValue& value) {
   if (parties_.contains(value.party)) return fail("a party's requests come twice");
   Party party;
   std::vector<uint64_t> with_requests;
@@ -221,7 +221,7 @@ Result<void> RequestQueue::restore(const RequestsValue& value) {
   *this = RequestQueue(client_us_per_s_);
   std::vector<uint64_t> with_requests;
   for (const PartyValue& party : value.parties) {
-    if (Result<void> taken = take(party); !taken) return refused(taken.error().message);
+    if (Result<void> taken = restore_party(party); !taken) return refused(taken.error().message);
     if (!party.sessions.empty()) with_requests.push_back(party.party);
   }
   if (!agrees(value.turns, with_requests))

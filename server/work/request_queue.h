@@ -74,7 +74,7 @@ class RequestQueue {
   /// Tells the turns what this party's next request costs, if it has one.
   void expect_next(uint64_t id, const Party& party);
   void bring_back();
-  Result<void> take(const PartyValue& value);
+  Result<void> restore_party(const PartyValue& value);
 
   float client_us_per_s_;
   std::map<uint64_t, Party> parties_;  ///< those with requests, and until the next tick those that had some

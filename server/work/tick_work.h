@@ -8,20 +8,20 @@ namespace scree {
 /// A tick's work by the model of server/work/work.h, and the counts of work that was put off or left out.
 struct TickWork {
   uint32_t budget_us = 0;
-  uint32_t estimate_us = 0;        ///< at the tick's end; over the budget when the minimum of work was more
-  uint32_t requests_waiting = 0;   ///< put off to a later tick
-  uint32_t cuts_put_off = 0;       ///< pieces that are still to be cut into smaller ones
-  uint32_t merges_put_off = 0;     ///< pieces that are at rest and wait their turn
-  uint32_t breaks_left_out = 0;    ///< blows that would have broken a piece
-  uint32_t dents_left_out = 0;     ///< blows that would have dented the ground
-  bool merging_sooner = false;     ///< a crowd: half of the rest time is enough
-  uint32_t supports_put_off = 0;   ///< changed bricks that await a search for support
-  uint32_t supports_given_up = 0;  ///< searches for support that ended without a result
-  uint32_t islands_put_off = 0;    ///< islands, or blocks of islands, that wait to fall
-  uint32_t islands_too_large = 0;  ///< components so large that they were taken for ground
+  uint32_t estimate_us = 0;          ///< at the tick's end; over the budget when the minimum of work was more
+  uint32_t requests_waiting = 0;     ///< put off to a later tick
+  uint32_t refractures_put_off = 0;  ///< pieces that are still to be cut into smaller ones
+  uint32_t merges_put_off = 0;       ///< pieces that are at rest and wait their turn
+  uint32_t breaks_left_out = 0;      ///< blows that would have broken a piece
+  uint32_t dents_left_out = 0;       ///< blows that would have dented the ground
+  bool merging_sooner = false;       ///< a crowd: half of the rest time is enough
+  uint32_t supports_put_off = 0;     ///< changed bricks that await a search for support
+  uint32_t supports_given_up = 0;    ///< searches for support that ended without a result
+  uint32_t islands_put_off = 0;      ///< islands, or blocks of islands, that wait to fall
+  uint32_t islands_too_large = 0;    ///< components so large that they were taken for ground
 
-  bool cut_short() const {
-    return requests_waiting + cuts_put_off + merges_put_off + breaks_left_out + dents_left_out +
+  bool has_leftovers() const {
+    return requests_waiting + refractures_put_off + merges_put_off + breaks_left_out + dents_left_out +
                supports_put_off + supports_given_up + islands_put_off + islands_too_large >
            0;
   }

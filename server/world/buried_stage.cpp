@@ -65,12 +65,12 @@ void find_enclosed(World::State& state) {
   state.gained.clear();
 }
 
-/// Adds pieces that got stuck in another way. Each piece is tested limits::buried_looks_hz times a second.
+/// Adds pieces that got stuck in another way. Each piece is tested limits::buried_scan_hz times a second.
 /// One test is not enough: a piece that strikes the ground hard is in it for a tick or two. A centre of mass
 /// in the air tells nearly every piece that is not buried at the cost of one voxel.
 void find_stuck(World::State& state) {
   const float dx = state.config.terrain.voxel_size_m;
-  const auto period = std::max<Tick>(1, state.config.tick_rate_hz / limits::buried_looks_hz);
+  const auto period = std::max<Tick>(1, state.config.tick_rate_hz / limits::buried_scan_hz);
   const InRock in_rock = codes_up_to(limits::buried_code, state.field);
   const InRock in_solid = codes_up_to(-1, state.field);
   for (const auto& [id, volume] : state.pieces) {

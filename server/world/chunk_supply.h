@@ -25,7 +25,7 @@ class ChunkSupply {
   /// Asks for a chunk, unless it is on its way or too many are: then the caller asks again.
   virtual void ask(ChunkCoord chunk) = 0;
   /// Those that came, in order, at most so many at once.
-  virtual std::vector<SuppliedChunk> take(size_t chunks_max) = 0;
+  virtual std::vector<SuppliedChunk> collect(size_t chunks_max) = 0;
 };
 
 }  // namespace scree

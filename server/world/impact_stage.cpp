@@ -127,7 +127,7 @@ struct Quota {
   uint32_t done = 0;
 
   /// Whether there is room for one more; else counts it as left out.
-  bool take(float cost_us, WorkBudget& work, uint32_t& left_out) {
+  bool try_afford(float cost_us, WorkBudget& work, uint32_t& left_out) {
     if (done >= max || !work.affords(cost_us)) {
       ++left_out;
       return false;
@@ -145,7 +145,7 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   if (seeds < 2) return;
   const auto voxels = static_cast<float>(state.pieces.at(id)->window.codes.size());
   const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
-  if (!quota.take(cut_price_us(cutter, voxels, seeds), state.work, delta.work.breaks_left_out)) return;
+  if (!quota.try_afford(cut_price_us(cutter, voxels, seeds), state.work, delta.work.breaks_left_out)) return;
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
@@ -244,10 +244,10 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                            voxels_of(band_box(in_voxels(sphere(impact.point_m, radius_m), dx))))};
   if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
     return;  // at the world's edge
-  if (!quota.take(limits::dent_cost_us, state.work, delta.work.dents_left_out)) return;
+  if (!quota.try_afford(limits::dent_cost_us, state.work, delta.work.dents_left_out)) return;
   const uint64_t owner = state.traits_of(impact.id).owner;
   const Applied applied = state.apply_and_record(operation, delta);
-  state.enter_taken(applied);
+  state.enter_removed(applied);
   const Ejecta ejecta(state, blow, applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
     Newborn piece;

@@ -25,7 +25,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
   if (!still_there(state.field, island)) return;
   const Applied applied =
       state.apply_and_record(IslandOperation{island.box, island.start, state.next_piece}, delta);
-  state.enter_taken(applied);
+  state.enter_removed(applied);
   state.islands.fell(applied.changed);
   const float dx = state.config.terrain.voxel_size_m;
   const auto at_rest = [&](PieceId, const Volume& volume) {
@@ -55,20 +55,20 @@ size_t bricks_to_read(const WorkBudget& work) {
 
 /// Adds one search for this tick's cuts; or several, when the cuts of many ticks waited for Methods::islands:
 /// a search over all of them would restart with every change among them.
-void take_cuts(World::State& state) {
+void begin_searches(World::State& state) {
   std::vector<BrickCoord> part;
-  for (const BrickCoord brick : state.cut) {
+  for (const BrickCoord brick : state.loosened_bricks) {
     part.push_back(brick);
-    if (part.size() == limits::island_cut_bricks_max) state.islands.push(std::exchange(part, {}));
+    if (part.size() == limits::island_loosened_bricks_max) state.islands.push(std::exchange(part, {}));
   }
   state.islands.push(std::move(part));
-  state.cut.clear();
+  state.loosened_bricks.clear();
 }
 
 }  // namespace
 
-void IslandQueue::push(std::vector<BrickCoord> cut) {
-  if (!cut.empty()) waiting_.push_back({std::move(cut), nullptr, 0});
+void IslandQueue::push(std::vector<BrickCoord> loosened) {
+  if (!loosened.empty()) waiting_.push_back({std::move(loosened), nullptr, 0});
 }
 
 std::vector<BrickCoord> IslandQueue::Falling::starts() const {
@@ -77,23 +77,24 @@ std::vector<BrickCoord> IslandQueue::Falling::starts() const {
   return starts;
 }
 
-std::vector<IslandCut> IslandQueue::value() const {
-  std::vector<IslandCut> value;
+std::vector<LooseningEdit> IslandQueue::value() const {
+  std::vector<LooseningEdit> value;
   for (const Falling& falling : falling_) value.push_back({falling.starts(), 0});
-  for (const Waiting& waiting : waiting_) value.push_back({waiting.cut, waiting.restarts});
+  for (const Waiting& waiting : waiting_) value.push_back({waiting.loosened, waiting.restarts});
   return value;
 }
 
-void IslandQueue::restore(const std::vector<IslandCut>& value) {
+void IslandQueue::restore(const std::vector<LooseningEdit>& value) {
   falling_.clear();
   waiting_.clear();
-  for (const IslandCut& cut : value)
-    if (!cut.bricks.empty()) waiting_.push_back({cut.bricks, nullptr, cut.restarts});
+  for (const LooseningEdit& edit : value)
+    if (!edit.bricks.empty()) waiting_.push_back({edit.bricks, nullptr, edit.restarts});
 }
 
 std::vector<BrickCoord> IslandQueue::waiting() const {
   std::vector<BrickCoord> bricks;
-  for (const Waiting& waiting : waiting_) bricks.insert(bricks.end(), waiting.cut.begin(), waiting.cut.end());
+  for (const Waiting& waiting : waiting_)
+    bricks.insert(bricks.end(), waiting.loosened.begin(), waiting.loosened.end());
   return bricks;
 }
 
@@ -114,26 +115,26 @@ void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   });
 }
 
-bool IslandQueue::search(Field& field, IslandLook& look) {
-  if (waiting_.empty() || look.bricks == 0) return false;
+bool IslandQueue::search(Field& field, SearchAllowance& allowance) {
+  if (waiting_.empty() || allowance.bricks == 0) return false;
   Waiting& first = waiting_.front();
   if (first.search == nullptr) {
-    first.search = std::make_unique<IslandSearch>(field, first.cut, search_limits);
-    look.read += first.search->read();
-    look.bricks -= std::min(look.bricks, first.search->read());
+    first.search = std::make_unique<IslandSearch>(field, first.loosened, search_limits);
+    allowance.read += first.search->read();
+    allowance.bricks -= std::min(allowance.bricks, first.search->read());
   }
   unsigned doublings = std::min(first.restarts, limits::island_doublings_max);
-  while (doublings > 0 && look.bricks << doublings > limits::island_bricks_per_tick_max) --doublings;
-  const size_t allowed = look.bricks << doublings;
+  while (doublings > 0 && allowance.bricks << doublings > limits::island_bricks_per_tick_max) --doublings;
+  const size_t allowed = allowance.bricks << doublings;
   size_t left = allowed;
   const bool finished = first.search->advance(left);
   CHECK(left <= allowed);
-  look.read += allowed - left;
-  look.bricks = left >> doublings;
+  allowance.read += allowed - left;
+  allowance.bricks = left >> doublings;
   if (!finished) return false;
   Falling falling{first.search->islands(), std::move(first.search)};
   waiting_.pop_front();
-  look.too_large += static_cast<uint32_t>(falling.search->too_large());
+  allowance.too_large += static_cast<uint32_t>(falling.search->too_large());
   // From the ground up, so that none falls on one that waits.
   std::ranges::sort(falling.islands, std::ranges::greater{},
                     [](const Island& island) { return std::pair(island.box.lo.y, island.start); });
@@ -157,12 +158,12 @@ void drop_islands(World::State& state, TickDelta& delta) {
   const std::vector<BrickCoord> changed(state.changed.begin(), state.changed.end());
   state.islands.changed(changed);
   if (!state.config.methods.islands) return;
-  take_cuts(state);
-  IslandLook look{.bricks = bricks_to_read(state.work)};
-  while (state.islands.search(state.field, look)) {
+  begin_searches(state);
+  SearchAllowance allowance{.bricks = bricks_to_read(state.work)};
+  while (state.islands.search(state.field, allowance)) {
   }
-  delta.work.islands_too_large += look.too_large;
-  state.work.spend(limits::island_brick_cost_us * static_cast<float>(look.read));
+  delta.work.islands_too_large += allowance.too_large;
+  state.work.spend(limits::island_brick_cost_us * static_cast<float>(allowance.read));
   const auto rest = static_cast<Tick>(limits::island_rest_s * static_cast<float>(state.config.tick_rate_hz));
   while (const Island* next = state.islands.next()) {
     const Island island = *next;

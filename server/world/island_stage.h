@@ -27,7 +27,7 @@
 namespace scree {
 
 /// What a tick's searches may read, and what came of them.
-struct IslandLook {
+struct SearchAllowance {
   size_t bricks = 0;       ///< left to read; a search that began again reads more for each of them
   size_t read = 0;         ///< bricks that were read
   uint32_t too_large = 0;  ///< components that were taken for ground
@@ -36,14 +36,14 @@ struct IslandLook {
 class IslandQueue {
  public:
   /// Adds a search around bricks that lost rock; none for an empty list.
-  void push(std::vector<BrickCoord> cut);
+  void push(std::vector<BrickCoord> loosened);
   /// Restarts the searches, finished or not, that have read one of these changed bricks.
   void changed(std::span<const BrickCoord> bricks);
   /// The same for bricks that the fall of an island changed: finished searches stay valid.
   void fell(std::span<const BrickCoord> bricks);
-  /// Continues the first search, as far as `look` allows. True when it ended: its islands wait to fall. False
-  /// when no bricks are left or there is no search.
-  bool search(Field& field, IslandLook& look);
+  /// Continues the first search, as far as `allowance` allows. True when it ended: its islands wait to fall.
+  /// False when no bricks are left or there is no search.
+  bool search(Field& field, SearchAllowance& allowance);
   /// The next island that waits to fall, valid until pop(); null when none waits.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.front().islands.back(); }
   /// Removes the next island; there must be one.
@@ -53,14 +53,14 @@ class IslandQueue {
   /// Whether there is no search, and no island waits to fall.
   bool idle() const { return waiting_.empty() && falling_.empty(); }
   /// Searches that find the same again: first for the islands that wait to fall, then the unfinished ones.
-  std::vector<IslandCut> value() const;
-  void restore(const std::vector<IslandCut>& value);
+  std::vector<LooseningEdit> value() const;
+  void restore(const std::vector<LooseningEdit>& value);
   /// Bricks of unfinished searches, for display.
   std::vector<BrickCoord> waiting() const;
 
  private:
   struct Waiting {
-    std::vector<BrickCoord> cut;
+    std::vector<BrickCoord> loosened;
     std::unique_ptr<IslandSearch> search;  ///< null until its turn
     uint32_t restarts = 0;
   };

@@ -27,7 +27,7 @@ inline constexpr size_t island_bricks_per_tick_max = 4096;
 
 /// Bricks around which one search for islands looks: a blow of ordinary size changes fewer. Above: several
 /// searches.
-inline constexpr size_t island_cut_bricks_max = 512;
+inline constexpr size_t island_loosened_bricks_max = 512;
 
 /// Distance around a change within which the search for support looks, bricks: 14 m at 0.25 m. Terrain that
 /// reaches farther counts as held.
@@ -122,7 +122,7 @@ inline constexpr int buried_samples = 64;
 
 /// Looks a second at a piece that no merge enclosed. Two looks in a row must find it buried: a piece that
 /// struck the ground hard is in it for a tick or two.
-inline constexpr uint32_t buried_looks_hz = 20;
+inline constexpr uint32_t buried_scan_hz = 20;
 
 /// Pieces that freeze in one tick, about 10 us each. Above: in the next.
 inline constexpr size_t freezes_per_tick_max = 64;

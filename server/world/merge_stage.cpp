@@ -140,7 +140,7 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   for (const StampedPiece& one : group) state.bodies.remove(one.piece);
   const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
   // Flakes that hang loose now fall; but a flake that merges as it lay would fall again, and so for ever.
-  if (!all_fell) state.cut.insert(applied.changed.begin(), applied.changed.end());
+  if (!all_fell) state.loosened_bricks.insert(applied.changed.begin(), applied.changed.end());
   CHECK_EQ(applied.terrain_gain, prepared.gain);
   state.ledger.pieces -= mass;
   state.ledger.dust += mass - applied.terrain_gain;

@@ -8,9 +8,9 @@
 #include "server/work/memory.h"
 #include "server/work/price.h"
 #include "server/world/buried_stage.h"
-#include "server/world/cut_stage.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "server/world/refracture_stage.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -164,10 +164,10 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   CarveOperation operation = operation_of(state, request, at_once, cutter);
   if (is_relaxed(request.pattern)) relax_seeds(state, operation);
   const Applied applied = state.apply_and_record(operation, delta);
-  state.enter_taken(applied);
+  state.enter_removed(applied);
   const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
   throw_out(state, applied, whole ? at_rest(request) : request, party, delta);
-  if (at_once < grant.pieces) cut_on_later(state, applied, request, grant.pieces, whole);
+  if (at_once < grant.pieces) queue_refractures(state, applied, request, grant.pieces, whole);
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -219,7 +219,7 @@ struct Executing {
   Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
-  Outcome operator()(const LeaveRequest&) const { return 0U; }  // take_in() has done it
+  Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
 };
 
 /// The pieces that a request may make, if it is a carve.
@@ -313,7 +313,7 @@ void publish_settings(const World::State& state, TickDelta& delta) {
   delta.service = state.config.service;
 }
 
-void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta) {
+void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands)
     std::visit(Overloaded{[&](const LeaveRequest&) { drop(state, command.session, delta); },
                           [&](const auto&) {

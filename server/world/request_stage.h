@@ -9,7 +9,7 @@ namespace scree {
 
 /// The commands wait behind those of the same client; what is invalid, and what RequestQueue::push() refuses,
 /// gets its reply at once. So does what waits for a session that leaves: it is dropped.
-void take_in(World::State& state, std::span<const Command> commands, TickDelta& delta);
+void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta);
 
 /// Carries out waiting commands by the clients' turns: at least one unless earlier ones are still to be paid
 /// back, and more as far as the tick's budget goes. A carve whose client has to share the room for pieces

@@ -41,7 +41,7 @@ BodyState thrown(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
   if (applied.created.empty()) return;
-  const TickStage outer = state.watch.switch_to(TickStage::spawn, delta.times);
+  const TickStage outer = state.stopwatch.switch_to(TickStage::spawn, delta.times);
   delta.times.acted.set(index_of(TickStage::spawn));
   for (const PieceHull& hull : make_hulls(applied, state.pieces, state.config.terrain.voxel_size_m,
                                           state.config.methods.simplifier)) {
@@ -70,7 +70,7 @@ void spawn(World::State& state, const Applied& applied,
     delta.spawned.push_back({hull.id, volume});
     state.next_piece = hull.id + 1;
   }
-  state.watch.switch_to(outer, delta.times);
+  state.stopwatch.switch_to(outer, delta.times);
 }
 
 }  // namespace scree

@@ -15,18 +15,18 @@
 namespace scree {
 
 enum class TickStage : uint8_t {
-  requests,   ///< carves, fills, paint, settings
-  cut,        ///< pieces of large carves that are cut into smaller ones
-  spawn,      ///< hulls and bodies of new pieces, whichever stage made them
-  bodies,     ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
-  impacts,    ///< breaks and dents
-  rest,       ///< rest detection
-  recombine,  ///< planning and applying stamps
-  buried,     ///< merges of pieces that were enclosed in rock
-  islands,    ///< search for what hangs loose, and its fall
-  support,    ///< search for what is too heavy for what holds it
-  specks,     ///< crumbs that merges and islands left
-  publish,    ///< hashes, copies of changed bricks, transforms
+  requests,    ///< carves, fills, paint, settings
+  refracture,  ///< pieces of large carves that are cut into smaller ones
+  spawn,       ///< hulls and bodies of new pieces, whichever stage made them
+  bodies,      ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
+  impacts,     ///< breaks and dents
+  rest,        ///< rest detection
+  recombine,   ///< planning and applying stamps
+  buried,      ///< merges of pieces that were enclosed in rock
+  islands,     ///< search for what hangs loose, and its fall
+  support,     ///< search for what is too heavy for what holds it
+  specks,      ///< crumbs that merges and islands left
+  publish,     ///< hashes, copies of changed bricks, transforms
 };
 
 struct TickStageRow {
@@ -41,7 +41,7 @@ constexpr TickStageRow row_of(TickStage stage) {
   switch (stage) {
     case TickStage::requests:
       return {stage, "requests", true};
-    case TickStage::cut:
+    case TickStage::refracture:
       return {stage, "cut", true};
     case TickStage::spawn:
       return {stage, "spawn", true};
@@ -85,7 +85,7 @@ struct StageTimes {
 
 /// Charges the time that passes to one stage after the other. A stage within a stage (spawn) takes its time
 /// out of the outer one's.
-class StageWatch {
+class StageStopwatch {
  public:
   /// The time from now on is the stage's. Returns the one whose it was.
   TickStage switch_to(TickStage stage, StageTimes& times) {

@@ -52,7 +52,7 @@ void crush(World::State& state, const CarveOperation& operation, TickDelta& delt
     return;  // at the world's edge
   const float dx = state.config.terrain.voxel_size_m;
   const Applied applied = state.apply_and_record(operation, delta);
-  state.enter_taken(applied);
+  state.enter_removed(applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
     Newborn piece;
     piece.body.pose.position_m = volume.centre_voxels * dx;

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "server/world/buried_stage.h"
-#include "server/world/cut_stage.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
+#include "server/world/refracture_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
 #include "server/world/support_stage.h"
@@ -66,7 +66,7 @@ void publish(World::State& state, TickDelta& delta) {
   delta.state_hash = state.hash();
   CHECK_EQ(delta.pieces.size(), state.pieces.size());
   CHECK_DEBUG(is_ordered(delta));
-  if (state.watched && state.tick % ticks_per_watch == 0) describe_physics(state, delta);
+  if (state.wants_physics && state.tick % ticks_per_physics == 0) describe_physics(state, delta);
   state.check();
 }
 
@@ -77,8 +77,8 @@ StageRun run_of(TickStage stage) {
   switch (stage) {
     case TickStage::requests:
       return carry_out;
-    case TickStage::cut:
-      return cut_pieces;
+    case TickStage::refracture:
+      return refracture_pieces;
     case TickStage::spawn:
       return nullptr;
     case TickStage::bodies:
@@ -108,7 +108,7 @@ void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
   const StageRun run = run_of(stage);
   if (run == nullptr) return;
   const size_t before = delta.operations.size();
-  state.watch.switch_to(stage, delta.times);
+  state.stopwatch.switch_to(stage, delta.times);
   run(state, delta);
   if (delta.operations.size() > before) delta.times.acted.set(index_of(stage));
 }
@@ -134,19 +134,19 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
   if (s.tick == 1) publish_settings(s, *delta);
-  s.watch.restart(TickStage::requests);
+  s.stopwatch.restart(TickStage::requests);
   s.work.begin(s.bodies);
-  take_in(s, commands, *delta);
+  enqueue_commands(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
-  s.watch.switch_to(TickStage::requests, delta->times);
+  s.stopwatch.switch_to(TickStage::requests, delta->times);
   return delta;
 }
 
 const WorldConfig& World::config() const {
   return state_->config;
 }
-void World::watch(bool wanted) {
-  state_->watched = wanted;
+void World::want_physics(bool wanted) {
+  state_->wants_physics = wanted;
 }
 Tick World::tick() const {
   return state_->tick;

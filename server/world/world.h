@@ -17,7 +17,7 @@
 namespace scree {
 
 /// Ten times a second at 60 Hz: enough to look at, a small part of the tick.
-inline constexpr Tick ticks_per_watch = 6;
+inline constexpr Tick ticks_per_physics = 6;
 
 struct WorldMoment;
 struct WorldSnapshot;
@@ -29,10 +29,10 @@ using GroundMasses = std::map<ChunkCoord, MassUnits>;
 /// Terrain that comes chunk by chunk, and whose chunks may be out of memory (Field::page_by).
 struct PagedTerrain {
   /// The edited bricks of a chunk, in order.
-  using Take = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
-  /// Calls `take` once for each edited chunk, and ends at the first error. `ground` of restore(), which may
+  using Visit = std::function<Result<void>(ChunkCoord, std::span<const BrickPatch>)>;
+  /// Calls `visit` once for each edited chunk, and ends at the first error. `ground` of restore(), which may
   /// grow meanwhile, is read afterwards.
-  std::function<Result<void>(const Take& take)> each;
+  std::function<Result<void>(const Visit& visit)> each;
   ReadChunk read;
   size_t bricks_max = 0;  ///< chunks that come when so many are in memory are out
 };
@@ -71,8 +71,8 @@ class World {
   Tick tick() const;
   /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
-  /// Switches TickDelta::physics, in every ticks_per_watch-th delta, on or off. Changes nothing else.
-  void watch(bool wanted);
+  /// Switches TickDelta::physics, in every ticks_per_physics-th delta, on or off. Changes nothing else.
+  void want_physics(bool wanted);
   /// The state between two ticks, without the terrain: it shares what never changes, so that every tick may
   /// be asked for it.
   WorldMoment moment() const;

@@ -38,8 +38,9 @@ class Restoring {
 
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
-    for (const Step step : {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::bodies,
-                            &Restoring::ledger, &Restoring::places, &Restoring::waiting, &Restoring::cuts})
+    for (const Step step :
+         {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::bodies, &Restoring::ledger,
+          &Restoring::places, &Restoring::waiting, &Restoring::refractures})
       TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
@@ -52,12 +53,12 @@ class Restoring {
 
  private:
   Result<void> clock() {
-    for (const Tick tick : {m_.cut_at, m_.island_at, m_.requested})
+    for (const Tick tick : {m_.refractured_at, m_.island_at, m_.requested})
       if (tick > m_.tick) return fail("something happened after its tick");
     if (m_.tick > tick_max) return fail("its tick is beyond any");
     if (m_.next_piece > next_piece_max) return fail("its pieces' ids are used up");
     s_.tick = m_.tick;
-    s_.cut_at = m_.cut_at;
+    s_.refractured_at = m_.refractured_at;
     s_.island_at = m_.island_at;
     s_.requested = m_.requested;
     s_.next_piece = m_.next_piece;
@@ -105,7 +106,7 @@ class Restoring {
   }
 
   /// A hostile hull could be so large that nothing ends.
-  bool is_within(const KeptPiece& piece, const std::vector<glm::vec3>& points_m) const {
+  bool is_within(const PieceRecord& piece, const std::vector<glm::vec3>& points_m) const {
     const VoxelCoord size = piece.volume->window.box.size();
     const float reach_m = (static_cast<float>(std::max({size.x, size.y, size.z})) + shape_slack_voxels) *
                           s_.config.terrain.voxel_size_m;
@@ -120,7 +121,7 @@ class Restoring {
                   std::to_string(m_.motion.bodies.size()) + " bodies; a world has at most " +
                   std::to_string(limits::pieces_max_max) + " of each (limits.pieces_max_max)");
     for (size_t i = 0; i < m_.pieces.size(); ++i) {
-      const KeptPiece& piece = m_.pieces[i];
+      const PieceRecord& piece = m_.pieces[i];
       if (piece.id != m_.motion.bodies[i].id || piece.id == 0 || piece.id >= m_.next_piece)
         return fail("piece " + std::to_string(piece.id) + " has no body, or is none yet");
       const auto within = [&](const std::vector<glm::vec3>& points) { return is_within(piece, points); };
@@ -137,7 +138,7 @@ class Restoring {
 
   Result<void> bodies() {
     std::vector<std::shared_ptr<const BodyShape>> shapes;
-    for (const KeptPiece& piece : m_.pieces) shapes.push_back(piece.shape);
+    for (const PieceRecord& piece : m_.pieces) shapes.push_back(piece.shape);
     for (const VoxelBox& box : m_.motion.changes)
       if (!is_sane(box)) return fail("terrain changed outside the world");
     return s_.bodies.restore(shapes, m_.motion);
@@ -175,15 +176,15 @@ class Restoring {
   }
 
   Result<void> places() {
-    for (const auto* bricks : {&m_.cut, &m_.strained})
+    for (const auto* bricks : {&m_.loosened_bricks, &m_.strained})
       if (!std::ranges::all_of(*bricks, [&](BrickCoord brick) { return in_world(brick); }))
         return fail("a changed brick lies outside the world");
-    for (const IslandCut& search : m_.islands)
+    for (const LooseningEdit& search : m_.islands)
       if (!std::ranges::all_of(search.bricks, [&](BrickCoord brick) { return in_world(brick); }))
         return fail("a searched brick lies outside the world");
     if (!std::ranges::all_of(m_.gained, [&](const VoxelBox& box) { return is_sane(box); }))
       return fail("terrain gained rock outside the world");
-    s_.cut = {m_.cut.begin(), m_.cut.end()};
+    s_.loosened_bricks = {m_.loosened_bricks.begin(), m_.loosened_bricks.end()};
     s_.strained = {m_.strained.begin(), m_.strained.end()};
     s_.gained = m_.gained;
     return {};
@@ -201,14 +202,14 @@ class Restoring {
     return s_.requests.restore(m_.requests);
   }
 
-  Result<void> cuts() {
-    for (const PendingCut& cut : m_.cuts) {
-      if (cut.pieces < 2 || cut.pieces > limits::seeds_max)
+  Result<void> refractures() {
+    for (const PendingRefracture& pending : m_.refractures) {
+      if (pending.pieces < 2 || pending.pieces > limits::seeds_max)
         return fail("a piece is to be cut into none, or too many");
-      TRY(validate_shatter_pattern(cut.pattern));
-      if (cut.thrown_by != nullptr && !is_valid(s_, {0, 0, *cut.thrown_by}))
+      TRY(validate_shatter_pattern(pending.pattern));
+      if (pending.thrown_by != nullptr && !is_valid(s_, {0, 0, *pending.thrown_by}))
         return fail("a cut's pieces are thrown by what is no carve");
-      s_.cuts.push_back(cut);
+      s_.refractures.push_back(pending);
     }
     return {};
   }
@@ -261,9 +262,9 @@ Result<std::unique_ptr<World>> World::salvage(WorldSnapshot value, const PagedTe
 Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedTerrain* terrain,
                                                const GroundMasses& ground) {
   WorldMoment& moment = value.moment;
-  std::vector<KeptPiece> pieces;
+  std::vector<PieceRecord> pieces;
   std::vector<BodyMotion> bodies;
-  for (const KeptPiece& piece : moment.pieces) {
+  for (const PieceRecord& piece : moment.pieces) {
     const auto body = std::ranges::find(moment.motion.bodies, piece.id, &BodyMotion::id);
     if (body == moment.motion.bodies.end()) continue;
     pieces.push_back(piece);
@@ -292,11 +293,11 @@ WorldMoment World::moment() const {
   m.requests = s.requests.value();
   m.requested = s.requested;
   m.debt_us = s.work.debt_us();
-  m.cuts = {s.cuts.begin(), s.cuts.end()};
-  m.cut_at = s.cut_at;
+  m.refractures = {s.refractures.begin(), s.refractures.end()};
+  m.refractured_at = s.refractured_at;
   m.island_at = s.island_at;
   m.islands = s.islands.value();
-  m.cut = {s.cut.begin(), s.cut.end()};
+  m.loosened_bricks = {s.loosened_bricks.begin(), s.loosened_bricks.end()};
   m.strained = {s.strained.begin(), s.strained.end()};
   m.gained = s.gained;
   m.buried = {s.buried.begin(), s.buried.end()};
@@ -370,7 +371,7 @@ TickDelta World::outline() {
 
 uint64_t first_free_session(const WorldMoment& moment) {
   uint64_t last = 0;
-  for (const KeptPiece& piece : moment.pieces) last = std::max(last, piece.traits.owner);
+  for (const PieceRecord& piece : moment.pieces) last = std::max(last, piece.traits.owner);
   for (const PartyValue& party : moment.requests.parties) {
     last = std::max(last, party.party);
     for (const SessionValue& session : party.sessions) last = std::max(last, session.session);

@@ -78,10 +78,10 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
-  delta.operations.back().stage = watch.stage();
+  delta.operations.back().stage = stopwatch.stage();
   changed.insert(applied.changed.begin(), applied.changed.end());
   const Loose loose = left_by(operation);
-  if (loose == Loose::islands) cut.insert(applied.changed.begin(), applied.changed.end());
+  if (loose == Loose::islands) loosened_bricks.insert(applied.changed.begin(), applied.changed.end());
   if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
   if (loose == Loose::specks) unswept.insert(applied.changed.begin(), applied.changed.end());
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
@@ -95,7 +95,7 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   return applied;
 }
 
-void World::State::enter_taken(const Applied& applied) {
+void World::State::enter_removed(const Applied& applied) {
   CHECK(applied.dust >= 0);
   ledger.moved -= applied.terrain_gain;
   ledger.dust += applied.dust;

@@ -34,7 +34,7 @@ struct World::State {
   Applied apply_and_record(const Operation& operation, TickDelta& delta,
                            const PreparedStamp* prepared = nullptr);
   /// Enters the mass that an operation took out of the terrain: in pieces, and the rest in dust.
-  void enter_taken(const Applied& applied);
+  void enter_removed(const Applied& applied);
   PieceTraits traits_of(PieceId id) const;
   /// Checks the invariants between stages. O(1).
   void check() const;
@@ -57,24 +57,24 @@ struct World::State {
   Ledger ledger;
   Tick tick = 0;
   PieceId next_piece = 1;
-  std::set<BrickCoord> changed;   ///< in this tick
-  std::set<BrickCoord> cut;       ///< changed bricks that await a search for islands
-  std::set<BrickCoord> strained;  ///< changed bricks that await a search for support
-  std::set<BrickCoord> unswept;   ///< changed by merges and falling islands: specks may lie there
-  std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last
-  std::set<PieceId> buried;       ///< pieces in rock that await their merge
-  std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last
+  std::set<BrickCoord> changed;          ///< in this tick
+  std::set<BrickCoord> loosened_bricks;  ///< changed bricks that await a search for islands
+  std::set<BrickCoord> strained;         ///< changed bricks that await a search for support
+  std::set<BrickCoord> unswept;          ///< changed by merges and falling islands: specks may lie there
+  std::vector<VoxelBox> gained;          ///< around terrain that gained rock since merge_buried() looked last
+  std::set<PieceId> buried;              ///< pieces in rock that await their merge
+  std::set<PieceId> sunk;                ///< pieces that were in rock when merge_buried() looked last
   IslandQueue islands;
-  std::deque<PendingCut> cuts;  ///< in order
-  Tick cut_at = 0;              ///< tick in which one of them, or what they are parts of, was cut last
-  Tick island_at = 0;           ///< tick in which an island fell last
+  std::deque<PendingRefracture> refractures;  ///< in order
+  Tick refractured_at = 0;  ///< tick in which one of them, or what they are parts of, was cut last
+  Tick island_at = 0;       ///< tick in which an island fell last
   WorkBudget work;
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
-  bool watched = false;          ///< a client wants to see the bodies
-  StageWatch watch;              ///< of the tick's stages
+  bool wants_physics = false;    ///< a client wants to see the bodies
+  StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()
 };
 

@@ -19,13 +19,13 @@ class LogLimit {
  public:
   /// What to append to a line of this kind; nothing: leave the line out. The caller's kinds are few and
   /// fixed.
-  std::optional<std::string> take(std::string_view kind, double now_s) {
+  std::optional<std::string> admit(std::string_view kind, double now_s) {
     const auto found =
         kinds_
             .try_emplace(std::string(kind),
                          Kind{RateLimit(limits::log_lines_per_second, limits::log_lines_burst)})
             .first;
-    if (!found->second.rate.take(now_s)) {
+    if (!found->second.rate.try_spend(now_s)) {
       ++found->second.left_out;
       return std::nullopt;
     }

@@ -16,7 +16,7 @@ class RateLimit {
   }
 
   /// Takes tokens; false when there are not as many.
-  [[nodiscard]] bool take(double now_s, double tokens = 1.0) {
+  [[nodiscard]] bool try_spend(double now_s, double tokens = 1.0) {
     CHECK(std::isfinite(now_s) && tokens >= 0.0);
     tokens_ = std::min(burst_, tokens_ + std::max(0.0, now_s - last_s_) * per_second_);
     last_s_ = now_s;

@@ -39,7 +39,7 @@ class StreamEngine {
 
   virtual size_t output_bytes() const = 0;
   /// Moves all output into `into`, which is replaced.
-  virtual void take_output(std::vector<uint8_t>& into) = 0;
+  virtual void drain_output(std::vector<uint8_t>& into) = 0;
 };
 
 }  // namespace scree

@@ -13,7 +13,7 @@ namespace {
 constexpr std::chrono::microseconds patience(50);
 
 template <typename Done>
-void look_for(const Done& done) {
+void spin_until(const Done& done) {
   const auto until = std::chrono::steady_clock::now() + patience;
   while (!done() && std::chrono::steady_clock::now() < until) std::this_thread::yield();
 }
@@ -57,8 +57,8 @@ void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
     ++round_;
   }
   for (size_t helper = 0; helper < std::min(helpers_.size(), parts - 1); ++helper) called_.notify_one();
-  take_parts();
-  look_for([this] { return helping_ == 0; });
+  run_parts();
+  spin_until([this] { return helping_ == 0; });
   {
     std::unique_lock lock(mutex_);
     left_.wait(lock, [this] { return helping_ == 0; });
@@ -67,14 +67,14 @@ void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
   at_work_ = false;
 }
 
-void Workers::take_parts() {
+void Workers::run_parts() {
   for (size_t part = next_part_++; part < parts_; part = next_part_++) (*work_)(part);
 }
 
 void Workers::help() {
   size_t helped = 0;  // the last round
   while (true) {
-    look_for([&] { return ending_ || round_ != helped; });
+    spin_until([&] { return ending_ || round_ != helped; });
     std::unique_lock lock(mutex_);
     called_.wait(lock, [&] { return ending_ || round_ != helped; });
     if (ending_) return;
@@ -82,7 +82,7 @@ void Workers::help() {
     if (work_ == nullptr) continue;  // too late
     ++helping_;
     lock.unlock();
-    take_parts();
+    run_parts();
     lock.lock();
     if (--helping_ == 0) left_.notify_one();
   }

@@ -49,7 +49,7 @@ class Workers {
 
  private:
   void help();
-  void take_parts();
+  void run_parts();
 
   std::vector<std::thread> helpers_;
   ThreadCheck owner_;

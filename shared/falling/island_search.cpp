@@ -90,7 +90,7 @@ IslandSearch::Site& IslandSearch::site(BrickCoord brick) {
   return found->second;
 }
 
-BrickBits IslandSearch::taken(const Site& site) const {
+BrickBits IslandSearch::claimed_bits(const Site& site) const {
   BrickBits all;
   for (uint32_t i = site.first; i != none; i = parts_[i].next) all = all | parts_[i].bits;
   return all;
@@ -99,7 +99,7 @@ BrickBits IslandSearch::taken(const Site& site) const {
 /// Starts a flood from each component of the brick that has solid voxels `among` these.
 void IslandSearch::add_floods(BrickCoord brick, BrickBits among) {
   const Site& here = site(brick);
-  for (among = among & here.solid & ~taken(here); among.any();) {
+  for (among = among & here.solid & ~claimed_bits(here); among.any();) {
     const BrickBits bits = flooded(first_of(among), here.solid);
     CHECK_DEBUG(bits.any());
     const auto flood = static_cast<uint32_t>(floods_.size());
@@ -149,7 +149,7 @@ uint32_t IslandSearch::root(uint32_t flood) const {
 
 void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t flood) {
   Site& here = site(brick);
-  CHECK_DEBUG(bits.any() && !(bits & ~here.solid).any() && !(bits & taken(here)).any());
+  CHECK_DEBUG(bits.any() && !(bits & ~here.solid).any() && !(bits & claimed_bits(here)).any());
   const auto part = static_cast<uint32_t>(parts_.size());
   parts_.push_back({brick, bits, flood, here.first});
   here.first = part;

@@ -100,7 +100,7 @@ class IslandSearch {
   };
 
   Site& site(BrickCoord brick);
-  BrickBits taken(const Site& site) const;
+  BrickBits claimed_bits(const Site& site) const;
   void add_floods(BrickCoord brick, BrickBits among);
   void begin(std::span<const BrickCoord> changed);
   bool is_later(uint32_t a, uint32_t b) const;

@@ -148,7 +148,7 @@ class Sweep {
 
   /// Looks at a plane's sections, then joins both of its sides.
   void pass(std::vector<uint32_t>& plane) {
-    look_at(plane);
+    weigh_plane(plane);
     for (const uint32_t number : plane) unite(parts_.links()[number].lower, parts_.links()[number].upper);
     plane.clear();
   }
@@ -175,7 +175,7 @@ class Sweep {
   uint32_t beyond(const SupportLink& link) const { return up_ ? link.upper : link.lower; }
   uint32_t before(const SupportLink& link) const { return up_ ? link.lower : link.upper; }
 
-  void look_at(const std::vector<uint32_t>& plane) {
+  void weigh_plane(const std::vector<uint32_t>& plane) {
     std::map<uint32_t, std::vector<SupportLink>> sections;
     for (const uint32_t number : plane) {
       const SupportLink& link = parts_.links()[number];

@@ -27,11 +27,11 @@ uint64_t Field::edited_bits(ChunkCoord chunk) const {
 }
 
 size_t Field::generated_chunks() const {
-  return keeper().generated_.chunks();
+  return generated_owner().generated_.chunks();
 }
 
 size_t Field::generated_bytes() const {
-  return keeper().generated_.bytes();
+  return generated_owner().generated_.bytes();
 }
 
 void Field::heed_drops() {
@@ -179,20 +179,20 @@ void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
   if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (!generated.exact) return;
-  GeneratedChunk* const kept = generated_.find(chunk);
-  if (kept == nullptr)
+  GeneratedChunk* const found_chunk = generated_.find(chunk);
+  if (found_chunk == nullptr)
     generated_.add(chunk, std::move(generated));
-  else if (!kept->exact)
-    generated_.replace(*kept, std::move(generated));
+  else if (!found_chunk->exact)
+    generated_.replace(*found_chunk, std::move(generated));
   heed_drops();
 }
 
 bool Field::has_generated(ChunkCoord chunk) const {
-  return keeper().generated_.has_exact(chunk);
+  return generated_owner().generated_.has_exact(chunk);
 }
 
-bool Field::keep_generated(ChunkCoord chunk) {
-  if (below_ != nullptr) return below_->keep_generated(chunk);
+bool Field::touch_generated(ChunkCoord chunk) {
+  if (below_ != nullptr) return below_->touch_generated(chunk);
   const GeneratedChunk* const found = generated_.find(chunk);
   heed_drops();
   return found != nullptr && found->exact;
@@ -278,7 +278,7 @@ void Field::use(ChunkCoord chunk, EditedChunk& edited) {
                           std::to_string(chunk.z) + " was read, and is not what left memory");
 }
 
-void Field::keep(ChunkCoord chunk) {
+void Field::touch(ChunkCoord chunk) {
   const auto found = edited_.find(chunk);
   if (found != edited_.end()) found->second.used = residence_.turn();
 }

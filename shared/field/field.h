@@ -78,12 +78,12 @@ class Field {
   void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
   bool has_generated(ChunkCoord chunk) const;
   /// The same, and it counts as used.
-  bool keep_generated(ChunkCoord chunk);
+  bool touch_generated(ChunkCoord chunk);
   /// Generated chunks that are kept, and what they take in memory. Those that were not used while half of
   /// generated_bytes_max() was filled are dropped.
   size_t generated_chunks() const;
   size_t generated_bytes() const;
-  size_t generated_bytes_max() const { return keeper().generated_.bytes_max(); }
+  size_t generated_bytes_max() const { return generated_owner().generated_.bytes_max(); }
   /// `bytes` is positive, and at most limits::generated_bytes_max, which holds at first.
   void bound_generated(size_t bytes);
   size_t edited_brick_count() const {
@@ -109,7 +109,7 @@ class Field {
   std::vector<ChunkCoord> idle_chunks(uint64_t turns) const;
   bool is_idle(ChunkCoord chunk, uint64_t turns) const;
   /// As if somebody had asked for a chunk that is in now: it is not idle.
-  void keep(ChunkCoord chunk);
+  void touch(ChunkCoord chunk);
   /// In a field that pages: the edited chunks in memory, in any order, and the number of their edited bricks.
   const ChunkResidence::Chunks& chunks_in() const { return residence_.chunks(); }
   size_t bricks_in() const { return residence_.bricks(); }
@@ -144,7 +144,7 @@ class Field {
     const GeneratedChunk* generated;
   };
   /// The field that keeps the generated chunks.
-  const Field& keeper() const { return below_ == nullptr ? *this : below_->keeper(); }
+  const Field& generated_owner() const { return below_ == nullptr ? *this : below_->generated_owner(); }
   uint64_t edited_bits(ChunkCoord chunk) const;
   const GeneratedChunk& generated_chunk(ChunkCoord chunk);
   /// Forgets the last call's chunk if the cache has dropped chunks since.

@@ -36,8 +36,8 @@ void GeneratedCache::replace(GeneratedChunk& old, GeneratedChunk generated) {
 }
 
 bool GeneratedCache::has_exact(ChunkCoord chunk) const {
-  for (const Chunks* kept : {&used_.chunks, &unused_.chunks})
-    if (const auto found = kept->find(chunk); found != kept->end()) return found->second.exact;
+  for (const Chunks* found_chunk : {&used_.chunks, &unused_.chunks})
+    if (const auto found = found_chunk->find(chunk); found != found_chunk->end()) return found->second.exact;
   return false;
 }
 

@@ -10,8 +10,8 @@ namespace scree {
 namespace {
 
 /// `slots[i]`: the brick's place in `own`, or none when chunk.bricks[i] is a shared one.
-void take(GeneratedChunk& chunk, const std::vector<Brick>& own,
-          const std::array<size_t, chunk_brick_count>& slots) {
+void adopt_bricks(GeneratedChunk& chunk, const std::vector<Brick>& own,
+                  const std::array<size_t, chunk_brick_count>& slots) {
   chunk.storage = std::make_unique<Brick[]>(own.size());
   chunk.stored = static_cast<uint32_t>(own.size());
   std::ranges::copy(own, chunk.storage.get());
@@ -32,7 +32,7 @@ GeneratedChunk chunk_from(F&& brick_at) {
     slots[i] = own.size();
     if (chunk.bricks[i] == nullptr) own.push_back(brick);
   }
-  take(chunk, own, slots);
+  adopt_bricks(chunk, own, slots);
   return chunk;
 }
 

@@ -8,8 +8,8 @@ std::optional<Material> stored_material_at(const TerrainSource& source, glm::vec
   if (source.heights == nullptr || !source.heights->bricks()) return std::nullopt;
   const glm::vec3 p = p_m / source.voxel_size_m + 0.5F;
   const BrickCoord brick = brick_of(VoxelCoord{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)});
-  const ChunkLook look = stored_chunk(source, chunk_of(brick));
-  return look.chunk == nullptr ? std::nullopt : stored_material(*look.chunk, index_in_chunk(brick));
+  const ChunkLookup lookup = stored_chunk(source, chunk_of(brick));
+  return lookup.chunk == nullptr ? std::nullopt : stored_material(*lookup.chunk, index_in_chunk(brick));
 }
 
 }  // namespace

@@ -141,11 +141,11 @@ float crossing_distance(const std::vector<float>& levels, const VoxelCoord& size
   float sum = 0.0F;
   for (int axis = 0; axis < 3; ++axis) {
     float nearest = far_voxels;
-    const auto look = [&](float there) {
+    const auto measure = [&](float there) {
       if ((there < 0.0F) != (here < 0.0F)) nearest = std::min(nearest, here / (here - there));
     };
-    if (at[axis] > 0) look(levels[index - steps[axis]]);
-    if (at[axis] + 1 < end[axis]) look(levels[index + steps[axis]]);
+    if (at[axis] > 0) measure(levels[index - steps[axis]]);
+    if (at[axis] + 1 < end[axis]) measure(levels[index + steps[axis]]);
     if (nearest < far_voxels) sum += 1.0F / std::max(nearest * nearest, 1e-12F);
   }
   return sum > 0.0F ? std::min(1.0F, 1.0F / std::sqrt(sum)) : far_voxels;
@@ -165,8 +165,8 @@ bool row_crosses(const std::vector<uint8_t>& sides, const VoxelCoord& size, int 
 
 /// The start of redistancing: voxels next to a zero crossing keep their magnitudes, others have none yet.
 SCREE_VECTOR_CLONES
-void keep_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
-                    float* __restrict magnitudes, float* __restrict floors) {
+void pin_crossings(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+                   float* __restrict magnitudes, float* __restrict floors) {
   for (ptrdiff_t i = 0; i < count; ++i) {
     const int8_t own = c[i];
     const auto signs =
@@ -201,17 +201,17 @@ void encode_levels(size_t count, const float* __restrict levels, const float* __
 }
 
 /// The outermost layer keeps its magnitudes.
-void keep_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* magnitudes, float* floors) {
+void pin_rim(const VoxelCoord& size, const std::vector<Code>& codes, float* magnitudes, float* floors) {
   const auto nz = static_cast<size_t>(size.z), plane = static_cast<size_t>(size.y) * nz;
-  const auto keep = [&](size_t first, size_t count) {
+  const auto pin = [&](size_t first, size_t count) {
     for (size_t i = first; i < first + count; ++i) floors[i] = magnitudes[i] = std::abs(decode(codes[i]));
   };
-  keep(0, plane + nz + 1);
+  pin(0, plane + nz + 1);
   for (size_t x = plane; x + plane < codes.size(); x += plane) {
-    for (size_t row = x + nz; row + 2 * nz < x + plane; row += nz) keep(row + nz - 1, 2);
-    keep(x + plane - nz - 1, 2 * nz + 2);
+    for (size_t row = x + nz; row + 2 * nz < x + plane; row += nz) pin(row + nz - 1, 2);
+    pin(x + plane - nz - 1, 2 * nz + 2);
   }
-  keep(codes.size() - plane, plane);
+  pin(codes.size() - plane, plane);
 }
 
 /// Marks the rows with voxels that others measure from, and all rows of a small window.
@@ -233,9 +233,9 @@ void redistance(Window& window) {
   Solver solver(size);
   const size_t count = window.codes.size();
   const ptrdiff_t step_y = size.z, step_x = step_y * size.y, first = step_x + step_y + 1;
-  keep_crossings(static_cast<ptrdiff_t>(count) - 2 * first, step_x, step_y, window.codes.data() + first,
-                 solver.magnitudes() + first, solver.floors() + first);
-  keep_rim(size, window.codes, solver.magnitudes(), solver.floors());
+  pin_crossings(static_cast<ptrdiff_t>(count) - 2 * first, step_x, step_y, window.codes.data() + first,
+                solver.magnitudes() + first, solver.floors() + first);
+  pin_rim(size, window.codes, solver.magnitudes(), solver.floors());
   find_sources(size, solver);
   solver.solve(passes_of_codes);
   encode_magnitudes(count, solver.magnitudes(), window.codes.data());

@@ -48,7 +48,7 @@ inline ChunkCoord chunk_of(TileKey key) {
 Result<void> validate(const BrickLayout& layout);
 
 /// What is known of a place: whether a chunk is stored there, and if so, which one.
-struct ChunkLook {
+struct ChunkLookup {
   bool known = true;
   std::shared_ptr<const GeneratedChunk> chunk{};
 };
@@ -62,7 +62,7 @@ class GroundModel : public HeightModel {
   const std::optional<BrickLayout>& bricks() const { return bricks_; }
   /// Not known while a tile that tells is not there; then it is noted as missing. `key`: one that bricks()
   /// holds.
-  virtual ChunkLook chunk(TileKey) const { return {}; }
+  virtual ChunkLookup chunk(TileKey) const { return {}; }
   /// Whether there is such a tile, of either kind; of a model whose tiles are still to come: whether it has.
   virtual bool has(TileKey key) const { return layout().holds(key); }
 

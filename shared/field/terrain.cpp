@@ -227,9 +227,9 @@ std::optional<Code> stored_code(const TerrainSource& source, glm::vec3 p_m) {
   if (!source.heights->bricks()) return std::nullopt;
   const glm::vec3 p = p_m / source.voxel_size_m + 0.5F;
   const VoxelCoord voxel{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
-  const ChunkLook look = stored_chunk(source, chunk_of(voxel));
-  if (look.chunk == nullptr) return std::nullopt;
-  const Brick& brick = *look.chunk->bricks[static_cast<size_t>(index_in_chunk(brick_of(voxel)))];
+  const ChunkLookup lookup = stored_chunk(source, chunk_of(voxel));
+  if (lookup.chunk == nullptr) return std::nullopt;
+  const Brick& brick = *lookup.chunk->bricks[static_cast<size_t>(index_in_chunk(brick_of(voxel)))];
   return brick.codes[static_cast<size_t>(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7))];
 }
 
@@ -248,15 +248,15 @@ float height_of_ground_m(const TerrainSource& source, float x_m, float z_m) {
 
 }  // namespace
 
-ChunkLook stored_chunk(const TerrainSource& source, ChunkCoord chunk) {
+ChunkLookup stored_chunk(const TerrainSource& source, ChunkCoord chunk) {
   const auto key = source.heights ? stored_key(*source.heights, chunk, source.voxel_size_m) : std::nullopt;
-  return key ? source.heights->chunk(*key) : ChunkLook{};
+  return key ? source.heights->chunk(*key) : ChunkLookup{};
 }
 
 bool is_here(const TerrainSource& source, ChunkCoord chunk) {
   if (source.heights == nullptr) return true;
   const GroundModel& model = *source.heights;
-  const ChunkLook stored = stored_chunk(source, chunk);
+  const ChunkLookup stored = stored_chunk(source, chunk);
   bool all = stored.known;
   if (stored.chunk != nullptr ||
       reach_of(model.layout(), box_around(chunk), source.voxel_size_m) != Reach::surface)
@@ -268,7 +268,7 @@ bool is_here(const TerrainSource& source, ChunkCoord chunk) {
 
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
   if (source.heights != nullptr) {
-    const ChunkLook stored = stored_chunk(source, chunk);
+    const ChunkLookup stored = stored_chunk(source, chunk);
     if (stored.chunk != nullptr) return copy_of(*stored.chunk);
     GeneratedChunk made = chunk_of_heights(source, chunk);
     made.exact = made.exact && stored.known;

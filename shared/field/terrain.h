@@ -65,7 +65,7 @@ float top_m(const TerrainSource& source);
 float floor_m(const TerrainSource& source, int chunk_x, int chunk_z);
 
 /// What the ground stores of a chunk of its voxel size: a chunk, or that it stores none.
-ChunkLook stored_chunk(const TerrainSource& source, ChunkCoord chunk);
+ChunkLookup stored_chunk(const TerrainSource& source, ChunkCoord chunk);
 
 /// Where the ground's layers lie.
 MaterialHeights layers_of(const TerrainSource& source);

@@ -88,8 +88,8 @@ int64_t sum_of(const ShareInts& each) {
 }
 
 /// Gives the part its share of the voxels that it claimed.
-SCREE_VECTOR_CLONES void take_share(const RowPlaces& places, const CellPart& part, SharedMass& shared,
-                                    PartMass& mass) {
+SCREE_VECTOR_CLONES void assign_share(const RowPlaces& places, const CellPart& part, SharedMass& shared,
+                                      PartMass& mass) {
   const ShareInts numbers = {0, 1, 2, 3, 4, 5, 6, 7};
   const auto end = part.shares.end();
   for (auto row = part.shares.begin(); row != end;) {
@@ -156,7 +156,7 @@ std::vector<PartMass> share_out(const VoxelBox& box, const std::vector<uint8_t>&
     claim(places, part, shared);
   }
   std::vector<PartMass> masses(parts.size());
-  for (size_t i = 0; i < parts.size(); ++i) take_share(places, parts[i], shared, masses[i]);
+  for (size_t i = 0; i < parts.size(); ++i) assign_share(places, parts[i], shared, masses[i]);
   give_rest(size, nearest, shared.left, masses);
   return masses;
 }

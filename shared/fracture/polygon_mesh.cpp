@@ -132,15 +132,15 @@ bool Slicer::classify(const PolygonMesh& mesh, const Plane& plane) {
   return beyond;
 }
 
-uint32_t Slicer::kept(const PolygonMesh& mesh, uint32_t vertex) {
-  if (kept_[vertex] == none) {
-    kept_[vertex] = static_cast<uint32_t>(out_.vertices.size());
+uint32_t Slicer::copied(const PolygonMesh& mesh, uint32_t vertex) {
+  if (copied_[vertex] == none) {
+    copied_[vertex] = static_cast<uint32_t>(out_.vertices.size());
     out_.vertices.push_back(mesh.vertices[vertex]);
   }
-  return kept_[vertex];
+  return copied_[vertex];
 }
 
-uint32_t Slicer::cut(const PolygonMesh& mesh, PolygonEdge edge) {
+uint32_t Slicer::crossing(const PolygonMesh& mesh, PolygonEdge edge) {
   const auto [low, high] = std::minmax(edge.from, edge.to);
   for (uint32_t i = first_cut_[low]; i != none; i = cuts_[i].next)
     if (cuts_[i].other == high) return cuts_[i].vertex;
@@ -188,15 +188,15 @@ void Slicer::clip_face(const PolygonMesh& mesh, const PolygonFace& face, const P
     const PolygonEdge edge = mesh.edges[i];
     const bool from_kept = distances_[edge.from] <= 0.0, to_kept = distances_[edge.to] <= 0.0;
     if (from_kept && to_kept) {
-      const uint32_t from = kept(mesh, edge.from);
-      out_.edges.push_back({from, kept(mesh, edge.to)});
+      const uint32_t from = copied(mesh, edge.from);
+      out_.edges.push_back({from, copied(mesh, edge.to)});
     } else if (from_kept) {
-      const uint32_t leaves = cut(mesh, edge);
-      out_.edges.push_back({kept(mesh, edge.from), leaves});
+      const uint32_t leaves = crossing(mesh, edge);
+      out_.edges.push_back({copied(mesh, edge.from), leaves});
       crossings_.push_back({leaves, -1, 0.0});
     } else if (to_kept) {
-      const uint32_t enters = cut(mesh, edge);
-      out_.edges.push_back({enters, kept(mesh, edge.to)});
+      const uint32_t enters = crossing(mesh, edge);
+      out_.edges.push_back({enters, copied(mesh, edge.to)});
       crossings_.push_back({enters, 1, 0.0});
     }
   }
@@ -206,7 +206,7 @@ void Slicer::clip_face(const PolygonMesh& mesh, const PolygonFace& face, const P
 
 void Slicer::slice(PolygonMesh& mesh, const Plane& plane, uint32_t neighbour) {
   if (!classify(mesh, plane)) return;
-  kept_.assign(mesh.vertices.size(), none);
+  copied_.assign(mesh.vertices.size(), none);
   first_cut_.assign(mesh.vertices.size(), none);
   cuts_.clear();
   cap_.clear();

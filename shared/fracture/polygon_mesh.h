@@ -91,14 +91,14 @@ class Slicer {
   };
 
   bool classify(const PolygonMesh& mesh, const Plane& plane);
-  uint32_t kept(const PolygonMesh& mesh, uint32_t vertex);
-  uint32_t cut(const PolygonMesh& mesh, PolygonEdge edge);
+  uint32_t copied(const PolygonMesh& mesh, uint32_t vertex);
+  uint32_t crossing(const PolygonMesh& mesh, PolygonEdge edge);
   void clip_face(const PolygonMesh& mesh, const PolygonFace& face, const Plane& plane);
   void close_face(glm::dvec3 along);
   void close(uint32_t from, uint32_t to);
 
   std::vector<double> distances_;
-  std::vector<uint32_t> kept_;  ///< a kept vertex's number in out_
+  std::vector<uint32_t> copied_;  ///< a kept vertex's number in out_
   /// Cut edges by their lower vertex: linked lists, as a vertex has few edges.
   struct CutEdge {
     uint32_t other = 0;

@@ -99,7 +99,7 @@ SCREE_VECTOR_CLONES void mark(const Code* __restrict codes, const CellLabel* __r
 }
 
 /// The cells ahead of each of `count` voxels: the next one along z, three along y, nine along x.
-SCREE_VECTOR_CLONES void look_ahead(size_t count, ptrdiff_t step_y, const uint64_t* __restrict own,
+SCREE_VECTOR_CLONES void read_ahead(size_t count, ptrdiff_t step_y, const uint64_t* __restrict own,
                                     const uint64_t* __restrict rows, const uint64_t* __restrict rows_beyond,
                                     uint64_t* __restrict ahead) {
   for (size_t n = 0; n < count; ++n) {
@@ -124,7 +124,7 @@ void touch_by_words(const Window& volume, const std::vector<CellLabel>& labels, 
   for (size_t x = 1; x + 1 < static_cast<size_t>(size.x); ++x) {
     std::swap(here, beyond);
     mark_plane(x + 1, beyond);
-    look_ahead(plane - 2 * step_y, static_cast<ptrdiff_t>(step_y), &here.own[step_y], &here.rows[step_y],
+    read_ahead(plane - 2 * step_y, static_cast<ptrdiff_t>(step_y), &here.own[step_y], &here.rows[step_y],
                &beyond.rows[step_y], &ahead[step_y]);
     for (size_t row = step_y; row + step_y < plane; row += step_y)
       for (size_t i = row + 1; i + 1 < row + step_y; ++i)

@@ -80,7 +80,7 @@ Applied apply_fill(const FillOperation& fill_op, Field& field) {
   return applied;
 }
 
-std::shared_ptr<const Volume> take(PieceTable& pieces, PieceId id) {
+std::shared_ptr<const Volume> remove_piece(PieceTable& pieces, PieceId id) {
   const auto found = pieces.find(id);
   CHECK(found != pieces.end());
   std::shared_ptr<const Volume> volume = std::move(found->second);
@@ -117,8 +117,8 @@ bool gives(const StampOperation& op, Field& field, const Volumes& volumes, const
 
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
                     const PreparedStamp* prepared) {
-  Volumes volumes{take(pieces, op.piece)};
-  for (const StampedPiece& other : op.others) volumes.push_back(take(pieces, other.piece));
+  Volumes volumes{remove_piece(pieces, op.piece)};
+  for (const StampedPiece& other : op.others) volumes.push_back(remove_piece(pieces, other.piece));
   Applied applied;
   if (prepared != nullptr && prepared->holds(op, field, volumes)) {
     CHECK_DEBUG(gives(op, field, volumes, *prepared));
@@ -132,12 +132,12 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
 
 Applied apply_discard(const DiscardOperation& op, PieceTable& pieces) {
   Applied applied;
-  applied.dust = take(pieces, op.piece)->mass;
+  applied.dust = remove_piece(pieces, op.piece)->mass;
   return applied;
 }
 
 Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
-  const std::shared_ptr<const Volume> volume = take(pieces, op.piece);
+  const std::shared_ptr<const Volume> volume = remove_piece(pieces, op.piece);
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);

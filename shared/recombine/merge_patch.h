@@ -12,7 +12,7 @@ namespace scree {
 
 /// What gives way first where the mass differs. round: edges and clefts, then the whole surface. keep: the
 /// whole surface alone, so that faces stay flat and edges sharp.
-enum class Edges { round, keep };
+enum class Edges { round, sharp };
 
 class MergePatch {
  public:

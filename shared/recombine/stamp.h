@@ -24,7 +24,7 @@ struct Laying {
 /// Restores a surface that was cut.
 inline constexpr Laying laying_rounded{Reading::codes, Edges::round};
 /// Stones keep flat faces and their edges, and gaps between them.
-inline constexpr Laying laying_faceted{Reading::planes, Edges::keep};
+inline constexpr Laying laying_faceted{Reading::planes, Edges::sharp};
 
 /// The shift of a stamp that rounds edges holds two numbers, roundness · 2^7 + dust. A negative roundness
 /// rounds edges, a positive one fills clefts. Up to half of the maximum the effect grows until it is

@@ -145,7 +145,7 @@ class LeafFiller {
       }
     }
   }
-  LeafMesh take() { return std::move(mesh_); }
+  LeafMesh mesh() { return std::move(mesh_); }
 
  private:
   uint32_t vertex_on(const LeafEdge& edge, const Leaf& leaf) {
@@ -199,7 +199,7 @@ SurfaceMesh marching_cubes(const Window& window, const VoxelBox& owned, const Wi
 LeafMesh leaf_cubes(const LeafGrid& grid, std::span<const Leaf> leaves) {
   LeafFiller filler(grid);
   for (const Leaf& leaf : leaves) filler.add(leaf);
-  return filler.take();
+  return filler.mesh();
 }
 
 }  // namespace scree

@@ -91,16 +91,16 @@ void add(const Facet& facet, size_t point, SumList& list) {
 }
 
 /// Leaves those of faces, at most faces_max, those with the most supporters first, of as many in their order.
-void keep_faces(SumList& list) {
-  size_t kept = 0;
+void add_faces(SumList& list) {
+  size_t count = 0;
   for (size_t i = 0; i < list.count; ++i) {
     if (list.sums[i].supporters < face_supporters_min) continue;
     const Sum sum = list.sums[i];
-    size_t to = kept++;
+    size_t to = count++;
     for (; to > 0 && list.sums[to - 1].supporters < sum.supporters; --to) list.sums[to] = list.sums[to - 1];
     list.sums[to] = sum;
   }
-  list.count = std::min(kept, faces_max);
+  list.count = std::min(count, faces_max);
 }
 
 RockFace face_of(const Sum& sum) {
@@ -264,7 +264,7 @@ std::vector<RockFace> rock_faces(FacetMap& facets, VoxelCoord cell) {
   }
   if (list.count == 0) return {};
   for (size_t i = 0; i < weak_count; ++i) add(*around[weak[i]], weak[i], list);
-  keep_faces(list);
+  add_faces(list);
   std::vector<RockFace> faces;
   faces.reserve(list.count);
   for (const Sum& sum : list.all()) faces.push_back(face_of(sum));

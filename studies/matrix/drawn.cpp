@@ -101,21 +101,21 @@ Result<std::unique_ptr<SessionDrawer>> SessionDrawer::create(Stage& stage, const
 Result<DrawnFrame> SessionDrawer::frame(MatrixSession& session) {
   const Camera camera = session_camera();
   const Scene scene{session.world().field(), session.pieces()};
-  method_->changed(session.take_changes());
+  method_->changed(session.drain_changes());
   DrawnFrame time;
-  Stopwatch whole, watch;
+  Stopwatch whole, stopwatch;
   method_->update(scene, camera);
-  time.update_ms = watch.lap_ms();
+  time.update_ms = stopwatch.lap_ms();
   while (!method_->complete()) {
     std::this_thread::yield();
     method_->update(scene, camera);
   }
   time.shown_ms = whole.lap_ms();
   stage_.renderer->set_contacts(contacts_of(session.pieces(), matrix_terrain.voxel_size_m, camera.eye_m));
-  watch.lap_ms();
+  stopwatch.lap_ms();
   if (Result<void> drawn = stage_.renderer->draw_unseen(*method_, camera, plan_.width, plan_.height); !drawn)
     return fail(drawn.error().message);
-  time.draw_ms = watch.lap_ms();
+  time.draw_ms = stopwatch.lap_ms();
   return time;
 }
 
@@ -133,7 +133,7 @@ Result<SessionDrawer::Difference> SessionDrawer::difference(MatrixSession& sessi
   Field& field = session.world().field();
   const Camera camera = session_camera();
   const ScenePieces none;
-  MirrorChanges changes = session.take_changes();
+  MirrorChanges changes = session.drain_changes();
   for (const auto& [id, piece] : session.pieces()) changes.pieces_removed.push_back(id);
   method_->changed(changes);
   do method_->update(Scene{field, none}, camera);

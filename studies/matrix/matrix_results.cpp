@@ -29,7 +29,7 @@ MatrixScore score_of(const MatrixResults& results, size_t number) {
   const MeasuredSession& session = results.sessions[number % results.sessions.size()];
   const SessionFigures& ticks = session.figures;
   double squares = 0.0;
-  for (const double voxels : {session.cut.rms_voxels, session.merge.rms_voxels, ticks.depth_voxels,
+  for (const double voxels : {session.cells.rms_voxels, session.merge.rms_voxels, ticks.depth_voxels,
                               ticks.body_voxels, drawn.depth_voxels})
     squares += voxels * voxels;
   return {ticks.tick_ms + drawn.frame_ms, ticks.tick_ms, ticks.heap_mib + drawn.memory_mib,

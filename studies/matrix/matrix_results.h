@@ -14,7 +14,7 @@ namespace scree {
 struct MeasuredSession {
   Simulated simulated;
   SessionFigures figures;
-  CutFigures cut;
+  CellErrorFigures cells;
   MergeFigures merge;
 };
 

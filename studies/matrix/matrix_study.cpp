@@ -1,5 +1,5 @@
 // The study `matrix`: every combination of drawing, cutter, simplifier, collider, recombination and pattern,
-// and the presets. Goes on where a run was broken off (kept_results.h), in the report's folder.
+// and the presets. Goes on where a run was broken off (results_log.h), in the report's folder.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,16 +35,16 @@ std::vector<Simulated> few_simulated() {
 }
 
 /// All but the times is the same in both.
-void keep_least(DrawnFigures& least, const DrawnFigures& again) {
+void assign_minimum(DrawnFigures& least, const DrawnFigures& again) {
   for (const FigureField<DrawnFigures>& field : DrawnFigures::fields())
     least.*field.member = std::min(least.*field.member, again.*field.member);
 }
 
 class MatrixRun {
  public:
-  MatrixRun(const StudyOptions& options, KeptResults& kept)
+  MatrixRun(const StudyOptions& options, ResultsLog& log)
       : options_(options),
-        kept_(kept),
+        log_(log),
         plan_(session_plan(options.quick)),
         simulated_(options.quick ? few_simulated() : all_simulated()) {
     results_.quick = options.quick;
@@ -77,9 +77,9 @@ class MatrixRun {
   void went_on(double work) { options_.progress((done_work_ += work) / whole_work_); }
 
   Result<void> measure_preset(Preset preset) {
-    const auto figures =
-        kept_or_measured<ProfileFigures>(kept_, "preset " + std::string(name_of(preset)),
-                                         [&] { return measure_profile(preset, options_.quick); });
+    const auto figures = read_or_measure<ProfileFigures>(log_, "preset " + std::string(name_of(preset)), [&] {
+      return measure_profile(preset, options_.quick);
+    });
     if (!figures) return fail(figures.error().message);
     results_.profiles.emplace_back(preset, *figures);
     went_on(profile_weight);
@@ -88,24 +88,24 @@ class MatrixRun {
 
   Result<void> measure_one(size_t number) {
     const Simulated& one = simulated_[number];
-    const auto session = kept_or_measured<SessionFigures>(kept_, "session " + text_of(one),
-                                                          [&] { return measure_session(one, plan_); });
+    const auto session = read_or_measure<SessionFigures>(log_, "session " + text_of(one),
+                                                         [&] { return measure_session(one, plan_); });
     if (!session) return fail(session.error().message);
     const std::string cut_name = std::string(name_of(one.cutter)) + " " + std::string(name_of(one.pattern));
-    const auto cut = kept_or_measured<CutFigures>(
-        kept_, "cut " + cut_name, [&] { return measure_cut(one.cutter, one.pattern, plan_.seeds); });
-    if (!cut) return fail(cut.error().message);
-    const auto merge = kept_or_measured<MergeFigures>(
-        kept_, "merge " + cut_name + " " + std::string(name_of(one.recombine)),
+    const auto cells = read_or_measure<CellErrorFigures>(
+        log_, "cut " + cut_name, [&] { return measure_cell_error(one.cutter, one.pattern, plan_.seeds); });
+    if (!cells) return fail(cells.error().message);
+    const auto merge = read_or_measure<MergeFigures>(
+        log_, "merge " + cut_name + " " + std::string(name_of(one.recombine)),
         [&] { return measure_merge(one.cutter, one.pattern, one.recombine, plan_.seeds); });
     if (!merge) return fail(merge.error().message);
     auto& kind = merges(one.recombine) ? results_.sessions : results_.frozen;
-    kind.push_back({one, *session, *cut, *merge});
+    kind.push_back({one, *session, *cells, *merge});
     went_on(1.0);
     if (number % (simulated_.size() / repeats + 1) != 0) return {};
     const auto again =
-        kept_or_measured<SessionFigures>(kept_, "repeat " + std::to_string(results_.repeated_ms.size()),
-                                         [&] { return measure_session(Simulated{}, plan_); });
+        read_or_measure<SessionFigures>(log_, "repeat " + std::to_string(results_.repeated_ms.size()),
+                                        [&] { return measure_session(Simulated{}, plan_); });
     if (!again) return fail(again.error().message);
     results_.repeated_ms.push_back(again->tick_ms);
     return {};
@@ -127,7 +127,7 @@ class MatrixRun {
     }
     Image image;
     const auto drawn =
-        kept_or_measured<DrawnFigures>(kept_, "drawing " + name + " " + std::to_string(round), [&] {
+        read_or_measure<DrawnFigures>(log_, "drawing " + name + " " + std::to_string(round), [&] {
           return measure_drawn(stage(), entry, Simulated{}, plan_, {.judged = true, .picture = &image});
         });
     if (!drawn) return fail(drawn.error().message);
@@ -136,7 +136,7 @@ class MatrixRun {
     if (known == results_.drawings.end())
       results_.drawings.push_back({name, *drawn});
     else
-      keep_least(known->figures, *drawn);
+      assign_minimum(known->figures, *drawn);
     return {};
   }
 
@@ -154,8 +154,8 @@ class MatrixRun {
     const auto number =
         static_cast<size_t>((place - std::floor(place)) * static_cast<double>(combinations_of(results_)));
     const Combination combination = combination_of(results_, number);
-    const auto drawn = kept_or_measured<DrawnFigures>(
-        kept_, "whole " + text_of(combination) + " " + std::to_string(round), [&] {
+    const auto drawn = read_or_measure<DrawnFigures>(
+        log_, "whole " + text_of(combination) + " " + std::to_string(round), [&] {
           return measure_drawn(stage(), *method_named(combination.drawing), combination.simulated, plan_, {});
         });
     if (!drawn) return fail(drawn.error().message);
@@ -166,13 +166,13 @@ class MatrixRun {
     }
     DrawnFigures& kept_least = results_.whole[i].figures;
     const double tick_ms = kept_least.tick_ms;
-    keep_least(kept_least, *drawn);
+    assign_minimum(kept_least, *drawn);
     kept_least.tick_ms = tick_ms;  // the sessions that foretell it are measured once
     return {};
   }
 
   const StudyOptions& options_;
-  KeptResults& kept_;
+  ResultsLog& log_;
   SessionPlan plan_;
   std::vector<Simulated> simulated_;
   MatrixResults results_;
@@ -185,12 +185,12 @@ class MatrixRun {
 Result<StudyResult> run_matrix_study(const StudyOptions& options) {
   const std::string folder = options.folder + "/matrix";
   const ResultsIdentity identity{this_build(), slug_of(this_machine()), options.quick ? "quick" : "full"};
-  Result<KeptResults> kept = KeptResults::open(folder + "/results.jsonl", identity);
-  if (!kept) return fail(kept.error().message);
-  if (!kept->begun_anew().empty()) std::fprintf(stderr, "%s; begun anew\n", kept->begun_anew().c_str());
-  if (kept->count() > 0)
-    std::fprintf(stderr, "%s/results.jsonl: goes on after %zu results\n", folder.c_str(), kept->count());
-  const Result<MatrixResults> results = MatrixRun(options, *kept).measure();
+  Result<ResultsLog> log = ResultsLog::open(folder + "/results.jsonl", identity);
+  if (!log) return fail(log.error().message);
+  if (!log->begun_anew().empty()) std::fprintf(stderr, "%s; begun anew\n", log->begun_anew().c_str());
+  if (log->count() > 0)
+    std::fprintf(stderr, "%s/results.jsonl: goes on after %zu results\n", folder.c_str(), log->count());
+  const Result<MatrixResults> results = MatrixRun(options, *log).measure();
   if (!results) return fail(results.error().message);
   if (Result<void> written = write_matrix_files(*results, folder); !written)
     return fail(written.error().message);

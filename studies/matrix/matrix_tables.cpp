@@ -61,7 +61,7 @@ std::vector<std::string> medians_of(const ChoiceValue& value, const std::vector<
           ticks(&SessionFigures::heap_mib),
           ticks(&SessionFigures::pieces_left),
           ticks(&SessionFigures::dust_percent),
-          median([](const MeasuredSession& session) { return session.cut.rms_voxels; }),
+          median([](const MeasuredSession& session) { return session.cells.rms_voxels; }),
           median([](const MeasuredSession& session) { return session.merge.rms_voxels; }),
           ticks(&SessionFigures::depth_voxels),
           ticks(&SessionFigures::body_voxels)};

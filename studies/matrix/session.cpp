@@ -20,8 +20,8 @@ namespace {
 constexpr float blow_radius_m = 2.0F;
 constexpr double bytes_per_mib = 1024.0 * 1024.0;
 /// Ticks between two looks at how deep the pieces are, and points of a piece that are looked at.
-constexpr Tick look_ticks = 15;
-constexpr size_t look_points = 16;
+constexpr Tick sample_ticks = 15;
+constexpr size_t sample_points = 16;
 
 /// Side by side before the camera (drawn.h), four in a row, each in fresh ground.
 CarveRequest blow_number(uint32_t number, SeedPattern pattern, uint32_t seeds) {
@@ -48,16 +48,16 @@ class Observer {
  public:
   explicit Observer(Simplifier simplifier) : simplifier_(simplifier) {}
 
-  void look(World& world, const TickDelta& delta) {
+  void observe(World& world, const TickDelta& delta) {
     for (const SpawnedPiece& piece : delta.spawned) {
       const float dx = world.config().terrain.voxel_size_m;
-      points_[piece.id] = surface_samples(*piece.volume, dx, look_points);
+      points_[piece.id] = surface_samples(*piece.volume, dx, sample_points);
       body_voxels_ += body_distance_voxels(piece, simplifier_, dx);
       made_ += 1.0;
     }
     ledger_units_ = std::max(ledger_units_, std::abs(static_cast<double>(delta.ledger.error())));
-    if (delta.tick % look_ticks != 0) return;
-    for (const PieceState& piece : delta.pieces) look(world, piece);
+    if (delta.tick % sample_ticks != 0) return;
+    for (const PieceState& piece : delta.pieces) observe(world, piece);
   }
   void fill(SessionFigures& figures) const {
     figures.pieces_made = made_;
@@ -67,7 +67,7 @@ class Observer {
   }
 
  private:
-  void look(World& world, const PieceState& piece) {
+  void observe(World& world, const PieceState& piece) {
     const Pose pose = dequantise(piece.pose);
     const float dx = world.config().terrain.voxel_size_m;
     for (const glm::vec3& point : points_.at(piece.id)) {
@@ -111,7 +111,7 @@ std::shared_ptr<const TickDelta> MatrixSession::step() {
   return delta;
 }
 
-MirrorChanges MatrixSession::take_changes() {
+MirrorChanges MatrixSession::drain_changes() {
   return std::exchange(changes_, {});
 }
 
@@ -130,7 +130,7 @@ Result<SessionFigures> measure_session(const Simulated& simulated, const Session
     times_ms.push_back(delta->times.total_ms());
     if (!delta->replies.empty()) carves_ms.push_back(times_ms.back());
     const size_t before = heap_bytes();
-    observer.look(session.world(), *delta);
+    observer.observe(session.world(), *delta);
     own_bytes += heap_bytes() - std::min(heap_bytes(), before);
     reset_heap_peak();
   }

@@ -9,7 +9,7 @@
 #include "bench/support/followed_pieces.h"
 #include "server/world/world.h"
 #include "studies/matrix/combination.h"
-#include "studies/matrix/kept_results.h"
+#include "studies/matrix/results_log.h"
 
 namespace scree {
 
@@ -38,7 +38,7 @@ class MatrixSession {
 
   /// Pieces as they lie, and all changes since the last call.
   const ScenePieces& pieces() const { return pieces_.now(); }
-  MirrorChanges take_changes();
+  MirrorChanges drain_changes();
 
  private:
   SessionPlan plan_;

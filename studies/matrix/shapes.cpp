@@ -47,7 +47,7 @@ double cells_distance(glm::dvec3 p, const std::vector<uint32_t>& own, const std:
 
 }  // namespace
 
-Result<CutFigures> measure_cut(Cutter cutter, SeedPattern pattern, uint32_t seeds) {
+Result<CellErrorFigures> measure_cell_error(Cutter cutter, SeedPattern pattern, uint32_t seeds) {
   MapField field(matrix_terrain);
   const CarveOperation carve = cut_operation(cutter, pattern, seeds, field);
   const Window volume = carved_volume(field, carve.shape);
@@ -55,15 +55,15 @@ Result<CutFigures> measure_cut(Cutter cutter, SeedPattern pattern, uint32_t seed
   const Applied applied = apply(carve, field, pieces);
   SurfaceDistance distance;
   for (const CreatedPiece& piece : applied.created) {
-    const auto take = [&](VoxelCoord voxel, VoxelCoord step, double part) {
+    const auto visit = [&](VoxelCoord voxel, VoxelCoord step, double part) {
       const glm::dvec3 p = glm::dvec3(voxel.x, voxel.y, voxel.z) + part * glm::dvec3(step.x, step.y, step.z);
       distance.add(std::max(distance_on_edge(volume, voxel, step, part),
                             cells_distance(p, piece.seeds, applied.seeds_voxels)));
     };
-    for_each_crossing(pieces.at(piece.id)->window, take);
+    for_each_crossing(pieces.at(piece.id)->window, visit);
   }
   if (distance.samples == 0.0) return fail("a blow made no pieces");
-  return CutFigures{distance.rms()};
+  return CellErrorFigures{distance.rms()};
 }
 
 Result<MergeFigures> measure_merge(Cutter cutter, SeedPattern pattern, Recombination recombine,

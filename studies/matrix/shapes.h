@@ -5,21 +5,21 @@
 #include <array>
 
 #include "studies/matrix/combination.h"
-#include "studies/matrix/kept_results.h"
+#include "studies/matrix/results_log.h"
 
 namespace scree {
 
 /// RMS distance between the surfaces of the pieces of a blow, as they were cut, and the exact cells: the
 /// volume that was carved out, within the half-spaces nearer to the piece's seeds than to any other one.
-struct CutFigures {
+struct CellErrorFigures {
   double rms_voxels = 0.0;
 
   static constexpr auto fields() {
-    return std::array{FigureField<CutFigures>{"rms_voxels", &CutFigures::rms_voxels}};
+    return std::array{FigureField<CellErrorFigures>{"rms_voxels", &CellErrorFigures::rms_voxels}};
   }
 };
 
-Result<CutFigures> measure_cut(Cutter cutter, SeedPattern pattern, uint32_t seeds);
+Result<CellErrorFigures> measure_cell_error(Cutter cutter, SeedPattern pattern, uint32_t seeds);
 
 /// The same pieces, merged each at a place of its own: RMS distance of the terrain from the union of terrain
 /// and piece; mean error of the mass gained, in percent of a piece. Recombination::off merges nothing: no

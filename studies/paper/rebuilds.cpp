@@ -79,15 +79,15 @@ Result<RebuildRun> run_rebuilds(Stage& stage, const Plan& plan, DrawMethod& meth
   return run;
 }
 
-void keep_least(SessionFound& least, const SessionFound& again) {
+void assign_minimum(SessionFound& least, const SessionFound& again) {
   CHECK_EQ(least.ticks.size(), again.ticks.size());
   for (size_t i = 0; i < least.ticks.size(); ++i) {
-    SessionTick& kept = least.ticks[i];
+    SessionTick& minimum = least.ticks[i];
     const SessionTick& other = again.ticks[i];
-    CHECK(kept.state_hash == other.state_hash);
-    kept.update_ms = std::min(kept.update_ms, other.update_ms);
-    kept.bodies_ms = std::min(kept.bodies_ms, other.bodies_ms);
-    if (kept.draw_ms) kept.draw_ms = std::min(*kept.draw_ms, *other.draw_ms);
+    CHECK(minimum.state_hash == other.state_hash);
+    minimum.update_ms = std::min(minimum.update_ms, other.update_ms);
+    minimum.bodies_ms = std::min(minimum.bodies_ms, other.bodies_ms);
+    if (minimum.draw_ms) minimum.draw_ms = std::min(*minimum.draw_ms, *other.draw_ms);
   }
 }
 
@@ -108,7 +108,7 @@ Result<RebuildFound> measure_rebuilds(Stage& stage, const Plan& plan, const Prog
         found.colliders.push_back(std::move(run->session));
         found.pieces = run->pieces;
       } else {
-        keep_least(found.colliders[i], run->session);
+        assign_minimum(found.colliders[i], run->session);
       }
       progress(++done / static_cast<double>(kinds.size() * static_cast<size_t>(plan.rebuild_runs)));
     }

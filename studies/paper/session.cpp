@@ -50,7 +50,7 @@ Camera high_camera() {
 PaperSession::PaperSession(Stage& stage, const WorldConfig& config, PictureSize picture, const Camera& camera)
     : stage_(stage), world_(config), picture_(picture), camera_(camera) {
   stage_.renderer->set_terrain(config.terrain);
-  look_around(world_);
+  generate_around(world_);
 }
 
 PaperSession::~PaperSession() {
@@ -71,11 +71,11 @@ void PaperSession::show(DrawMethod& method, WorkPool& pool) {
 SessionTick& PaperSession::step(std::span<const Command> commands) {
   const bool pieces_before = !pieces_.now().empty();
   SessionTick tick{.time_s = static_cast<double>(world_.tick()) / world_.config().tick_rate_hz};
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const std::shared_ptr<const TickDelta> delta = world_.step(commands);
-  tick.update_ms = watch.lap_ms();
+  tick.update_ms = stopwatch.lap_ms();
   for (const Reply& reply : delta->replies) CHECK(reply.refusal.empty());
-  take(*delta);
+  apply(*delta);
   tick.bodies_ms = delta->times[TickStage::bodies];
   tick.pieces = delta->pieces.size();
   tick.edited = !commands.empty();
@@ -87,7 +87,7 @@ SessionTick& PaperSession::step(std::span<const Command> commands) {
   return ticks_.back();
 }
 
-void PaperSession::take(const TickDelta& delta) {
+void PaperSession::apply(const TickDelta& delta) {
   MirrorChanges changes;
   pieces_.follow(delta, changes);
   edited_.insert(edited_.end(), changes.bricks.begin(), changes.bricks.end());
@@ -96,11 +96,11 @@ void PaperSession::take(const TickDelta& delta) {
 
 Result<double> PaperSession::draw(DrawMethod& method) {
   CHECK(std::ranges::find(methods_, &method) != methods_.end());
-  Stopwatch watch;
+  Stopwatch stopwatch;
   method.update(Scene{world_.field(), pieces_.now()}, camera_);
   const Result<void> drawn = stage_.renderer->draw_unseen(method, camera_, picture_.width, picture_.height);
   if (!drawn) return fail(drawn.error().message);
-  return watch.lap_ms();
+  return stopwatch.lap_ms();
 }
 
 Result<std::unique_ptr<DrawMethod>> make_method(std::string_view name, WorkPool& pool) {
@@ -110,7 +110,7 @@ Result<std::unique_ptr<DrawMethod>> make_method(std::string_view name, WorkPool&
   return entry.make(pool, view_radius_m);
 }
 
-void look_around(World& world) {
+void generate_around(World& world) {
   const TerrainSource& terrain = world.config().terrain;
   const Shape all = sphere({session_middle_m.x, middle_height_m(terrain), session_middle_m.y}, looked_at_m);
   gather(world.field(), band_box(in_voxels(all, terrain.voxel_size_m)));

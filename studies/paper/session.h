@@ -49,7 +49,7 @@ class PaperSession {
   std::vector<SessionTick>& ticks() { return ticks_; }
 
  private:
-  void take(const TickDelta& delta);
+  void apply(const TickDelta& delta);
 
   Stage& stage_;
   World world_;
@@ -65,7 +65,7 @@ class PaperSession {
 Result<std::unique_ptr<DrawMethod>> make_method(std::string_view name, WorkPool& pool);
 
 /// The world as a client sees it after a long look: the ground about the middle is generated.
-void look_around(World& world);
+void generate_around(World& world);
 
 /// A carve of a ball about the ground's surface at the place, as the session's user makes it.
 Command carve_at(const World& world, glm::vec2 place_m, float radius_m, uint32_t seeds,

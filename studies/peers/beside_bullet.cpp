@@ -61,7 +61,7 @@ std::shared_ptr<const TickDelta> strike(World& world, const BlastScene& scene) {
     const Command command{0, number, *blow};
     last = world.step({&command, 1});
   }
-  while (last->work.requests_waiting + last->work.cuts_put_off > 0) last = world.step({});
+  while (last->work.requests_waiting + last->work.refractures_put_off > 0) last = world.step({});
   return last;
 }
 
@@ -82,16 +82,16 @@ std::vector<peers::StockPiece> pieces_of(World& world, const TickDelta& now) {
   return pieces;
 }
 
-/// Steps either kind of world, to its last step before `end`. `look`, whose time does not count, returns
+/// Steps either kind of world, to its last step before `end`. `observe`, whose time does not count, returns
 /// whether anything still moves.
-template <typename Step, typename Look>
-void live(Life& life, int end, Step step, Look look) {
+template <typename Step, typename Observe>
+void live(Life& life, int end, Step step, Observe observe) {
   while (life.steps < end) {
     const double before_s = thread_cpu_s();
     step();
     life.total_ms += (thread_cpu_s() - before_s) * 1e3;
     if (++life.steps == steps_per_s) life.first_second_ms = life.total_ms / life.steps;
-    if (look(life)) life.steps_moved = life.steps;
+    if (observe(life)) life.steps_moved = life.steps;
   }
 }
 

@@ -125,10 +125,10 @@ Result<void> run_once(Stage& stage, Drawing& ours, uint64_t run, bool quick, Pee
   for (int i = 0; i <= frames; ++i) {  // in turns
     for (const auto& [each, times_ms] :
          {std::pair(&ours.method(), &ours_ms), std::pair(method->get(), &theirs_ms)}) {
-      Stopwatch watch;
+      Stopwatch stopwatch;
       if (auto drawn = stage.renderer->draw_unseen(*each, ours.camera, width, height); !drawn)
         return fail(drawn.error().message);
-      if (i > 0) times_ms->push_back(watch.lap_ms());  // the first ones warm up
+      if (i > 0) times_ms->push_back(stopwatch.lap_ms());  // the first ones warm up
     }
   }
   put("frame_ms", "frame", "a frame of 640 × 360, ms: whole picture against rays and normals alone", 30.0,

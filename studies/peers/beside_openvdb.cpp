@@ -63,7 +63,7 @@ std::optional<double> value_of(const BenchReport& report, const std::string& met
 }
 
 /// The figures that the bench measured and all its checks; one that it lacks is told as missing.
-void take_over(const PeerBench& wanted, const BenchReport& report, PeerFindings& findings) {
+void add_finding(const PeerBench& wanted, const BenchReport& report, PeerFindings& findings) {
   for (const BenchFigure& each : wanted.figures) {
     const std::optional<double> ours = value_of(report, each.ours), theirs = value_of(report, each.theirs);
     if (!ours || !theirs) {
@@ -90,7 +90,7 @@ void run_bench(const PeerBench& wanted, bool quick, const std::function<void(dou
   BenchOptions options;
   options.quick = quick;
   options.progress = progress;
-  take_over(wanted, bench->run(options), findings);
+  add_finding(wanted, bench->run(options), findings);
 }
 
 /// A ball carved out of solid rock into so many pieces, and where its seeds were, from its centre.
@@ -106,10 +106,10 @@ std::pair<BrokenBall, double> break_ball(float radius_m, uint32_t seeds) {
   MapField field(terrain);
   PieceTable pieces;
   gather(field, band_box(in_voxels(shape, voxel_m)).grown(chunk_size));
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const Applied applied =
       apply(CarveOperation{shape, SeedPattern::uniform, seeds, 5, centre_m, 1}, field, pieces);
-  const double own_ms = watch.lap_ms();
+  const double own_ms = stopwatch.lap_ms();
   BrokenBall ball{{}, applied.created.size()};
   for (const glm::vec3& seed : applied.seeds_voxels) ball.places_m.push_back(seed * voxel_m - centre_m);
   return {ball, own_ms};

@@ -88,12 +88,12 @@ std::vector<Code> codes_of_bricks(Field& field, const std::vector<BrickCoord>& b
 
 /// The peer: all changed bricks in one frame, and each piece's codes in one of its own.
 void pack(Field& field, const PieceTable& pieces, const Applied& applied, Zstd& zstd, Sizes& sizes) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const std::vector<uint8_t> bricks = zstd.packed(codes_of_bricks(field, applied.changed), usual_level);
   std::vector<std::vector<uint8_t>> volumes;
   for (const CreatedPiece& created : applied.created)
     volumes.push_back(zstd.packed(pieces.at(created.id)->window.codes, usual_level));
-  sizes.compress_us = watch.lap_ms() * 1e3;
+  sizes.compress_us = stopwatch.lap_ms() * 1e3;
   sizes.one_frame = static_cast<double>(bricks.size());
   for (const auto& volume : volumes) sizes.pieces += static_cast<double>(volume.size());
   const std::vector<Code> codes = codes_of_bricks(field, applied.changed);
@@ -104,7 +104,7 @@ void pack(Field& field, const PieceTable& pieces, const Applied& applied, Zstd& 
 
   MapField client(field.source());
   std::vector<Code> read(codes.size());
-  watch.lap_ms();
+  stopwatch.lap_ms();
   zstd.unpack(bricks, read);
   for (size_t i = 0; i < applied.changed.size(); ++i) {
     Brick brick;
@@ -115,7 +115,7 @@ void pack(Field& field, const PieceTable& pieces, const Applied& applied, Zstd& 
     std::vector<Code> volume(pieces.at(applied.created[i].id)->window.codes.size());
     zstd.unpack(volumes[i], volume);
   }
-  sizes.unpack_us = watch.lap_ms() * 1e3;
+  sizes.unpack_us = stopwatch.lap_ms() * 1e3;
   CHECK(client.hash() == field.hash());
 }
 
@@ -134,11 +134,11 @@ Totals carve_all(int carves) {
     PieceTable pieces, seen;
     const Applied applied = apply(carve, server, pieces);
     Sizes sizes;
-    Stopwatch watch;
+    Stopwatch stopwatch;
     sizes.operation = static_cast<double>(frame_bytes(carve, server.hash()));
-    sizes.encode_us = watch.lap_ms() * 1e3;
+    sizes.encode_us = stopwatch.lap_ms() * 1e3;
     apply(carve, client, seen);
-    sizes.apply_us = watch.lap_ms() * 1e3;
+    sizes.apply_us = stopwatch.lap_ms() * 1e3;
     totals.same_terrain =
         totals.same_terrain && client.hash() == server.hash() && seen.size() == pieces.size();
     std::vector<BrickPatch> patches;

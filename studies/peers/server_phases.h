@@ -18,8 +18,8 @@ inline constexpr double carve_every_s = 2.0;  ///< Luanti has sent all of one be
 inline constexpr double joined_within_s = 30.0;
 /// A viewer that gets less than so many bytes in each of so many half seconds has all that it needs.
 inline constexpr uint64_t quiet_bytes = 3000;
-inline constexpr double look_every_s = 0.5;
-inline constexpr int quiet_looks = 5;
+inline constexpr double sample_interval_s = 0.5;
+inline constexpr int quiet_samples = 5;
 inline constexpr int joins = 3;  ///< one after the other
 
 struct Session {
@@ -56,11 +56,11 @@ double seconds_until_quiet(Bytes bytes, uint64_t least = quiet_bytes, double wit
   const double begin_s = steady_now_s();
   double last_s = begin_s;
   uint64_t before = bytes();
-  for (int looks = 0; looks < quiet_looks && steady_now_s() < begin_s + within_s; ++looks) {
-    wait_s(look_every_s);
+  for (int samples = 0; samples < quiet_samples && steady_now_s() < begin_s + within_s; ++samples) {
+    wait_s(sample_interval_s);
     const uint64_t now = bytes();
     if (now - before >= least) {
-      looks = -1;
+      samples = -1;
       last_s = steady_now_s();
     }
     before = now;
@@ -69,7 +69,7 @@ double seconds_until_quiet(Bytes bytes, uint64_t least = quiet_bytes, double wit
 }
 
 /// What a server took within some time.
-struct Taken {
+struct PhaseUsage {
   double seconds = 0.0, cpu_s = 0.0, bytes = 0.0;
 };
 
@@ -82,19 +82,19 @@ void rest_and_carve(Session& session, size_t viewers, const std::vector<glm::ive
     const double begin_s = steady_now_s(), cpu_before_s = cpu_s();
     const uint64_t bytes_before = bytes();
     phase();
-    return Taken{steady_now_s() - begin_s, cpu_s() - cpu_before_s,
-                 static_cast<double>(bytes() - bytes_before)};
+    return PhaseUsage{steady_now_s() - begin_s, cpu_s() - cpu_before_s,
+                      static_cast<double>(bytes() - bytes_before)};
   };
   const auto rest = [&] { wait_s(rest_s); };
-  const Taken before = during(rest);
-  const Taken carving = during([&] {
+  const PhaseUsage before = during(rest);
+  const PhaseUsage carving = during([&] {
     for (const glm::ivec3& place : at) {
       carve(place);
       wait_s(carve_every_s);
     }
     settle();
   });
-  const Taken after = during(rest);
+  const PhaseUsage after = during(rest);
   const double rests_s = before.seconds + after.seconds;
   session.idle_cpu = (before.cpu_s + after.cpu_s) / rests_s;
   const double idle_bytes_s = (before.bytes + after.bytes) / rests_s;

@@ -31,12 +31,12 @@ int run_study(const Study& study, const StudyRun& run) {
   if (!found) return give_up(found.error());
   if (const Result<void> written = write_report(found->report, run.folder); !written)
     return give_up(written.error());
-  KeptResult result = kept_result(ResultKind::study, study.name, {&found->figures, 1});
+  StoredResult result = summarised(ResultKind::study, study.name, {&found->figures, 1});
   if (run.quick) result.options["quick"] = "yes";
   result.machine = this_machine();
   print_result(study.summary, found->figures, result);
   std::printf("report: %s/%s.md and .html\n", run.folder.c_str(), found->report.name.c_str());
-  if (!run.json_file.empty() && !keep_result(result, run.json_file)) return exit_not_done;
+  if (!run.json_file.empty() && !write_stored(result, run.json_file)) return exit_not_done;
   return run.strict && result.missed() > 0 ? exit_worse : exit_done;
 }
 

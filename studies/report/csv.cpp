@@ -1,7 +1,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "studies/report/event_look.h"
+#include "studies/report/event_style.h"
 #include "studies/report/formats.h"
 #include "studies/report/inline_text.h"
 
@@ -43,7 +43,7 @@ std::string plot_csv(const Plot& plot) {
       csv += "\n";
     }
   for (const PlotEvent& event : plot.events)
-    csv += fmt::format("event: {},{}{},{}\n", look_of(event.kind).name, finite(event.x), names ? "," : "",
+    csv += fmt::format("event: {},{}{},{}\n", style_of(event.kind).name, finite(event.x), names ? "," : "",
                        spread ? "," : "");
   return csv;
 }

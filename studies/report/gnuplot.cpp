@@ -11,7 +11,7 @@
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 #include "studies/report/axis_ticks.h"
-#include "studies/report/event_look.h"
+#include "studies/report/event_style.h"
 #include "studies/report/inline_text.h"
 #include "tools/film/process/child_process.h"
 
@@ -40,7 +40,7 @@ struct Range {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();
 
-  void take(double value) {
+  void include(double value) {
     if (!std::isfinite(value)) return;
     lo = std::min(lo, value);
     hi = std::max(hi, value);
@@ -52,8 +52,8 @@ Range x_of(const Plot& plot) {
   Range range;
   for (const PlotSeries& series : plot.series)
     for (const auto& [x, y] : series.points)
-      if (!plot.log_x || x > 0.0) range.take(x);
-  for (const PlotEvent& event : plot.events) range.take(event.x);
+      if (!plot.log_x || x > 0.0) range.include(x);
+  for (const PlotEvent& event : plot.events) range.include(event.x);
   return range;
 }
 
@@ -87,7 +87,7 @@ std::string range_of_y(const Plot& plot) {
     for (size_t i = 0; i < series.points.size(); ++i) {
       const double spread = i < series.spread.size() ? series.spread[i] : 0.0;
       for (const double value : {series.points[i].second - spread, series.points[i].second + spread})
-        if (!plot.log_y || value > 0.0) y.take(value);
+        if (!plot.log_y || value > 0.0) y.include(value);
     }
   if (plot.log_y && !plot.y_range && !y.empty()) {
     const auto [lo, hi] = round_log_range(y.lo, y.hi);
@@ -158,7 +158,7 @@ std::string events(const Plot& plot, const Range& x) {
   int rows = 0;
   for (const PlotEventKind kind :
        {PlotEventKind::recombination, PlotEventKind::method, PlotEventKind::edit, PlotEventKind::physics}) {
-    const EventLook look = look_of(kind);
+    const EventStyle style = style_of(kind);
     const double low = 1.015 + row * rows;
     bool any = false;
     for (const PlotEvent& event : plot.events) {
@@ -169,14 +169,14 @@ std::string events(const Plot& plot, const Range& x) {
           "fs transparent solid 0.18 noborder\n"
           "set object rectangle from first {0},graph {3} to first {1},graph {4} noclip front fc rgb '{2}' "
           "fs solid 1 noborder\n",
-          left(event.x), right(event.x), look.colour, low, low + row * 0.8);
+          left(event.x), right(event.x), style.colour, low, low + row * 0.8);
     }
     if (!any) continue;
     script += fmt::format(
         "set object rectangle from graph 1.012,graph {0} to graph 1.024,graph {1} noclip front fc rgb '{2}' "
         "fs solid 1 noborder\n"
         "set label '{3}' at graph 1.032,graph {4} left font ',12' front\n",
-        low, low + row * 0.8, look.colour, look.name, low + row * 0.4);
+        low, low + row * 0.8, style.colour, style.name, low + row * 0.4);
     ++rows;
   }
   script +=
@@ -203,11 +203,11 @@ std::string data_of(const Plot& plot) {
 
 /// How the series of `$data<i>` is drawn, in the look of that number; `bars`: how many series share a place
 /// on the x axis, `bar`: which of them this is.
-std::string drawing_of(const PlotSeries& series, size_t i, size_t look, size_t bar, size_t bars) {
-  const std::string_view colour = colours[look % colours.size()];
+std::string drawing_of(const PlotSeries& series, size_t i, size_t style, size_t bar, size_t bars) {
+  const std::string_view colour = colours[style % colours.size()];
   // Series that share a colour differ by their dashes.
-  const size_t dashes = look / colours.size() + 1;
-  const int mark = marks[look % marks.size()];
+  const size_t dashes = style / colours.size() + 1;
+  const int mark = marks[style % marks.size()];
   const std::string title = "title " + script_string(series.name);
   const double bar_width = 0.8 / static_cast<double>(std::max<size_t>(bars, 1));
   const double shift = (static_cast<double>(bar) - 0.5 * (static_cast<double>(bars) - 1.0)) * bar_width;
@@ -249,13 +249,13 @@ std::string gnuplot_script(const Plot& plot, const std::string& svg_file) {
       head(plot, svg_file, x) + names_on_x(plot, x) + events(plot, x) + data_of(plot) + "plot ";
   const auto is_bars = [](const PlotSeries& s) { return s.style == SeriesStyle::bars; };
   const auto bars = static_cast<size_t>(std::ranges::count_if(plot.series, is_bars));
-  size_t bar = 0, looks = 0;
+  size_t bar = 0, styles = 0;
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
     if (i > 0) script += ", \\\n  ";
-    if (series.style != SeriesStyle::fit) ++looks;
-    CHECK(looks > 0);  // a fit stands behind what it fits
-    script += drawing_of(series, i, looks - 1, bar, bars);
+    if (series.style != SeriesStyle::fit) ++styles;
+    CHECK(styles > 0);  // a fit stands behind what it fits
+    script += drawing_of(series, i, styles - 1, bar, bars);
     if (is_bars(series)) ++bar;
   }
   return script + "\n";

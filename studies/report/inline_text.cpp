@@ -19,7 +19,7 @@ bool is_target(std::string_view target) {
 }
 
 /// Takes a mark's span from the start of `rest`; false, and nothing is taken, where there is none.
-bool take_span(std::string_view& rest, InlineSpan& span) {
+bool parse_span(std::string_view& rest, InlineSpan& span) {
   const auto between = [&](std::string_view open, std::string_view close) {
     if (!rest.starts_with(open)) return std::string_view();
     const size_t end = rest.find(close, open.size());
@@ -128,7 +128,7 @@ std::vector<InlineSpan> parse_inline(std::string_view text) {
   std::vector<InlineSpan> spans;
   while (!text.empty()) {
     InlineSpan span;
-    if (take_span(text, span)) {
+    if (parse_span(text, span)) {
       spans.push_back(std::move(span));
       continue;
     }

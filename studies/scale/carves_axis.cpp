@@ -7,7 +7,7 @@
 #include "studies/scale/axes.h"
 #include "studies/scale/frame_set.h"
 #include "studies/scale/ground_probe.h"
-#include "studies/scale/kept_worlds.h"
+#include "studies/scale/worlds_on_disk.h"
 
 namespace scree {
 
@@ -81,7 +81,7 @@ Result<Axis> measure_carves_axis(const ScaleRun& run) {
   std::vector<CarvedGround> grounds;
   for (const uint32_t side : {1U, 3U, 10U, 32U, 100U, 316U})
     if (!run.quick || side <= 32) grounds.push_back(dense_ground(side));
-  const auto paths = TRY(kept_worlds(run.worlds, grounds));
+  const auto paths = TRY(worlds_on_disk(run.worlds, grounds));
   TRY(weigh_carved(axis, grounds, paths));
   run.progress(0.3);
   TRY(probe_carved(axis, run, grounds, paths));

@@ -94,7 +94,7 @@ void GroundProbe::blow(ProbeTimes& times) {
   const Command command{0, ++requests_, request};
   const auto delta = world_.step({&command, 1});
   count(*delta);
-  for (const TickStage stage : {TickStage::requests, TickStage::cut, TickStage::spawn})
+  for (const TickStage stage : {TickStage::requests, TickStage::refracture, TickStage::spawn})
     times.carve += delta->times[stage];
   settle(times);
 }
@@ -106,12 +106,12 @@ void GroundProbe::fall(ProbeTimes& times) {
   const Command post{0, ++requests_,
                      FillRequest{box(ground + glm::vec3(0.0F, 3.5F, 0.0F), {1.0F, 4.5F, 1.0F})}};
   count(*world_.step({&post, 1}));
-  CarveRequest cut;
-  cut.shape = box(ground + glm::vec3(0.0F, 2.5F, 0.0F), {1.6F, 0.75F, 1.6F});
-  cut.seeds = 8;
-  cut.random_seed = rounds_ + 1;
-  cut.impact_m = cut.shape.a;
-  const Command foot{0, ++requests_, cut};
+  CarveRequest fell;
+  fell.shape = box(ground + glm::vec3(0.0F, 2.5F, 0.0F), {1.6F, 0.75F, 1.6F});
+  fell.seeds = 8;
+  fell.random_seed = rounds_ + 1;
+  fell.impact_m = fell.shape.a;
+  const Command foot{0, ++requests_, fell};
   for (Tick tick = 0; tick < search_ticks; ++tick) {
     const auto delta = tick == 0 ? world_.step({&foot, 1}) : world_.step({});
     count(*delta);

@@ -38,7 +38,7 @@ struct Moment {
 };
 
 /// Ticks a second of the server, by its statuses, of which one comes a second.
-double watch_ticks(Connection& connection, double seconds) {
+double measure_ticks(Connection& connection, double seconds) {
   const double end_s = steady_now_s() + seconds;
   double first_s = 0.0, last_s = 0.0;
   Tick first = 0, last = 0;
@@ -104,17 +104,17 @@ Result<ServedLoad> serve_load(const ServerLoad& load) {
   auto viewers = TRY(Drains::connect(server->port(), hellos, *times));
   ServerEndpoint endpoint;
   endpoint.port = server->port();
-  const auto watcher = Connection::connect(
+  const auto subscriber = Connection::connect(
       endpoint, {protocol_version, "watcher", {1000.0F, ground_m, 1000.0F}, 1.0F}, std::chrono::seconds(10));
-  if (!watcher) return fail(watcher.error().message);
+  if (!subscriber) return fail(subscriber.error().message);
   viewers->start();
   (*bots)->start();
   wait_s(load.warm_s);
   const Moment before(*server);
-  (*watcher)->poll();
+  (*subscriber)->poll();
   (*bots)->count(true);
   viewers->count(true);
-  const double ticks_per_s = watch_ticks(**watcher, load.seconds);
+  const double ticks_per_s = measure_ticks(**subscriber, load.seconds);
   (*bots)->count(false);
   viewers->count(false);
   const Moment after(*server);

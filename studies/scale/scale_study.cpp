@@ -54,10 +54,10 @@ class ScaleStudy {
  private:
   void begin(double share) {
     run_.progress = [this, from = done_, share](double part) { options_.progress(from + share * part); };
-    watch_.lap_ms();
+    stopwatch_.lap_ms();
   }
   void end(const std::string& name, double share, const std::string& failure) {
-    result_.figures.metric(name + "_took_s", watch_.lap_ms() * 1e-3);
+    result_.figures.metric(name + "_took_s", stopwatch_.lap_ms() * 1e-3);
     result_.figures.check(name + "_measured", failure.empty(), failure);
     options_.progress(done_ += share);
   }
@@ -93,7 +93,7 @@ class ScaleStudy {
   ScaleRun run_;
   std::unique_ptr<Stage> stage_;
   std::string drawing_;
-  Stopwatch watch_;
+  Stopwatch stopwatch_;
   double done_ = 0.0;
   std::vector<ReportSection> sections_;
   std::vector<Wall> walls_;
@@ -170,7 +170,7 @@ void ScaleStudy::tell() {
 Result<StudyResult> run_scale_study(const StudyOptions& options) {
   // Other builds may carve otherwise, so that their worlds are others.
   const auto worlds =
-      BuildFolder::take((std::filesystem::path(options.folder) / "scale-worlds").string(), this_build());
+      BuildFolder::acquire((std::filesystem::path(options.folder) / "scale-worlds").string(), this_build());
   TRY(worlds);
   // Servers that the study starts within this process would tell of each session.
   const auto level = spdlog::get_level();

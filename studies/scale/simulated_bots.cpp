@@ -70,7 +70,7 @@ class BotsAndWorld {
     return commands;
   }
 
-  void take(const Reply& reply, Tick tick) {
+  void receive(const Reply& reply, Tick tick) {
     Bot& bot = bots_.at(reply.session - 1);
     bot.waits = false;
     if (!bot.counted) return;
@@ -84,7 +84,7 @@ class BotsAndWorld {
     const double before_s = thread_cpu_s();
     const auto delta = world_->step(commands);
     const double taken_ms = (thread_cpu_s() - before_s) * 1e3;
-    for (const Reply& reply : delta->replies) take(reply, tick);
+    for (const Reply& reply : delta->replies) receive(reply, tick);
     if (!counted) return;
     cpu_ms_ += taken_ms;
     clock_ms_ += delta->times.total_ms();

@@ -5,7 +5,7 @@
 #include "studies/scale/axes.h"
 #include "studies/scale/frame_set.h"
 #include "studies/scale/ground_probe.h"
-#include "studies/scale/kept_worlds.h"
+#include "studies/scale/worlds_on_disk.h"
 
 namespace scree {
 
@@ -48,7 +48,7 @@ Result<void> join_voxels(Axis& axis, const ScaleRun& run, const std::vector<floa
     grounds.push_back({.config = {}, .carves_a_side = 4, .spacing_m = 8.0F, .radius_m = 2.0F});
     grounds.back().config.terrain = terrain_of(voxel_m);
   }
-  const auto paths = TRY(kept_worlds(run.worlds, grounds));
+  const auto paths = TRY(worlds_on_disk(run.worlds, grounds));
   for (size_t i = 0; i < paths.size(); ++i) {
     const auto joined = TRY(join_cost(paths[i], grounds[i].config, voxel_interest_m));
     axis.curve("bytes of a join", measure::size_mib)

@@ -5,7 +5,7 @@
 
 #include "studies/scale/axes.h"
 #include "studies/scale/ground_probe.h"
-#include "studies/scale/kept_worlds.h"
+#include "studies/scale/worlds_on_disk.h"
 
 namespace scree {
 
@@ -65,7 +65,7 @@ Result<Axis> measure_world_axis(const ScaleRun& run) {
       run.quick ? std::vector<int>{64, 128, 256, 512} : std::vector<int>{64, 128, 256, 512, 1024, 2048, 4096};
   std::vector<CarvedGround> grounds;
   for (const int side_m : sides_m) grounds.push_back(wide_ground(side_m));
-  const auto paths = TRY(kept_worlds(run.worlds, grounds));
+  const auto paths = TRY(worlds_on_disk(run.worlds, grounds));
   run.progress(0.4);
   TRY(weigh_worlds(axis, run, sides_m, paths));
   TRY(probe_worlds(axis, run, sides_m, paths));

@@ -45,7 +45,7 @@ std::string this_build() {
   return name.str();
 }
 
-Result<BuildFolder> BuildFolder::take(const std::string& folder, const std::string& build) {
+Result<BuildFolder> BuildFolder::acquire(const std::string& folder, const std::string& build) {
   namespace fs = std::filesystem;
   const fs::path own = fs::path(folder) / build;
   std::error_code error;
@@ -55,7 +55,7 @@ Result<BuildFolder> BuildFolder::take(const std::string& folder, const std::stri
   if (held < 0)
     return fail(own.string() + " is in use by another run of this build: have one of them write elsewhere");
   BuildFolder taken(own.string(), held);
-  if (!is_still_at(held, own)) return take(folder, build);  // another build removed it before it was held
+  if (!is_still_at(held, own)) return acquire(folder, build);  // another build removed it before it was held
   std::vector<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.path().filename() != build) others.push_back(entry.path());

@@ -17,7 +17,7 @@ class BuildFolder {
  public:
   /// Made if need be. Refused while another run of the same build holds it. All else in `folder` is removed,
   /// for other builds have made it; what another run holds stays.
-  static Result<BuildFolder> take(const std::string& folder, const std::string& build);
+  static Result<BuildFolder> acquire(const std::string& folder, const std::string& build);
   ~BuildFolder();
   BuildFolder(BuildFolder&& other) noexcept;
   BuildFolder& operator=(BuildFolder&& other) noexcept;

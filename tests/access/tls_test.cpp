@@ -197,7 +197,7 @@ TEST_F(TlsTest, half_a_handshake_ends_and_is_counted_and_no_other_notices) {
   ASSERT_TRUE(silent.send_bytes(std::span(record).first(4)));
   EXPECT_TRUE(silent.closed_within(10s)) << "the handshake counts in the time for the hello";
   const auto end = std::chrono::steady_clock::now() + patience;
-  while (server->stats().sessions_cut + server->stats().sessions_refused < 2 &&
+  while (server->stats().sessions_disconnected + server->stats().sessions_refused < 2 &&
          std::chrono::steady_clock::now() < end)
     wait_a_moment();
   EXPECT_EQ(server->stats().refusals.of(Refusal::tls_failed), 1U);
@@ -270,7 +270,7 @@ class Handshake {
       deliver();
       std::vector<uint8_t> bytes;
       if (!engine_.shake()) return "";
-      engine_.take_output(bytes);
+      engine_.drain_output(bytes);
       if (!bytes.empty()) BIO_write(in_, bytes.data(), static_cast<int>(bytes.size()));
     }
     return engine_.established() ? SSL_get_cipher_name(ssl_) : "";
@@ -318,7 +318,7 @@ TEST_F(TlsTest, a_greeting_that_was_damaged_anywhere_is_refused_or_waited_for) {
   TlsEngine client(*TlsClientContext::make({}), "localhost");
   ASSERT_TRUE(client.shake());
   std::vector<uint8_t> greeting;
-  client.take_output(greeting);
+  client.drain_output(greeting);
   ASSERT_TRUE(is_tls_greeting(greeting));
   Random random(7);
   for (size_t i = 0; i < greeting.size(); ++i) {

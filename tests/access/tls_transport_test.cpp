@@ -30,7 +30,7 @@ class LinkEnd final : public Transport {
   }
   void finish_sending() override { finished_ = true; }
   void close() override { read_done_ = write_done_ = nullptr; }
-  void cut() override { close(); }
+  void abort() override { close(); }
   bool established() const override { return true; }
   bool encrypted() const override { return false; }
   const std::string& address() const override { return address_; }

@@ -11,7 +11,7 @@
 
 #include "server/app/admission.h"
 #include "server/app/limits.h"
-#include "server/app/piece_outlook.h"
+#include "server/app/piece_forecast.h"
 #include "server/app/resident_memory.h"
 #include "server/app/saved_world.h"
 #include "server/app/temporary_world.h"
@@ -36,9 +36,10 @@ class PagerTest : public ::testing::Test {
   void open(size_t bricks_max) {
     auto opened = SavedWorld::open(path, config, 1, {}, bricks_max);
     ASSERT_TRUE(opened.has_value()) << opened.error().message;
-    kept = std::move(*opened);
-    world = kept->take_world();
-    ASSERT_TRUE(kept->start(*world, {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}}));
+    saved_world = std::move(*opened);
+    world = saved_world->release_world();
+    ASSERT_TRUE(
+        saved_world->start(*world, {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}}));
     auto paging = TerrainPager::open(path, world->field(), std::make_shared<ChunkFetcher>(), bricks_max,
                                      [this] { return resident_mb * bytes_per_mb; });
     ASSERT_TRUE(paging.has_value()) << paging.error().message;
@@ -53,9 +54,9 @@ class PagerTest : public ::testing::Test {
     admission.answered(delta->replies);
     for (const Reply& reply : delta->replies) EXPECT_EQ(reply.refusal, "");
     answers += delta->replies.size();
-    kept->keep(*delta, *world, pager->pressed());
-    pager->end_tick(*delta, kept->status().saved_tick, {},
-                    outlook.look(*delta, world->config().terrain.voxel_size_m),
+    saved_world->note(*delta, *world, pager->pressed());
+    pager->end_tick(*delta, saved_world->status().saved_tick, {},
+                    forecast.update(*delta, world->config().terrain.voxel_size_m),
                     world->config().memory_max_mb);
     handed.push_back(std::move(admitted.commands));
     hashes.push_back(delta->state_hash);
@@ -83,10 +84,10 @@ class PagerTest : public ::testing::Test {
   TestFolder folder;
   std::string path = folder / "world";
   WorldConfig config = flat_world();
-  std::unique_ptr<SavedWorld> kept;
+  std::unique_ptr<SavedWorld> saved_world;
   std::unique_ptr<World> world;
   std::unique_ptr<TerrainPager> pager;
-  PieceOutlook outlook;
+  PieceForecast forecast;
   Admission admission;
   uint32_t asked = 0;
   size_t answers = 0;
@@ -112,19 +113,19 @@ TEST_F(PagerTest, a_session_under_a_tiny_bound_has_the_hashes_of_one_without) {
   for (int tick = 0; tick < 100; ++tick) step();
   EXPECT_GT(pager->status().chunks_read, pager->status().waits) << "some were read ahead";
   EXPECT_TRUE(refused.empty());
-  EXPECT_LE(kept->status().saved_tick, world->tick());
+  EXPECT_LE(saved_world->status().saved_tick, world->tick());
 
   World whole(config);
   for (size_t i = 0; i < handed.size(); ++i)
     ASSERT_EQ(whole.step(handed[i])->state_hash, hashes[i]) << "tick " << i + 1;
   EXPECT_EQ(world->measure_terrain(), whole.measure_terrain());
   EXPECT_EQ(encode(world->snapshot()), encode(whole.snapshot()));
-  ASSERT_TRUE(kept->finish(*world).has_value());
+  ASSERT_TRUE(saved_world->finish(*world).has_value());
 
   // The file has it all, and the world goes on from it under the same bound.
   pager.reset();
   world.reset();
-  kept.reset();
+  saved_world.reset();
   open(60);
   EXPECT_LE(world->field().bricks_in(), 60U + 64U);
   EXPECT_EQ(encode(world->snapshot()), encode(whole.snapshot()));
@@ -136,10 +137,10 @@ TEST_F(PagerTest, a_recording_begins_with_terrain_that_is_out_and_verifies) {
     step({carve(60.0F * static_cast<float>(i))});
     for (int tick = 0; tick < 20; ++tick) step();
   }
-  ASSERT_TRUE(kept->finish(*world).has_value());
+  ASSERT_TRUE(saved_world->finish(*world).has_value());
   pager.reset();
   world.reset();
-  kept.reset();
+  saved_world.reset();
   open(20);
   const size_t out = world->field().chunks_out();
   ASSERT_GT(out, 0U);
@@ -341,12 +342,12 @@ TEST(temporary_world, goes_with_its_server_and_a_left_one_with_the_next) {
     return count;
   };
   {
-    auto kept = SavedWorld::open_temporary(flat_world(), 1);
-    ASSERT_TRUE(kept.has_value()) << kept.error().message;
-    const auto world = (*kept)->take_world();
-    ASSERT_TRUE((*kept)->start(*world, {.durability = Durability::off, .before_save = {}}));
-    EXPECT_TRUE(std::filesystem::exists((*kept)->path()));
-    EXPECT_TRUE((*kept)->finish(*world).has_value());
+    auto saved_world = SavedWorld::open_temporary(flat_world(), 1);
+    ASSERT_TRUE(saved_world.has_value()) << saved_world.error().message;
+    const auto world = (*saved_world)->release_world();
+    ASSERT_TRUE((*saved_world)->start(*world, {.durability = Durability::off, .before_save = {}}));
+    EXPECT_TRUE(std::filesystem::exists((*saved_world)->path()));
+    EXPECT_TRUE((*saved_world)->finish(*world).has_value());
   }
   EXPECT_EQ(files(), 0U);
   const std::string left = folder / "scree/paged-1-1.world";

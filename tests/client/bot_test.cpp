@@ -128,7 +128,7 @@ TEST_F(BotTest, a_cut_connection_is_made_anew_and_ends_with_the_same_hash) {
   Bot bot(config(6));
   ASSERT_TRUE(bot.join());
   ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_accepted >= 3; }));
-  bot.connection()->cut();
+  bot.connection()->abort();
   ASSERT_TRUE(finish(bot));
   const BotReport report = bot.report();
   EXPECT_EQ(report.connections, 2U);

@@ -29,10 +29,10 @@ struct Carved {
     source.step({source.carve({1.0F, -0.5F, 1.0F}, 1.5F, 4), source.carve({12.0F, 0.0F, 1.0F}, 1.0F, 1),
                  source.carve({40.0F, 0.0F, 1.0F}, 1.0F, 1)});
     source.field().paint_brick(source.field().edited_bricks(chunks().front()).front(), Material::ice);
-    keep();
+    store();
   }
-  void keep() {
-    for (const ChunkCoord chunk : chunks()) cache.keep(source.field(), chunk);
+  void store() {
+    for (const ChunkCoord chunk : chunks()) cache.store(source.field(), chunk);
   }
   std::vector<ChunkCoord> chunks() { return source.field().edited_chunks(); }
 };
@@ -56,10 +56,10 @@ size_t expect_right_or_nothing(ChunkCache& cache, Field& field) {
 TEST(ChunkCache, hands_out_what_it_was_given_and_knows_what_it_has_already) {
   Carved carved;
   EXPECT_EQ(expect_right_or_nothing(carved.cache, carved.source.field()), carved.chunks().size());
-  EXPECT_FALSE(carved.cache.keep(carved.source.field(), carved.chunks().front()));
-  EXPECT_FALSE(carved.cache.keep(carved.source.field(), {100, 100, 100})) << "no edits there";
+  EXPECT_FALSE(carved.cache.store(carved.source.field(), carved.chunks().front()));
+  EXPECT_FALSE(carved.cache.store(carved.source.field(), {100, 100, 100})) << "no edits there";
   carved.source.step({carved.source.carve({1.0F, -1.0F, 1.0F}, 2.0F, 1)});
-  carved.keep();
+  carved.store();
   EXPECT_EQ(expect_right_or_nothing(carved.cache, carved.source.field()), carved.chunks().size());
 }
 
@@ -76,14 +76,14 @@ TEST(ChunkCache, offers_what_is_near_and_not_held_in_order) {
 
 TEST(ChunkCache, drops_what_was_used_longest_ago_above_its_bound) {
   Carved carved;
-  const std::vector<KeptChunk> all = carved.cache.all();
+  const std::vector<CachedChunk> all = carved.cache.all();
   ASSERT_GE(all.size(), 3U);
   const ChunkCoord oldest = all.front().chunk, next = all[1].chunk;
   ChunkCache small(carved.cache.bytes());
   small.load(all);
   EXPECT_FALSE(small.find(oldest).empty());  // used now
   carved.source.step({carved.source.carve({-100.0F, 0.0F, 1.0F}, 1.0F, 1)});
-  ASSERT_TRUE(small.keep(carved.source.field(), carved.chunks().front()));
+  ASSERT_TRUE(small.store(carved.source.field(), carved.chunks().front()));
   EXPECT_LE(small.bytes(), carved.cache.bytes());
   EXPECT_TRUE(small.find(next).empty());
   EXPECT_FALSE(small.find(oldest).empty());
@@ -94,7 +94,7 @@ TEST(ChunkCache, drops_what_was_used_longest_ago_above_its_bound) {
 
 TEST(ChunkCache, bricks_without_their_hash_or_of_another_chunk_are_dropped) {
   Carved carved;
-  std::vector<KeptChunk> all = carved.cache.all();
+  std::vector<CachedChunk> all = carved.cache.all();
   std::swap(all[0].bricks, all[1].bricks);
   all[2].hash += 1;
   ChunkCache cache(plenty);
@@ -120,9 +120,9 @@ class CacheFolderTest : public ::testing::Test {
   }
   /// What is offered of the file as it is now.
   size_t expect_harmless() {
-    const auto kept = in.read(a_server, std::nullopt);
+    const auto cached = in.read(a_server, std::nullopt);
     ChunkCache cache(plenty);
-    if (kept) cache.load(kept->chunks);
+    if (cached) cache.load(cached->chunks);
     return expect_right_or_nothing(cache, carved.source.field());
   }
 
@@ -185,14 +185,14 @@ TEST_F(CacheFolderTest, a_file_of_another_world_under_this_ones_name_is_none) {
 }
 
 TEST_F(CacheFolderTest, all_files_are_bounded_and_the_ones_written_longest_ago_go_first) {
-  const KeptWorld kept{a_world, voxel_m, carved.cache.all()};
-  in.write("a:1", kept);
+  const CachedWorld cached{a_world, voxel_m, carved.cache.all()};
+  in.write("a:1", cached);
   const uintmax_t bytes = fs::file_size(files().front());
   fs::last_write_time(files().front(), fs::file_time_type::clock::now() - std::chrono::hours(2));
-  in.write("b:1", kept);
+  in.write("b:1", cached);
   put(folder / "cache/thesis.chunks", std::vector<char>(4 * bytes));
   const CacheFolder narrow(folder / "cache", 2 * bytes + bytes / 2);
-  narrow.write("c:1", kept);
+  narrow.write("c:1", cached);
   EXPECT_FALSE(narrow.read("a:1", std::nullopt));
   EXPECT_TRUE(narrow.read("b:1", std::nullopt));
   EXPECT_TRUE(narrow.read("c:1", std::nullopt));

@@ -68,7 +68,7 @@ class PlayedConnector final : public Connector {
   }
   bool busy() const override { return busy_; }
   void await(std::chrono::milliseconds /*within*/) override {}
-  std::optional<Attempt> take(double /*now_s*/) override {
+  std::optional<Attempt> poll(double /*now_s*/) override {
     if (!std::exchange(busy_, false)) return std::nullopt;
     if (server_.refuses) return Attempt{nullptr, *std::exchange(server_.refuses, std::nullopt)};
     return Attempt{std::make_unique<PlayedServer::Channel>(server_), {}};

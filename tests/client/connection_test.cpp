@@ -256,7 +256,7 @@ TEST(Connection, a_cut_is_seen_at_both_ends) {
   RawServer server;
   const auto connection = welcomed(server);
   ASSERT_TRUE(connection);
-  connection->cut();
+  connection->abort();
   wait_for_close(*connection);
   EXPECT_EQ(connection->close_reason(), "cut here");
   EXPECT_FALSE(server.receive());

@@ -104,20 +104,20 @@ TEST_F(GroundJoinTest, files_of_tiles_that_were_damaged_are_sent_again) {
 TEST_F(GroundJoinTest, tiles_nobody_asked_for_and_tiles_of_another_hash_are_refused) {
   const HeightLayout& layout = ground_->layout();
   ReceivedTiles tiles({layout, ground_->header().ground.top}, TileFolder({}));
-  EXPECT_FALSE(tiles.take({layout.top(), ground_->packed(layout.top())})) << "not asked for";
+  EXPECT_FALSE(tiles.accept({layout.top(), ground_->packed(layout.top())})) << "not asked for";
   EXPECT_EQ(tiles.next_request({}, 64.0F).wanted, std::vector<TileKey>{layout.top()})
       << "it names the others";
   std::vector<uint8_t> wrong = ground_->packed(layout.top());
   wrong.back() ^= 1U;
-  EXPECT_FALSE(tiles.take({layout.top(), wrong}));
+  EXPECT_FALSE(tiles.accept({layout.top(), wrong}));
   ReceivedTiles good({layout, ground_->header().ground.top}, TileFolder({}));
   for (AskTilesMessage request = good.next_request({}, 64.0F); !request.wanted.empty();
        request = good.next_request({}, 64.0F))
-    for (const TileKey key : request.wanted) ASSERT_TRUE(good.take({key, ground_->packed(key)}));
+    for (const TileKey key : request.wanted) ASSERT_TRUE(good.accept({key, ground_->packed(key)}));
   EXPECT_TRUE(good.has_near({}, 64.0F));
   EXPECT_EQ(good.tile({0, 0, 0}), nullptr) << "nobody has missed it";
   EXPECT_EQ(good.next_request({}, 64.0F).wanted, (std::vector<TileKey>{{1, 0, 0}})) << "which names it";
-  ASSERT_TRUE(good.take({{1, 0, 0}, ground_->packed({1, 0, 0})}));
+  ASSERT_TRUE(good.accept({{1, 0, 0}, ground_->packed({1, 0, 0})}));
   EXPECT_EQ(good.next_request({}, 64.0F).wanted, (std::vector<TileKey>{{0, 0, 0}}));
   good.begin_session();
   EXPECT_EQ(good.next_request({}, 64.0F).held.size(), good.tiles_received());
@@ -162,8 +162,8 @@ TEST_F(BrickJoinTest, a_stored_chunk_of_another_hash_is_refused_and_the_next_coa
        request = tiles.next_request({}, 64.0F))
     for (const TileKey key : request.wanted) {
       EXPECT_TRUE(taken > 0 || key == root || key.kind == TileKind::heights);
-      ASSERT_TRUE(tiles.take({key, ground_->packed(key)}));
-      EXPECT_FALSE(tiles.take({key, ground_->packed(key)})) << "it came already";
+      ASSERT_TRUE(tiles.accept({key, ground_->packed(key)}));
+      EXPECT_FALSE(tiles.accept({key, ground_->packed(key)})) << "it came already";
       ++taken;
     }
   EXPECT_TRUE(tiles.has_near({}, 64.0F));
@@ -171,7 +171,7 @@ TEST_F(BrickJoinTest, a_stored_chunk_of_another_hash_is_refused_and_the_next_coa
   ASSERT_FALSE(other.next_request({}, 64.0F).wanted.empty());
   std::vector<uint8_t> wrong = ground_->packed(root);
   wrong.back() ^= 1U;
-  EXPECT_FALSE(other.take({root, wrong}));
+  EXPECT_FALSE(other.accept({root, wrong}));
 }
 
 }  // namespace

@@ -55,21 +55,22 @@ TEST(HostileMirror, a_stamp_of_a_window_beyond_all_bounds_is_an_error) {
 
 TEST(HostileMirror, chunks_that_it_never_offered_are_asked_for_and_bounded) {
   Mirror mirror(flat_welcome(), [](ChunkCoord) { return std::vector<BrickPatch>(); });
-  KeptMessage kept;
-  kept.hashes.assign(limits::kept_chunks_max, 7);
+  UnchangedChunksMessage unchanged;
+  unchanged.hashes.assign(limits::kept_chunks_max, 7);
   for (int round = 0;; ++round) {
-    kept.chunks.clear();
-    for (int i = 0; i < static_cast<int>(limits::kept_chunks_max); ++i) kept.chunks.push_back({round, 0, i});
-    const auto applied = send(mirror, kept);
+    unchanged.chunks.clear();
+    for (int i = 0; i < static_cast<int>(limits::kept_chunks_max); ++i)
+      unchanged.chunks.push_back({round, 0, i});
+    const auto applied = send(mirror, unchanged);
     if (!applied) {
       EXPECT_NE(applied.error().message.find("limits.mirror_chunks_max"), std::string::npos);
       break;
     }
     ASSERT_LE(mirror.held_chunks().size(), limits::mirror_chunks_max);
-    const auto repair = mirror.take_repair_request();
+    const auto repair = mirror.next_repair_request();
     ASSERT_TRUE(repair);
     EXPECT_EQ(repair->hashes, std::vector<uint64_t>(limits::repair_chunks_max)) << "it has nothing of them";
-    EXPECT_FALSE(mirror.take_repair_request());
+    EXPECT_FALSE(mirror.next_repair_request());
   }
 }
 

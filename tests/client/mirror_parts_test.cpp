@@ -58,7 +58,7 @@ TEST(MirrorParts, a_chunk_in_parts_is_followed_with_the_last_one) {
   }
   EXPECT_EQ(followed.mirror.field().hash(), followed.source.field().hash());
   EXPECT_EQ(followed.mirror.counters().chunks, followed.source.field().edited_chunks().size());
-  EXPECT_FALSE(followed.mirror.take_repair_request());
+  EXPECT_FALSE(followed.mirror.next_repair_request());
 }
 
 TEST(MirrorParts, a_chunk_whose_other_bricks_were_wrong_is_asked_for_after_its_last_part) {
@@ -70,11 +70,11 @@ TEST(MirrorParts, a_chunk_whose_other_bricks_were_wrong_is_asked_for_after_its_l
   ASSERT_GT(whole.bricks.size(), 1U);
   const std::vector<ChunkMessage> parts = in_parts(whole);
   ASSERT_TRUE(followed.mirror.apply(parts.back())) << "the server takes the others for sent";
-  const auto repair = followed.mirror.take_repair_request();
+  const auto repair = followed.mirror.next_repair_request();
   ASSERT_TRUE(repair);
   EXPECT_EQ(repair->chunks, std::vector<ChunkCoord>{whole.chunk});
   for (const ChunkMessage& part : parts) ASSERT_TRUE(followed.mirror.apply(part));
-  EXPECT_FALSE(followed.mirror.take_repair_request());
+  EXPECT_FALSE(followed.mirror.next_repair_request());
   EXPECT_EQ(followed.mirror.field().chunk_hash(whole.chunk), whole.hash);
   EXPECT_EQ(followed.mirror.counters().repairs_arrived, 1U);
 }

@@ -55,9 +55,9 @@ struct Pair {
 TEST(Mirror, what_it_has_kept_is_taken_on_the_servers_word_and_followed) {
   Pair before;
   ASSERT_TRUE(before.mirror.apply(before.frame({before.carve()})));
-  const auto kept = [&](ChunkCoord chunk) { return before.chunk(chunk).bricks; };
-  Mirror mirror(flat_welcome(), kept);
-  KeptMessage message{before.source.field().edited_chunks(), {}};
+  const auto find_cached = [&](ChunkCoord chunk) { return before.chunk(chunk).bricks; };
+  Mirror mirror(flat_welcome(), find_cached);
+  UnchangedChunksMessage message{before.source.field().edited_chunks(), {}};
   for (const ChunkCoord chunk : message.chunks)
     message.hashes.push_back(before.source.field().chunk_hash(chunk));
   const auto applied = mirror.apply(message);
@@ -65,7 +65,7 @@ TEST(Mirror, what_it_has_kept_is_taken_on_the_servers_word_and_followed) {
   EXPECT_FALSE(applied->bricks.empty());
   EXPECT_EQ(mirror.field().hash(), before.source.field().hash());
   EXPECT_EQ(mirror.held_chunks().size(), message.chunks.size());
-  EXPECT_FALSE(mirror.take_repair_request());
+  EXPECT_FALSE(mirror.next_repair_request());
   ASSERT_TRUE(mirror.apply(before.frame({before.carve()})));
   EXPECT_EQ(mirror.mismatches(), 0U);
 }
@@ -77,14 +77,14 @@ TEST(Mirror, what_it_has_not_kept_or_otherwise_than_the_server_means_is_asked_fo
   const auto other = [&](ChunkCoord) {
     return std::vector<BrickPatch>{{brick_in_chunk(chunk, 0), solid_brick()}};
   };
-  for (const KeptChunks& kept : {KeptChunks(), KeptChunks(other)}) {
-    Mirror mirror(flat_welcome(), kept);
-    ASSERT_TRUE(mirror.apply(KeptMessage{{chunk}, {pair.source.field().chunk_hash(chunk)}}));
-    const auto repair = mirror.take_repair_request();
+  for (const FindCachedChunk& find_cached : {FindCachedChunk(), FindCachedChunk(other)}) {
+    Mirror mirror(flat_welcome(), find_cached);
+    ASSERT_TRUE(mirror.apply(UnchangedChunksMessage{{chunk}, {pair.source.field().chunk_hash(chunk)}}));
+    const auto repair = mirror.next_repair_request();
     ASSERT_TRUE(repair);
     EXPECT_EQ(repair->chunks, std::vector{chunk});
     EXPECT_EQ(repair->hashes, std::vector{mirror.field().chunk_hash(chunk)});
-    EXPECT_FALSE(mirror.take_repair_request());
+    EXPECT_FALSE(mirror.next_repair_request());
     ASSERT_TRUE(mirror.apply(pair.chunk(chunk)));
     EXPECT_EQ(mirror.field().chunk_hash(chunk), pair.source.field().chunk_hash(chunk));
     EXPECT_EQ(mirror.counters().repairs_arrived, 1U);
@@ -109,7 +109,7 @@ TEST(Mirror, operations_give_the_same_hash_pieces_and_poses_as_on_the_server) {
   EXPECT_EQ(pair.mirror.counters().checks, 2U);
   EXPECT_EQ(pair.mirror.counters().operations.of<CarveOperation>(), 1U);
   EXPECT_EQ(pair.mirror.counters().pieces_merged, 1U);
-  EXPECT_FALSE(pair.mirror.take_repair_request());
+  EXPECT_FALSE(pair.mirror.next_repair_request());
   for (const ChunkCoord chunk : pair.source.field().edited_chunks())
     EXPECT_TRUE(pair.mirror.held_chunks().contains(chunk));
 }
@@ -147,11 +147,11 @@ TEST(Mirror, a_mismatch_asks_for_the_chunks_and_a_chunk_message_repairs_them) {
   frame.patches = {{brick, damaged}};  // so that the damaged chunk is among those checked
   ASSERT_TRUE(pair.mirror.apply(frame));
   EXPECT_EQ(pair.mirror.mismatches(), 1U);
-  const auto request = pair.mirror.take_repair_request();
+  const auto request = pair.mirror.next_repair_request();
   ASSERT_TRUE(request);
   EXPECT_EQ(request->tick, frame.tick);
   ASSERT_EQ(request->chunks.size(), request->hashes.size());
-  EXPECT_FALSE(pair.mirror.take_repair_request()) << "asked once";
+  EXPECT_FALSE(pair.mirror.next_repair_request()) << "asked once";
   bool found = false;
   for (size_t i = 0; i < request->chunks.size(); ++i) {
     EXPECT_EQ(request->hashes[i], pair.mirror.field().chunk_hash(request->chunks[i]));
@@ -169,12 +169,12 @@ TEST(Mirror, a_chunk_under_repair_is_not_asked_for_again_at_every_frame) {
   FrameMessage frame = pair.frame({pair.carve()});
   frame.check ^= 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
-  ASSERT_TRUE(pair.mirror.take_repair_request());
+  ASSERT_TRUE(pair.mirror.next_repair_request());
   frame = pair.frame({pair.source.stamp(pair.source.pieces().begin()->first)});
   frame.check ^= 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
   EXPECT_EQ(pair.mirror.mismatches(), 2U);
-  const auto again = pair.mirror.take_repair_request();
+  const auto again = pair.mirror.next_repair_request();
   for (const ChunkCoord chunk : again ? again->chunks : std::vector<ChunkCoord>{})
     EXPECT_FALSE(chunk_of(VoxelCoord{4, -2, 4}) == chunk);
 }
@@ -184,14 +184,14 @@ TEST(Mirror, a_repair_that_does_not_come_is_asked_for_again_in_the_end) {
   FrameMessage frame = pair.frame({pair.carve()});
   frame.check ^= 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
-  const auto first = pair.mirror.take_repair_request();
+  const auto first = pair.mirror.next_repair_request();
   ASSERT_TRUE(first);
   for (Tick tick = 0; tick < limits::repair_patience_ticks; ++tick)
     ASSERT_TRUE(pair.mirror.apply(pair.frame({})));
   frame = pair.frame({pair.source.carve({1.0F, -0.5F, 1.0F}, 2.0F, 8)});  // a wider one, in the same chunks
   frame.check ^= 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
-  const auto again = pair.mirror.take_repair_request();
+  const auto again = pair.mirror.next_repair_request();
   ASSERT_TRUE(again);
   for (const ChunkCoord chunk : first->chunks)
     EXPECT_TRUE(std::ranges::find(again->chunks, chunk) != again->chunks.end());
@@ -365,7 +365,7 @@ TEST(Mirror, a_chunk_that_is_dropped_is_no_longer_awaited) {
   FrameMessage frame = pair.frame({pair.carve()});
   frame.check ^= 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
-  const auto first = pair.mirror.take_repair_request();
+  const auto first = pair.mirror.next_repair_request();
   ASSERT_TRUE(first);
   frame = pair.frame({});
   frame.dropped_chunks = pair.source.field().edited_chunks();
@@ -378,7 +378,7 @@ TEST(Mirror, a_chunk_that_is_dropped_is_no_longer_awaited) {
   frame.has_check = true;
   frame.check = fold(pair.source.field().hash()) ^ 1U;
   ASSERT_TRUE(pair.mirror.apply(frame));
-  const auto again = pair.mirror.take_repair_request();
+  const auto again = pair.mirror.next_repair_request();
   ASSERT_TRUE(again) << "it comes anew, and nobody has asked for it yet";
   EXPECT_EQ(again->chunks.size(), first->chunks.size());
 }

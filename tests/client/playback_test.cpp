@@ -26,9 +26,9 @@ void push(Playback& playback, ServerMessage message, double arrived_s) {
                  steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(arrived))});
 }
 
-std::vector<Received> take_due(Playback& playback, double now_s) {
+std::vector<Received> pop_due(Playback& playback, double now_s) {
   std::vector<Received> due;
-  while (std::optional<Received> next = playback.take_next(now_s)) due.push_back(std::move(*next));
+  while (std::optional<Received> next = playback.pop_next(now_s)) due.push_back(std::move(*next));
   return due;
 }
 
@@ -39,13 +39,13 @@ TEST(Playback, frames_wait_for_the_clock_and_keep_their_order) {
   for (Tick tick = 1; tick <= 30; ++tick)
     push(playback, frame(tick), start_s + static_cast<double>(tick) / 60.0);
   const double now_s = start_s + 30.0 / 60.0;
-  const std::vector<Received> due = take_due(playback, now_s);
+  const std::vector<Received> due = pop_due(playback, now_s);
   ASSERT_FALSE(due.empty());
   for (size_t i = 0; i < due.size(); ++i) EXPECT_EQ(tick_of(due[i]), i + 1);
   // 100 ms behind, of which the interval of the transforms is part.
   EXPECT_NEAR(static_cast<double>(due.size()), 30.0 - (limits::playback_delay_s * 60.0 - 3.0), 1.01);
   EXPECT_NEAR(playback.draw_tick(now_s), 30.0 - limits::playback_delay_s * 60.0, 0.01);
-  EXPECT_EQ(take_due(playback, now_s + 1.0).size(), 30 - due.size());
+  EXPECT_EQ(pop_due(playback, now_s + 1.0).size(), 30 - due.size());
 }
 
 TEST(Playback, what_comes_behind_a_frame_waits_with_it) {
@@ -53,8 +53,8 @@ TEST(Playback, what_comes_behind_a_frame_waits_with_it) {
   playback.start(WelcomeMessage{});
   push(playback, frame(60), 10.0);
   push(playback, StatusMessage{}, 10.0);
-  EXPECT_TRUE(take_due(playback, 10.0).empty());
-  EXPECT_EQ(take_due(playback, 10.2).size(), 2U);
+  EXPECT_TRUE(pop_due(playback, 10.0).empty());
+  EXPECT_EQ(pop_due(playback, 10.2).size(), 2U);
 }
 
 TEST(Playback, messages_are_taken_one_by_one_as_well) {
@@ -62,19 +62,19 @@ TEST(Playback, messages_are_taken_one_by_one_as_well) {
   playback.start(WelcomeMessage{});
   push(playback, ChunkMessage{}, 10.0);
   push(playback, frame(60), 10.0);
-  ASSERT_TRUE(playback.take_next(10.0));
-  EXPECT_FALSE(playback.take_next(10.0)) << "the frame is not due";
+  ASSERT_TRUE(playback.pop_next(10.0));
+  EXPECT_FALSE(playback.pop_next(10.0)) << "the frame is not due";
   push(playback, frame(61), 10.0);
-  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 60U);
-  EXPECT_EQ(tick_of(*playback.take_next(11.0)), 61U);
-  EXPECT_FALSE(playback.take_next(11.0));
+  EXPECT_EQ(tick_of(*playback.pop_next(11.0)), 60U);
+  EXPECT_EQ(tick_of(*playback.pop_next(11.0)), 61U);
+  EXPECT_FALSE(playback.pop_next(11.0));
 }
 
 TEST(Playback, chunks_of_a_join_pass_at_once) {
   Playback playback;
   playback.start(WelcomeMessage{});
   push(playback, ChunkMessage{}, 5.0);
-  EXPECT_EQ(take_due(playback, 5.0).size(), 1U);
+  EXPECT_EQ(pop_due(playback, 5.0).size(), 1U);
 }
 
 TEST(Playback, clock_never_runs_backwards_nor_on_without_frames_for_long) {
@@ -85,7 +85,7 @@ TEST(Playback, clock_never_runs_backwards_nor_on_without_frames_for_long) {
     const double jitter_s = tick % 7 == 0 ? 0.08 : 0.0;
     const double now_s = 50.0 + static_cast<double>(tick) / 60.0 + jitter_s;
     push(playback, frame(tick), now_s);
-    take_due(playback, now_s);
+    pop_due(playback, now_s);
     const double draw = playback.draw_tick(now_s);
     EXPECT_GE(draw, last);
     EXPECT_LE(draw, static_cast<double>(tick));
@@ -99,18 +99,18 @@ TEST(Playback, holds_no_more_messages_back_than_its_limit) {
   playback.start(WelcomeMessage{});
   push(playback, frame(60), 10.0);
   for (size_t i = 1; i < limits::playback_messages_max; ++i) push(playback, StatusMessage{}, 10.0);
-  EXPECT_TRUE(take_due(playback, 10.0).empty()) << "all wait behind the frame";
+  EXPECT_TRUE(pop_due(playback, 10.0).empty()) << "all wait behind the frame";
   push(playback, StatusMessage{}, 10.0);
-  EXPECT_EQ(take_due(playback, 10.0).size(), limits::playback_messages_max + 1);
+  EXPECT_EQ(pop_due(playback, 10.0).size(), limits::playback_messages_max + 1);
 }
 
 TEST(Playback, goes_on_after_a_jump_of_the_server) {
   Playback playback;
   playback.start(WelcomeMessage{});
   push(playback, frame(10000), 1.0);
-  EXPECT_EQ(take_due(playback, 1.5).size(), 1U);
+  EXPECT_EQ(pop_due(playback, 1.5).size(), 1U);
   push(playback, frame(20), 2.0);
-  EXPECT_EQ(take_due(playback, 2.5).size(), 1U);
+  EXPECT_EQ(pop_due(playback, 2.5).size(), 1U);
 }
 
 TEST(Playback, the_first_can_be_had_before_it_is_due) {
@@ -118,7 +118,7 @@ TEST(Playback, the_first_can_be_had_before_it_is_due) {
   playback.start(WelcomeMessage{});
   push(playback, frame(60), 10.0);
   push(playback, StatusMessage{}, 10.0);
-  EXPECT_FALSE(playback.take_next(10.0));
+  EXPECT_FALSE(playback.pop_next(10.0));
   EXPECT_EQ(tick_of(*playback.take_first()), 60U);
   EXPECT_TRUE(std::holds_alternative<StatusMessage>(playback.take_first()->message));
   EXPECT_FALSE(playback.take_first());

@@ -49,7 +49,7 @@ struct Foreseeing {
   bool foresee(uint32_t request, const Request& asked, double now_s = 0.0) {
     return predictions.foresee(request, asked, now_s, everywhere);
   }
-  MirrorChanges take(const ServerMessage& message) {
+  MirrorChanges apply(const ServerMessage& message) {
     const auto changes = mirror.apply(message);
     EXPECT_TRUE(changes.has_value()) << changes.error().message;
     EXPECT_TRUE(plain.apply(message).has_value());
@@ -70,7 +70,7 @@ struct Foreseeing {
     FrameMessage message;
     message.tick = ++tick;
     message.operations = operations;
-    return take(message);
+    return apply(message);
   }
   std::vector<Code> seen() { return gather(predictions.field(), looked_at).codes; }
   std::vector<Code> exact() { return gather(plain.field(), looked_at).codes; }
@@ -117,7 +117,7 @@ TEST(Predictions, the_servers_operation_takes_the_place_of_the_prediction) {
   EXPECT_FALSE(changes.pieces_removed.empty());
   client.expect_plain();
   EXPECT_NE(client.seen(), Foreseeing().seen());
-  client.settle(0.1, client.take(ReplyMessage{1, "", 3}));
+  client.settle(0.1, client.apply(ReplyMessage{1, "", 3}));
   client.expect_plain();
 }
 
@@ -125,9 +125,9 @@ TEST(Predictions, the_reply_takes_back_what_was_refused) {
   Foreseeing client;
   ASSERT_TRUE(client.foresee(4, Foreseeing::carve()));
   const MirrorChanges before = client.settle();
-  client.settle(0.1, client.take(ReplyMessage{3, "another one's", 0}));
+  client.settle(0.1, client.apply(ReplyMessage{3, "another one's", 0}));
   EXPECT_EQ(client.predictions.outstanding(), 1U);
-  const MirrorChanges after = client.settle(0.1, client.take(ReplyMessage{4, "no room for pieces", 0}));
+  const MirrorChanges after = client.settle(0.1, client.apply(ReplyMessage{4, "no room for pieces", 0}));
   EXPECT_EQ(std::set(after.bricks.begin(), after.bricks.end()),
             std::set(before.bricks.begin(), before.bricks.end()));
   EXPECT_EQ(after.pieces_removed, before.pieces_added);
@@ -186,12 +186,12 @@ TEST(Predictions, several_lie_over_each_other_in_the_order_of_asking) {
   EXPECT_EQ(client.predictions.outstanding(), 3U);
   EXPECT_EQ(client.seen(), server.exact());
   // The second is refused, the third carried out first.
-  client.settle(0.1, client.take(ReplyMessage{2, "refused", 0}));
+  client.settle(0.1, client.apply(ReplyMessage{2, "refused", 0}));
   CarveRequest third = Foreseeing::carve(3.0F);
   third.random_seed = 3;
   client.settle(0.1, client.frame({client.made_of(third, 8)}));
   EXPECT_EQ(client.predictions.outstanding(), 1U);
-  client.settle(0.1, client.take(ReplyMessage{1, "refused", 0}));
+  client.settle(0.1, client.apply(ReplyMessage{1, "refused", 0}));
   client.expect_plain();
 }
 
@@ -209,7 +209,7 @@ TEST(Predictions, fills_and_paint_are_seen_and_taken_back_alike) {
   client.settle(0.1, client.frame({FillOperation{fill.shape}}));
   EXPECT_EQ(client.predictions.outstanding(), 1U);
   EXPECT_EQ(client.predictions.field().hash(), other.plain.field().hash());
-  client.settle(0.1, client.take(ReplyMessage{2, "that takes the role builder", 0}));
+  client.settle(0.1, client.apply(ReplyMessage{2, "that takes the role builder", 0}));
   client.expect_plain();
 }
 
@@ -218,7 +218,7 @@ TEST(Predictions, a_reset_takes_all_back) {
   client.settle(0.0, client.frame({client.made_of(Foreseeing::carve(-3.0F), 4)}));
   ASSERT_TRUE(client.foresee(1, Foreseeing::carve()));
   client.settle();
-  client.settle(0.1, client.take(ResetMessage{}));
+  client.settle(0.1, client.apply(ResetMessage{}));
   client.expect_plain();
 }
 
@@ -257,7 +257,7 @@ TEST(Predictions, are_bounded_valid_and_over_known_ground_alone) {
   }
   EXPECT_EQ(shown, limits::predictions_max);
   client.settle();
-  client.predictions.take_back();
+  client.predictions.revert();
   client.settle();
   client.expect_plain();
 }

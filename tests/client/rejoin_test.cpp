@@ -98,7 +98,7 @@ TEST_F(RejoinTest, a_lost_connection_goes_on_as_the_same_session_with_what_the_m
   ASSERT_TRUE(bot.join());
   ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_accepted >= 4; }));
   const uint64_t session = bot.connection()->welcome().session;
-  bot.connection()->cut();
+  bot.connection()->abort();
   ASSERT_TRUE(go_on_until(bot, [&] { return bot.finished(); }));
   EXPECT_EQ(bot.report().connections, 2U);
   EXPECT_EQ(bot.connection()->welcome().session, session);
@@ -161,7 +161,7 @@ TEST_F(RejoinTest, while_a_session_lasts_its_chunks_are_packed_few_at_once_and_w
   ASSERT_GT(held, 2 * limits::chunks_packed_at_once);
   double now_s = 1.0;
   rejoin.tend(now_s, *mirror, connection);
-  now_s += limits::keep_interval_s;
+  now_s += limits::cache_interval_s;
   rejoin.tend(now_s, *mirror, connection);
   for (size_t packed = 0; packed < held; packed += limits::chunks_packed_at_once) {
     const size_t before = rejoin.cache().chunks();
@@ -169,7 +169,7 @@ TEST_F(RejoinTest, while_a_session_lasts_its_chunks_are_packed_few_at_once_and_w
     EXPECT_LE(rejoin.cache().chunks(), before + limits::chunks_packed_at_once);
   }
   EXPECT_EQ(rejoin.cache().chunks(), held);
-  rejoin.tend(now_s + limits::keep_interval_s, *mirror, connection);
+  rejoin.tend(now_s + limits::cache_interval_s, *mirror, connection);
   rejoin.save();  // waits for the other thread
   const auto written = CacheFolder(folder_ / "cache", size_t{1} << 24U)
                            .read("127.0.0.1:" + std::to_string(server_->port()), std::nullopt);

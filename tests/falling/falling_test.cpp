@@ -22,7 +22,7 @@ std::vector<Command> pour_all(const std::vector<Shape>& shapes) {
 }
 
 /// One piece from the cut itself; it stays where it is.
-Command cut(const Shape& shape) {
+Command undercut(const Shape& shape) {
   CarveRequest request;
   request.shape = shape;
   request.seeds = 1;
@@ -44,7 +44,7 @@ MassUnits mass_of(const TickDelta& delta, size_t spawned) {
 TEST(falling, a_tower_cut_at_its_foot_falls_in_the_tick_of_the_cut) {
   World world(flat_world());
   const auto poured = step(world, pour_all({box({0.0F, 4.0F, 0.0F}, {1.5F, 6.0F, 1.5F})}));
-  const auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {2.0F, 0.5F, 2.0F}))});
+  const auto delta = step(world, {undercut(box({0.0F, 0.75F, 0.0F}, {2.0F, 0.5F, 2.0F}))});
   EXPECT_TRUE(delta->replies[0].refusal.empty()) << delta->replies[0].refusal;
   ASSERT_EQ(islands_of(*delta), 1U);
   ASSERT_EQ(delta->spawned.size(), 2U);
@@ -59,7 +59,7 @@ TEST(falling, what_fell_comes_to_rest_and_is_terrain_again) {
   World world(flat_world());
   step(world, pour_all({box({0.0F, 2.0F, 0.0F}, {1.0F, 3.0F, 1.0F})}));
   PublishedState published;
-  auto delta = step(world, {cut(box({0.0F, 0.75F, 0.0F}, {1.5F, 0.5F, 1.5F}))});
+  auto delta = step(world, {undercut(box({0.0F, 0.75F, 0.0F}, {1.5F, 0.5F, 1.5F}))});
   ASSERT_EQ(islands_of(*delta), 1U);
   const MassUnits fell = mass_of(*delta, 1);
   for (int tick = 0; tick < settle_ticks_max && !delta->pieces.empty(); ++tick) {
@@ -76,9 +76,9 @@ TEST(falling, an_arch_cut_at_one_end_hangs_and_at_both_ends_falls) {
   step(world,
        pour_all({box({-5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}), box({5.0F, 3.0F, 0.0F}, {1.0F, 4.0F, 1.0F}),
                  box({0.0F, 6.5F, 0.0F}, {6.0F, 1.0F, 1.0F})}));
-  const auto one = step(world, {cut(sphere({-5.0F, 2.0F, 0.0F}, 2.0F))});
+  const auto one = step(world, {undercut(sphere({-5.0F, 2.0F, 0.0F}, 2.0F))});
   EXPECT_EQ(islands_of(*one), 0U);
-  const auto both = step(world, {cut(sphere({5.0F, 2.0F, 0.0F}, 2.0F))});
+  const auto both = step(world, {undercut(sphere({5.0F, 2.0F, 0.0F}, 2.0F))});
   ASSERT_EQ(islands_of(*both), 1U);
   EXPECT_GT(mass_of(*both, both->spawned.size() - 1), MassUnits{units_per_voxel} * 48 * 8 * 8);
   EXPECT_EQ(both->ledger.error(), 0);
@@ -97,8 +97,9 @@ std::vector<Command> viaduct() {
 TEST(falling, a_viaduct_longer_than_a_piece_may_be_falls_in_several) {
   World world(flat_world());
   step(world, viaduct());
-  auto delta = step(world, {cut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
-                            cut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))});
+  auto delta =
+      step(world, {undercut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), undercut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
+                   undercut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))});
   size_t islands = 0;
   MassUnits fell = 0;
   for (int tick = 0; tick < 60; ++tick) {
@@ -120,8 +121,9 @@ TEST(falling, blocks_over_the_budget_wait_and_fall_in_later_ticks) {
   config.tick_rate_hz = 1000;  // a budget of 0.75 ms
   World world(config);
   for (int i = 0; i < 60; ++i) step(world, i == 0 ? viaduct() : std::vector<Command>{});
-  std::vector<Command> cuts = {cut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)), cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
-                               cut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))};
+  std::vector<Command> cuts = {undercut(sphere({-16.0F, 2.0F, 0.0F}, 2.0F)),
+                               undercut(sphere({0.0F, 2.0F, 0.0F}, 2.0F)),
+                               undercut(sphere({16.0F, 2.0F, 0.0F}, 2.0F))};
   size_t islands = 0, waited = 0;
   for (int tick = 0; tick < 800; ++tick) {
     const auto delta = step(world, std::exchange(cuts, {}));
@@ -167,7 +169,7 @@ TEST(falling, an_arch_falls_over_what_stands_beneath_it) {
 auto cut_beam(World& world) {
   step(world, pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}),
                         box({4.0F, 7.0F, 0.0F}, {4.5F, 0.75F, 0.75F})}));
-  return step(world, {cut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
+  return step(world, {undercut(box({2.0F, 7.0F, 0.0F}, {0.5F, 1.0F, 1.0F}))});
 }
 
 TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
@@ -193,7 +195,7 @@ TEST(falling, what_waits_to_fall_and_is_propped_up_meanwhile_stays) {
   World world(config);
   auto delta = cut_beam(world);
   ASSERT_EQ(delta->work.islands_put_off, 1U);
-  EXPECT_TRUE(delta->work.cut_short());
+  EXPECT_TRUE(delta->work.has_leftovers());
   delta = step(world, pour_all({box({7.0F, 3.0F, 0.0F}, {0.5F, 4.0F, 0.5F})}));
   EXPECT_EQ(delta->work.islands_put_off, 0U);
   size_t islands = 0;
@@ -213,7 +215,8 @@ TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
     if (tick == 0)
       commands = pour_all(
           {box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F}), box({6.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
-    if (tick == 1) commands = {cut(sphere({0.0F, 1.5F, 0.0F}, 2.0F)), cut(sphere({6.0F, 1.5F, 0.0F}, 2.0F))};
+    if (tick == 1)
+      commands = {undercut(sphere({0.0F, 1.5F, 0.0F}, 2.0F)), undercut(sphere({6.0F, 1.5F, 0.0F}, 2.0F))};
     const auto a = step(one, commands), b = step(other, commands);
     ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
     islands += islands_of(*a);
@@ -235,7 +238,7 @@ TEST(falling, a_client_that_applies_the_same_operations_has_the_same_field_and_p
   for (int tick = 0; tick < 60; ++tick) {
     std::vector<Command> commands;
     if (tick == 0) commands = pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
-    if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
+    if (tick == 1) commands = {undercut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
     const auto delta = step(world, commands);
     FrameMessage frame;
     frame.tick = delta->tick;
@@ -260,7 +263,7 @@ TEST(falling, a_recorded_fall_verifies) {
     for (int tick = 0; tick < 120; ++tick) {
       std::vector<Command> commands;
       if (tick == 0) commands = pour_all({box({0.0F, 4.0F, 0.0F}, {1.0F, 5.0F, 1.0F})});
-      if (tick == 1) commands = {cut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
+      if (tick == 1) commands = {undercut(sphere({0.0F, 2.0F, 0.0F}, 2.0F))};
       (*recorder)->push(step(world, commands), commands);
     }
     ASSERT_TRUE((*recorder)->finish().has_value());

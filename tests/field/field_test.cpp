@@ -134,13 +134,13 @@ TEST(field, generated_chunks_are_kept_up_to_a_bound_and_made_anew_beyond) {
 TEST(field, generated_chunks_that_are_used_stay_when_others_are_dropped) {
   MapField field(flat_terrain);
   field.bound_generated(size_t{1} << 20U);
-  EXPECT_FALSE(field.keep_generated({0, -1, 0}));
+  EXPECT_FALSE(field.touch_generated({0, -1, 0}));
   const Brick* const first = &field.generated_brick({0, -1, 0});
   const size_t bytes = field.generated_bytes();
   EXPECT_GT(bytes, sizeof(GeneratedChunk)) << "it has a surface";
   for (int i = 1; i < 5000; ++i) {
     field.generated_brick({chunk_bricks * i, 400, 0});
-    ASSERT_TRUE(field.keep_generated({0, -1, 0}));
+    ASSERT_TRUE(field.touch_generated({0, -1, 0}));
   }
   EXPECT_EQ(&field.generated_brick({0, -1, 0}), first);
   EXPECT_FALSE(field.has_generated({1, 100, 0}));

@@ -38,7 +38,7 @@ TEST_F(PagingTest, a_chunk_that_is_out_leaves_its_hash_and_its_edits) {
   EXPECT_EQ(field.bricks_in(), bricks);
   EXPECT_EQ(field.chunks_in().size(), chunks);
   const uint64_t bytes = field.memory_bytes();
-  shelf.take_all(field);
+  shelf.page_out_all(field);
   EXPECT_EQ(field.chunks_out(), chunks);
   EXPECT_EQ(field.bricks_in(), 0U);
   constexpr uint64_t regions_bytes = 2 * uint64_t{33} << 10U;
@@ -58,7 +58,7 @@ TEST_F(PagingTest, a_chunk_that_is_out_leaves_its_hash_and_its_edits) {
 }
 
 TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
-  shelf.take_all(field);
+  shelf.page_out_all(field);
   for (const ChunkCoord chunk : other.edited_chunks())
     for (const BrickCoord brick : other.edited_bricks(chunk)) {
       ASSERT_EQ(field.painted(brick), other.painted(brick));
@@ -69,7 +69,7 @@ TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
   EXPECT_EQ(field.chunks_out(), 0U);
   Random random(5);
   for (int i = 0; i < 60; ++i) {
-    shelf.take_all(field);
+    shelf.page_out_all(field);
     const BrickCoord coord{i % 30, i % 9, 0};
     const Brick brick = scribbled(random);
     const bool paints = i % 3 == 0;
@@ -88,17 +88,17 @@ TEST_F(PagingTest, what_is_not_the_chunk_that_left_is_refused) {
   const ChunkCoord chunk = other.edited_chunks().front();
   shelf.copy(field, chunk);
   field.page_out(chunk);
-  std::vector<BrickPatch>& kept = shelf.chunks.at(chunk);
-  const std::vector<BrickPatch> right = kept;
-  kept.front().brick.codes[5] ^= 1;
-  EXPECT_FALSE(field.page_in(chunk, kept));
-  EXPECT_THROW(static_cast<void>(field.brick(kept.front().coord)), ChunkUnreadable);
-  kept = right;
-  kept.pop_back();
-  EXPECT_FALSE(field.page_in(chunk, kept));
-  kept = right;
-  kept.push_back(right.front());
-  EXPECT_FALSE(field.page_in(chunk, kept));
+  std::vector<BrickPatch>& stored = shelf.chunks.at(chunk);
+  const std::vector<BrickPatch> right = stored;
+  stored.front().brick.codes[5] ^= 1;
+  EXPECT_FALSE(field.page_in(chunk, stored));
+  EXPECT_THROW(static_cast<void>(field.brick(stored.front().coord)), ChunkUnreadable);
+  stored = right;
+  stored.pop_back();
+  EXPECT_FALSE(field.page_in(chunk, stored));
+  stored = right;
+  stored.push_back(right.front());
+  EXPECT_FALSE(field.page_in(chunk, stored));
   shelf.chunks.clear();
   EXPECT_THROW(field.set_brick(right.front().coord, air_brick()), ChunkUnreadable);
   EXPECT_TRUE(field.is_out(chunk));
@@ -113,7 +113,7 @@ TEST_F(PagingTest, chunks_that_nobody_asked_for_are_idle_the_longest_first) {
   ASSERT_GT(all.size(), 3U);
   field.brick(other.edited_bricks(all[0]).front());
   for (int turn = 0; turn < 3; ++turn) field.begin_turn();
-  field.keep(all[1]);
+  field.touch(all[1]);
   const std::vector<ChunkCoord> idle = field.idle_chunks(3);
   for (const ChunkCoord chunk : field.edited_chunks())
     EXPECT_EQ(field.is_idle(chunk, 3), std::ranges::find(idle, chunk) != idle.end());

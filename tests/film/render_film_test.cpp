@@ -29,7 +29,7 @@ class FilmPictures : public RecordingTest {
  protected:
   void SetUp() override {
     RecordingTest::SetUp();
-    keep_libraries_loaded();
+    pin_libraries();
     simulate(40);
     record();
   }

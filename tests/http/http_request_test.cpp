@@ -21,7 +21,7 @@ TEST(HttpRequests, say_what_is_asked_for) {
   EXPECT_EQ(request->path, "/a/b.js");
   EXPECT_EQ(request->host, "example.org:4177");
   EXPECT_EQ(request->origin, "http://example.org:4177");
-  EXPECT_TRUE(request->takes_gzip && request->keep_alive && !request->wants_websocket);
+  EXPECT_TRUE(request->accepts_gzip && request->keep_alive && !request->wants_websocket);
   EXPECT_EQ(request->if_none_match, "\"x\"");
   EXPECT_EQ(request->authorization, "Bearer t");
 }
@@ -57,7 +57,7 @@ TEST(HttpRequests, of_version_1_0_open_no_websocket) {
 
 TEST(HttpRequests, take_gzip_unless_they_say_no) {
   const auto takes = [](const std::string& value) {
-    return parse_http_head(get_head("/", "Host: a\r\nAccept-Encoding: " + value + "\r\n"))->takes_gzip;
+    return parse_http_head(get_head("/", "Host: a\r\nAccept-Encoding: " + value + "\r\n"))->accepts_gzip;
   };
   EXPECT_TRUE(takes("gzip"));
   EXPECT_TRUE(takes("deflate, GZIP"));

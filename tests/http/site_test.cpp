@@ -56,7 +56,7 @@ TEST_F(SiteTest, gives_the_page_and_its_files_by_their_types) {
 }
 
 TEST_F(SiteTest, sends_the_compressed_file_to_who_takes_it) {
-  const auto with_gzip = [](HttpRequest& request) { request.takes_gzip = true; };
+  const auto with_gzip = [](HttpRequest& request) { request.accepts_gzip = true; };
   const HttpResponse wasm = ask("/client.0123abcd.wasm", with_gzip);
   EXPECT_EQ(*wasm.body, "compressed wasm");
   EXPECT_EQ(field(wasm, "Content-Encoding"), "gzip");

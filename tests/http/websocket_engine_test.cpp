@@ -29,7 +29,7 @@ class EngineTest : public ::testing::Test {
   }
   Bytes output() {
     Bytes bytes;
-    engine.take_output(bytes);
+    engine.drain_output(bytes);
     return bytes;
   }
   /// Code of the close in the output; 0: there is none.

@@ -66,7 +66,7 @@ TEST(Outlet, counts_what_is_sent_and_a_slow_link_has_its_room_alone) {
   const SharedBytes bytes = share(ResetMessage{});
   const auto fill = [&] {
     outlet.send(bytes, part);
-    return outlet.takes_more();
+    return outlet.has_room();
   };
   outlet.begin({0, limits::outbox_soft_bytes});
   EXPECT_FALSE(outlet.is_slow());

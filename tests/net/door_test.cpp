@@ -102,11 +102,11 @@ TEST(Door, addresses_that_guess_are_bounded_too_and_forgotten_after_those_that_d
 TEST(LogLimit, a_few_lines_of_each_kind_and_the_count_of_the_rest) {
   LogLimit log;
   int written = 0;
-  for (int i = 0; i < 1000; ++i) written += log.take("one", 0.0) ? 1 : 0;
+  for (int i = 0; i < 1000; ++i) written += log.admit("one", 0.0) ? 1 : 0;
   EXPECT_EQ(written, static_cast<int>(limits::log_lines_burst));
-  EXPECT_EQ(log.take("other", 0.0), std::string());
-  EXPECT_EQ(log.take("one", 1.0), " (and " + std::to_string(1000 - written) + " more like this)");
-  EXPECT_EQ(log.take("one", 1.0), std::string());
+  EXPECT_EQ(log.admit("other", 0.0), std::string());
+  EXPECT_EQ(log.admit("one", 1.0), " (and " + std::to_string(1000 - written) + " more like this)");
+  EXPECT_EQ(log.admit("one", 1.0), std::string());
 }
 
 }  // namespace

@@ -60,14 +60,14 @@ TEST(LinkPipes, nothing_passes_after_the_cut_or_the_silence) {
   EXPECT_EQ(cut.room(0.0), 10U);
   cut.push(counted_bytes(10), 0.0);
   EXPECT_EQ(cut.room(5.0), 0U);
-  EXPECT_FALSE(cut.cut()) << "its last bytes are on their way";
+  EXPECT_FALSE(cut.severed()) << "its last bytes are on their way";
   EXPECT_EQ(cut.pop(out, 5.0), 10U);
-  EXPECT_TRUE(cut.cut());
+  EXPECT_TRUE(cut.severed());
   LinkPipe silent({.half_open_bytes = 10}, 1);
   silent.push(counted_bytes(10), 0.0);
   EXPECT_EQ(silent.pop(out, 5.0), 10U);
   EXPECT_EQ(silent.room(5.0), 0U);
-  EXPECT_FALSE(silent.cut());
+  EXPECT_FALSE(silent.severed());
   EXPECT_FALSE(silent.next_s(5.0));
 }
 

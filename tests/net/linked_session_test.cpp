@@ -112,11 +112,12 @@ class LinkedWorld final : public SessionHost {
     client_->read_some(buffer_, [this](const Moved& moved) {
       if (!moved) return void(failure = moved.error().why);
       reader_.push(std::span<const uint8_t>(buffer_).first(*moved));
-      for (auto next = reader_.next(); next && *next && failure.empty(); next = reader_.next()) take(**next);
+      for (auto next = reader_.next(); next && *next && failure.empty(); next = reader_.next())
+        receive(**next);
       read();
     });
   }
-  void take(std::span<const uint8_t> body) {
+  void receive(std::span<const uint8_t> body) {
     const auto message = decode_server(body);
     if (!message) return void(failure = message.error().message);
     if (const auto* welcome = std::get_if<WelcomeMessage>(&*message))
@@ -124,7 +125,7 @@ class LinkedWorld final : public SessionHost {
     if (const auto applied = mirror->apply(*message); !applied) failure = applied.error().message;
     if (const auto* frame = std::get_if<FrameMessage>(&*message))
       ages_s.push_back(time.now_s - static_cast<double>(frame->tick) / ticks_per_second);
-    while (const auto repair = mirror->take_repair_request()) send(*repair);
+    while (const auto repair = mirror->next_repair_request()) send(*repair);
   }
   void send(const ClientMessage& message) {
     const std::vector<uint8_t> bytes = encode(message);

@@ -21,9 +21,9 @@ TEST_F(NetServerTest, the_oldest_silent_connection_goes_for_the_newest_and_whoev
     ASSERT_TRUE(honest.send(hello()));
     ASSERT_TRUE(honest.receive_as<WelcomeMessage>().has_value()) << "beside " << i;
   }
-  await(*server, &NetStats::sessions_cut, uint64_t{20});
+  await(*server, &NetStats::sessions_disconnected, uint64_t{20});
   EXPECT_TRUE(silent.front()->closed_within(seconds(10)));
-  EXPECT_EQ(server->stats().refusals.of(Refusal::outsiders_max), server->stats().sessions_cut);
+  EXPECT_EQ(server->stats().refusals.of(Refusal::outsiders_max), server->stats().sessions_disconnected);
   ASSERT_TRUE(silent.back()->send(hello()));
   EXPECT_TRUE(silent.back()->receive_as<WelcomeMessage>().has_value());
   expect_witness_unmoved();

@@ -200,13 +200,13 @@ TEST_F(NetServerTest, client_that_never_reads_is_cut_off_and_no_other_notices) {
   ASSERT_TRUE(deaf.send(hello()));
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 64)});
   const auto deadline = std::chrono::steady_clock::now() + seconds(30);
-  while (server->stats().sessions_cut == 0 && std::chrono::steady_clock::now() < deadline) {
+  while (server->stats().sessions_disconnected == 0 && std::chrono::steady_clock::now() < deadline) {
     for (PieceId piece = 1; piece <= 64; ++piece)
       if (source.pieces().contains(piece)) source.move(piece, {0.0F, 0.0625F, 0.0F});
     for (int i = 0; i < 3; ++i) expect_witness_unmoved();
     if (HasFatalFailure()) return;
   }
-  EXPECT_EQ(server->stats().sessions_cut, 1U);
+  EXPECT_EQ(server->stats().sessions_disconnected, 1U);
   EXPECT_EQ(server->stats().sessions, 1U);
   expect_witness_unmoved();
 }
@@ -225,9 +225,9 @@ TEST_F(NetServerTest, what_waits_for_one_client_is_bounded_whatever_it_is) {
     server->flush();
   };
   reply_with(limits::outbox_hard_bytes * 3 / 4);
-  EXPECT_EQ(server->stats().sessions_cut, 0U);
+  EXPECT_EQ(server->stats().sessions_disconnected, 0U);
   reply_with(limits::outbox_hard_bytes);
-  EXPECT_EQ(server->stats().sessions_cut, 1U) << "twice limits.outbox_hard_bytes wait";
+  EXPECT_EQ(server->stats().sessions_disconnected, 1U) << "twice limits.outbox_hard_bytes wait";
   expect_witness_unmoved();
 }
 

@@ -22,7 +22,7 @@ struct Turns {
   uint64_t longest = 0;
 };
 
-Turns take_turns(FlushRate& rate, size_t sessions, double session_s, bool more) {
+Turns flush_turns(FlushRate& rate, size_t sessions, double session_s, bool more) {
   std::deque<uint64_t> waiting;  // since when
   Turns turns;
   for (uint64_t tick = 0; tick < 240; ++tick) {
@@ -42,23 +42,23 @@ Turns take_turns(FlushRate& rate, size_t sessions, double session_s, bool more) 
 
 TEST(FlushRate, sends_to_all_with_every_tick_while_that_is_quick_and_else_by_turns) {
   FlushRate rate(60);
-  const Turns quick = take_turns(rate, 1000, 8e-6, false);  // 8 ms, less than half of a tick
+  const Turns quick = flush_turns(rate, 1000, 8e-6, false);  // 8 ms, less than half of a tick
   EXPECT_EQ(quick.least, 1000U);
   EXPECT_EQ(quick.longest, 0U);
-  const Turns slower = take_turns(rate, 1000, 12e-6, false);
+  const Turns slower = flush_turns(rate, 1000, 12e-6, false);
   EXPECT_EQ(slower.least, 500U) << "half of them with each tick";
   EXPECT_EQ(slower.most, 500U);
   EXPECT_EQ(slower.longest, 1U);
-  const Turns slow = take_turns(rate, 1000, 1e-3, false);
+  const Turns slow = flush_turns(rate, 1000, 1e-3, false);
   EXPECT_EQ(slow.least, 250U) << "limits.ticks_per_flush_max";
   EXPECT_EQ(slow.most, 250U);
   EXPECT_EQ(slow.longest, limits::ticks_per_flush_max - 1);
-  EXPECT_EQ(take_turns(rate, 10, 1e-6, false).least, 10U) << "quick again";
+  EXPECT_EQ(flush_turns(rate, 10, 1e-6, false).least, 10U) << "quick again";
 }
 
 TEST(FlushRate, a_tick_that_the_next_one_follows_at_once_waits_for_it_but_not_for_ever) {
   FlushRate rate(60);
-  const Turns lagging = take_turns(rate, 1000, 1e-6, true);
+  const Turns lagging = flush_turns(rate, 1000, 1e-6, true);
   EXPECT_EQ(lagging.least, 0U);
   EXPECT_EQ(lagging.most, 1000U);
   EXPECT_EQ(lagging.longest, limits::ticks_per_flush_max - 1);
@@ -189,7 +189,7 @@ TEST_F(CrowdOnSocketsTest, reply_floods_end_sessions_within_a_tick_and_nobody_el
                           Reply{session, 1, refusal, 0});
   server->publish(delta);
   server->flush();
-  EXPECT_EQ(server->stats().sessions_cut, 2U);
+  EXPECT_EQ(server->stats().sessions_disconnected, 2U);
   EXPECT_EQ(server->stats().refusals.of(Refusal::outbox_full), 2U);
   EXPECT_EQ(server->stats().sessions, 1 + steady - 2);
   expect_witness_unmoved();

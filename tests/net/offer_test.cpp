@@ -42,8 +42,8 @@ TEST_F(OfferTest, chunks_that_are_as_they_were_are_not_sent_again) {
   const TrustingClient& follower = come_back(offer_of(followers.at(session).field));
   tick();
   EXPECT_EQ(follower.chunks, 0U);
-  EXPECT_EQ(follower.kept, source.field().edited_chunks().size());
-  EXPECT_EQ(publisher.stats().chunks_kept, follower.kept);
+  EXPECT_EQ(follower.unchanged, source.field().edited_chunks().size());
+  EXPECT_EQ(publisher.stats().chunks_kept, follower.unchanged);
   tick({source.carve({1.0F, 0.0F, 0.0F}, 2.0F, 1)});
   EXPECT_EQ(follower.operations, 1U) << "what was kept is followed as what was sent";
   EXPECT_EQ(follower.field.hash(), source.field().hash());
@@ -57,7 +57,7 @@ TEST_F(OfferTest, what_changed_meanwhile_comes_whole_among_what_was_kept) {
   const TrustingClient& follower = come_back(offer_of(followers.at(session).field));
   tick();
   EXPECT_GT(follower.chunks, 0U);
-  EXPECT_GT(follower.kept, follower.chunks);
+  EXPECT_GT(follower.unchanged, follower.chunks);
   EXPECT_EQ(follower.field.hash(), source.field().hash());
 }
 
@@ -86,7 +86,7 @@ TEST_F(OfferTest, a_liar_gets_what_he_says_he_has_when_he_asks_for_it_and_nobody
   TrustingClient nothing;
   liar.before = nullptr;  // he has none of it
   tick();
-  ASSERT_EQ(liar.kept, source.field().edited_chunks().size());
+  ASSERT_EQ(liar.unchanged, source.field().edited_chunks().size());
   EXPECT_EQ(liar.field.hash(), nothing.field.hash());
   tick({source.carve({0.5F, 0.0F, 0.0F}, 2.0F, 1)});
   EXPECT_EQ(liar.mismatches, 1U) << "the check finds it";
@@ -107,7 +107,7 @@ TEST_F(OfferTest, offered_chunks_that_do_not_exist_or_agree_are_nothing) {
   offer.hashes.insert(offer.hashes.begin(), 0);
   const TrustingClient& follower = come_back(offer);
   for (int i = 0; i < 6; ++i) tick();
-  EXPECT_EQ(follower.kept, 0U);
+  EXPECT_EQ(follower.unchanged, 0U);
   EXPECT_EQ(follower.field.hash(), source.field().hash());
 }
 
@@ -119,10 +119,10 @@ TEST_F(OfferTest, a_reset_forgets_the_offer_for_the_client_forgets_its_edits) {
   tick();
   publisher.offer(session, offer);
   backlog_bytes = 0;
-  followers.at(session).kept = 0;
+  followers.at(session).unchanged = 0;
   for (int i = 0; i < 6; ++i) tick();
   EXPECT_EQ(followers.at(session).resets, 1U);
-  EXPECT_EQ(followers.at(session).kept, 0U);
+  EXPECT_EQ(followers.at(session).unchanged, 0U);
   EXPECT_EQ(followers.at(session).field.hash(), source.field().hash());
 }
 
@@ -153,7 +153,8 @@ class OfferServerTest : public NetServerTest {
     for (;;) {
       tick();
       while (const auto message = client.receive(milliseconds(5))) {
-        if (std::holds_alternative<KeptMessage>(*message) || std::holds_alternative<ChunkMessage>(*message))
+        if (std::holds_alternative<UnchangedChunksMessage>(*message) ||
+            std::holds_alternative<ChunkMessage>(*message))
           return std::holds_alternative<Wanted>(*message) ? std::optional(std::get<Wanted>(*message))
                                                           : std::nullopt;
       }
@@ -167,9 +168,9 @@ class OfferServerTest : public NetServerTest {
 
 TEST_F(OfferServerTest, it_is_answered_by_a_note_before_any_chunk) {
   start_with_edits();
-  const auto kept = answer_to<KeptMessage>(world, offer);
-  ASSERT_TRUE(kept);
-  EXPECT_EQ(kept->chunks.size(), offer.chunks.size());
+  const auto unchanged = answer_to<UnchangedChunksMessage>(world, offer);
+  ASSERT_TRUE(unchanged);
+  EXPECT_EQ(unchanged->chunks.size(), offer.chunks.size());
   server->flush();  // counts follow what is sent
   EXPECT_EQ(server->stats().published.chunks_kept, offer.chunks.size());
 }
@@ -198,7 +199,7 @@ TEST_F(OfferServerTest, a_flood_of_them_is_refused_and_nobody_else_notices) {
 
 TEST(ChunkOffer, is_forgotten_after_its_time) {
   ChunkOffer offer;
-  offer.take({1, {{1, 2, 3}}, {7}}, 3);
+  offer.accept({1, {{1, 2, 3}}, {7}}, 3);
   EXPECT_TRUE(offer.ready());
   EXPECT_TRUE(offer.ready());
   EXPECT_EQ(offer.chunks(), 1U);
@@ -209,7 +210,7 @@ TEST(ChunkOffer, is_forgotten_after_its_time) {
 
 TEST(ChunkOffer, answers_once_for_a_chunk_by_the_low_bits_of_its_hash) {
   ChunkOffer offer;
-  offer.take({1, {{1, 2, 3}, {1, 2, 4}}, {7, 8}}, 100);
+  offer.accept({1, {{1, 2, 3}, {1, 2, 4}}, {7, 8}}, 100);
   EXPECT_FALSE(offer.answers({1, 2, 5}, 7));
   EXPECT_TRUE(offer.answers({1, 2, 3}, 0xABCD'0007));
   EXPECT_FALSE(offer.answers({1, 2, 3}, 0xABCD'0007));

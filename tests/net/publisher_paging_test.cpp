@@ -15,7 +15,7 @@ class SlowSupply final : public ChunkSupply {
   size_t bricks_max() override { return bricks; }
   Tick saved_tick() override { return saved; }
   void ask(ChunkCoord chunk) override { asked.insert(chunk); }
-  std::vector<SuppliedChunk> take(size_t) override {
+  std::vector<SuppliedChunk> collect(size_t) override {
     std::vector<SuppliedChunk> chunks;
     if (!answers) return chunks;
     for (const ChunkCoord chunk : std::exchange(asked, {})) {
@@ -54,7 +54,7 @@ class PublisherPagingTest : public PublisherTest {
         edited |= uint64_t{1} << index_in_chunk(brick);
       delta.chunks.push_back({chunk, source.field().chunk_hash(chunk), edited});
     }
-    take(paged.publish(delta, [](uint64_t) { return Backlog(); }));
+    receive(paged.publish(delta, [](uint64_t) { return Backlog(); }));
   }
   void carve_rows() {
     for (int i = 0; i < 12; ++i) play({source.carve({4.0F * static_cast<float>(i), 0.0F, 0.0F}, 1.5F, 3)});

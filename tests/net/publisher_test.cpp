@@ -368,15 +368,15 @@ TEST(PublishedPhysics, has_a_budget_of_bytes_and_goes_on_when_it_is_much) {
   Workers workers(1);
   Publisher publisher({.terrain = flat_terrain}, workers);
   publisher.join(1, {}, 64.0F, true);
-  publisher.watch(1, true);
+  publisher.subscribe_physics(1, true);
   auto physics = std::make_shared<PhysicsMessage>();
-  for (size_t i = 0; i < limits::watched_contacts_max; ++i)
+  for (size_t i = 0; i < limits::physics_contacts_max; ++i)
     physics->contacts.push_back({{static_cast<float>(i % 60), 1.0F, 0.5F}, {0.0F, 1.0F, 0.0F}, 3.0F});
   size_t bytes = 0, messages = 0;
   constexpr Tick ticks = 600;
   for (Tick i = 1; i <= ticks; ++i) {
     auto delta = std::make_shared<TickDelta>(*source.step());
-    if (i % ticks_per_watch == 0) delta->physics = physics;
+    if (i % ticks_per_physics == 0) delta->physics = physics;
     for (const Outgoing& outgoing : publisher.publish(*delta, [](uint64_t) { return Backlog{}; })) {
       const auto message = decode_server(std::span(*outgoing.bytes).subspan(length_prefix_bytes));
       if (!message || !std::holds_alternative<PhysicsMessage>(*message)) continue;
@@ -384,7 +384,7 @@ TEST(PublishedPhysics, has_a_budget_of_bytes_and_goes_on_when_it_is_much) {
       ++messages;
     }
   }
-  EXPECT_GT(bytes / messages, limits::physics_bytes_per_tick * ticks_per_watch) << "one is over the budget";
+  EXPECT_GT(bytes / messages, limits::physics_bytes_per_tick * ticks_per_physics) << "one is over the budget";
   EXPECT_LE(bytes, limits::physics_bytes_per_tick * ticks + 2 * (bytes / messages));
   EXPECT_GE(bytes, limits::physics_bytes_per_tick * ticks / 2);
 }

@@ -50,15 +50,15 @@ TEST(RequestTimes, stages_are_bounded_and_never_negative) {
 
 TEST(RequestTimes, a_status_has_the_median_and_the_worst_since_the_one_before) {
   RequestTimes times;
-  EXPECT_EQ(times.take_status(), LatencyStatus{});
+  EXPECT_EQ(times.drain_status(), LatencyStatus{});
   for (uint32_t i = 1; i <= 9; ++i) {
     times.received(1, i, 5.0);
     times.answered(1, i, {5.0 + 0.001 * i, 5.0 + 0.001 * i}, 5.02);
   }
-  const LatencyStatus status = times.take_status();
+  const LatencyStatus status = times.drain_status();
   EXPECT_NEAR(status.median.waiting_us, 5000, 1);
   EXPECT_NEAR(status.worst.waiting_us, 9000, 1);
-  EXPECT_EQ(times.take_status(), LatencyStatus{}) << "those were told";
+  EXPECT_EQ(times.drain_status(), LatencyStatus{}) << "those were told";
 }
 
 TEST_F(NetServerTest, a_reply_says_how_long_each_stage_took) {

@@ -55,7 +55,7 @@ TEST(SessionTable, a_new_request_rate_holds_for_sessions_that_are_there_and_that
   sessions.join(2, "10.0.0.1");
   for (const uint64_t id : {1, 2}) {
     size_t taken = 0;
-    while (sessions.table.at(id).requests.take(sessions.now_s)) ++taken;
+    while (sessions.table.at(id).requests.try_spend(sessions.now_s)) ++taken;
     EXPECT_EQ(taken, static_cast<size_t>(limits::requests_burst_s)) << id;
   }
 }
@@ -99,8 +99,8 @@ TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) 
   Room room;
   room.fit(4);
   const auto newcomer = sessions.connect(9, "10.0.0.1");
-  const auto finds_place = [&](size_t kept) {
-    return room.find_place(sessions.table, *newcomer, viewer, kept, sessions.now_s).has_value();
+  const auto finds_place = [&](size_t reserved) {
+    return room.find_place(sessions.table, *newcomer, viewer, reserved, sessions.now_s).has_value();
   };
   for (const uint64_t id : {1, 2}) sessions.join(id, "10.0.0.1", viewer);
   EXPECT_TRUE(finds_place(4));
@@ -132,7 +132,7 @@ TEST_F(ReturnsTest, a_session_goes_on_by_its_ticket_and_its_old_connection_ends)
   const auto before = resume(ticket, holder(7));
   ASSERT_TRUE(before);
   EXPECT_EQ(before->session, 1U);
-  EXPECT_TRUE(before->keeps_place);
+  EXPECT_TRUE(before->reserves_place);
   EXPECT_TRUE(sessions.links[1]->closed());
   EXPECT_EQ(sessions.table.find(1), nullptr);
   EXPECT_EQ(returns.tickets_void(), 0U);
@@ -156,7 +156,7 @@ TEST_F(ReturnsTest, a_session_that_leaves_is_over_and_one_that_is_lost_is_not) {
   sessions.pump(2);
   EXPECT_EQ(over, std::vector<uint64_t>{1});
   ASSERT_NE(returns.tickets().departed(2), nullptr);
-  EXPECT_TRUE(returns.tickets().departed(2)->keeps_place);
+  EXPECT_TRUE(returns.tickets().departed(2)->reserves_place);
 }
 
 TEST_F(ReturnsTest, sessions_of_one_token_or_one_address_are_one_party) {
@@ -178,20 +178,20 @@ TEST(FlushQueue, a_session_waits_once_and_is_sent_all_that_is_queued) {
   FlushQueue queue(context, workers, 60);
   const auto session = sessions.join(1, "10.0.0.1");
   sessions.pump(1);
-  sessions.links[1]->take();
+  sessions.links[1]->drain_arrived();
   const SharedBytes bytes = share(ResetMessage{});
   for (const Tick tick : {1, 2}) {
     queue.add(session, tick);
     session->queue(bytes);
   }
   sessions.pump(1);
-  EXPECT_TRUE(sessions.links[1]->take().empty());
+  EXPECT_TRUE(sessions.links[1]->drain_arrived().empty());
   queue.send_turn(2, true);
   sessions.pump(1);
-  EXPECT_TRUE(sessions.links[1]->take().empty()) << "the next tick waits already";
+  EXPECT_TRUE(sessions.links[1]->drain_arrived().empty()) << "the next tick waits already";
   queue.send_turn(2, false);
   sessions.pump(1);
-  EXPECT_EQ(sessions.links[1]->take().size(), 2 * bytes->size());
+  EXPECT_EQ(sessions.links[1]->drain_arrived().size(), 2 * bytes->size());
   EXPECT_FALSE(session->wait_for_flush()) << "it does not wait any more";
 }
 
@@ -201,7 +201,7 @@ TEST(FlushQueue, a_session_that_waited_for_so_many_ticks_is_sent_its_messages_th
   Workers workers(1);
   FlushQueue queue(context, workers, 60);
   const auto early = sessions.join(1, "10.0.0.1"), late = sessions.join(2, "10.0.0.1");
-  for (const uint64_t id : {1, 2}) sessions.links[id]->take();
+  for (const uint64_t id : {1, 2}) sessions.links[id]->drain_arrived();
   const SharedBytes bytes = share(ResetMessage{});
   queue.add(early, 1);
   early->queue(bytes);
@@ -209,8 +209,8 @@ TEST(FlushQueue, a_session_that_waited_for_so_many_ticks_is_sent_its_messages_th
   late->queue(bytes);
   queue.send_turn(limits::ticks_per_flush_max, true);
   for (const uint64_t id : {1, 2}) sessions.pump(id);
-  EXPECT_EQ(sessions.links[1]->take().size(), bytes->size());
-  EXPECT_TRUE(sessions.links[2]->take().empty());
+  EXPECT_EQ(sessions.links[1]->drain_arrived().size(), bytes->size());
+  EXPECT_TRUE(sessions.links[2]->drain_arrived().empty());
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(TcpTransports, that_the_other_side_finished_ended_in_order) {
 TEST(TcpTransports, that_were_reset_say_so_to_the_reader_though_a_write_met_the_reset_first) {
   for (const bool writes_first : {false, true}) {
     TcpPair pair;
-    pair.there->cut();
+    pair.there->abort();
     if (writes_first) {
       EXPECT_EQ(pair.write_now(), 0U);
     }

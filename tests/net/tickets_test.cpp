@@ -10,9 +10,9 @@
 namespace scree {
 namespace {
 
-Departed departed(uint64_t session, double at_s, bool keeps_place = false) {
-  return {session, {},         "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0, 0,
-          at_s,    keeps_place};
+Departed departed(uint64_t session, double at_s, bool reserves_place = false) {
+  return {session,       {}, "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0, 0, at_s,
+          reserves_place};
 }
 
 TEST(Tickets, a_ticket_is_its_sessions_until_the_next_is_issued) {
@@ -81,10 +81,10 @@ TEST(Tickets, the_place_of_a_lost_connection_is_kept_for_a_while) {
     tickets.issue(id);
     tickets.depart(departed(id, 100.0, id != 2));
   }
-  EXPECT_EQ(tickets.places_kept(100.0), 2U);
-  EXPECT_EQ(tickets.places_kept(100.1 + limits::place_kept_seconds_max), 0U);
+  EXPECT_EQ(tickets.reserved_places(100.0), 2U);
+  EXPECT_EQ(tickets.reserved_places(100.1 + limits::place_kept_seconds_max), 0U);
   tickets.forget(1);
-  EXPECT_EQ(tickets.places_kept(100.0), 1U);
+  EXPECT_EQ(tickets.reserved_places(100.0), 1U);
 }
 
 TEST(Tickets, tell_once_of_each_session_that_cannot_go_on) {

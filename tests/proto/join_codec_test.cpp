@@ -57,13 +57,13 @@ TEST(JoinCodec, the_most_chunks_that_may_be_offered_fit_into_a_message_and_more_
 }
 
 TEST(JoinCodec, more_chunks_kept_than_fit_a_message_or_without_a_hash_are_refused) {
-  KeptMessage kept;
-  kept.chunks.resize(limits::kept_chunks_max + 1);
-  kept.hashes.resize(limits::kept_chunks_max + 1);
-  EXPECT_FALSE(decode_server(samples::body_of(encode(ServerMessage(kept)))));
-  kept.chunks.pop_back();
-  kept.hashes.pop_back();
-  EXPECT_TRUE(decode_server(samples::body_of(encode(ServerMessage(kept)))));
+  UnchangedChunksMessage unchanged;
+  unchanged.chunks.resize(limits::kept_chunks_max + 1);
+  unchanged.hashes.resize(limits::kept_chunks_max + 1);
+  EXPECT_FALSE(decode_server(samples::body_of(encode(ServerMessage(unchanged)))));
+  unchanged.chunks.pop_back();
+  unchanged.hashes.pop_back();
+  EXPECT_TRUE(decode_server(samples::body_of(encode(ServerMessage(unchanged)))));
 }
 
 TEST(JoinCodec, a_ticket_that_is_too_long_is_refused) {

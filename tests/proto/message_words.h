@@ -108,7 +108,7 @@ inline Lines describe(const OfferMessage& m) {
     lines.push_back(fmt::format("chunk: {}, hash 0x…{:04x}", words(m.chunks[i]), m.hashes[i]));
   return lines;
 }
-inline Lines describe(const KeptMessage& m) {
+inline Lines describe(const UnchangedChunksMessage& m) {
   Lines lines{"kept:"};
   for (size_t i = 0; i < m.chunks.size(); ++i)
     lines.push_back(fmt::format("chunk: {}, hash 0x{:016x}", words(m.chunks[i]), m.hashes[i]));
@@ -172,7 +172,7 @@ inline Lines describe(const AdminMessage& m) {
 inline Lines describe(const CursorMessage& m) {
   return {fmt::format("cursor: eye {}, aim {}", words(m.eye_m), words(m.aim_m))};
 }
-inline Lines describe(const WatchMessage& m) {
+inline Lines describe(const PhysicsSubscriptionMessage& m) {
   return {fmt::format("watch: physics {}", m.physics)};
 }
 inline Lines describe(const SayMessage& m) {
@@ -319,10 +319,10 @@ inline Lines describe(const CursorsMessage& m) {
 }
 inline Lines describe(const PhysicsMessage& m) {
   Lines lines{fmt::format("physics: tick {}", m.tick)};
-  for (const WatchedBody& body : m.bodies)
+  for (const BodyView& body : m.bodies)
     lines.push_back(fmt::format("body: {}, awake: {}, island: {}, {} corners", body.id, body.awake,
                                 body.island, body.hull_m.size()));
-  for (const WatchedContact& contact : m.contacts)
+  for (const ContactView& contact : m.contacts)
     lines.push_back(fmt::format("contact: {}, normal {}, {} N s", words(contact.point_m),
                                 words(contact.normal), contact.impulse_n_s));
   lines.push_back("searched: " + words(m.searched));

@@ -30,7 +30,7 @@ TEST(Messages, the_memory_of_a_message_counts_what_it_holds) {
   EXPECT_GE(memory_bytes(frame), none + 100 * sizeof(BrickPatch) + 10 * sizeof(Operation));
   PhysicsMessage physics;
   physics.bodies.push_back({1, true, false, std::vector<glm::vec3>(64)});
-  EXPECT_GE(memory_bytes(physics), none + sizeof(WatchedBody) + 64 * sizeof(glm::vec3));
+  EXPECT_GE(memory_bytes(physics), none + sizeof(BodyView) + 64 * sizeof(glm::vec3));
   ChunkMessage chunk;
   chunk.bricks.resize(64);
   EXPECT_GE(memory_bytes(chunk), none + 64 * sizeof(BrickPatch));

@@ -30,7 +30,7 @@ TEST(Marks, news_make_what_is_known_what_is) {
     std::erase_if(now.marks, [&](const Mark& mark) { return mark.column >= from && mark.count == 3; });
     const MarksMessage news = news_since(known, now);
     EXPECT_LE(news.marks.size(), now.marks.size());
-    take_news(known, news);
+    apply_news(known, news);
     EXPECT_EQ(known, now);
     EXPECT_TRUE(news_since(known, now).marks.empty()) << "nothing is told twice";
   }
@@ -45,9 +45,9 @@ TEST(Marks, longer_columns_are_told_whole_and_news_of_another_bar_change_nothing
   const MarksMessage before = known;
   MarksMessage stray = longer;
   stray.from = 5;
-  take_news(known, stray);
+  apply_news(known, stray);
   EXPECT_EQ(known, before);
-  take_news(known, longer);
+  apply_news(known, longer);
   EXPECT_EQ(known, longer);
 }
 

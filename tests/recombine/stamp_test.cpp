@@ -62,7 +62,7 @@ TEST(stamp, single_codes_place_what_they_say_and_move_no_voxel_to_the_other_side
     const Window laid = lay(laying_rounded, *rubble.pieces.at(id), pose, voxel_m);
     const Window terrain = gather(rubble.field, merge_box(laid));
     for (const int units : {1, -1, 5, 6, -13, 100, -100, 401}) {
-      MergePatch patch(terrain, laid, units % 2 == 0 ? Edges::round : Edges::keep);
+      MergePatch patch(terrain, laid, units % 2 == 0 ? Edges::round : Edges::sharp);
       const MassUnits shaped = patch.shape(20);
       const std::vector<Code> before = patch.codes();
       const MassUnits placed = patch.place(units);

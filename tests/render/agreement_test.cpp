@@ -119,7 +119,7 @@ class Agreement : public OffscreenTest {
       carve({at.x, ground_height_m(field_.source(), at.x, at.y), at.y}, ShapeKind::crater);
     pieces_.clear();
   }
-  std::vector<float> look(const View& view) {
+  std::vector<float> depths_of(const View& view) {
     camera_ = view.camera;
     finish();
     const Result<DepthImage> depths =
@@ -151,14 +151,14 @@ class Agreement : public OffscreenTest {
 
 TEST_F(Agreement, every_method_has_the_raymarchers_silhouettes_and_depths) {
   std::vector<std::vector<float>> marched;
-  for (const View& view : views()) marched.push_back(look(view));
+  for (const View& view : views()) marched.push_back(depths_of(view));
   const float marched_reach_m = method_->reach_m();
   for (const MethodEntry& entry : all_methods()) {
     if (entry.name == "raymarch" || entry.missing()) continue;
     use(entry.name);
     for (size_t i = 0; i < marched.size(); ++i) {
       SCOPED_TRACE(std::string(entry.name) + ", " + std::string(views()[i].name));
-      const std::vector<float> drawn = look(views()[i]);
+      const std::vector<float> drawn = depths_of(views()[i]);
       std::printf("%s, %s: ", std::string(entry.name).c_str(), std::string(views()[i].name).c_str());
       expect_agreement(
           compare(marched[i], drawn, std::min(marched_reach_m, method_->reach_m()), view_radius_m / 2.0F),
@@ -201,12 +201,12 @@ class AgreementOverRubble : public Agreement {
 };
 
 /// Code and slope of the field at a point, as the raymarcher has them.
-struct FieldLook {
+struct FieldSample {
   float code;
   glm::vec3 slope;
 };
 
-FieldLook look_at(const Window& window, glm::vec3 p) {
+FieldSample sample_at(const Window& window, glm::vec3 p) {
   const auto code = [&window](glm::vec3 at) {
     const VoxelCoord c{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
     const glm::vec3 f = at - glm::vec3(c.x, c.y, c.z);
@@ -219,23 +219,23 @@ FieldLook look_at(const Window& window, glm::vec3 p) {
     }
     return sum;
   };
-  FieldLook look{code(p), {}};
+  FieldSample sample{code(p), {}};
   for (int axis = 0; axis < 3; ++axis) {
     glm::vec3 step(0.0F);
     step[axis] = 1.0F;
-    look.slope[axis] = code(p + step) - code(p - step);
+    sample.slope[axis] = code(p + step) - code(p - step);
   }
-  return look;
+  return sample;
 }
 
 TEST_F(AgreementOverRubble, meshes_have_the_raymarchers_silhouettes) {
   std::vector<std::vector<float>> marched;
-  for (const View& view : rubble_views()) marched.push_back(look(view));
+  for (const View& view : rubble_views()) marched.push_back(depths_of(view));
   const float marched_reach_m = method_->reach_m();
   use("mesh");
   for (size_t i = 0; i < marched.size(); ++i) {
     SCOPED_TRACE(rubble_views()[i].name);
-    const std::vector<float> drawn = look(rubble_views()[i]);
+    const std::vector<float> drawn = depths_of(rubble_views()[i]);
     expect_agreement(
         compare(marched[i], drawn, std::min(marched_reach_m, method_->reach_m()), view_radius_m / 2.0F),
         0.995);
@@ -266,7 +266,7 @@ TEST_F(AgreementOverRubble, triangles_face_as_the_field_does) {
     }
     const glm::vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
     const float size = glm::length(across);
-    const FieldLook field = look_at(windows->now, (at[0] + at[1] + at[2]) / 3.0F);
+    const FieldSample field = sample_at(windows->now, (at[0] + at[1] + at[2]) / 3.0F);
     // Two faces that meet at more than a right angle leave the mean of their slopes less than this: there the
     // field shows no one surface.
     const float slope = glm::length(field.slope) / (2.0F * codes_per_voxel);

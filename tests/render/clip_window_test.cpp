@@ -120,12 +120,12 @@ TEST_F(ClipWindowTest, only_what_changed_is_uploaded_again) {
   fill(random, 100);
   window_.settle();
   int slabs = 0;
-  window_.take_changed_slabs([&](int, const ClipEntry*) { ++slabs; });
+  window_.drain_changed_slabs([&](int, const ClipEntry*) { ++slabs; });
   EXPECT_EQ(slabs, side);
   window_.set({5, 2, 3}, {ClipEntry::packed(ClipEntry::stored, AtlasSlot{1, 1, 1}), 0});
   window_.settle();
   std::vector<int> changed;
-  window_.take_changed_slabs([&](int x, const ClipEntry*) { changed.push_back(x); });
+  window_.drain_changed_slabs([&](int x, const ClipEntry*) { changed.push_back(x); });
   EXPECT_EQ(changed, std::vector<int>{5});
 }
 

@@ -202,7 +202,7 @@ TEST_P(Flight, nothing_is_left_of_many_edits) {
   draw();
   const DrawStats fresh = method_->stats();
   EXPECT_EQ(flown.pieces, 0U);
-  EXPECT_EQ(flown.kept, fresh.kept);
+  EXPECT_EQ(flown.resident, fresh.resident);
   EXPECT_EQ(flown.draws, fresh.draws);
   EXPECT_EQ(flown.triangles, fresh.triangles);
   ASSERT_EQ(flown.memory.size(), fresh.memory.size());

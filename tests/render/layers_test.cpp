@@ -65,7 +65,7 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
   }
 
   /// To look at the pictures: SCREE_PICTURES names a folder.
-  void keep(const Image& image, const std::string& name) {
+  void save_picture(const Image& image, const std::string& name) {
     const char* folder = std::getenv("SCREE_PICTURES");
     if (folder == nullptr) return;
     EXPECT_TRUE(write_png(std::string(folder) + "/" + GetParam() + "_" + name + ".png", image));
@@ -76,7 +76,7 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
 
 TEST_P(Layers, a_cut_lays_the_soil_bare) {
   const Image image = show();
-  keep(image, "soil");
+  save_picture(image, "soil");
   // A cell of the grid is half a metre.
   const Colour soil = wall(image, 0.5F, soil_depth_m - 0.2F);
   const Colour rock = wall(image, soil_depth_m + 0.5F, 2.5F);
@@ -88,7 +88,7 @@ TEST_P(Layers, paint_is_seen) {
       paint(field_, in_voxels(box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.5F, 3.0F}), voxel_m), Material::ice);
   changes_.bricks.insert(changes_.bricks.end(), painted.begin(), painted.end());
   const Image image = show();
-  keep(image, "paint");
+  save_picture(image, "paint");
   const Colour ice = wall(image, 2.3F, 3.0F), soil = wall(image, 0.5F, soil_depth_m - 0.2F);
   EXPECT_GT(ice.blue, 0.85F * ice.red);
   EXPECT_LT(soil.blue, 0.75F * soil.red) << "above the paint";

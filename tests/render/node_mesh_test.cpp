@@ -37,7 +37,7 @@ class World {
 
   float voxel_m() const { return field_.source().voxel_size_m; }
 
-  void look_from(glm::vec3 eye_m) {
+  void set_eye(glm::vec3 eye_m) {
     while (!forest_.grow(eye_m, 1000).empty()) {
     }
   }
@@ -113,7 +113,7 @@ void expect_watertight(Polygoniser polygoniser, int edits, int every, float voxe
     world.edit(random);
     if (edit % every != 0) continue;
     const float within_m = 80.0F * voxel_m;
-    world.look_from({random.unit() * within_m, random.unit() * 16.0F, random.unit() * within_m});
+    world.set_eye({random.unit() * within_m, random.unit() * 16.0F, random.unit() * within_m});
     const World::Leaks leaks = world.mesh_all();
     EXPECT_EQ(leaks.open, 0U) << "of " << leaks.edges << " edges, after edit " << edit;
     EXPECT_EQ(leaks.triangles_of_level.size(), static_cast<size_t>(levels));

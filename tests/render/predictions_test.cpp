@@ -59,7 +59,7 @@ class PredictedPictures : public OffscreenTest, public testing::WithParamInterfa
   bool foresee(uint32_t request, const CarveRequest& asked) {
     return predictions_.foresee(request, asked, now_s_, [](ChunkCoord) { return true; });
   }
-  void take(const ServerMessage& message) {
+  void apply(const ServerMessage& message) {
     const auto changes = mirror_.apply(message);
     ASSERT_TRUE(changes) << changes.error().message;
     ASSERT_TRUE(plain_.apply(message));
@@ -73,7 +73,7 @@ class PredictedPictures : public OffscreenTest, public testing::WithParamInterfa
     FrameMessage message;
     message.tick = ++tick_;
     message.operations = operations;
-    take(message);
+    apply(message);
   }
   void settle() {
     MirrorChanges changes;
@@ -130,7 +130,7 @@ TEST_P(PredictedPictures, are_those_of_a_viewer_without_predictions_once_all_is_
   ASSERT_TRUE(foresee(2, blow(1.5F, 3)));
   settle();
   expect_shown("asked again");
-  take(ReplyMessage{2, "refused", 0});
+  apply(ReplyMessage{2, "refused", 0});
   expect_plain("refused");
 
   ASSERT_TRUE(foresee(3, blow(1.5F, 4)));
@@ -139,7 +139,7 @@ TEST_P(PredictedPictures, are_those_of_a_viewer_without_predictions_once_all_is_
   frame({made_of(blow(1.0F, 6), 3)});
   expect_shown("overtaken");
   frame({made_of(blow(-0.5F, 5), 2)});
-  take(ReplyMessage{4, "", 2});
+  apply(ReplyMessage{4, "", 2});
   expect_shown("one of two answered");
   frame({made_of(blow(1.5F, 4), 5)});
   expect_plain("overtaken, and accepted");
@@ -154,7 +154,7 @@ TEST_P(PredictedPictures, are_those_of_a_viewer_without_predictions_once_all_is_
   ASSERT_TRUE(foresee(6, blow(-2.5F, 8)));
   settle();
   seen();
-  take(ResetMessage{});
+  apply(ResetMessage{});
   expect_plain("reset");
 }
 

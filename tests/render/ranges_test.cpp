@@ -11,19 +11,19 @@ namespace {
 
 TEST(Ranges, gaps_are_taken_again_and_the_end_goes_back) {
   Ranges ranges;
-  EXPECT_EQ(ranges.take(10), 0U);
-  EXPECT_EQ(ranges.take(5), 10U);
-  EXPECT_EQ(ranges.take(5), 15U);
+  EXPECT_EQ(ranges.allocate(10), 0U);
+  EXPECT_EQ(ranges.allocate(5), 10U);
+  EXPECT_EQ(ranges.allocate(5), 15U);
   ranges.give(0, 10);
-  EXPECT_EQ(ranges.take(11), 20U);
-  EXPECT_EQ(ranges.take(4), 0U);
-  EXPECT_EQ(ranges.take(6), 4U);
+  EXPECT_EQ(ranges.allocate(11), 20U);
+  EXPECT_EQ(ranges.allocate(4), 0U);
+  EXPECT_EQ(ranges.allocate(6), 4U);
   ranges.give(20, 11);
   EXPECT_EQ(ranges.end(), 20U);
   ranges.give(10, 5);
   ranges.give(15, 5);
   EXPECT_EQ(ranges.end(), 10U);
-  EXPECT_EQ(ranges.taken(), 10U);
+  EXPECT_EQ(ranges.allocated(), 10U);
 }
 
 TEST(Ranges, nothing_is_taken_twice_over_many_takes_and_gives) {
@@ -48,7 +48,7 @@ TEST(Ranges, nothing_is_taken_twice_over_many_takes_and_gives) {
       parts.erase(parts.begin() + static_cast<long>(which));
     } else {
       const size_t count = 1 + random.below(100);
-      parts.push_back({ranges.take(count), count});
+      parts.push_back({ranges.allocate(count), count});
       mark(parts.back(), true);
     }
   }
@@ -57,7 +57,7 @@ TEST(Ranges, nothing_is_taken_twice_over_many_takes_and_gives) {
     sum += part.count;
     last = std::max(last, part.first + part.count);
   }
-  EXPECT_EQ(ranges.taken(), sum);
+  EXPECT_EQ(ranges.allocated(), sum);
   EXPECT_EQ(ranges.end(), last);
 }
 

@@ -9,8 +9,8 @@
 namespace scree {
 namespace {
 
-KeptResult result_of(std::map<std::string, MetricRange> metrics, uint32_t runs = 3) {
-  KeptResult result{.name = "carve", .runs = runs};
+StoredResult result_of(std::map<std::string, MetricRange> metrics, uint32_t runs = 3) {
+  StoredResult result{.name = "carve", .runs = runs};
   result.metrics = std::move(metrics);
   return result;
 }
@@ -108,7 +108,7 @@ TEST(ComparisonTest, few_runs_know_little_of_their_noise) {
 }
 
 TEST(ComparisonTest, studies_are_not_told_to_repeat) {
-  KeptResult study = result_of({}, 1);
+  StoredResult study = result_of({}, 1);
   study.kind = ResultKind::study;
   const auto comparison = compare_results(study, study);
   ASSERT_TRUE(comparison);
@@ -144,7 +144,7 @@ TEST(ComparisonTest, metrics_that_come_and_go_are_named) {
 }
 
 TEST(ComparisonTest, a_check_that_is_missed_now_is_worse) {
-  KeptResult before = result_of({}), after = result_of({});
+  StoredResult before = result_of({}), after = result_of({});
   before.checks = {{"a", {true, ""}}, {"b", {false, ""}}, {"c", {true, ""}}, {"d", {true, ""}}};
   after.checks = {{"a", {false, "too slow"}}, {"b", {true, ""}}, {"c", {true, ""}}, {"d", {true, ""}}};
   const auto comparison = compare_results(before, after);
@@ -158,14 +158,14 @@ TEST(ComparisonTest, a_check_that_is_missed_now_is_worse) {
 }
 
 TEST(ComparisonTest, a_check_that_is_gone_or_new_and_missed_is_worse) {
-  const auto compared = [](std::map<std::string, KeptCheck> was, std::map<std::string, KeptCheck> is) {
-    KeptResult before = result_of({}), after = result_of({});
+  const auto compared = [](std::map<std::string, StoredCheck> was, std::map<std::string, StoredCheck> is) {
+    StoredResult before = result_of({}), after = result_of({});
     before.checks = std::move(was);
     after.checks = std::move(is);
     return compare_results(before, after)->checks.front();
   };
-  const std::map<std::string, KeptCheck> passed = {{"a", {true, "12 of 12"}}},
-                                         missed = {{"a", {false, "too slow"}}};
+  const std::map<std::string, StoredCheck> passed = {{"a", {true, "12 of 12"}}},
+                                           missed = {{"a", {false, "too slow"}}};
   EXPECT_EQ(compared(passed, {}).change, Change::worse);
   EXPECT_EQ(compared(passed, {}).detail, "not checked any more; before: 12 of 12");
   EXPECT_EQ(compared(missed, {}).change, Change::gone);
@@ -174,7 +174,7 @@ TEST(ComparisonTest, a_check_that_is_gone_or_new_and_missed_is_worse) {
 }
 
 TEST(ComparisonTest, different_work_is_refused) {
-  KeptResult other = result_of({});
+  StoredResult other = result_of({});
   other.name = "storm";
   EXPECT_FALSE(compare_results(result_of({}), other));
   other = result_of({});
@@ -188,7 +188,7 @@ TEST(ComparisonTest, different_work_is_refused) {
 }
 
 TEST(ComparisonTest, another_machine_is_told_and_no_hindrance) {
-  KeptResult before = result_of({}), after = result_of({});
+  StoredResult before = result_of({}), after = result_of({});
   before.machine = {"a slow one", 2, 8.0, "g++", "Linux"};
   after.machine = {"a fast one", 2, 8.0, "g++", "Linux"};
   after.conditions["gl_renderer"] = "some card";

@@ -12,20 +12,20 @@
 namespace scree {
 namespace {
 
-KeptResult sample() {
+StoredResult sample() {
   BenchReport run;
   run.metric("tick_p99_ms", 1.23456789);
   run.metric("alive", 1000.0);
   run.metric("no_number", std::numeric_limits<double>::quiet_NaN());
   run.check("pieces", true, "64 of 64\n\x1b[31m \xff");
   run.condition("gl_renderer", "llvmpipe (LLVM 15, \"256\" bits)");
-  KeptResult result = kept_result(ResultKind::bench, "carve", {&run, 1});
+  StoredResult result = summarised(ResultKind::bench, "carve", {&run, 1});
   result.options = {{"quick", "yes"}};
   result.machine = {"A Processor @ 2.9 GHz", 2, 7.7, "12.2.0", "Linux 6.1"};
   return result;
 }
 
-TEST(KeptResultTest, runs_become_their_median_least_and_most) {
+TEST(StoredResultTest, runs_become_their_median_least_and_most) {
   std::vector<BenchReport> runs(3);
   const double values[] = {3.0, 1.0, 2.0};
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -34,7 +34,7 @@ TEST(KeptResultTest, runs_become_their_median_least_and_most) {
     runs[i].check("seldom", i == 1, "run " + std::to_string(i));
     runs[i].check("always", true, "run " + std::to_string(i));
   }
-  const KeptResult result = kept_result(ResultKind::bench, "carve", runs);
+  const StoredResult result = summarised(ResultKind::bench, "carve", runs);
   EXPECT_EQ(result.runs, 3U);
   const MetricRange& range = result.metrics.at("tick_ms");
   EXPECT_EQ(range.value, 2.0);
@@ -49,7 +49,7 @@ TEST(KeptResultTest, runs_become_their_median_least_and_most) {
 }
 
 TEST(ResultFileTest, what_is_written_is_read_and_written_alike) {
-  const KeptResult result = sample();
+  const StoredResult result = sample();
   const std::string text = to_json(result);
   const auto again = parse_result(text);
   ASSERT_TRUE(again) << again.error().message;
@@ -142,7 +142,7 @@ TEST(ResultFileTest, other_documents_are_refused) {
 
 TEST(ResultFileTest, a_folder_is_read_as_one) {
   const TestFolder folder;
-  KeptResult result = sample();
+  StoredResult result = sample();
   ASSERT_TRUE(write_result(result, folder / "deep/er/carve.json"));
   result.name = "storm";
   ASSERT_TRUE(write_result(result, folder / "deep/er/storm.json"));

@@ -61,7 +61,7 @@ TEST_P(ScenesTest, stands_as_it_is_built_and_a_server_finds_it_in_a_file) {
   const auto saved = SavedWorld::open(path, WorldConfig(), 1, ground_giver(path, WorldConfig()));
   ASSERT_TRUE(saved) << saved.error().message;
   EXPECT_EQ((*saved)->number(), 7U);
-  EXPECT_EQ((*saved)->take_world()->field().hash(), hash);
+  EXPECT_EQ((*saved)->release_world()->field().hash(), hash);
 }
 
 TEST_P(ScenesTest, strikes_break_it_and_all_of_it_comes_to_rest) {

@@ -144,9 +144,9 @@ TEST_F(BadInputTest, client_that_never_reads) {
   ASSERT_TRUE(deaf.send(HelloMessage{protocol_version, "deaf", {0.0F, 2.0F, 0.0F}, 64.0F}));
   const auto deadline = std::chrono::steady_clock::now() + seconds(60);
   const auto net = [&] { return session.server().report().net; };
-  while (net().sessions_cut == 0 && std::chrono::steady_clock::now() < deadline)
+  while (net().sessions_disconnected == 0 && std::chrono::steady_clock::now() < deadline)
     ASSERT_TRUE(session.step()) << session.failure;
-  EXPECT_EQ(net().sessions_cut, 1U);
+  EXPECT_EQ(net().sessions_disconnected, 1U);
   EXPECT_EQ(net().sessions, 1U);
   expect_witness_unmoved();
 }

@@ -76,11 +76,11 @@ bool SessionTest::come_and_go(Played& p, int carve) {
     p.small = &session.join(above_ground(-half_width_m, 0.0F), small_m);
     p.back = &session.join(centre, all_m);
   }
-  if (carve == carves / 3) session.cut(*p.back);
+  if (carve == carves / 3) session.abort(*p.back);
   if (carve == carves / 2) p.late = &session.join(centre, all_m);
   if (carve == carves * 2 / 3) p.back = &session.join(centre, all_m);
   const float walked_m = stride_m * static_cast<float>(carve);
-  p.small->look_from(above_ground(-half_width_m + walked_m, 0.0F));
+  p.small->set_eye(above_ground(-half_width_m + walked_m, 0.0F));
   return session.failure.empty();
 }
 

@@ -69,7 +69,7 @@ TEST_F(GrowingRecordingTest, a_replay_waits_at_the_end_and_goes_on_when_more_com
   EXPECT_GT(moment(), 50U);
   EXPECT_EQ(last->playback->last, 200U);
   EXPECT_EQ(last->field_hash, deltas[moment() - 1]->field_hash);
-  ASSERT_TRUE(player->take({.move = ReplayMove::to_tick, .value = 200}).has_value());
+  ASSERT_TRUE(player->request({.move = ReplayMove::to_tick, .value = 200}).has_value());
   steps(4);
   EXPECT_EQ(moment(), 200U);
   write_to(400);
@@ -102,7 +102,7 @@ TEST_F(GrowingRecordingTest, ticks_that_a_world_has_lost_are_an_error) {
   writer.reset();
   auto database = Database::open(path);
   ASSERT_TRUE(database && database->execute("DELETE FROM frames WHERE tick > 40").has_value());
-  const auto looked = (*reader)->look_again();
+  const auto looked = (*reader)->refresh();
   ASSERT_FALSE(looked.has_value());
   EXPECT_NE(looked.error().message.find("after 40"), std::string::npos) << looked.error().message;
 }
@@ -156,7 +156,7 @@ TEST_F(GrowingRecordingTest, marks_count_all_events_whatever_the_recording_grows
       ASSERT_TRUE(opened.has_value()) << opened.error().message;
       reader = std::move(*opened);
     }
-    ASSERT_TRUE(reader->look_again().has_value());
+    ASSERT_TRUE(reader->refresh().has_value());
     for (int i = 0; i < 40; ++i) ASSERT_TRUE(marks.read_on(*reader).has_value());
     const MarksMessage& message = *marks.message();
     EXPECT_EQ(message.read_to, tick);

@@ -46,14 +46,14 @@ struct ReadableRowsTest : testing::Test {
     Found found;
     auto database = Database::open(file);
     EXPECT_TRUE(database.has_value());
-    const auto take = [&](uint64_t key, auto, bool whole) -> Result<void> {
+    const auto add_row = [&](uint64_t key, auto, bool whole) -> Result<void> {
       EXPECT_TRUE((whole ? found.keys : found.damaged).insert(key).second);
       return {};
     };
     const auto lose = [&](uint64_t first, uint64_t last, const std::string&) {
       found.lost.emplace_back(first, last);
     };
-    EXPECT_TRUE(each_readable(*database, world_schema::all_from("chunks"), take, lose));
+    EXPECT_TRUE(each_readable(*database, world_schema::all_from("chunks"), add_row, lose));
     for (uint64_t i = 1; i <= rows; ++i) {
       const uint64_t key = i * key_step;
       const bool is_lost = found.damaged.contains(key) ||

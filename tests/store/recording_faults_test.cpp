@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-#include "server/replay/recording_cut.h"
 #include "server/replay/recording_diff.h"
+#include "server/replay/recording_excerpt.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_writer.h"
@@ -131,11 +131,11 @@ void mutate_row(const std::string& path, Random& random) {
   auto database = Database::open(path);
   if (!database) return;
   std::vector<std::pair<uint64_t, std::vector<uint8_t>>> rows;
-  const auto take = [&](uint64_t tick, std::span<const uint8_t> data, bool) -> Result<void> {
+  const auto add_row = [&](uint64_t tick, std::span<const uint8_t> data, bool) -> Result<void> {
     rows.emplace_back(tick, std::vector<uint8_t>(data.begin(), data.end()));
     return {};
   };
-  static_cast<void>(database->each("SELECT " + key + ", data, checksum FROM " + table, take));
+  static_cast<void>(database->each("SELECT " + key + ", data, checksum FROM " + table, add_row));
   if (rows.empty()) return;
   auto& [tick, data] = rows[random.below(static_cast<uint32_t>(rows.size()))];
   for (uint32_t i = 0; i <= random.below(3) && !data.empty(); ++i)
@@ -192,7 +192,7 @@ TEST_F(RecordingFaultsTest, mutated_recordings_never_abort_and_each_refusal_name
     }
     if (round % 8 != 0) continue;
     named(diff({path, {}}, {whole, {}}));
-    named(cut(**reader, out, (*reader)->first_tick() + 1, (*reader)->last_tick(), {}));
+    named(write_excerpt(**reader, out, (*reader)->first_tick() + 1, (*reader)->last_tick(), {}));
     fs::remove(out);
   }
   EXPECT_GT(refused, rounds / 10);

@@ -178,7 +178,7 @@ TEST_F(RecordingRingTest, a_ring_verifies_while_it_is_written) {
   ASSERT_TRUE(report.has_value()) << report.error().message;
   EXPECT_TRUE(report->agrees()) << report->difference;
   EXPECT_EQ(report->ticks, 900 - first + 1);
-  ASSERT_TRUE((*reader)->look_again().has_value());
+  ASSERT_TRUE((*reader)->refresh().has_value());
   EXPECT_GT((*reader)->first_tick(), 900U) << "none of them is there any more";
   EXPECT_EQ((*reader)->last_tick(), written - written % 15);
   (*reader)->let_go();
@@ -190,7 +190,7 @@ TEST_F(RecordingRingTest, a_replay_that_is_overtaken_goes_on_where_the_ring_begi
   write_to(300);
   play(0);
   steps(30);
-  ASSERT_TRUE(player->take({.play = ReplayPlay::pause}).has_value());
+  ASSERT_TRUE(player->request({.play = ReplayPlay::pause}).has_value());
   steps(1);
   EXPECT_EQ(moment.moment, 30U);
   write_to(1500);
@@ -200,7 +200,7 @@ TEST_F(RecordingRingTest, a_replay_that_is_overtaken_goes_on_where_the_ring_begi
   ASSERT_EQ(told.size(), 1U) << "once";
   EXPECT_NE(told[0].find("tick 30 is shown"), std::string::npos) << told[0];
   EXPECT_NE(told[0].find("at tick " + std::to_string(moment.first)), std::string::npos) << told[0];
-  ASSERT_TRUE(player->take({.play = ReplayPlay::play}).has_value());
+  ASSERT_TRUE(player->request({.play = ReplayPlay::play}).has_value());
   steps(60);
   EXPECT_EQ(moment.moment, moment.first + 60);
   EXPECT_EQ(told.size(), 1U);
@@ -215,7 +215,7 @@ TEST_F(RecordingRingTest, a_tick_that_was_dropped_is_not_gone_to_but_the_first) 
   for (const Tick tick : {Tick{1500}, Tick{2100}}) {
     write_to(tick);
     steps(4);
-    ASSERT_TRUE(player->take({.move = ReplayMove::to_tick, .value = 5}).has_value());
+    ASSERT_TRUE(player->request({.move = ReplayMove::to_tick, .value = 5}).has_value());
     steps(4);
     EXPECT_LE(moment.moment - moment.first, 4U);
     ASSERT_FALSE(told.empty());

@@ -21,7 +21,7 @@ class ReplayPlayerTest : public RecordingTest {
     ASSERT_TRUE(source.has_value()) << source.error().message;
     player.emplace(std::move(*source), options);
   }
-  void ask(const ControlReplayRequest& wish) { ASSERT_TRUE(player->take(wish).has_value()); }
+  void ask(const ControlReplayRequest& wish) { ASSERT_TRUE(player->request(wish).has_value()); }
   void go_to(Tick tick) { ask({.move = ReplayMove::to_tick, .value = static_cast<int64_t>(tick)}); }
   /// One tick, compared with what was recorded. False at the end.
   bool step() {
@@ -181,9 +181,9 @@ TEST_F(ReplayPlayerTest, goes_to_events_and_times_and_no_farther_than_the_ends) 
 TEST_F(ReplayPlayerTest, too_many_wishes_at_once_are_refused) {
   play(5);
   for (size_t i = 0; i < limits::replay_wishes_max; ++i) ask({.play = ReplayPlay::play});
-  EXPECT_FALSE(player->take({.play = ReplayPlay::play}).has_value());
+  EXPECT_FALSE(player->request({.play = ReplayPlay::play}).has_value());
   steps(1);
-  EXPECT_TRUE(player->take({.play = ReplayPlay::play}).has_value());
+  EXPECT_TRUE(player->request({.play = ReplayPlay::play}).has_value());
 }
 
 }  // namespace

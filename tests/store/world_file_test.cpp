@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "server/store/chunk_fetcher.h"
-#include "server/store/world_keeper.h"
 #include "server/store/world_lock.h"
+#include "server/store/world_saver.h"
 #include "server/world/world.h"
 #include "tests/store/faulty_disk.h"
-#include "tests/store/kept_world.h"
+#include "tests/store/world_file_fixture.h"
 #include "tests/support/recording_fixture.h"
 #include "tests/support/test_folder.h"
 
@@ -21,20 +21,20 @@ namespace {
 TEST_F(WorldFileTest, what_was_saved_is_read_again_bit_for_bit) {
   make();
   EXPECT_EQ(value_in_file(), encode(world->snapshot()));
-  WorldKeeper keeper(std::move(file), world->tick(), flat_terrain,
-                     {.durability = Durability::tick, .before_save = {}});
+  WorldSaver saver(std::move(file), world->tick(), flat_terrain,
+                   {.durability = Durability::tick, .before_save = {}});
   for (Tick tick = 31; tick <= 90; ++tick) {
     std::vector<Command> commands;
     if (tick == 50) commands = {carve_at(-3.0F, 50)};
     const auto delta = world->step(commands);
-    if (keeper.note(*delta)) keeper.save(world->moment());
+    if (saver.note(*delta)) saver.save(world->moment());
     if (tick == 60)
-      while (keeper.status().saves == 0) std::this_thread::yield();
+      while (saver.status().saves == 0) std::this_thread::yield();
   }
-  const auto finished = keeper.finish(world->moment());
+  const auto finished = saver.finish(world->moment());
   ASSERT_TRUE(finished.has_value()) << finished.error().message;
-  EXPECT_EQ(keeper.status().saved_tick, 90U);
-  EXPECT_GT(keeper.status().saves, 1U);
+  EXPECT_EQ(saver.status().saved_tick, 90U);
+  EXPECT_GT(saver.status().saves, 1U);
   EXPECT_EQ(value_in_file(), encode(world->snapshot()));
   EXPECT_EQ(refusal_of(path), "");
 }
@@ -84,7 +84,7 @@ TEST_F(WorldFileTest, a_save_that_finds_no_room_leaves_the_last_one_and_a_later_
   file.reset();
 }
 
-/// A session of saves as a keeper would make them: each tick's moment, and the chunks that it changed.
+/// A session of saves as a saver would make them: each tick's moment, and the chunks that it changed.
 struct Saves {
   WorldSnapshot begin;
   std::vector<std::pair<WorldMoment, std::vector<WorldChunk>>> ticks;
@@ -247,12 +247,12 @@ TEST_F(WorldFileTest, chunks_that_were_read_are_taken_a_few_at_a_time) {
   while (fetcher.chunks_read() < 3) std::this_thread::yield();
   std::vector<SuppliedChunk> came;
   while (came.size() < 3) {
-    std::vector<SuppliedChunk> some = fetcher.take(2);
+    std::vector<SuppliedChunk> some = fetcher.collect(2);
     ASSERT_LE(some.size(), 2U);
     for (SuppliedChunk& one : some) came.push_back(std::move(one));
   }
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(came[i].chunk, chunks[i]);
-  EXPECT_TRUE(fetcher.take(2).empty());
+  EXPECT_TRUE(fetcher.collect(2).empty());
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class ChunkShelf {
       bricks.push_back({brick, field.brick(brick), field.painted(brick)});
   }
   /// All chunks go out.
-  void take_all(Field& field) {
+  void page_out_all(Field& field) {
     const std::vector<ChunkCoord> in(field.chunks_in().begin(), field.chunks_in().end());
     for (const ChunkCoord chunk : in) {
       copy(field, chunk);

@@ -8,7 +8,7 @@ namespace scree {
 
 /// Keeps every loaded library until the process ends. Otherwise Mesa's driver is unloaded with the context,
 /// and LeakSanitizer reports the memory of its globals as leaks.
-inline void keep_libraries_loaded() {
+inline void pin_libraries() {
   dl_iterate_phdr(
       [](dl_phdr_info* library, size_t, void*) {
         ::dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);

@@ -29,7 +29,7 @@ class OffscreenTest : public testing::Test {
     Result<std::unique_ptr<EglContext>> context = EglContext::create(true);
     ASSERT_TRUE(context) << context.error().message;
     context_ = std::move(*context);
-    keep_libraries_loaded();
+    pin_libraries();
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
     ASSERT_TRUE(renderer) << renderer.error().message;
     renderer_ = std::move(*renderer);

@@ -19,7 +19,7 @@ namespace scree {
 /// A client that believes every message, and checks each frame's check.
 class TrustingClient {
  public:
-  void take(const Outgoing& outgoing) {
+  void receive(const Outgoing& outgoing) {
     const std::span<const uint8_t> bytes(*outgoing.bytes);
     const auto message = decode_server(bytes.subspan(length_prefix_bytes));
     ASSERT_TRUE(message.has_value()) << message.error().message;
@@ -54,7 +54,7 @@ class TrustingClient {
   MarksMessage marks;
   RecordedCursorsMessage recorded_cursors;
   TrustingClient* before = nullptr;  ///< has the chunks that this one offered
-  size_t kept = 0;
+  size_t unchanged = 0;
 
  private:
   void apply(const FrameMessage& frame) {
@@ -119,9 +119,9 @@ class TrustingClient {
     ++chunks;
     EXPECT_EQ(field.chunk_hash(message.chunk), message.hash);
   }
-  void apply(const KeptMessage& message) {
+  void apply(const UnchangedChunksMessage& message) {
     for (size_t i = 0; i < message.chunks.size(); ++i) {
-      ++kept;
+      ++unchanged;
       const ChunkCoord chunk = message.chunks[i];
       chunk_order.push_back(chunk);
       if (before == nullptr) continue;
@@ -153,7 +153,7 @@ class TrustingClient {
   void apply(const RefusalMessage&) { ADD_FAILURE() << "a refusal is not the publisher's"; }
   void apply(const CursorsMessage&) { ADD_FAILURE() << "cursors are not the publisher's"; }
   void apply(const PlaybackMessage& message) { playbacks.push_back(message); }
-  void apply(const MarksMessage& message) { take_news(marks, message); }
+  void apply(const MarksMessage& message) { apply_news(marks, message); }
   void apply(const RecordedCursorsMessage& message) { recorded_cursors = message; }
   void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
@@ -171,14 +171,14 @@ class PublisherTest : public ::testing::Test {
     const auto backlog = [this](uint64_t id) {
       return id == session ? Backlog{backlog_bytes, soft_bytes} : Backlog();
     };
-    take(publisher.publish(delta, backlog));
-    take(publisher.answer(delta, [this](const Reply&) { return latency; }));
+    receive(publisher.publish(delta, backlog));
+    receive(publisher.answer(delta, [this](const Reply&) { return latency; }));
   }
-  void take(const std::vector<Outgoing>& outgoing) {
+  void receive(const std::vector<Outgoing>& outgoing) {
     for (const Outgoing& each : outgoing) {
       bytes[each.session] += each.bytes->size();
       last[each.session] = each.bytes;
-      followers[each.session].take(each);
+      followers[each.session].receive(each);
     }
   }
   void join(uint64_t id, glm::vec3 eye_m, float radius_m, bool has_kernels = true) {

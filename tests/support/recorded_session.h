@@ -33,7 +33,7 @@ inline void record_session(const std::string& path, Tick ticks) {
     std::vector<Event> noted;
     if (tick == 1) noted.push_back({.kind = EventKind::join, .tick = 1, .session = 3, .text = "Ann"});
     std::optional<std::vector<PlayerCursor>> cursors;
-    if (tick % ticks_per_watch == 0) cursors = {{3, "Ann", {x_m, 1.7F, 0.0F}, {x_m, 0.0F, -4.0F}}};
+    if (tick % ticks_per_physics == 0) cursors = {{3, "Ann", {x_m, 1.7F, 0.0F}, {x_m, 0.0F, -4.0F}}};
     auto delta = world.step(commands);
     (*recorder)->push(std::move(delta), std::move(commands), std::move(noted), nullptr, std::move(cursors));
   }

@@ -50,7 +50,7 @@ bool SessionClient::apply(const ServerMessage& message) {
       return fail_with("tick " + std::to_string(frame->tick) + " came after " +
                        std::to_string(mirror_->tick()));
   if (const auto applied = mirror_->apply(message); !applied) return fail_with(applied.error().message);
-  while (const auto repair = mirror_->take_repair_request()) connection_->send(*repair);
+  while (const auto repair = mirror_->next_repair_request()) connection_->send(*repair);
   return true;
 }
 
@@ -74,7 +74,7 @@ bool SessionClient::ends() {
   return !connection_->connected();
 }
 
-void SessionClient::look_from(glm::vec3 eye_m) {
+void SessionClient::set_eye(glm::vec3 eye_m) {
   eye_m_ = eye_m;
   send(InterestMessage{eye_m, radius_m_});
 }
@@ -97,9 +97,9 @@ SessionClient& LoopbackSession::join(glm::vec3 eye_m, float radius_m) {
   return *clients_.back();
 }
 
-void LoopbackSession::cut(const SessionClient& client) {
+void LoopbackSession::abort(const SessionClient& client) {
   const auto found = std::ranges::find(clients_, &client, &std::unique_ptr<SessionClient>::get);
-  (*found)->cut();
+  (*found)->abort();
   clients_.erase(found);
   const auto deadline = Clock::now() + patience;
   while (server_->report().net.sessions != clients_.size() && Clock::now() < deadline) wait_a_moment();

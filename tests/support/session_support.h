@@ -27,9 +27,9 @@ class SessionClient {
   /// Applies the messages that arrive until the connection closes; false when it does not close.
   bool ends();
   void send(const ClientMessage& message) { connection_->send(message); }
-  void look_from(glm::vec3 eye_m);
+  void set_eye(glm::vec3 eye_m);
   /// Ends the connection like a lost link: messages on their way are lost.
-  void cut() { connection_->cut(); }
+  void abort() { connection_->abort(); }
 
   Mirror& mirror() { return *mirror_; }
   const Mirror& mirror() const { return *mirror_; }
@@ -57,7 +57,7 @@ class LoopbackSession {
 
   SessionClient& join(glm::vec3 eye_m, float radius_m);
   /// Cuts a client off, and waits until the server has noticed.
-  void cut(const SessionClient& client);
+  void abort(const SessionClient& client);
 
   /// Runs one tick, which every client applies; false, with a failure, when one does not.
   bool step();

@@ -81,7 +81,7 @@ class MemoryStream final : public Transport, public std::enable_shared_from_this
     read_done_ = write_done_ = nullptr;
     end(true);
   }
-  void cut() override {
+  void abort() override {
     read_done_ = write_done_ = nullptr;
     end(false);
   }

@@ -81,7 +81,7 @@ class ViewerWindow : public testing::Test {
     Result<std::unique_ptr<AppWindow>> window = AppWindow::open(width, height, true);
     ASSERT_TRUE(window) << window.error().message;
     window_ = std::move(*window);
-    keep_libraries_loaded();
+    pin_libraries();
     Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options_);
     ASSERT_TRUE(viewing) << viewing.error().message;
     viewing_ = std::move(*viewing);
@@ -142,7 +142,7 @@ class ViewerHand : public ViewerWindow {
     }
   }
   /// Takes the mouse, with nothing on the screen that a click could meet.
-  void take_mouse() {
+  void capture_mouse() {
     hand("key p key h key g click 1");
     run_until([&] { return window_->holds_mouse() && !shown(PanelPlace::bottom); },
               "the mouse, and nothing to be said any more");

@@ -73,7 +73,7 @@ class WebPipe {
   }
   bool send_output() {
     std::vector<uint8_t> output;
-    tls_->take_output(output);
+    tls_->drain_output(output);
     return send_raw(output);
   }
   bool send_raw(std::span<const uint8_t> bytes) {
@@ -230,12 +230,12 @@ class WebSocketClient {
       size_t length = length_bytes == 0 ? short_length : 0;
       for (size_t i = 0; i < length_bytes; ++i) length = length << 8U | at(2 + i);
       if (buffer_.size() < 2 + length_bytes + length) return;
-      take(at(0) & 0xfU, std::span(reinterpret_cast<const uint8_t*>(buffer_.data()), buffer_.size())
-                             .subspan(2 + length_bytes, length));
+      receive_frame(at(0) & 0xfU, std::span(reinterpret_cast<const uint8_t*>(buffer_.data()), buffer_.size())
+                                      .subspan(2 + length_bytes, length));
       buffer_.erase(0, 2 + length_bytes + length);
     }
   }
-  void take(unsigned opcode, std::span<const uint8_t> payload) {
+  void receive_frame(unsigned opcode, std::span<const uint8_t> payload) {
     if (opcode == 2) reader_.push(payload);
     if (opcode == 10) ++pongs_;
     if (opcode == 8 && payload.size() >= 2)

@@ -161,7 +161,7 @@ inline std::vector<ServerMessage> server_messages() {
       GroundMessage{{-1, 2, 0}, false, 1ULL << 62U, {{{-4, 8, 0}, noisy_brick(5)}}, 0x123456789ABCDEF0ULL},
       GroundMessage{.chunk = {7, -8, 9}, .beyond = true},
       TileMessage{{1, 2, 3}, {9, 8, 7}},
-      KeptMessage{{{1, 2, 3}, {-4, 5, -6}}, {1, 0xFFFFFFFFFFFFFFFFULL}},
+      UnchangedChunksMessage{{{1, 2, 3}, {-4, 5, -6}}, {1, 0xFFFFFFFFFFFFFFFFULL}},
       AdminListMessage{
           3,
           {{7, "Ann", "scree-viewer", "127.0.0.1", Role::builder, 1ULL << 63U, 60, 1ULL << 40U, true}},
@@ -205,7 +205,7 @@ inline std::vector<ClientMessage> client_messages() {
           AdminMessage{13, "", LiftBanRequest{"2001:db8::/64"}},
           AdminMessage{14, "", ControlReplayRequest{ReplayPlay::pause, -16.0F, ReplayMove::by_ticks, -7}},
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
-          WatchMessage{true},
+          PhysicsSubscriptionMessage{true},
           SayMessage{"mind the edge"},
           AskGroundMessage{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},

@@ -101,11 +101,11 @@ Timeline crowded_timeline() {
   timeline.begin(60.0);
   PlaybackMessage playback{100000, 0, 2160000, -16.0F, true, 0, true};
   playback.refusal = "that takes the role admin: this session is a viewer (ask for a token, --token)";
-  timeline.take(playback, 0.0);
+  timeline.apply(playback, 0.0);
   MarksMessage marks{0, 4096, 0, 2160000};
   for (const EventKind kind : all_kinds<EventKind>)
     for (uint32_t column = 0; column < 500; column += 7) marks.marks.push_back({kind, column, 1 + column});
-  timeline.take(marks);
+  timeline.apply(marks);
   return timeline;
 }
 

@@ -37,21 +37,21 @@ TEST(TextLine, is_bounded_by_whole_characters_and_erased_by_them) {
 
 TEST(Conversation, lines_are_shown_for_a_while_and_kept_up_to_a_bound) {
   Conversation conversation;
-  conversation.take(SaidMessage{3, "Ann", "hello"}, 10.0);
-  conversation.take(SaidMessage{4, "", "hi"}, 20.0);
-  conversation.take(SaidMessage{0, "", "too many speak at once"}, 20.0);
+  conversation.apply(SaidMessage{3, "Ann", "hello"}, 10.0);
+  conversation.apply(SaidMessage{4, "", "hi"}, 20.0);
+  conversation.apply(SaidMessage{0, "", "too many speak at once"}, 20.0);
   const std::vector<std::string> all{"Ann: hello", "client 4: hi", "server: too many speak at once"};
   EXPECT_EQ(conversation.lines(21.0, false), all);
   EXPECT_EQ(conversation.lines(10.5 + limits::line_shown_s, false).size(), 2U);
   EXPECT_TRUE(conversation.lines(1000.0, false).empty());
   EXPECT_EQ(conversation.lines(1000.0, true), all);
-  for (int i = 0; i < 100; ++i) conversation.take(SaidMessage{3, "Ann", "again"}, 30.0);
+  for (int i = 0; i < 100; ++i) conversation.apply(SaidMessage{3, "Ann", "again"}, 30.0);
   EXPECT_EQ(conversation.lines(30.0, true).size(), limits::lines_kept_max);
 }
 
 TEST(Conversation, nobody_is_known_after_a_new_beginning) {
   Conversation conversation;
-  conversation.take(PersonsMessage{{{3, "Ann", Role::builder}}, 0, true});
+  conversation.apply(PersonsMessage{{{3, "Ann", Role::builder}}, 0, true});
   EXPECT_EQ(conversation.persons().persons.size(), 1U);
   conversation.begin();
   EXPECT_EQ(conversation.persons(), PersonsMessage{});

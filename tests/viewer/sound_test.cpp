@@ -10,7 +10,7 @@
 
 #include "client/mirror/predictions.h"
 #include "client/viewer/base/limits.h"
-#include "client/viewer/events/piece_watch.h"
+#include "client/viewer/events/piece_event_detector.h"
 #include "client/viewer/sound/sounds.h"
 #include "shared/operation/operation.h"
 
@@ -103,28 +103,28 @@ class PieceWatchTest : public testing::Test {
     PieceTable table;
     apply(CarveOperation{sphere({}, 2.0F), SeedPattern::uniform, 8, 5, {}, 1}, field_, table);
     for (const auto& [id, volume] : table)
-      cut_[id] = {volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
+      broken_off_[id] = {volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
   }
   std::vector<PieceEvent> step(const ScenePieces& pieces) {
     now_s_ += frame_s;
-    return watch_.step(pieces, voxel_m, now_s_);
+    return piece_events_.step(pieces, voxel_m, now_s_);
   }
   static constexpr float voxel_m = 0.25F;
   static constexpr double frame_s = 1.0 / 60.0;
   MapField field_{{TerrainKind::flat, 1, voxel_m}};
-  ScenePieces cut_;
-  PieceWatch watch_;
+  ScenePieces broken_off_;
+  PieceEventDetector piece_events_;
   double now_s_ = 100.0;
 };
 
 TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
-  ASSERT_FALSE(cut_.empty());
+  ASSERT_FALSE(broken_off_.empty());
   EXPECT_TRUE(step({}).empty());
-  const std::vector<PieceEvent> cracks = step(cut_);
-  ASSERT_EQ(cracks.size(), std::min(cut_.size(), limits::piece_events_per_step_max));
+  const std::vector<PieceEvent> cracks = step(broken_off_);
+  ASSERT_EQ(cracks.size(), std::min(broken_off_.size(), limits::piece_events_per_step_max));
   EXPECT_EQ(cracks[0].kind, PieceEventKind::crack);
   EXPECT_GT(cracks[0].impulse_n_s, 0.0F);
-  ScenePieces falling = cut_;
+  ScenePieces falling = broken_off_;
   float speed_m_s = 0.0F;
   for (int i = 0; i < 30; ++i) {
     speed_m_s -= 9.81F * static_cast<float>(frame_s);
@@ -142,11 +142,11 @@ TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
 }
 
 TEST_F(PieceWatchTest, a_world_that_is_shown_for_the_first_time_is_silent) {
-  EXPECT_TRUE(step(cut_).empty());
-  watch_.begin();
+  EXPECT_TRUE(step(broken_off_).empty());
+  piece_events_.begin();
   EXPECT_TRUE(step({}).empty());
   now_s_ += 10.0;  // nobody listened
-  EXPECT_TRUE(step(cut_).empty());
+  EXPECT_TRUE(step(broken_off_).empty());
 }
 
 TEST_F(PieceWatchTest, a_predicted_break_happens_once) {
@@ -154,10 +154,10 @@ TEST_F(PieceWatchTest, a_predicted_break_happens_once) {
   constexpr PieceId predicted = 0xC0000000U;
   ASSERT_TRUE(Predictions::is_predicted(predicted));
   ScenePieces foreseen;
-  for (const auto& [id, piece] : cut_) foreseen[predicted + id] = piece;
-  EXPECT_EQ(step(foreseen).size(), cut_.size());
-  EXPECT_TRUE(step(cut_).empty()) << "the server's pieces take their places";
-  EXPECT_EQ(step({}).size(), cut_.size()) << "they merge";
+  for (const auto& [id, piece] : broken_off_) foreseen[predicted + id] = piece;
+  EXPECT_EQ(step(foreseen).size(), broken_off_.size());
+  EXPECT_TRUE(step(broken_off_).empty()) << "the server's pieces take their places";
+  EXPECT_EQ(step({}).size(), broken_off_.size()) << "they merge";
   step(foreseen);
   EXPECT_TRUE(step({}).empty()) << "a prediction that is taken back";
 }
@@ -170,7 +170,7 @@ TEST_F(PieceWatchTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loud
   Camera camera;
   camera.eye_m = {0.0F, 2.0F, 8.0F};
   for (int i = 0; i <= 120; ++i)
-    sounds->step(step(i < 30 ? ScenePieces{} : cut_), camera, 50.0 + static_cast<double>(i) * frame_s);
+    sounds->step(step(i < 30 ? ScenePieces{} : broken_off_), camera, 50.0 + static_cast<double>(i) * frame_s);
   ASSERT_TRUE(sounds->finish());
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();

@@ -27,54 +27,54 @@ PlaybackMessage at_moment(Tick moment, uint64_t heeded = 0) {
 Timeline known_timeline(const PlaybackMessage& playback = at_moment(600)) {
   Timeline timeline;
   timeline.begin(60.0);
-  timeline.take(playback, 10.0);
+  timeline.apply(playback, 10.0);
   return timeline;
 }
 
 TEST(Timeline, of_seeks_that_wait_the_last_counts_and_one_is_under_way) {
   Timeline timeline = known_timeline();
   for (const double tick : {100.0, 200.0, 300.0}) timeline.seek(tick);
-  const auto first = timeline.take_due(10.0);
+  const auto first = timeline.pop_due(10.0);
   ASSERT_TRUE(first.has_value());
   EXPECT_EQ(first->value, 300);
   for (const double tick : {400.0, 99999.0}) timeline.seek(tick);
-  EXPECT_FALSE(timeline.take_due(10.1)) << "one is under way";
+  EXPECT_FALSE(timeline.pop_due(10.1)) << "one is under way";
   EXPECT_EQ(timeline.moment(10.1), 6000.0) << "what is wanted is shown";
-  timeline.take(at_moment(300, 1), 10.2);
-  const auto second = timeline.take_due(10.2);
+  timeline.apply(at_moment(300, 1), 10.2);
+  const auto second = timeline.pop_due(10.2);
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(second->value, 6000) << "within the recording";
-  EXPECT_FALSE(timeline.take_due(10.2));
+  EXPECT_FALSE(timeline.pop_due(10.2));
 }
 
 TEST(Timeline, tells_a_jump_from_playing) {
   Timeline timeline;
   timeline.begin(60.0);
-  EXPECT_FALSE(timeline.take(at_moment(600), 10.0)) << "the first word";
-  EXPECT_FALSE(timeline.take(at_moment(660), 11.0));
-  EXPECT_FALSE(timeline.take(at_moment(730), 12.0)) << "a little off";
-  EXPECT_TRUE(timeline.take(at_moment(300), 12.1));
-  EXPECT_FALSE(timeline.take(at_moment(306), 12.2));
+  EXPECT_FALSE(timeline.apply(at_moment(600), 10.0)) << "the first word";
+  EXPECT_FALSE(timeline.apply(at_moment(660), 11.0));
+  EXPECT_FALSE(timeline.apply(at_moment(730), 12.0)) << "a little off";
+  EXPECT_TRUE(timeline.apply(at_moment(300), 12.1));
+  EXPECT_FALSE(timeline.apply(at_moment(306), 12.2));
 }
 
 TEST(Timeline, goes_on_when_a_move_is_refused_or_gets_lost) {
   Timeline timeline = known_timeline();
   timeline.seek(100.0);
-  ASSERT_TRUE(timeline.take_due(10.0));
+  ASSERT_TRUE(timeline.pop_due(10.0));
   timeline.seek(200.0);
-  EXPECT_FALSE(timeline.take_due(10.1));
+  EXPECT_FALSE(timeline.pop_due(10.1));
   timeline.refused();
-  EXPECT_TRUE(timeline.take_due(10.1));
+  EXPECT_TRUE(timeline.pop_due(10.1));
   timeline.seek(300.0);
-  EXPECT_FALSE(timeline.take_due(10.2));
-  EXPECT_TRUE(timeline.take_due(20.0));
+  EXPECT_FALSE(timeline.pop_due(10.2));
+  EXPECT_TRUE(timeline.pop_due(20.0));
 }
 
 TEST(Timeline, keys_are_wishes_in_their_order) {
   Timeline timeline = known_timeline();
   const auto due = [&](Action action) {
     timeline.act(action);
-    return timeline.take_due(10.0).value_or(ControlReplayRequest{.value = -77});
+    return timeline.pop_due(10.0).value_or(ControlReplayRequest{.value = -77});
   };
   EXPECT_EQ(due(Action::replay_play), (ControlReplayRequest{.play = ReplayPlay::pause}));
   EXPECT_EQ(due(Action::replay_play), (ControlReplayRequest{.play = ReplayPlay::play}));
@@ -86,8 +86,8 @@ TEST(Timeline, keys_are_wishes_in_their_order) {
   EXPECT_EQ(due(Action::walk).value, -77) << "another room's";
   timeline.act(Action::replay_second_back);
   timeline.act(Action::replay_tick_on);
-  timeline.take(at_moment(700, 7), 10.5);
-  EXPECT_EQ(timeline.take_due(10.5), (ControlReplayRequest{.move = ReplayMove::by_ticks, .value = -60}));
+  timeline.apply(at_moment(700, 7), 10.5);
+  EXPECT_EQ(timeline.pop_due(10.5), (ControlReplayRequest{.move = ReplayMove::by_ticks, .value = -60}));
 }
 
 TEST(Timeline, who_may_not_control_asks_for_nothing_and_sees_the_moment_go_on) {
@@ -96,7 +96,7 @@ TEST(Timeline, who_may_not_control_asks_for_nothing_and_sees_the_moment_go_on) {
   Timeline timeline = known_timeline(playback);
   timeline.seek(100.0);
   timeline.act(Action::replay_play);
-  EXPECT_FALSE(timeline.take_due(10.0));
+  EXPECT_FALSE(timeline.pop_due(10.0));
   EXPECT_NEAR(timeline.moment(11.0), 660.0, 0.01);
   EXPECT_EQ(timeline.moment(1000.0), 6000.0);
   EXPECT_EQ(time_text(660.0, 60.0), "0:11");
@@ -231,7 +231,7 @@ TEST_F(ReplayedSessions, three_see_the_same_whatever_one_drags) {
     EXPECT_EQ(session->mirror()->mismatches(), 0U);
     EXPECT_LT(session->waiting_bytes(), size_t{1} << 20U);
   }
-  EXPECT_EQ(server_->report().net.sessions_cut, 0U);
+  EXPECT_EQ(server_->report().net.sessions_disconnected, 0U);
 }
 
 TEST_F(ReplayedSessions, know_the_events_and_who_was_there) {

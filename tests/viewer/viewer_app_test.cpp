@@ -28,7 +28,7 @@ class ViewerApp : public testing::Test {
     {
       const auto context = EglContext::create(false);
       ASSERT_TRUE(context) << context.error().message;
-      keep_libraries_loaded();
+      pin_libraries();
     }
     LiveConfig config;
     config.net.port = 0;

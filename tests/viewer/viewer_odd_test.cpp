@@ -79,7 +79,7 @@ class ViewerOddSession : public testing::Test {
     Result<std::unique_ptr<EglContext>> context = EglContext::create(true);
     ASSERT_TRUE(context) << context.error().message;
     context_ = std::move(*context);
-    keep_libraries_loaded();
+    pin_libraries();
     start_server(0);
     options_.host = "127.0.0.1";
     options_.port = server_->port();
@@ -172,7 +172,7 @@ TEST_F(ViewerOddSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
   ASSERT_TRUE(builder.send(HelloMessage{protocol_version, "test", {}, 8.0F}));
   ASSERT_TRUE(builder.send(FillMessage{{sphere({}, 1.0F)}, 1}));
   ASSERT_TRUE(builder.receive_as<ReplyMessage>(patience));
-  const auto look = [&] {
+  const auto count = [&] {
     viewing_.reset();
     viewing_ = std::move(*Viewing::begin(options_));
     const auto edits = [&] {
@@ -183,10 +183,10 @@ TEST_F(ViewerOddSession, what_one_viewer_kept_the_next_one_is_not_sent_again) {
     step_until_joined();
     return viewing_->session.mirror()->counters();
   };
-  const MirrorCounters first = look();
+  const MirrorCounters first = count();
   EXPECT_GT(first.chunks, 0U);
   EXPECT_EQ(first.chunks_kept, 0U);
-  const MirrorCounters second = look();
+  const MirrorCounters second = count();
   EXPECT_EQ(second.chunks, 0U);
   EXPECT_EQ(second.chunks_kept, first.chunks);
   EXPECT_EQ(second.mismatches, 0U);

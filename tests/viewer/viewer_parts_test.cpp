@@ -39,21 +39,21 @@ TEST(Screenshots, each_waits_for_its_own_moment) {
                          *parse_screenshot("3.png@settled")});
   Moment moment;
   moment.current = true;
-  EXPECT_TRUE(queue.take_due(moment).empty());
+  EXPECT_TRUE(queue.pop_due(moment).empty());
   moment.joined = true;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "1.png");
+  EXPECT_EQ(queue.pop_due(moment).at(0).file, "1.png");
   moment.now_s = 100.0;
-  EXPECT_TRUE(queue.take_due(moment).empty()) << "settled, though nothing was ever carved";
+  EXPECT_TRUE(queue.pop_due(moment).empty()) << "settled, though nothing was ever carved";
   moment.pieces = 6;
   moment.carved = moment.alive = true;
-  EXPECT_TRUE(queue.take_due(moment).empty()) << "the pieces have had no time to fly";
+  EXPECT_TRUE(queue.pop_due(moment).empty()) << "the pieces have had no time to fly";
   moment.now_s += limits::flight_s + 0.01;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "2.png");
+  EXPECT_EQ(queue.pop_due(moment).at(0).file, "2.png");
   moment.pieces = 0;
   moment.alive = false;
-  EXPECT_TRUE(queue.take_due(moment).empty());
+  EXPECT_TRUE(queue.pop_due(moment).empty());
   moment.now_s += limits::settled_s + 0.01;
-  EXPECT_EQ(queue.take_due(moment).at(0).file, "3.png");
+  EXPECT_EQ(queue.pop_due(moment).at(0).file, "3.png");
   EXPECT_TRUE(queue.empty());
 }
 

@@ -53,7 +53,7 @@ TEST_F(SettingsTest, lie_where_xdg_says) {
 }
 
 TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
-  const KeptSettings first(settings_file());
+  const SettingsFile first(settings_file());
   EXPECT_EQ(first.loaded(), Settings{});
   Settings start;
   start.width = 333;  // by a flag
@@ -64,9 +64,9 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   end.quality = Quality::low;
   end.predict = false;
   end.particles = false;
-  first.keep(start, end);
+  first.save(start, end);
 
-  const KeptSettings second(settings_file());
+  const SettingsFile second(settings_file());
   EXPECT_EQ(second.loaded().width, 1280);
   EXPECT_TRUE(second.loaded().hud.graphs);
   EXPECT_EQ(second.loaded().tool.kind, ToolKind::tunnel);
@@ -84,12 +84,12 @@ TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
         R"({"quality": "best"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
-    const KeptSettings kept(settings_file());
+    const SettingsFile settings_file(settings_file());
     EXPECT_NE(testing::internal::GetCapturedStderr().find("warning"), std::string::npos) << broken;
-    EXPECT_EQ(kept.loaded(), Settings{});
+    EXPECT_EQ(settings_file.loaded(), Settings{});
     Settings end;
     end.width = 500;
-    kept.keep(Settings{}, end);
+    settings_file.save(Settings{}, end);
     EXPECT_EQ(written(), broken);
   }
 }
@@ -237,7 +237,7 @@ TEST(Gamepad, sticks_fly_and_worn_ones_rest) {
   pad.step(state, 0.1F, fly);
   EXPECT_EQ(fly.move.x, 0.0F);
   EXPECT_FLOAT_EQ(fly.move.z, 1.0F);
-  EXPECT_GT(fly.look.x, 0.0F);
+  EXPECT_GT(fly.turn.x, 0.0F);
   EXPECT_FALSE(fly.fast);
 }
 

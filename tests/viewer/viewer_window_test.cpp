@@ -68,7 +68,7 @@ TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
 
 TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
   join(320, 200);
-  take_mouse();
+  capture_mouse();
   EXPECT_FALSE(viewing_->session.carved());
   hand("click 1");
   run_until([&] { return viewing_->session.carved(); }, "what the strike broke");
@@ -81,7 +81,7 @@ TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {
 
 TEST_F(ViewerHand, a_window_that_comes_back_strikes_nothing_by_the_click_that_takes_the_mouse_again) {
   join(320, 200);
-  take_mouse();
+  capture_mouse();
   hand("search --maxdepth 0 --name '.*' windowfocus");
   run_until([&] { return !window_->holds_mouse(); }, "the mouse's freedom");
   hand("search --name Scree windowfocus --sync click 1 key f");
@@ -94,7 +94,7 @@ TEST_F(ViewerHand, a_window_that_comes_back_strikes_nothing_by_the_click_that_ta
 TEST_F(ViewerHand, full_screen_and_back_turn_no_view) {
   options_.quality = Quality::low;
   join(320, 200);
-  take_mouse();
+  capture_mouse();
   const Camera before = viewing_->camera;
   for (const int width : {1920, 320}) {
     hand("key F11");
@@ -107,7 +107,7 @@ TEST_F(ViewerHand, full_screen_and_back_turn_no_view) {
 
 TEST_F(ViewerHand, fills_and_paints) {
   join(320, 200);
-  take_mouse();
+  capture_mouse();
   const auto poured = [&] {
     const auto& status = viewing_->session.mirror()->status();
     return status && status->ledger_poured > 0;
@@ -129,7 +129,7 @@ TEST_F(ViewerHand, fills_and_paints) {
 
 TEST_F(ViewerHand, walks_and_is_stopped_by_a_wall) {
   join(320, 200);
-  take_mouse();
+  capture_mouse();
   // A box stands on what it is aimed at.
   const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .radius_m = 2.0F};
   viewing_->session.strike(box, {0.0F, 6.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, steady_now_s());

@@ -56,9 +56,9 @@ double carve_ms(int place, uint32_t pieces) {
   PieceTable table;
   const CarveOperation carve = carve_at(place, pieces);
   warm(field, carve);
-  Stopwatch watch;
+  Stopwatch stopwatch;
   static_cast<void>(apply(carve, field, table));
-  return watch.lap_ms();
+  return stopwatch.lap_ms();
 }
 
 /// The time to merge one piece of a carve where it was cut.
@@ -67,14 +67,14 @@ double merge_ms(int place) {
   PieceTable table;
   static_cast<void>(apply(carve_at(place, 8), field, table));
   const PieceTable cut = table;
-  Stopwatch watch;
+  Stopwatch stopwatch;
   for (const auto& [id, volume] : cut) {
     StampOperation stamp;
     stamp.piece = id;
     stamp.pose = quantise({volume->centre_voxels * terrain.voxel_size_m, {1.0F, 0.0F, 0.0F, 0.0F}});
     static_cast<void>(apply(stamp, field, table));
   }
-  return watch.lap_ms() / static_cast<double>(std::max<size_t>(cut.size(), 1));
+  return stopwatch.lap_ms() / static_cast<double>(std::max<size_t>(cut.size(), 1));
 }
 
 /// From a frame's bytes to the mirror.
@@ -89,10 +89,10 @@ double message_ms(int place) {
   frame.operations = {carve};
   warm(mirror.field(), carve);
   const std::vector<uint8_t> bytes = encode(ServerMessage(frame));
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const Result<ServerMessage> message = decode_server(std::span(bytes).subspan(length_prefix_bytes));
   if (!message || !mirror.apply(*message)) return -1.0;
-  return watch.lap_ms();
+  return stopwatch.lap_ms();
 }
 
 }  // namespace

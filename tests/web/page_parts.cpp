@@ -26,12 +26,12 @@ std::vector<uint8_t> welcome_bytes() {
 PageSocket opened() {
   PageSocket socket;
   socket.open({HelloMessage{}});
-  CHECK(socket.take_wish() == Wish::open);
-  CHECK(socket.take_wish() == Wish::nothing);  // told once
-  CHECK(socket.take_outgoing().empty());       // there is no socket yet
+  CHECK(socket.pop_wish() == Wish::open);
+  CHECK(socket.pop_wish() == Wish::nothing);  // told once
+  CHECK(socket.drain_outgoing().empty());     // there is no socket yet
   socket.opened();
-  CHECK(!socket.take_outgoing().empty());
-  CHECK(socket.take_outgoing().empty());
+  CHECK(!socket.drain_outgoing().empty());
+  CHECK(socket.drain_outgoing().empty());
   return socket;
 }
 
@@ -48,8 +48,8 @@ void messages_may_be_cut_anywhere() {
   CHECK_EQ(socket.counters().received_bytes, bytes.size());
   socket.received(bytes);
   CHECK(!socket.next() && socket.is_closed());  // a second welcome
-  CHECK(socket.take_wish() == Wish::close);
-  CHECK(socket.take_wish() == Wish::nothing);
+  CHECK(socket.pop_wish() == Wish::close);
+  CHECK(socket.pop_wish() == Wish::nothing);
 }
 
 void what_is_no_protocol_closes() {
@@ -59,19 +59,19 @@ void what_is_no_protocol_closes() {
   CHECK(!socket.next() && socket.is_closed());
   CHECK(socket.end().message.find("not this protocol") != std::string::npos);
   socket.open({HelloMessage{}});
-  CHECK(socket.take_wish() == Wish::close);  // the old one first
-  CHECK(socket.take_wish() == Wish::open);
+  CHECK(socket.pop_wish() == Wish::close);  // the old one first
+  CHECK(socket.pop_wish() == Wish::open);
 }
 
 void a_socket_that_closes_is_told_and_asked_for_again() {
   PageSocket socket = opened();
   socket.closed("");
   CHECK(socket.is_closed() && !socket.end().message.empty());
-  CHECK(socket.take_wish() == Wish::nothing);
+  CHECK(socket.pop_wish() == Wish::nothing);
   socket.received(welcome_bytes());
   CHECK(!socket.next());  // of a socket that is gone
   socket.open({HelloMessage{}});
-  CHECK(socket.take_wish() == Wish::open);
+  CHECK(socket.pop_wish() == Wish::open);
   socket.closed("refused");
   CHECK(socket.end().message == "refused");
 }
@@ -99,19 +99,19 @@ void keys_move_and_act_once() {
   CHECK(input.key("KeyW", true) && input.key("KeyD", true) && input.key("ShiftLeft", true));
   CHECK(input.key("KeyM", true) && input.key("KeyM", true));  // repeated by the keyboard
   CHECK(!input.key("Tab", true) && !input.key("Unidentified", true));
-  PageIntents intents = input.take(0.02F);
+  PageIntents intents = input.drain(0.02F);
   CHECK(intents.fly.move == glm::vec3(1.0F, 0.0F, 1.0F) && intents.fly.fast);
   CHECK(intents.actions == std::vector{Action::next_method});
-  intents = input.take(0.02F);
+  intents = input.drain(0.02F);
   CHECK(intents.fly.move == glm::vec3(1.0F, 0.0F, 1.0F) && intents.actions.empty());
   input.keys_up();
-  CHECK(input.take(0.02F).fly.move == glm::vec3(0.0F));
-  input.look(3.0F, -2.0F);
-  input.look(1.0F, 0.0F);
+  CHECK(input.drain(0.02F).fly.move == glm::vec3(0.0F));
+  input.turn(3.0F, -2.0F);
+  input.turn(1.0F, 0.0F);
   input.strike();
-  intents = input.take(0.02F);
-  CHECK(intents.fly.look == glm::vec2(4.0F, -2.0F) && intents.strike);
-  CHECK(!input.take(0.02F).strike);
+  intents = input.drain(0.02F);
+  CHECK(intents.fly.turn == glm::vec2(4.0F, -2.0F) && intents.strike);
+  CHECK(!input.drain(0.02F).strike);
 }
 
 void a_gamepad_of_the_standard_mapping_is_the_viewers() {
@@ -119,14 +119,14 @@ void a_gamepad_of_the_standard_mapping_is_the_viewers() {
   PadState sticks;
   sticks.left_trigger = sticks.right_trigger = 0.0F;
   input.pad(sticks, 0);
-  CHECK(!input.take(0.02F).strike);
+  CHECK(!input.drain(0.02F).strike);
   sticks.left_y = -1.0F;
   sticks.right_trigger = 1.0F;
   input.pad(sticks, 1U << 12U);  // up, on the cross
-  const PageIntents intents = input.take(0.02F);
+  const PageIntents intents = input.drain(0.02F);
   CHECK(intents.strike && intents.fly.move.z > 0.9F);
   CHECK(intents.actions == std::vector{Action::stronger});
-  CHECK(input.take(0.02F).fly.move.z == 0.0F);  // it is gone
+  CHECK(input.drain(0.02F).fly.move.z == 0.0F);  // it is gone
 }
 
 }  // namespace

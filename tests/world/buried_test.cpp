@@ -25,7 +25,7 @@ class Buried : public ::testing::TestWithParam<TerrainColliderKind> {
 
   std::shared_ptr<const TickDelta> step(std::vector<Command> commands = {}) {
     auto delta = world_.step(commands);
-    travels_.look(world_, *delta);
+    travels_.observe(world_, *delta);
     EXPECT_EQ(delta->ledger.error(), 0);
     for (const AppliedOperation& applied : delta->operations)
       if (std::holds_alternative<DiscardOperation>(applied.operation)) ++lost_;

@@ -108,9 +108,9 @@ TEST_F(OddInput, four_thousand_and_ninety_six_seeds) {
   auto delta = step({carve(sphere({0.0F, -4.0F, 0.0F}, 5.0F), limits::seeds_max)});
   EXPECT_EQ(delta->replies[0].refusal, "");
   EXPECT_GT(delta->pieces.size(), 0U);
-  EXPECT_GT(delta->work.cuts_put_off, 0U) << "it is cut on in later ticks";
+  EXPECT_GT(delta->work.refractures_put_off, 0U) << "it is cut on in later ticks";
   size_t most = 0;
-  for (int tick = 0; tick < 300 && most <= 500 && delta->work.cuts_put_off > 0; ++tick) {
+  for (int tick = 0; tick < 300 && most <= 500 && delta->work.refractures_put_off > 0; ++tick) {
     delta = step();
     EXPECT_EQ(delta->ledger.error(), 0);
     most = std::max(most, delta->pieces.size());

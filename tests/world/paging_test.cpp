@@ -35,7 +35,7 @@ TEST(paged_world, goes_the_same_way_with_all_terrain_out_after_every_tick) {
       EXPECT_EQ(chunk.hash, whole.field().chunk_hash(chunk.chunk));
       EXPECT_EQ(published.chunks().at(chunk.chunk).hash, chunk.hash);
     }
-    shelf.take_all(paged.field());
+    shelf.page_out_all(paged.field());
     const std::vector<ChunkCoord> in(published.chunks_in().begin(), published.chunks_in().end());
     for (const ChunkCoord chunk : in) published.page_out(chunk);
   }
@@ -58,8 +58,8 @@ TEST(paged_world, is_restored_with_as_much_terrain_as_there_is_memory_for) {
   PagedTerrain terrain;
   terrain.read = shelf.reader();
   terrain.bricks_max = 40;
-  terrain.each = [&](const PagedTerrain::Take& take) -> Result<void> {
-    for (const auto& [chunk, bricks] : shelf.chunks) TRY(take(chunk, bricks));
+  terrain.each = [&](const PagedTerrain::Visit& visit) -> Result<void> {
+    for (const auto& [chunk, bricks] : shelf.chunks) TRY(visit(chunk, bricks));
     return {};
   };
   const auto restored = World::restore(value, terrain, 1, {});

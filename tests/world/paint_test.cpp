@@ -164,7 +164,7 @@ class Client {
     mirror = std::make_unique<Mirror>(welcome);
     publisher.join(session, eye_m, radius_m, true);
   }
-  void take(const std::vector<Outgoing>& outgoing) {
+  void receive(const std::vector<Outgoing>& outgoing) {
     for (const Outgoing& message : outgoing) {
       if (message.session != session_) continue;
       const auto decoded = decode_server(std::span(*message.bytes).subspan(length_prefix_bytes));
@@ -198,7 +198,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   const auto tick = [&](const std::vector<Command>& commands, std::initializer_list<Client*> clients) {
     const auto delta = world.step(commands);
     const auto outgoing = publisher.publish(*delta, [](uint64_t) { return Backlog{}; });
-    for (Client* client : clients) client->take(outgoing);
+    for (Client* client : clients) client->receive(outgoing);
   };
   Client live(publisher, 1, {0.0F, 0.0F, 0.0F}, 64.0F);
   Client beside(publisher, 2, {14.0F, 0.0F, 0.0F}, 5.0F);

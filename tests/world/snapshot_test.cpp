@@ -86,7 +86,7 @@ TEST(snapshot, requests_and_cuts_that_wait_are_answered_by_the_restored_world) {
     for (const SessionValue& session : party.sessions) waiting += session.requests.size();
   EXPECT_GT(waiting, 0U);
   EXPECT_EQ(at_once + waiting, commands.size());
-  EXPECT_FALSE(value.moment.cuts.empty());
+  EXPECT_FALSE(value.moment.refractures.empty());
   const auto other = restored(value);
   ASSERT_TRUE(other);
   size_t answered = 0;
@@ -144,7 +144,7 @@ TEST(snapshot, a_value_whose_parts_do_not_agree_is_refused_by_name) {
     w.moment.pieces[0].shape = std::make_shared<const BodyShape>(shape);
   });
   expect("authored", [](WorldSnapshot& w) {
-    w.moment.cuts.push_back({w.moment.pieces[0].id, 2, SeedPattern::authored, 1, {}, nullptr});
+    w.moment.refractures.push_back({w.moment.pieces[0].id, 2, SeedPattern::authored, 1, {}, nullptr});
   });
   expect("ids are used up", [](WorldSnapshot& w) { w.moment.next_piece = UINT32_MAX; });
   expect("after its tick", [](WorldSnapshot& w) { w.moment.requested = 31; });

@@ -63,11 +63,11 @@ TEST(stages, recombining_acts_in_the_ticks_in_which_pieces_merge) {
 
 TEST(stages, time_within_a_stage_is_taken_out_of_the_outer_one) {
   StageTimes times;
-  StageWatch watch;
-  watch.restart(TickStage::requests);
-  EXPECT_EQ(watch.switch_to(TickStage::spawn, times), TickStage::requests);
+  StageStopwatch stopwatch;
+  stopwatch.restart(TickStage::requests);
+  EXPECT_EQ(stopwatch.switch_to(TickStage::spawn, times), TickStage::requests);
   const double carved = times[TickStage::requests];
-  EXPECT_EQ(watch.switch_to(TickStage::requests, times), TickStage::spawn);
+  EXPECT_EQ(stopwatch.switch_to(TickStage::requests, times), TickStage::spawn);
   EXPECT_EQ(times[TickStage::requests], carved) << "the time in between is the inner stage's";
   EXPECT_GT(times[TickStage::spawn], 0.0);
 }

@@ -35,7 +35,7 @@ TEST(work, requests_over_the_budget_wait_and_are_carried_out_in_order) {
   auto delta = step(world, blows(world, 4, 64));
   EXPECT_GT(delta->work.requests_waiting, 0U);
   EXPECT_EQ(delta->replies.size() + delta->work.requests_waiting, 16U);
-  EXPECT_TRUE(delta->work.cut_short());
+  EXPECT_TRUE(delta->work.has_leftovers());
   uint32_t next = 0;
   int waited = 0;
   for (int tick = 0; tick < 300; ++tick) {

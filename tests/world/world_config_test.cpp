@@ -82,7 +82,7 @@ TEST_P(WorldAtItsEnds, carves_throws_and_merges) {
   const Command carves[] = {{1, 1, whole}, {0, 1, many}};
   auto delta = (*world)->step(carves);
   size_t alive = delta->pieces.size();
-  while (delta->work.requests_waiting + delta->work.cuts_put_off > 0) {
+  while (delta->work.requests_waiting + delta->work.refractures_put_off > 0) {
     delta = (*world)->step({});
     alive = std::max(alive, delta->pieces.size());
   }

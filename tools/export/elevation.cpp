@@ -65,8 +65,8 @@ Columns read_columns(Field& field, const ChunkBox& box, int chunk_x, int chunk_z
 class CellRows {
  public:
   CellRows(const ElevationGrid& grid, double voxel_m,
-           const std::function<Result<void>(std::span<const float>)>& take)
-      : grid_(grid), voxel_m_(voxel_m), take_(take), row_(static_cast<size_t>(grid.columns), none) {
+           const std::function<Result<void>(std::span<const float>)>& write_row)
+      : grid_(grid), voxel_m_(voxel_m), write_row_(write_row), row_(static_cast<size_t>(grid.columns), none) {
     sums_.lowest_m = std::numeric_limits<double>::infinity();
     sums_.highest_m = -sums_.lowest_m;
   }
@@ -92,7 +92,7 @@ class CellRows {
       sums_.highest_m = std::max(sums_.highest_m, static_cast<double>(height_m));
       sums_.volume_m3 += static_cast<double>(height_m) * grid_.cell_m * grid_.cell_m;
     }
-    const auto taken = take_(row_);
+    const auto taken = write_row_(row_);
     std::ranges::fill(row_, none);
     return taken;
   }
@@ -105,7 +105,7 @@ class CellRows {
 
   const ElevationGrid& grid_;
   const double voxel_m_;
-  const std::function<Result<void>(std::span<const float>)>& take_;
+  const std::function<Result<void>(std::span<const float>)>& write_row_;
   int cell_ = 0;
   std::vector<float> row_;
   ElevationSums sums_;
@@ -125,9 +125,9 @@ Result<ElevationGrid> elevation_grid(const ChunkBox& box, float voxel_size_m, st
 }
 
 Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, const ElevationGrid& grid,
-                                         const std::function<Result<void>(std::span<const float>)>& take,
+                                         const std::function<Result<void>(std::span<const float>)>& write_row,
                                          const std::function<void(double)>& progress) {
-  CellRows rows(grid, static_cast<double>(field.source().voxel_size_m), take);
+  CellRows rows(grid, static_cast<double>(field.source().voxel_size_m), write_row);
   const auto width = static_cast<size_t>(box.hi.x - box.lo.x) * side;
   std::vector<float> surface(side * width);
   for (int z = box.lo.z; z < box.hi.z; ++z) {

@@ -28,11 +28,11 @@ struct ElevationSums {
   double volume_m3 = 0.0;  ///< of the heights above y = 0, each for all of its cell
 };
 
-/// Calls take(heights) for each row, from the north: y of the highest rock of all voxel columns of a cell,
-/// metres, NaN where there is none; rock that reaches the box's top ends there. A few rows lie in memory.
-/// `progress(part)`: from 0 to 1. Errors are those of `take`, or that there is no rock at all.
+/// Calls write_row(heights) for each row, from the north: y of the highest rock of all voxel columns of a
+/// cell, metres, NaN where there is none; rock that reaches the box's top ends there. A few rows lie in
+/// memory. `progress(part)`: from 0 to 1. Errors are those of `write_row`, or that there is no rock at all.
 Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, const ElevationGrid& grid,
-                                         const std::function<Result<void>(std::span<const float>)>& take,
+                                         const std::function<Result<void>(std::span<const float>)>& write_row,
                                          const std::function<void(double)>& progress);
 
 }  // namespace scree

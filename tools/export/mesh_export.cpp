@@ -63,7 +63,7 @@ class Welder {
 };
 
 /// The field's codes in the box, and air around it.
-Window cut_window(Field& field, const VoxelBox& part, const VoxelBox& box) {
+Window clipped_window(Field& field, const VoxelBox& part, const VoxelBox& box) {
   Window window(part);
   const VoxelBox inside = common(part, box);
   if (!inside.empty()) put(gather(field, inside), window);
@@ -96,7 +96,7 @@ Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::s
     const VoxelCoord first = first_voxel(chunk);
     const VoxelBox owned{first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}};
     if (welder.welded().triangles.size() > limits::export_triangles_max) return;
-    welder.add(surface_nets(cut_window(field, owned.grown(surface_nets_apron), voxels), owned));
+    welder.add(surface_nets(clipped_window(field, owned.grown(surface_nets_apron), voxels), owned));
     progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(box.count())));
   });
   WeldedSurface& mesh = welder.welded();

@@ -33,7 +33,7 @@ class EventSearch {
  public:
   explicit EventSearch(const WhichEvent& which) : which_(which) {}
 
-  void take(const Event& event) {
+  void add(const Event& event) {
     ++number_;
     if (const auto* wanted = std::get_if<size_t>(&which_)) {
       if (*wanted == number_) found_ = event;
@@ -74,7 +74,7 @@ class EventSearch {
 Result<Event> find_event(const WhichEvent& which, RecordingReader& recording, const GroundGiver& ground) {
   EventSearch search(which);
   const auto read =
-      each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.take(event); });
+      each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.add(event); });
   TRY(read);
   auto found = search.found();
   if (!found) return fail(recording.path() + ": " + found.error().message);

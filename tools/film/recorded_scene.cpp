@@ -36,24 +36,24 @@ RecordedScene::RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_p
     : source_(std::move(source)),
       field_(source_->header().world.terrain),
       moment_(static_cast<double>(state->tick)) {
-  take(std::move(state), unseen_);
+  show(std::move(state), unseen_);
 }
 
 Result<MirrorChanges> RecordedScene::go_to(double tick) {
   CHECK(tick >= moment_ && tick <= static_cast<double>(source_->last_tick()));
   const auto whole = static_cast<Tick>(tick);
   while (now_->tick < whole) {
-    TRY(look_ahead());
-    take(std::exchange(ahead_, nullptr), unseen_);
+    TRY(read_ahead());
+    show(std::exchange(ahead_, nullptr), unseen_);
   }
   const double part = tick - static_cast<double>(whole);
-  if (part > 0.0) TRY(look_ahead());
+  if (part > 0.0) TRY(read_ahead());
   move_pieces(static_cast<float>(part));
   moment_ = tick;
   return std::exchange(unseen_, {});
 }
 
-Result<void> RecordedScene::look_ahead() {
+Result<void> RecordedScene::read_ahead() {
   if (ahead_ != nullptr) return {};
   auto next = source_->next();
   TRY(next);
@@ -63,18 +63,18 @@ Result<void> RecordedScene::look_ahead() {
   return {};
 }
 
-void RecordedScene::take(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes) {
+void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes) {
   now_ = std::move(delta);
   follow_bricks(*now_, field_);
   for (const BrickState& brick : now_->bricks) changes.bricks.push_back(brick.coord);
   for (const SpawnedPiece& piece : now_->spawned) volumes_[piece.id] = piece.volume;
-  take_pieces(changes);
+  update_pieces(changes);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
-  dust_.add(watch_.step(pieces_, field_.source().voxel_size_m, now_s), now_s);
+  dust_.add(piece_events_.step(pieces_, field_.source().voxel_size_m, now_s), now_s);
 }
 
 /// The pieces alive after the tick, where they are then.
-void RecordedScene::take_pieces(MirrorChanges& changes) {
+void RecordedScene::update_pieces(MirrorChanges& changes) {
   ScenePieces alive;
   for (const PieceState& piece : now_->pieces) {
     alive.emplace_hint(alive.end(), piece.id, ScenePiece{volumes_.at(piece.id), dequantise(piece.pose)});

@@ -11,7 +11,7 @@
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/particle.h"
 #include "client/viewer/events/dust.h"
-#include "client/viewer/events/piece_watch.h"
+#include "client/viewer/events/piece_event_detector.h"
 #include "server/replay/replay_source.h"
 
 namespace scree {
@@ -36,16 +36,16 @@ class RecordedScene {
   RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_ptr<const TickDelta> state);
 
   double seconds_of(double tick) const { return tick / source_->header().world.tick_rate_hz; }
-  Result<void> look_ahead();
-  void take(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes);
-  void take_pieces(MirrorChanges& changes);
+  Result<void> read_ahead();
+  void show(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes);
+  void update_pieces(MirrorChanges& changes);
   void move_pieces(float part);
 
   std::unique_ptr<ReplaySource> source_;
   MapField field_;
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;  ///< of the pieces alive
   ScenePieces pieces_;
-  PieceWatch watch_;
+  PieceEventDetector piece_events_;
   Dust dust_;
   MirrorChanges unseen_;                    ///< since the last moment that was asked for
   std::shared_ptr<const TickDelta> now_;    ///< the last whole tick

@@ -28,7 +28,7 @@ Result<void> render_frames(const FilmPlan& plan, const FilmOptions& options, Rec
 
 Result<RenderedFilm> render_film(const FilmOptions& options, const Stopped& stopped,
                                  const std::function<void(double)>& progress) {
-  Stopwatch watch;
+  Stopwatch stopwatch;
   const std::array files{NamedFile{"the recording", options.recording, false, true},
                          NamedFile{"--ground", options.ground},
                          NamedFile{"--out", options.format.file, true}};
@@ -40,7 +40,7 @@ Result<RenderedFilm> render_film(const FilmOptions& options, const Stopped& stop
   const auto scene = TRY(RecordedScene::open(options.recording, plan.span.from_tick, *ground));
   const auto drawer = TRY(FrameDrawer::create(options.drawn, scene->field().source()));
   TRY(render_frames(plan, options, *scene, *drawer, *sink, stopped, progress));
-  return RenderedFilm{std::move(plan), watch.lap_ms() / 1000.0};
+  return RenderedFilm{std::move(plan), stopwatch.lap_ms() / 1000.0};
 }
 
 }  // namespace scree

@@ -22,7 +22,8 @@ BrickLayout layout_around(const ChunkPyramid::Level& chunks, float voxel_size_m)
 }
 
 /// Levels of the coarse voxels in the box at which the fine chunk has a voxel.
-void take_levels(ChunkCoord at, const GeneratedChunk& fine, const VoxelBox& box, std::vector<float>& levels) {
+void sample_levels(ChunkCoord at, const GeneratedChunk& fine, const VoxelBox& box,
+                   std::vector<float>& levels) {
   const VoxelCoord first = first_voxel(at);
   const VoxelCoord half{first.x / 2, first.y / 2, first.z / 2};
   constexpr int side = chunk_size / 2;
@@ -66,7 +67,8 @@ ChunkPyramid::Level ChunkPyramid::coarser(const Level& fine, int level) const {
     for (int i = 0; i < 64; ++i) {
       const ChunkCoord at{parent.x * 2 - 1 + (i >> 4), parent.y * 2 - 1 + ((i >> 2) & 3),
                           parent.z * 2 - 1 + (i & 3)};
-      if (const auto found = fine.find(at); found != fine.end()) take_levels(at, *found->second, box, levels);
+      if (const auto found = fine.find(at); found != fine.end())
+        sample_levels(at, *found->second, box, levels);
     }
     distances_from_levels(levels, window);
     coarse.emplace(parent, std::make_shared<const GeneratedChunk>(split_into_bricks(window, parent)));

@@ -17,7 +17,7 @@ void no_progress(double) {}
 /// The ground of that file, and a place to look at it from.
 Result<SceneSetup> on_file(const std::string& path, glm::vec3 eye_m, glm::vec3 target_m) {
   SceneSetup setup;
-  TRY(take_ground(path, setup.config));
+  TRY(set_ground(path, setup.config));
   setup.eye_m = eye_m;
   setup.target_m = target_m;
   return setup;

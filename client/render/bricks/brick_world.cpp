@@ -77,7 +77,7 @@ void BrickWorld::update(Field& field, const std::vector<BrickCoord>& changed, gl
 void BrickWorld::upload_entries(ClipLevel& level) {
   glBindTexture(GL_TEXTURE_3D, entries_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  level.window().take_changed_slabs([&](int x, const ClipEntry* entries) {
+  level.window().drain_changed_slabs([&](int x, const ClipEntry* entries) {
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, side_ / 2 * level.level(), x, side_, side_ / 2, 1, GL_RG_INTEGER,
                     GL_UNSIGNED_INT, entries);
   });

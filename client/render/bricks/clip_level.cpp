@@ -74,7 +74,7 @@ void ClipLevel::list_pending(glm::vec3 eye_m) {
   });
 }
 
-void ClipLevel::take_generated(Field& field) {
+void ClipLevel::collect_generated(Field& field) {
   std::vector<Inbox::Generated> generated;
   {
     const std::lock_guard lock(inbox_->mutex);
@@ -105,7 +105,7 @@ bool ClipLevel::generated_around(const Field& field, ChunkCoord chunk) {
 }
 
 size_t ClipLevel::load(Field& field, size_t chunks_max, BrickAtlas& atlas) {
-  take_generated(field);
+  collect_generated(field);
   size_t read_chunks = 0;
   size_t examined = 0;
   for (size_t i = pending_.size(); i-- > 0;) {

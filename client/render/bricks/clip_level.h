@@ -45,7 +45,7 @@ class ClipLevel {
  private:
   struct Inbox;
 
-  void take_generated(Field& field);
+  void collect_generated(Field& field);
   bool generated_around(const Field& field, ChunkCoord chunk);
   void read(Field& field, BrickCoord brick, BrickAtlas& atlas);
   void release(const ClipEntry& entry, BrickAtlas& atlas);

@@ -79,7 +79,7 @@ class ClipWindow {
   /// Entries of one step along x, as they are uploaded: z fastest, then y; toroidal. Calls f(x, entries) for
   /// those changed since the last time.
   template <typename F>
-  void take_changed_slabs(F&& f) {
+  void drain_changed_slabs(F&& f) {
     for (int x = 0; x < side_; ++x) {
       if (!changed_[static_cast<size_t>(x)]) continue;
       changed_[static_cast<size_t>(x)] = false;

@@ -18,7 +18,7 @@ const void* offset_of(size_t index) {
 /// The row's buffer is bound as vertices or indices only while the arena's own array object is bound, which
 /// remembers it.
 size_t MeshArena::put(Row& row, const void* data, size_t count, size_t bytes_each) {
-  const size_t first = row.ranges.take(count);
+  const size_t first = row.ranges.allocate(count);
   glBindBuffer(GL_COPY_WRITE_BUFFER, row.buffer.name());
   if (row.ranges.end() > row.capacity) {
     const size_t kept = row.capacity;
@@ -90,7 +90,8 @@ size_t MeshArena::draw(std::span<const Slot> slots) {
 }
 
 size_t MeshArena::bytes() const {
-  return vertices_.ranges.taken() * sizeof(SurfaceVertex) + indices_.ranges.taken() * sizeof(uint32_t);
+  return vertices_.ranges.allocated() * sizeof(SurfaceVertex) +
+         indices_.ranges.allocated() * sizeof(uint32_t);
 }
 
 }  // namespace scree

@@ -117,7 +117,7 @@ void GridMethod::update(const Scene& scene, const Camera& camera) {
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
   // At once, like the terrain: a piece is never seen beside the rock that it was or has become.
-  pieces_.keep_only(scene.pieces);
+  pieces_.erase_all_but(scene.pieces);
   for (const auto& [id, piece] : scene.pieces)
     if (!pieces_.holds(id)) pieces_.show(mesh_piece(gather_piece(scene.field, id, piece)), world_->voxel_m());
   pieces_.move(scene.pieces);
@@ -186,7 +186,7 @@ DrawStats GridMethod::stats() const {
   stats.pieces = pieces_.count();
   if (world_) {
     stats.memory = world_->memory();
-    stats.kept = world_->atlas().bricks();
+    stats.resident = world_->atlas().bricks();
   }
   stats.memory.push_back({"grid", 0, points_.gpu_bytes() + case_row * cube_cases().size()});
   stats.memory.push_back({"pieces", 0, pieces_.gpu_bytes()});

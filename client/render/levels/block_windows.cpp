@@ -135,13 +135,13 @@ SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) co
   const Window* then = before ? &*before : nullptr;
   SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
                                       : surface_nets_placed(now, owned, then, mask, *place);
-  put_looks_on(made);
+  set_paint(made);
   return made;
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
   SurfaceMesh made = marching_cubes(now, owned, before ? &*before : nullptr, mask);
-  put_looks_on(made);
+  set_paint(made);
   return made;
 }
 
@@ -172,7 +172,7 @@ float BlockWindows::layer_m(const MaterialHeights& layers, glm::vec3 p) const {
   return (highest + beyond) / codes_per_voxel * source.voxel_size_m;
 }
 
-void BlockWindows::put_looks_on(SurfaceMesh& mesh) const {
+void BlockWindows::set_paint(SurfaceMesh& mesh) const {
   if (!before && paint.empty()) return;  // nothing was edited here
   constexpr int steps = surface_steps;
   const MaterialHeights layers = layers_of(source);

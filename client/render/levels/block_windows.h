@@ -26,7 +26,7 @@ struct BlockWindows {
   /// Sets SurfaceVertex::paint of a mesh in this window's voxels: by brick, and by layer in cuts. Makes
   /// SurfaceVertex::before a distance, 0 … 127, of what lies here now from the field as generated, also where
   /// that was at the same place but faced another way (worn_at in client/shaders/bricks.glsl).
-  void put_looks_on(SurfaceMesh& mesh) const;
+  void set_paint(SurfaceMesh& mesh) const;
 
  private:
   Code worn(const SurfaceVertex& vertex, glm::vec3 p) const;

@@ -33,7 +33,7 @@ TerrainSource spaced(TerrainSource source, int level) {
   return source;
 }
 
-void take_edits(Field& field, int level, Window& window) {
+void copy_edits(Field& field, int level, Window& window) {
   const int step = 1 << level;
   const auto fine = [step](VoxelCoord v) { return VoxelCoord{v.x * step, v.y * step, v.z * step}; };
   // The first sample not below.
@@ -128,7 +128,7 @@ LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
-  if (level_ > 0 && edited) take_edits(field, level_, window);
+  if (level_ > 0 && edited) copy_edits(field, level_, window);
   LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, 0};
   if (level_ == 0) read.paint = paint_number(shown_material(field, brick));
   read.kind = kind_of(read.field);

@@ -31,7 +31,7 @@ LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 TerrainSource spaced(TerrainSource source, int level);
 
 /// Writes the edited codes of the field, which is level 0, into a window of that level.
-void take_edits(Field& field, int level, Window& window);
+void copy_edits(Field& field, int level, Window& window);
 
 class LevelBricks {
  public:

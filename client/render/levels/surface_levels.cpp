@@ -44,7 +44,7 @@ std::optional<BlockWindows> SurfaceLevels::gather(Field& field, int level, const
   if (!has_edits(field, level, box)) return gather_windows(generator, owned);
   BlockWindows windows{owned, gather_generated(generator, box), std::nullopt, {}, generator.source()};
   windows.before = windows.now;
-  take_edits(field, level, windows.now);
+  copy_edits(field, level, windows.now);
   return windows;
 }
 

@@ -167,7 +167,7 @@ DrawStats MeshMethod::stats() const {
   DrawStats stats = pass_;
   stats.memory = {{"meshes", 0, arena_.bytes() + pieces_.gpu_bytes()}};
   stats.pieces = pieces_.count();
-  stats.kept = blocks_.size();
+  stats.resident = blocks_.size();
   stats.waiting = scheduler_.waiting();
   return stats;
 }

@@ -82,7 +82,7 @@ void MeshScheduler::start(const TerrainSource& source) {
 
 MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   if (!forest_) start(scene.field.source());
-  take_results(scene.field);
+  collect_results(scene.field);
   MeshUpdate update;
   if (batch_ && batch_->begun && batch_->jobs_left == 0) {
     caught_up_ = caught_up_ || batch_->of_changes;
@@ -97,7 +97,7 @@ MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   return update;
 }
 
-void MeshScheduler::take_results(Field& field) {
+void MeshScheduler::collect_results(Field& field) {
   Inbox done;
   {
     const std::lock_guard lock(inbox_->mutex);

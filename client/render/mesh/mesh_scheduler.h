@@ -60,7 +60,7 @@ class MeshScheduler {
   };
 
   void start(const TerrainSource& source);
-  void take_results(Field& field);
+  void collect_results(Field& field);
   bool has_changes() const;
   void begin_batch(const Scene& scene, glm::vec3 eye_m);
   void begin_growth(Field& field, glm::vec3 eye_m);

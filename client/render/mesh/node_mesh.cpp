@@ -210,7 +210,7 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
     vertices.push_back(placed);
   }
   add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh.vertices);
-  windows.put_looks_on(mesh);
+  windows.set_paint(mesh);
   return mesh;
 }
 static_assert(surface_steps_per_voxel == 256.0F);

@@ -51,10 +51,10 @@ float SurfaceForest::distance_m(const SurfaceNode& node, glm::vec3 eye_m) const 
   return std::sqrt(x * x + y * y + z * z);
 }
 
-bool SurfaceForest::wants_split(const SurfaceNode& node, glm::vec3 eye_m, float keep) const {
+bool SurfaceForest::wants_split(const SurfaceNode& node, glm::vec3 eye_m, float hysteresis) const {
   // In proportion to its side: at least twice that, which keeps neighbours within one level.
   const float within_m = shape_.fine_m * static_cast<float>(1 << (node.level - 1));
-  return distance_m(node, eye_m) < within_m * keep;
+  return distance_m(node, eye_m) < within_m * hysteresis;
 }
 
 Neighbour SurfaceForest::kind_at(const SurfaceNode& node) const {
@@ -62,7 +62,7 @@ Neighbour SurfaceForest::kind_at(const SurfaceNode& node) const {
   return split_.contains(node) ? Neighbour::finer : Neighbour::beyond;
 }
 
-Neighbours SurfaceForest::look_around(const SurfaceNode& node) const {
+Neighbours SurfaceForest::neighbours_of(const SurfaceNode& node) const {
   Neighbours around;
   for_each_around(node, [&](const SurfaceNode& other, size_t i) { around[i] = kind_at(other); });
   return around;
@@ -219,7 +219,7 @@ void SurfaceForest::refresh(const std::vector<SurfaceNode>& touched, ForestStep&
   for (const SurfaceNode& node : near) {
     const auto leaf = leaves_.find(node);
     if (leaf == leaves_.end()) continue;
-    const Neighbours around = look_around(node);
+    const Neighbours around = neighbours_of(node);
     if (around == leaf->second) continue;
     note(node);
     leaf->second = around;

@@ -90,7 +90,7 @@ class SurfaceForest {
   void note(const SurfaceNode& node);
   float side_m(int level) const { return shape_.block_m * static_cast<float>(1 << level); }
   float distance_m(const SurfaceNode& node, glm::vec3 eye_m) const;
-  bool wants_split(const SurfaceNode& node, glm::vec3 eye_m, float keep) const;
+  bool wants_split(const SurfaceNode& node, glm::vec3 eye_m, float hysteresis) const;
   void move_roots(glm::vec3 eye_m, ForestStep& step, std::vector<SurfaceNode>& touched);
   std::vector<Change> wishes(glm::vec3 eye_m) const;
   bool may_split(const SurfaceNode& node) const;
@@ -99,7 +99,7 @@ class SurfaceForest {
   void join(const SurfaceNode& node, ForestStep& step);
   void remove_tree(const SurfaceNode& node, ForestStep& step);
   Neighbour kind_at(const SurfaceNode& node) const;
-  Neighbours look_around(const SurfaceNode& node) const;
+  Neighbours neighbours_of(const SurfaceNode& node) const;
   void refresh(const std::vector<SurfaceNode>& touched, ForestStep& step);
 
   ForestShape shape_;

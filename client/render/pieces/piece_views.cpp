@@ -34,7 +34,7 @@ void PieceViews::move(const ScenePieces& pieces) {
   }
 }
 
-void PieceViews::keep_only(const ScenePieces& pieces) {
+void PieceViews::erase_all_but(const ScenePieces& pieces) {
   std::vector<PieceId> gone;
   for (const auto& [id, view] : views_)
     if (!pieces.contains(id)) gone.push_back(id);

@@ -17,7 +17,7 @@ class PieceViews {
   /// Moves the meshes to the scene's poses. A piece that is missing in the scene stays at its last pose.
   void move(const ScenePieces& pieces);
   /// Removes the pieces that are not in the scene.
-  void keep_only(const ScenePieces& pieces);
+  void erase_all_but(const ScenePieces& pieces);
   bool holds(PieceId id) const { return views_.contains(id); }
 
   /// With the program in use, whose view projection is set. Adds to the pass's draws and triangles.

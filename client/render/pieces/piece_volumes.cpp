@@ -86,7 +86,7 @@ void PieceVolumes::update(Field& field, const ScenePieces& pieces, BrickAtlas& a
   upload_instances(pieces);
 }
 
-uint32_t PieceVolumes::take_run(uint32_t count) {
+uint32_t PieceVolumes::allocate_run(uint32_t count) {
   const auto size_class = static_cast<size_t>(std::bit_width(count - 1));
   std::vector<uint32_t>& runs = free_runs_[size_class];
   if (!runs.empty()) {
@@ -115,7 +115,7 @@ PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, 
   const Window before = gather_generated(field, window.box);
   const uint8_t paint = paint_number(field, *piece.volume);
   stored.count = static_cast<uint32_t>(bricks.x * bricks.y * bricks.z);
-  stored.first = take_run(stored.count);
+  stored.first = allocate_run(stored.count);
   ClipEntry* entry = &entries_[stored.first];
   for (int x = 0; x < bricks.x; ++x)
     for (int y = 0; y < bricks.y; ++y)

@@ -51,7 +51,7 @@ class PieceVolumes {
 
   Stored store(Field& field, const ScenePiece& piece, BrickAtlas& atlas);
   void drop(const Stored& stored, BrickAtlas& atlas);
-  uint32_t take_run(uint32_t count);
+  uint32_t allocate_run(uint32_t count);
   void upload_entries(uint32_t first, uint32_t count);
   void upload_instances(const ScenePieces& pieces);
 

@@ -219,7 +219,7 @@ DrawStats RaymarchMethod::stats() const {
   stats.pieces = pieces_.count();
   if (world_) {
     stats.memory = world_->memory();
-    stats.kept = world_->atlas().bricks();
+    stats.resident = world_->atlas().bricks();
   }
   stats.memory.push_back({"targets", 0, targets_.bytes()});
   stats.memory.push_back({"pieces", pieces_.cpu_bytes(), pieces_.gpu_bytes()});

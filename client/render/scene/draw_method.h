@@ -58,7 +58,7 @@ struct DrawStats {
   size_t draws = 0;      ///< GL draw calls of the last colour pass
   size_t triangles = 0;  ///< of the last colour pass
   size_t pieces = 0;     ///< shown now
-  size_t kept = 0;       ///< blocks of triangles, or bricks, on the GPU
+  size_t resident = 0;   ///< blocks of triangles, or bricks, on the GPU
   size_t waiting = 0;    ///< units of work not yet shown
   MemoryCounts memory;
 };

@@ -14,7 +14,7 @@ inline constexpr float view_radius_max_m = interest_radius_max_m;
 
 /// Drawn terrain may reach beyond the radius of loading by this factor: it is dropped later than it was
 /// loaded.
-inline constexpr float view_radius_keep = 1.15F;
+inline constexpr float view_radius_hysteresis = 1.15F;
 
 /// Chunks being generated at any moment: work for the threads through a slow frame. Edits overtake them. The
 /// rest waits, nearest first, and is chosen again when the camera has moved.

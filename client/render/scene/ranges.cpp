@@ -7,9 +7,9 @@
 
 namespace scree {
 
-size_t Ranges::take(size_t count) {
+size_t Ranges::allocate(size_t count) {
   CHECK(count > 0);
-  taken_ += count;
+  allocated_ += count;
   const auto gap = std::ranges::find_if(gaps_, [count](const auto& one) { return one.second >= count; });
   if (gap == gaps_.end()) {
     end_ += count;
@@ -22,8 +22,8 @@ size_t Ranges::take(size_t count) {
 }
 
 void Ranges::give(size_t first, size_t count) {
-  CHECK(count > 0 && first + count <= end_ && count <= taken_);
-  taken_ -= count;
+  CHECK(count > 0 && first + count <= end_ && count <= allocated_);
+  allocated_ -= count;
   auto next = gaps_.lower_bound(first);
   CHECK(next == gaps_.end() || first + count <= next->first);
   if (next != gaps_.end() && first + count == next->first) {

@@ -38,14 +38,14 @@ void WorkPool::run() {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [this] { return stopping_ || !queues_[0].empty() || !queues_[1].empty(); });
       if (stopping_) return;
-      job = take();
+      job = pop();
     }
     job();
   }
 }
 
 /// The next job; one waits, and the mutex is held.
-std::function<void()> WorkPool::take() {
+std::function<void()> WorkPool::pop() {
   auto& queue = queues_[0].empty() ? queues_[1] : queues_[0];
   std::function<void()> job = std::move(queue.front());
   queue.pop_front();
@@ -60,7 +60,7 @@ bool WorkPool::run_for(double seconds) {
     {
       const std::lock_guard lock(mutex_);
       if (queues_[0].empty() && queues_[1].empty()) return false;
-      job = take();
+      job = pop();
     }
     job();
     const double now_s = steady_now_s();

@@ -35,7 +35,7 @@ class WorkPool {
 
  private:
   void run();
-  std::function<void()> take();
+  std::function<void()> pop();
 
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -18,8 +18,8 @@ constexpr float step_max_s = 0.1F;
 }  // namespace
 
 void fly(Camera& camera, const FlyInput& input, float elapsed_s) {
-  camera.yaw -= input.look.x * radians_per_pixel;
-  camera.pitch = glm::clamp(camera.pitch - input.look.y * radians_per_pixel, -pitch_max, pitch_max);
+  camera.yaw -= input.turn.x * radians_per_pixel;
+  camera.pitch = glm::clamp(camera.pitch - input.turn.y * radians_per_pixel, -pitch_max, pitch_max);
   const glm::vec3 move = camera.right() * input.move.x + glm::vec3(0.0F, 1.0F, 0.0F) * input.move.y +
                          camera.forward() * input.move.z;
   if (glm::dot(move, move) < 1e-6F) return;

@@ -12,7 +12,7 @@ namespace scree {
 struct FlyInput {
   glm::vec3 move{0.0F};  ///< right, up, forward, as parts of the full speed; together at most that
   bool fast = false;
-  glm::vec2 look{0.0F};  ///< mouse, pixels to the right and down
+  glm::vec2 turn{0.0F};  ///< mouse, pixels to the right and down
 };
 
 /// Stays within the world and short of straight up and down.

@@ -10,7 +10,7 @@ namespace {
 
 /// Tilt that counts as none: worn sticks do not return to their middle.
 constexpr float dead_zone = 0.15F;
-constexpr float look_pixels_per_s = 900.0F;  ///< of the mouse's, at full tilt
+constexpr float turn_pixels_per_s = 900.0F;  ///< of the mouse's, at full tilt
 
 /// The tilt from the edge of the dead zone on, squared: fine control near the middle.
 float tilt(float axis) {
@@ -33,7 +33,7 @@ std::vector<Action> Gamepad::step(const PadState& now, float elapsed_s, FlyInput
   fly.move.x += tilt(now.left_x);
   fly.move.y += stick(GLFW_GAMEPAD_BUTTON_LEFT_THUMB) - stick(GLFW_GAMEPAD_BUTTON_RIGHT_THUMB);
   fly.move.z -= tilt(now.left_y);
-  fly.look += glm::vec2(tilt(now.right_x), tilt(now.right_y)) * (look_pixels_per_s * elapsed_s);
+  fly.turn += glm::vec2(tilt(now.right_x), tilt(now.right_y)) * (turn_pixels_per_s * elapsed_s);
   fly.fast = fly.fast || pressed(now.left_trigger);
   struck_ = pressed(now.right_trigger) && !pressed(before.right_trigger);
   std::vector<Action> actions;

@@ -46,7 +46,7 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
 ScreenshotQueue::ScreenshotQueue(std::vector<ScreenshotOrder> orders)
     : orders_(std::move(orders)), reached_s_(orders_.size()) {}
 
-std::vector<ScreenshotOrder> ScreenshotQueue::take_due(const Moment& moment) {
+std::vector<ScreenshotOrder> ScreenshotQueue::pop_due(const Moment& moment) {
   if (moment.alive || !moment.carved) {
     calm_since_s_.reset();
   } else if (!calm_since_s_) {

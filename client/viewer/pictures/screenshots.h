@@ -41,7 +41,7 @@ class ScreenshotQueue {
   bool empty() const { return orders_.empty(); }
   const std::vector<ScreenshotOrder>& waiting() const { return orders_; }
   /// The orders due now; they leave the queue.
-  std::vector<ScreenshotOrder> take_due(const Moment& moment);
+  std::vector<ScreenshotOrder> pop_due(const Moment& moment);
 
  private:
   bool due(const ScreenshotOrder& order, const Moment& moment) const;

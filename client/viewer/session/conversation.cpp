@@ -5,7 +5,7 @@
 
 namespace scree {
 
-void Conversation::take(const SaidMessage& said, double now_s) {
+void Conversation::apply(const SaidMessage& said, double now_s) {
   if (lines_.size() >= limits::lines_kept_max) lines_.pop_front();
   const std::string speaker = said.session == 0 ? "server" : called(said.session, said.name);
   lines_.push_back({speaker + ": " + said.text, now_s});

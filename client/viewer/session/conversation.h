@@ -13,8 +13,8 @@ class Conversation {
  public:
   /// With another server, or again: nobody is known yet.
   void begin() { persons_ = {}; }
-  void take(const PersonsMessage& persons) { persons_ = persons; }
-  void take(const SaidMessage& said, double now_s);
+  void apply(const PersonsMessage& persons) { persons_ = persons; }
+  void apply(const SaidMessage& said, double now_s);
 
   const PersonsMessage& persons() const { return persons_; }
   /// The lines of the last seconds, oldest first, "Ann: mind the edge"; with `all`, the last few however old.

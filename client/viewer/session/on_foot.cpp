@@ -22,9 +22,9 @@ void OnFoot::change(const Camera& camera) {
 
 void OnFoot::step(Camera& camera, const FlyInput& input, float elapsed_s, const Scene& scene) {
   CHECK(walks());
-  FlyInput look = input;
-  look.move = glm::vec3(0.0F);
-  fly(camera, look, elapsed_s);
+  FlyInput turned = input;
+  turned.move = glm::vec3(0.0F);
+  fly(camera, turned, elapsed_s);
   const glm::vec3 ahead(-std::sin(camera.yaw), 0.0F, -std::cos(camera.yaw));
   const WalkInput walk{camera.right() * input.move.x + ahead * input.move.z, input.fast, input.move.y > 0.0F};
   SolidGround ground(scene, walker_->feet_m());

@@ -30,7 +30,7 @@ void add_chunk(LineList& lines, ChunkCoord chunk, float voxel_m, LineColour colo
 
 /// The message has no faces of hulls, but near corners of a convex body mostly share an edge: so each corner
 /// is joined with its three nearest.
-void add_hull(LineList& lines, const WatchedBody& body, const Pose& pose, LineColour colour) {
+void add_hull(LineList& lines, const BodyView& body, const Pose& pose, LineColour colour) {
   const auto place = [&](const glm::vec3& corner_m) { return pose.position_m + pose.rotation * corner_m; };
   std::vector<size_t> others(body.hull_m.size());
   for (size_t i = 0; i < body.hull_m.size(); ++i) {
@@ -71,13 +71,13 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
 }
 
 void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m) {
-  for (const WatchedBody& body : physics.bodies) {
+  for (const BodyView& body : physics.bodies) {
     const auto piece = pieces.find(body.id);
     if (piece == pieces.end()) continue;
     const LineColour moving = body.island ? island_colour : awake_colour;
     add_hull(lines, body, piece->second.pose, body.awake ? moving : asleep_colour);
   }
-  for (const WatchedContact& contact : physics.contacts) {
+  for (const ContactView& contact : physics.contacts) {
     const float length_m =
         std::clamp(contact_min_m * std::sqrt(contact.impulse_n_s) * 0.1F, contact_min_m, contact_max_m);
     lines.line(contact.point_m, contact.point_m + contact.normal * length_m, contact_colour);

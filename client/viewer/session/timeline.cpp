@@ -24,7 +24,7 @@ void Timeline::begin(double tick_rate_hz) {
   tick_rate_hz_ = tick_rate_hz;
 }
 
-bool Timeline::take(const PlaybackMessage& playback, double now_s) {
+bool Timeline::apply(const PlaybackMessage& playback, double now_s) {
   const double expected = playback_ ? played_to(now_s) : static_cast<double>(playback.moment);
   const double off = std::abs(static_cast<double>(playback.moment) - expected);
   const auto speed = std::max(1.0, std::abs(static_cast<double>(playback.speed)));
@@ -112,7 +112,7 @@ void Timeline::act(Action action) {
   }
 }
 
-std::optional<ControlReplayRequest> Timeline::take_due(double now_s) {
+std::optional<ControlReplayRequest> Timeline::pop_due(double now_s) {
   if (under_way_ && now_s - under_way_->sent_s > limits::replay_move_s) under_way_.reset();
   if (waiting_.empty()) return std::nullopt;
   const bool moves = waiting_.front().move != ReplayMove::stay;

@@ -17,8 +17,8 @@ class Timeline {
   /// With another server, or again: nothing is known yet.
   void begin(double tick_rate_hz);
   /// Whether the moment is another one than playing would have come to.
-  bool take(const PlaybackMessage& playback, double now_s);
-  void take(const MarksMessage& news) { take_news(marks_, news); }
+  bool apply(const PlaybackMessage& playback, double now_s);
+  void apply(const MarksMessage& news) { apply_news(marks_, news); }
   /// The server has refused a wish: what waited for its end goes on.
   void refused() { under_way_.reset(); }
 
@@ -37,7 +37,7 @@ class Timeline {
   /// What the action wants of the replay; nothing if it concerns others.
   void act(Action action);
   /// The next wish to be sent. Call again until there is none.
-  std::optional<ControlReplayRequest> take_due(double now_s);
+  std::optional<ControlReplayRequest> pop_due(double now_s);
 
  private:
   struct UnderWay {

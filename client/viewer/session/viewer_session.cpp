@@ -53,7 +53,7 @@ void ViewerSession::take_events(double now_s, SessionStep& step) {
     const std::optional<Client::Event> event = client_.next();
     if (!event) return;
     std::visit(Overloaded{[&](const Client::Joined& joined) { begin(joined, now_s, step); },
-                          [&](const Client::Applied& applied) { take(applied, now_s, step); },
+                          [&](const Client::Applied& applied) { apply(applied, now_s, step); },
                           [&](const Client::Lost& lost) { lose(now_s, lost.end); }},
                *event);
     const double began_s = std::exchange(last_s, steady_now_s());
@@ -89,7 +89,7 @@ void ViewerSession::begin(const Client::Joined& joined, double now_s, SessionSte
   timeline_.begin(tick_rate_hz_);
   trouble_.clear();
   reported_cursor_ = {};
-  watching_ = false;
+  physics_requested_ = false;
   saw_pieces_ = false;
   rate_since_s_ = now_s;
   rate_bytes_ = client_.counters().received_bytes;
@@ -119,18 +119,18 @@ void ViewerSession::measure_rate(double now_s) {
   rate_bytes_ = received;
 }
 
-void ViewerSession::take(const Client::Applied& applied, double now_s, SessionStep& step) {
+void ViewerSession::apply(const Client::Applied& applied, double now_s, SessionStep& step) {
   const double arrived_s = applied.received.arrived_s();
   std::visit(Overloaded{[&](const FrameMessage& frame) { pace_.note(frame.tick, arrived_s); },
-                        [&](const ReplyMessage& reply) { take(reply, arrived_s, now_s); },
+                        [&](const ReplyMessage& reply) { settle(reply, arrived_s, now_s); },
                         [&](const CursorsMessage& cursors) { cursors_ = cursors.cursors; },
-                        [&](const RecordedCursorsMessage& cursors) { take(cursors); },
+                        [&](const RecordedCursorsMessage& cursors) { set_recorded_cursors(cursors); },
                         [&](const PlaybackMessage& playback) {
-                          step.jumped = timeline_.take(playback, now_s) || step.jumped;
+                          step.jumped = timeline_.apply(playback, now_s) || step.jumped;
                         },
-                        [&](const MarksMessage& marks) { timeline_.take(marks); },
-                        [&](const PersonsMessage& persons) { conversation_.take(persons); },
-                        [&](const SaidMessage& said) { conversation_.take(said, now_s); },
+                        [&](const MarksMessage& marks) { timeline_.apply(marks); },
+                        [&](const PersonsMessage& persons) { conversation_.apply(persons); },
+                        [&](const SaidMessage& said) { conversation_.apply(said, now_s); },
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
                         [](const auto&) {}},  // the mirror's alone
              applied.received.message);
@@ -138,7 +138,7 @@ void ViewerSession::take(const Client::Applied& applied, double now_s, SessionSt
   append(step.changes, applied.changes);
 }
 
-void ViewerSession::take(const ReplyMessage& reply, double arrived_s, double now_s) {
+void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double now_s) {
   if (const auto asked = asked_s_.find(reply.request); asked != asked_s_.end()) {
     latency_ = {(arrived_s - asked->second) * 1000.0, reply.latency};
     asked_s_.erase(asked);
@@ -149,7 +149,7 @@ void ViewerSession::take(const ReplyMessage& reply, double arrived_s, double now
   notice_until_s_ = now_s + notice_s;
 }
 
-void ViewerSession::take(const RecordedCursorsMessage& recorded) {
+void ViewerSession::set_recorded_cursors(const RecordedCursorsMessage& recorded) {
   recorded_cursors_ = recorded.cursors;
   for (PlayerCursor& cursor : recorded_cursors_) {
     cursor.name = called(cursor.session, cursor.name);
@@ -159,7 +159,7 @@ void ViewerSession::take(const RecordedCursorsMessage& recorded) {
 
 /// Wishes of a replay are acts of administrators: a token came with the hello.
 void ViewerSession::control_replay(double now_s) {
-  while (const std::optional<ControlReplayRequest> wish = timeline_.take_due(now_s))
+  while (const std::optional<ControlReplayRequest> wish = timeline_.pop_due(now_s))
     client_.send(AdminMessage{++requests_, "", *wish});
 }
 
@@ -172,10 +172,10 @@ void ViewerSession::report(double now_s, glm::vec3 eye_m) {
 }
 
 void ViewerSession::report_cursor(double now_s, const Camera& camera) {
-  if (watch_ != watching_) {
-    watching_ = watch_;
-    if (!watch_) physics_.reset();
-    client_.send(WatchMessage{watch_});
+  if (wants_physics_ != physics_requested_) {
+    physics_requested_ = wants_physics_;
+    if (!wants_physics_) physics_.reset();
+    client_.send(PhysicsSubscriptionMessage{wants_physics_});
   }
   if (now_s < next_cursor_s_) return;
   next_cursor_s_ = now_s + limits::cursor_interval_s;

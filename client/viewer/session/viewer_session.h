@@ -88,7 +88,7 @@ class ViewerSession {
   /// To all persons.
   void say(const std::string& text);
   /// Switches the server's PhysicsMessages on or off; and the last one, null before the first.
-  void watch(bool physics) { watch_ = physics; }
+  void want_physics(bool physics) { wants_physics_ = physics; }
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
   /// The last reported place of interest, and its radius.
   glm::vec3 interest_m() const { return client_.eye_m(); }
@@ -122,9 +122,9 @@ class ViewerSession {
   void take_events(double now_s, SessionStep& step);
   void begin(const Client::Joined& joined, double now_s, SessionStep& step);
   void lose(double now_s, const ConnectionEnd& end);
-  void take(const Client::Applied& applied, double now_s, SessionStep& step);
-  void take(const ReplyMessage& reply, double arrived_s, double now_s);
-  void take(const RecordedCursorsMessage& recorded);
+  void apply(const Client::Applied& applied, double now_s, SessionStep& step);
+  void settle(const ReplyMessage& reply, double arrived_s, double now_s);
+  void set_recorded_cursors(const RecordedCursorsMessage& recorded);
   void measure_rate(double now_s);
   void report(double now_s, glm::vec3 eye_m);
   void report_cursor(double now_s, const Camera& camera);
@@ -149,8 +149,8 @@ class ViewerSession {
   Timeline timeline_;
   Figures figures_;
   Conversation conversation_;
-  bool watch_ = false;
-  bool watching_ = false;  ///< the last state sent to the server
+  bool wants_physics_ = false;
+  bool physics_requested_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;
   bool saw_pieces_ = false;
   uint32_t requests_ = 0;

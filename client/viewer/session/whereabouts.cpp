@@ -15,7 +15,7 @@ void Whereabouts::walk_or_fly(const Camera& camera, ViewerSession& session) {
   if (session.mirror() != nullptr) feet_.change(camera);
 }
 
-bool Whereabouts::look_through_next(ViewerSession& session, double now_s) {
+bool Whereabouts::follow_next_eye(ViewerSession& session, double now_s) {
   const Figures& figures = session.figures(now_s);
   eye_.next(figures);
   feet_.stop();

@@ -18,7 +18,7 @@ class Whereabouts {
   /// Walks from where the camera is, or flies on; only in a world.
   void walk_or_fly(const Camera& camera, ViewerSession& session);
   /// Through the next person's eye, or the own one again. False: there is nobody.
-  bool look_through_next(ViewerSession& session, double now_s);
+  bool follow_next_eye(ViewerSession& session, double now_s);
 
  private:
   OnFoot feet_;

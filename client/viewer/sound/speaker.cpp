@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds pause{8};
 
 /// Before other threads begin, for it sets variables of the environment. Where there is no card, ALSA says so
 /// in ten lines on the standard error, and OpenAL in one; a person's own choice stays.
-void keep_quiet() {
+void silence_library_log() {
   ::setenv("ALSOFT_LOGLEVEL", "0", 0);
   if (!std::filesystem::exists("/dev/snd")) ::setenv("ALSOFT_DRIVERS", "-alsa,", 0);
 }
@@ -79,7 +79,7 @@ void Speaker::Parts::run(const std::stop_token& stop) {
 }
 
 Result<std::unique_ptr<Speaker>> Speaker::open() {
-  keep_quiet();
+  silence_library_log();
   auto parts = std::make_unique<Parts>();
   parts->device.reset(alcOpenDevice(nullptr));
   if (!parts->device) return fail("there is no device to play sound on");

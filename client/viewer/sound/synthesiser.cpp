@@ -57,7 +57,7 @@ constexpr float near_m = 3.0F;
 constexpr float silent = 1e-4F;
 constexpr std::array overtones{1.0F, 1.83F, 2.71F};  ///< of a block that is no string
 
-float kept_in(float seconds) {
+float decay_over(float seconds) {
   return std::exp(-1.0F / (std::max(seconds, 1e-3F) * rate));
 }
 
@@ -80,7 +80,7 @@ void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
   voice.left = loud * std::sqrt(0.5F * (1.0F - 0.8F * side));
   voice.right = loud * std::sqrt(0.5F * (1.0F + 0.8F * side));
   voice.noise = timbre.noise;
-  voice.noise_kept = kept_in(manner.noise_s * std::sqrt(size_m));
+  voice.noise_decay = decay_over(manner.noise_s * std::sqrt(size_m));
   voice.grain_share = manner.grains;
   // Large things are dull, and so is what is far: air takes the high notes first.
   const float cut_hz = 6000.0F / (0.4F + size_m) / (1.0F + far_m / 60.0F);
@@ -88,10 +88,10 @@ void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
   for (size_t i = 0; i < modes; ++i) {
     const float pitch_hz =
         std::min(timbre.pitch_hz / size_m * overtones[i] * (0.95F + 0.1F * voice.random.unit()), 0.2F * rate);
-    const float kept = kept_in(timbre.ring_s * size_m / overtones[i]);
+    const float decay = decay_over(timbre.ring_s * size_m / overtones[i]);
     const float turn = 2.0F * std::numbers::pi_v<float> * pitch_hz / rate;
     const float start = manner.ringing * (1.0F - timbre.noise) / static_cast<float>(i + 1);
-    voice.ringing[i] = {kept * std::cos(turn), kept * std::sin(turn), 0.0F, start};
+    voice.ringing[i] = {decay * std::cos(turn), decay * std::sin(turn), 0.0F, start};
   }
   voices_.push_back(std::move(voice));
   if (voices_.size() <= limits::voices_max) return;
@@ -110,7 +110,7 @@ float Synthesiser::next_sample(Voice& voice) {
   const float hiss = voice.random.unit() * 2.0F - 1.0F;
   // Fewer grains are louder ones.
   voice.low += voice.dull * ((bursts ? hiss * voice.noise / std::sqrt(voice.grain_share) : 0.0F) - voice.low);
-  voice.noise *= voice.noise_kept;
+  voice.noise *= voice.noise_decay;
   return sum + voice.low;
 }
 

@@ -47,7 +47,7 @@ class Synthesiser {
     size_t wait = 0;  ///< samples until it is heard
     std::array<Mode, modes> ringing{};
     float noise = 0.0F;        ///< loudness of the noise now
-    float noise_kept = 0.0F;   ///< of it, after a sample
+    float noise_decay = 0.0F;  ///< of it, after a sample
     float grain_share = 1.0F;  ///< part of the samples in which noise bursts: fewer crackle
     float dull = 1.0F;         ///< of a one-pole low pass; 1: none
     float low = 0.0F;          ///< its state

@@ -12,15 +12,15 @@ bool Flight::over(const ViewerOptions& options) const {
 Result<bool> Flight::turn(Viewing& viewing, double now_s) {
   const ViewerOptions& options = viewing.options;
   viewing.camera = path_.at(static_cast<double>(frame_) / options.frames_per_s);
-  Stopwatch watch;
+  Stopwatch stopwatch;
   if (Result<void> stepped = viewing.step(now_s); !stepped) return fail(stepped.error().message);
   FrameTime time;
-  time.update_ms = watch.lap_ms();
+  time.update_ms = stopwatch.lap_ms();
   if (options.time_demo) {
     const Result<void> drawn = viewing.view->renderer().draw_unseen(
         *viewing.view->methods().shown(), viewing.camera, options.width, options.height);
     if (!drawn) return fail(drawn.error().message);
-    time.draw_ms = watch.lap_ms();
+    time.draw_ms = stopwatch.lap_ms();
     time.frame_ms = time.update_ms + time.draw_ms;
     times_.push_back(time);
   } else if (!viewing.view->methods().loaded()) {

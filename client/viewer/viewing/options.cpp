@@ -173,7 +173,7 @@ Result<void> understand_pictures(ViewerOptions& options) {
   return {};
 }
 
-Result<void> take_preset(CLI::App& app, const std::string& name) {
+Result<void> apply_preset(CLI::App& app, const std::string& name) {
   if (name.empty()) return {};
   const std::optional<Preset> preset = kind_named<Preset>(name);
   if (preset && !is_for_viewers(*preset))
@@ -235,7 +235,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   Result<void> understood;
   try {
     app.parse(argc, argv);
-    understood = take_preset(app, texts.preset);
+    understood = apply_preset(app, texts.preset);
     const auto given = [&](const std::string& name) { return app.get_option(name)->count() > 0; };
     options.given = {.size = given("--size"),
                      .camera = given("--camera"),

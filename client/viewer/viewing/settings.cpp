@@ -181,7 +181,7 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
   if (!options.given.method && method != nullptr) options.method = method;
 }
 
-KeptSettings::KeptSettings(std::string file) : file_(std::move(file)) {
+SettingsFile::SettingsFile(std::string file) : file_(std::move(file)) {
   if (file_.empty() || !std::filesystem::exists(file_)) return;
   const Result<std::string> text = read_text(file_);
   const Result<Settings> settings = text ? parse_settings(*text) : fail(text.error().message);
@@ -194,25 +194,25 @@ KeptSettings::KeptSettings(std::string file) : file_(std::move(file)) {
   file_.clear();
 }
 
-void KeptSettings::keep(const Settings& start, const Settings& end) const {
+void SettingsFile::save(const Settings& start, const Settings& end) const {
   if (file_.empty() || start == end) return;
-  Settings kept;
-  kept.width = merged(loaded_.width, start.width, end.width);
-  kept.height = merged(loaded_.height, start.height, end.height);
-  kept.method = merged(loaded_.method, start.method, end.method);
-  kept.quality = merged(loaded_.quality, start.quality, end.quality);
+  Settings changed;
+  changed.width = merged(loaded_.width, start.width, end.width);
+  changed.height = merged(loaded_.height, start.height, end.height);
+  changed.method = merged(loaded_.method, start.method, end.method);
+  changed.quality = merged(loaded_.quality, start.quality, end.quality);
   for (const DrawOption* option : all_draw_options())
-    kept.method_options.set(*option,
-                            merged(loaded_.method_options.of(*option), start.method_options.of(*option),
-                                   end.method_options.of(*option)));
-  kept.particles = merged(loaded_.particles, start.particles, end.particles);
-  kept.predict = merged(loaded_.predict, start.predict, end.predict);
-  kept.hud = end.hud;
-  kept.hand = end.hand;
-  kept.overlay = end.overlay;
-  kept.tool = end.tool;
-  kept.tool.pattern = merged(loaded_.tool.pattern, start.tool.pattern, end.tool.pattern);
-  if (const Result<void> written = write_text(file_, to_text(kept)); !written)
+    changed.method_options.set(*option,
+                               merged(loaded_.method_options.of(*option), start.method_options.of(*option),
+                                      end.method_options.of(*option)));
+  changed.particles = merged(loaded_.particles, start.particles, end.particles);
+  changed.predict = merged(loaded_.predict, start.predict, end.predict);
+  changed.hud = end.hud;
+  changed.hand = end.hand;
+  changed.overlay = end.overlay;
+  changed.tool = end.tool;
+  changed.tool.pattern = merged(loaded_.tool.pattern, start.tool.pattern, end.tool.pattern);
+  if (const Result<void> written = write_text(file_, to_text(changed)); !written)
     std::fprintf(stderr, "scree-viewer: warning: %s\n", written.error().message.c_str());
 }
 

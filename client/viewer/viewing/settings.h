@@ -49,15 +49,15 @@ std::string to_text(const Settings& settings);
 void apply_settings(const Settings& settings, ViewerOptions& options);
 
 /// The settings of one run of the viewer.
-class KeptSettings {
+class SettingsFile {
  public:
   /// Reads the file, if there is one. Leaves an invalid file unchanged, with a warning on stderr.
-  explicit KeptSettings(std::string file);
+  explicit SettingsFile(std::string file);
 
   const Settings& loaded() const { return loaded_; }
   /// Writes the settings that changed since `start`; an unchanged value from a flag is not kept. Does nothing
   /// after a warning.
-  void keep(const Settings& start, const Settings& end) const;
+  void save(const Settings& start, const Settings& end) const;
 
  private:
   std::string file_;  ///< empty: not to be written

@@ -56,7 +56,7 @@ Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<Vi
   if (!given.given.camera) camera = given.camera;
   listen(!sounds_.silent());
   view->methods().set_options(options.method_options);
-  session.watch(given.overlay.shown && given.overlay.physics);
+  session.want_physics(given.overlay.shown && given.overlay.physics);
 }
 
 Result<void> Viewing::step(double now_s) {
@@ -101,7 +101,7 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
   return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
 }
 
-Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
+Result<void> Viewing::shoot(const ScreenshotOrder& order, double now_s) {
   const Result<Image> image = picture(now_s);
   if (!image) return fail(image.error().message);
   TRY(write_png(order.file, *image));
@@ -116,9 +116,9 @@ Result<void> Viewing::take(const ScreenshotOrder& order, double now_s) {
   return {};
 }
 
-Result<void> Viewing::take_due(double now_s) {
+Result<void> Viewing::shoot_due(double now_s) {
   if (screenshots.empty()) return {};
-  for (const ScreenshotOrder& order : screenshots.take_due(moment(now_s))) TRY(take(order, now_s));
+  for (const ScreenshotOrder& order : screenshots.pop_due(moment(now_s))) TRY(shoot(order, now_s));
   return {};
 }
 

@@ -19,7 +19,7 @@ class Viewing : public Visit {
   /// As a visit; what happens is heard, and with --gl-debug a GL error is an error.
   Result<void> step(double now_s);
   /// Takes the screenshots that are due.
-  Result<void> take_due(double now_s);
+  Result<void> shoot_due(double now_s);
   /// The picture of this moment, of --size or of so many pixels; with --overlay, all of the overlay in it.
   Result<Image> picture(double now_s) { return picture(now_s, options.width, options.height); }
   Result<Image> picture(double now_s, int width, int height);
@@ -34,7 +34,7 @@ class Viewing : public Visit {
  private:
   Viewing(const ViewerOptions& options, Quality quality, std::unique_ptr<View> view, Sounds sounds);
   Moment moment(double now_s);
-  Result<void> take(const ScreenshotOrder& order, double now_s);
+  Result<void> shoot(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
 
   Sounds sounds_;

@@ -34,7 +34,7 @@ Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice,
       quality_(choice.quality),
       chosen_radius_m_(choice.view_radius_m),
       render_scale_(choice.render_scale) {
-  if (choice.camera) look_from(*choice.camera);
+  if (choice.camera) place_camera(*choice.camera);
   view->renderer().set_trace(trace.get());
   use(choice.quality);
   session.predict(choice.predict);
@@ -66,7 +66,7 @@ std::optional<Quality> Visit::choose_quality(std::optional<Quality> wanted, floa
   return other;
 }
 
-void Visit::look_from(const Camera& place) {
+void Visit::place_camera(const Camera& place) {
   camera = place;
   stands_ = true;
 }
@@ -84,7 +84,7 @@ Result<void> Visit::step(double now_s) {
   }();
   if (step.new_mirror) stand_on_ground();
   if (step.new_mirror || step.jumped) {
-    watch_.begin();
+    piece_events_.begin();
     dust_.clear();
   }
   events_.clear();
@@ -100,7 +100,7 @@ Result<void> Visit::step(double now_s) {
 /// What they do is heard and seen.
 void Visit::follow_pieces(double now_s) {
   if (!listens_ && !particles_) return;
-  events_ = watch_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s);
+  events_ = piece_events_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s);
   if (!particles_) return;
   dust_.add(events_, now_s);
   view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
@@ -125,7 +125,7 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
 }
 
 void Visit::add_overlay(LineList& lines, const OverlayChoice& choice, double now_s) {
-  session.watch(choice.shown && choice.physics);
+  session.want_physics(choice.shown && choice.physics);
   if (!choice.shown || session.mirror() == nullptr) return;
   add_borders(lines, session, choice, camera.eye_m, now_s);
   if (const PhysicsMessage* physics = session.physics())

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/viewer/events/dust.h"
-#include "client/viewer/events/piece_watch.h"
+#include "client/viewer/events/piece_event_detector.h"
 #include "client/viewer/session/overlay.h"
 #include "client/viewer/session/view.h"
 #include "client/viewer/session/viewer_session.h"
@@ -45,7 +45,7 @@ class Visit {
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
 
   /// The camera stays there, whatever the ground says.
-  void look_from(const Camera& place);
+  void place_camera(const Camera& place);
   /// Draws by that preset, but for what was chosen apart.
   void use(Quality quality);
   Quality quality() const { return quality_; }
@@ -68,7 +68,7 @@ class Visit {
   void stand_on_ground();
   void follow_pieces(double now_s);
 
-  PieceWatch watch_;
+  PieceEventDetector piece_events_;
   Dust dust_;
   std::vector<PieceEvent> events_;
   bool listens_ = false;

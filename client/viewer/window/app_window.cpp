@@ -198,7 +198,7 @@ void AppWindow::poll_keys(AppInput& input) {
   glfwGetCursorPos(window_, &mouse.x, &mouse.y);
   const glm::vec2 moved(mouse - std::exchange(mouse_, mouse));
   if (pointer_settles_ == 0) {
-    input.fly.look = moved;
+    input.fly.turn = moved;
   } else {
     --pointer_settles_;
   }

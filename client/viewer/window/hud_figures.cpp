@@ -138,7 +138,7 @@ void show_all(const HudFacts& facts) {
   ImGui::Separator();
   ImGui::Text("%s: %zu draws, %zu k triangles, %zu of %zu pieces", facts.method.c_str(), facts.draw.draws,
               facts.draw.triangles / 1000, facts.draw.pieces, facts.pieces_near);
-  ImGui::Text("%zu blocks or bricks kept, %zu waiting", facts.draw.kept, facts.draw.waiting);
+  ImGui::Text("%zu blocks or bricks kept, %zu waiting", facts.draw.resident, facts.draw.waiting);
 }
 
 }  // namespace

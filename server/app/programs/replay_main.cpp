@@ -16,8 +16,8 @@
 #include "server/app/ground_giver.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/recorded_moment.h"
-#include "server/replay/recording_cut.h"
 #include "server/replay/recording_diff.h"
+#include "server/replay/recording_excerpt.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
@@ -183,7 +183,7 @@ int verify_file(const Options& options) {
   return report->agrees() ? 0 : differs_or_failed;
 }
 
-using WriteLines = std::function<Result<void>(const TakeLine&)>;
+using WriteLines = std::function<Result<void>(const LineSink&)>;
 
 Result<void> write_lines_to(std::FILE* file, const std::string& path, const WriteLines& write) {
   auto written = write([file](const std::string& line) { std::fprintf(file, "%s\n", line.c_str()); });
@@ -218,16 +218,16 @@ int export_lines(const Options& options) {
     return options.csv || path.ends_with(".csv") ? LineFormat::csv : LineFormat::jsonl;
   };
   if (!options.events_path.empty()) {
-    const auto written = write_lines(options.events_path, [&](const TakeLine& take) {
-      return export_events(options.path, *ground, format_of(options.events_path), take);
+    const auto written = write_lines(options.events_path, [&](const LineSink& write_line) {
+      return export_events(options.path, *ground, format_of(options.events_path), write_line);
     });
     if (!written) return complain(written.error());
   }
   if (options.ticks_path.empty()) return 0;
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
-  const auto written = write_lines(options.ticks_path, [&](const TakeLine& take) {
-    return export_ticks(**recording, format_of(options.ticks_path), take);
+  const auto written = write_lines(options.ticks_path, [&](const LineSink& write_line) {
+    return export_ticks(**recording, format_of(options.ticks_path), write_line);
   });
   return written ? 0 : complain(written.error());
 }
@@ -255,7 +255,7 @@ int diff_files(const Options& options) {
   return found->same() ? 0 : differs_or_failed;
 }
 
-int cut_file(const Options& options) {
+int write_excerpt_file(const Options& options) {
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
   const auto ground = ground_giver(options.path, options.ground);
@@ -274,7 +274,7 @@ int cut_file(const Options& options) {
   }
   ProgressBar bar(isatty(STDERR_FILENO) != 0);
   const auto report =
-      cut(**recording, options.to_path, first, last, *ground, [&](double part) { bar.show(part); });
+      write_excerpt(**recording, options.to_path, first, last, *ground, [&](double part) { bar.show(part); });
   bar.end();
   if (!report) return complain(report.error());
   print(Json{{"file", options.to_path},
@@ -331,7 +331,7 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   return {{info_command, info},
           {verify_command, verify_file},
           {diff_command, diff_files},
-          {cut_command, cut_file},
+          {cut_command, write_excerpt_file},
           {events,
            [](const Options& o) {
              Options to_screen = o;

@@ -94,7 +94,7 @@ int run(const ServerOptions& options) {
 }  // namespace scree
 
 int main(int argc, char** argv) {
-  scree::keep_heap_compact();
+  scree::bound_heap_arenas();
   scree::fail_at_file_limit();
   const auto options = scree::parse_server_options(argc, argv);
   if (const int* code = std::get_if<int>(&options)) return *code;

@@ -156,9 +156,9 @@ Result<void> check_file(const Options& options) {
   PagedTerrain terrain = terrain_of(
       file, [&](ChunkCoord chunk) { return file.read_bricks(chunk); }, ground, checked_bricks_max);
   Result<void> weighed;
-  terrain.each = [&, each = terrain.each](const PagedTerrain::Take& take) {
+  terrain.each = [&, each = terrain.each](const PagedTerrain::Visit& visit) {
     return each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
-      TRY(take(chunk, bricks));  // it lies in the world
+      TRY(visit(chunk, bricks));  // it lies in the world
       if (weighed) weighed = weigh_ground(rows.world.moment.config.terrain, chunk, bricks, ground);
       return {};
     });
@@ -219,10 +219,10 @@ Result<void> repair_copy(const std::string& copy, const Options& options, Repair
   PagedTerrain terrain;
   terrain.bricks_max = checked_bricks_max;
   terrain.read = [&](ChunkCoord chunk) { return file.read_bricks(chunk); };
-  terrain.each = [&](const PagedTerrain::Take& take) -> Result<void> {
+  terrain.each = [&](const PagedTerrain::Visit& visit) -> Result<void> {
     const auto bytes = file.each_chunk(
         [&](const WorldChunk& chunk) -> Result<void> {
-          TRY(take(chunk.chunk, chunk.bricks));  // it lies in the world
+          TRY(visit(chunk.chunk, chunk.bricks));  // it lies in the world
           ground[chunk.chunk] = measured_ground(moment.config.terrain, chunk.bricks).at(chunk.chunk);
           ++repaired.chunks_kept;
           return {};
@@ -239,7 +239,7 @@ Result<void> repair_copy(const std::string& copy, const Options& options, Repair
 /// Keeps what is whole in a new file; the damaged one stays as it is, for it is read from a copy: reading a
 /// file may change it.
 int repair(const Options& options) {
-  const auto lock = WorldLock::take(options.path);
+  const auto lock = WorldLock::acquire(options.path);
   if (!lock) return complain(lock.error());
   const std::string copy = options.to + "-copy";
   Repaired repaired;
@@ -265,7 +265,7 @@ int repair(const Options& options) {
 }
 
 int compact(const Options& options) {
-  const auto lock = WorldLock::take(options.path);
+  const auto lock = WorldLock::acquire(options.path);
   if (!lock) return complain(lock.error());
   std::error_code ignored;
   const auto before = std::filesystem::file_size(options.path, ignored);

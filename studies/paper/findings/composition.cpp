@@ -114,17 +114,17 @@ std::string summary_of(const std::vector<Claim>& claims) {
       claims.size(), count(Verdict::confirmed), count(Verdict::refuted), count(Verdict::undecided));
 }
 
-void keep_times(const Findings& found, BenchReport& figures) {
-  const auto keep = [&](const SweepFound& sweep, const std::string& name) {
+void add_times(const Findings& found, BenchReport& figures) {
+  const auto add_times_of = [&](const SweepFound& sweep, const std::string& name) {
     for (const SettingFound& setting : sweep.settings) {
       figures.metric(fmt::format("{}_{:g}_draw_ms", name, setting.size), draw_ms_of(setting));
       figures.metric(fmt::format("{}_{:g}_update_ms", name, setting.size), update_ms_of(setting));
       figures.metric(fmt::format("{}_{:g}_memory_mib", name, setting.size), memory_mib_of(setting));
     }
   };
-  keep(found.grids[0], "grid_uniform");
-  keep(found.grids[1], "grid_growing");
-  keep(found.raymarch, "raymarch");
+  add_times_of(found.grids[0], "grid_uniform");
+  add_times_of(found.grids[1], "grid_growing");
+  add_times_of(found.raymarch, "raymarch");
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ StudyResult compose(const Findings& found) {
   report.sections.push_back(conditions_section(found.conditions));
   append(report.sections, std::move(figures));
   report.sections.push_back(std::move(efficiency));
-  keep_times(found, conclusions.figures);
+  add_times(found, conclusions.figures);
   return {std::move(report), std::move(conclusions.figures)};
 }
 

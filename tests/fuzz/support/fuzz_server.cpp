@@ -30,8 +30,8 @@ WorldConfig world_config(const TerrainSource& terrain) {
 
 }  // namespace
 
-void FuzzClient::take() {
-  reader_.push(link->take());
+void FuzzClient::receive() {
+  reader_.push(link->drain_arrived());
   for (;;) {
     const auto body = reader_.next();
     CHECK(body.has_value());
@@ -39,7 +39,7 @@ void FuzzClient::take() {
     const auto message = decode_server(**body);
     if (!message) std::fprintf(stderr, "the server sent: %s\n", message.error().message.c_str());
     CHECK(message.has_value());
-    if (keeps) received.emplace_back((**body).begin(), (**body).end());
+    if (records) received.emplace_back((**body).begin(), (**body).end());
     apply(*message);
   }
 }
@@ -60,7 +60,7 @@ void FuzzClient::apply(const ServerMessage& message) {
   CHECK(applied.has_value());
   CHECK(offers || mirror->mismatches() == 0);
   if (!offers) return;
-  if (const auto repair = mirror->take_repair_request()) send(*repair);
+  if (const auto repair = mirror->next_repair_request()) send(*repair);
 }
 
 FuzzServer::FuzzServer(const TerrainSource& terrain)
@@ -88,11 +88,11 @@ void FuzzServer::pump(size_t bytes) {
     moved = false;
     for (const auto& client : clients_) moved = client->link->pump(bytes) || moved;
   }
-  for (const auto& client : clients_) client->take();
+  for (const auto& client : clients_) client->receive();
 }
 
 void FuzzServer::tick(bool more) {
-  world_.watch(host_.figures().is_watched());
+  world_.want_physics(host_.figures().wants_physics());
   const std::vector<Command> commands = commands_.drain();
   const auto delta = world_.step(commands);
   work_us_ += delta->work.estimate_us;
@@ -107,7 +107,7 @@ void FuzzServer::check_mirrors() {
   for (const auto& client : clients_) {
     if (!client->joined() || client->refused || client->offers || client->link->closed()) continue;
     Mirror& mirror = *client->mirror;
-    CHECK(!mirror.take_repair_request());
+    CHECK(!mirror.next_repair_request());
     for (const ChunkCoord chunk : mirror.held_chunks())
       CHECK(mirror.field().chunk_hash(chunk) == world_.field().chunk_hash(chunk));
   }

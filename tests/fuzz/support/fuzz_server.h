@@ -23,7 +23,7 @@ class FuzzClient {
 
   void send(const ClientMessage& message) { link->send(encode(message)); }
   /// Applies what arrived.
-  void take();
+  void receive();
   bool joined() const { return mirror.has_value(); }
 
   std::shared_ptr<MemoryTransport> link;
@@ -33,8 +33,8 @@ class FuzzClient {
   bool offers = false;  ///< it says that it has chunks, whether it has or not: then its mirror may lack some
   bool reads = true;
   bool refused = false;
-  std::vector<std::vector<uint8_t>> received;  ///< bodies, if `keeps`
-  bool keeps = false;
+  std::vector<std::vector<uint8_t>> received;  ///< bodies, if `records`
+  bool records = false;
 
  private:
   void apply(const ServerMessage& message);

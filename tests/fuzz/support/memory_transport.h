@@ -35,7 +35,7 @@ class MemoryTransport final : public Transport {
     reading_ = nullptr;
     writing_ = nullptr;
   }
-  void cut() override { close(); }
+  void abort() override { close(); }
   bool established() const override { return true; }
   bool encrypted() const override { return false; }
   const std::string& address() const override { return address_; }
@@ -48,7 +48,7 @@ class MemoryTransport final : public Transport {
   void read_on(bool reads) { reads_ = reads; }
   bool closed() const { return closed_; }
   /// What arrived since the last call.
-  std::vector<uint8_t> take() { return std::exchange(arrived_, {}); }
+  std::vector<uint8_t> drain_arrived() { return std::exchange(arrived_, {}); }
 
   /// Hands over what waits, both ways, at most `bytes` at once; true while something was.
   bool pump(size_t bytes = SIZE_MAX) {

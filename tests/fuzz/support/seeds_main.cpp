@@ -109,7 +109,8 @@ std::vector<std::vector<ClientMessage>> conversation() {
   said[20] = {InterestMessage{{80.0F, 2.0F, 0.0F}, 40.0F}};
   said[30] = {InterestMessage{{0.0F, 2.0F, 0.0F}, 64.0F}, RepairMessage{3, {{0, 0, 0}}, {7}}};
   said[40] = {AdminMessage{5, FuzzServer::admin_token, SettingsRequest{{{"recombine", "slices"}}}}};
-  said[60] = {AdminMessage{6, FuzzServer::admin_token, ListSessionsRequest{}}, WatchMessage{true}};
+  said[60] = {AdminMessage{6, FuzzServer::admin_token, ListSessionsRequest{}},
+              PhysicsSubscriptionMessage{true}};
   return said;
 }
 
@@ -136,7 +137,7 @@ void write_session(Corpora& corpora) {
   Seed actions;
   for (uint8_t i = 0; i < 2; ++i) {
     FuzzClient* client = server.connect(i);
-    client->keeps = true;
+    client->records = true;
     client->send(hello(i == 1));
     actions.byte(0).byte(i).byte(0).byte(1).byte(i).packet(body_of(ClientMessage(hello(i == 1))));
   }
@@ -196,7 +197,7 @@ void write_recording(Corpora& corpora) {
 }
 
 /// A world with pieces in the air, whole and by its rows; and a ground.
-void write_kept(Corpora& corpora) {
+void write_saved_values(Corpora& corpora) {
   const auto add = [&](uint8_t decoder, const Bytes& data) {
     corpora.add("kept", Seed().byte(decoder).raw(data).bytes);
   };
@@ -216,7 +217,7 @@ void write_kept(Corpora& corpora) {
   const BrickPatch& brick = value.bricks.front();
   const uint64_t hash = brick_hash(brick.coord, brick.brick, brick.paint);
   add(2, encode(WorldChunk{chunk_of(brick.coord), value.moment.tick, hash, {brick}, 1000}));
-  for (const KeptPiece& piece : value.moment.pieces) add(3, encode(piece));
+  for (const PieceRecord& piece : value.moment.pieces) add(3, encode(piece));
   add(4, encode(value.moment));
 
   const ScratchFile file("seeds");
@@ -327,7 +328,7 @@ int main(int argc, char** argv) {
   write_packed(corpora);
   write_session(corpora);
   write_recording(corpora);
-  write_kept(corpora);
+  write_saved_values(corpora);
   write_texts(corpora);
   write_config(corpora);
   write_web(corpora);

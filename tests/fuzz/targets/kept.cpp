@@ -62,7 +62,7 @@ void chunk(Bytes bytes) {
   round_trip(bytes, decode_world_chunk);
 }
 void piece(Bytes bytes) {
-  round_trip(bytes, decode_kept_piece);
+  round_trip(bytes, decode_piece_record);
 }
 void moment(Bytes bytes) {
   round_trip(bytes, decode_world_moment);

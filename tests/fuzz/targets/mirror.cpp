@@ -149,13 +149,13 @@ ChunkMessage any_chunk(FuzzInput& input) {
 }
 
 /// A note on chunks, as if the mirror had offered them.
-KeptMessage any_kept(FuzzInput& input) {
-  KeptMessage kept;
+UnchangedChunksMessage any_unchanged(FuzzInput& input) {
+  UnchangedChunksMessage unchanged;
   for (uint32_t count = input.below(4); count > 0; --count) {
-    kept.chunks.push_back(chunk_of(any_brick_coord(input)));
-    kept.hashes.push_back(input.byte());
+    unchanged.chunks.push_back(chunk_of(any_brick_coord(input)));
+    unchanged.hashes.push_back(input.byte());
   }
-  return kept;
+  return unchanged;
 }
 
 ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
@@ -171,7 +171,7 @@ ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
       return piece;
     }
     case 8:
-      return any_kept(input);
+      return any_unchanged(input);
     case 3:
       return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, ids, tick));
     default:
@@ -184,7 +184,7 @@ class Session {
   explicit Session(const WelcomeMessage& welcome) : mirror_(welcome) {}
 
   /// False when the session is over.
-  bool take(std::span<const uint8_t> body) {
+  bool apply(std::span<const uint8_t> body) {
     const auto message = decode_server(body);
     if (!message) return true;  // a connection would end; go on with what follows
     if (const auto* frame = std::get_if<FrameMessage>(&*message))
@@ -202,7 +202,7 @@ class Session {
 
  private:
   void check_limits() {
-    while (const auto repair = mirror_.take_repair_request()) {
+    while (const auto repair = mirror_.next_repair_request()) {
       CHECK(!repair->chunks.empty() && repair->chunks.size() <= limits::repair_chunks_max);
       CHECK_EQ(repair->chunks.size(), repair->hashes.size());
     }
@@ -230,11 +230,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   bool goes_on = true;
   for (int i = 0; i < messages_max && goes_on && !input.at_end(); ++i) {
     if (input.flag()) {
-      goes_on = session.take(input.packet());
+      goes_on = session.apply(input.packet());
       continue;
     }
     const std::vector<uint8_t> bytes = encode(session.next(input));
-    goes_on = session.take(std::span(bytes).subspan(length_prefix_bytes));
+    goes_on = session.apply(std::span(bytes).subspan(length_prefix_bytes));
   }
   return 0;
 }

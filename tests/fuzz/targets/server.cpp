@@ -128,7 +128,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     case 4:
       return CursorMessage{input.place(40.0F), input.place(40.0F)};
     case 5:
-      return WatchMessage{input.flag()};
+      return PhysicsSubscriptionMessage{input.flag()};
     case 6:
       return AskGroundMessage{any_chunks(input)};
     case 7:

@@ -54,7 +54,7 @@ class User {
     stream_->read_some(buffer_, [this](const Moved& moved) {
       reading_ = false;
       over_ = !moved;
-      if (moved) take(*moved);
+      if (moved) check_received(*moved);
     });
   }
   void write(size_t bytes) {
@@ -76,7 +76,7 @@ class User {
   size_t received() const { return received_; }
 
  private:
-  void take(size_t bytes) {
+  void check_received(size_t bytes) {
     CHECK(bytes > 0 && bytes <= buffer_.size());
     for (size_t i = 0; i < bytes; ++i) CHECK(buffer_[i] == written(received_ + i));
     received_ += bytes;
@@ -144,7 +144,7 @@ class Ends {
   /// Damage leaves the first bytes alone, by which the server tells what a stream is: without them it takes
   /// the rest for a plain one's.
   void hand_over(MemoryTransport& from, MemoryTransport& to, size_t& carried) {
-    std::vector<uint8_t> bytes = from.take();
+    std::vector<uint8_t> bytes = from.drain_arrived();
     const size_t place = bytes.empty() ? 0 : damage_ % bytes.size();
     if (!bytes.empty() && damage_ != 0 && carried + place >= tls_greeting_bytes) {
       bytes[place] ^= damage_;

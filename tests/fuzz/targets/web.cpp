@@ -89,7 +89,7 @@ class Server final : public HttpHost {
     echo_->start();
     connection_ = nullptr;
   }
-  void cut_off(const HttpConnection& /*connection*/, Refusal /*reason*/) override {}
+  void disconnect(const HttpConnection& /*connection*/, Refusal /*reason*/) override {}
   void ended(HttpConnection& /*connection*/) override { connection_ = nullptr; }
 
  private:
@@ -101,16 +101,16 @@ class Server final : public HttpHost {
 /// What the server sends behind a handshake, frame by frame.
 class Frames {
  public:
-  void take(std::span<const uint8_t> bytes) {
+  void add(std::span<const uint8_t> bytes) {
     for (const uint8_t byte : bytes) {
       CHECK(!closed_);
-      take(byte);
+      add(byte);
     }
   }
   const std::vector<uint8_t>& payload() const { return payload_; }
 
  private:
-  void take(uint8_t byte) {
+  void add(uint8_t byte) {
     if (left_ > 0) {
       if (binary_) payload_.push_back(byte);
       if (--left_ == 0) end_frame();
@@ -197,11 +197,11 @@ class Client {
   }
   bool carry(size_t bytes) {
     const bool moved = link_->pump(bytes);
-    const std::vector<uint8_t> arrived = link_->take();
+    const std::vector<uint8_t> arrived = link_->drain_arrived();
     if (server_.echo() == nullptr || !handshake_over_)
       skip_answers(arrived);
     else
-      frames_.take(arrived);
+      frames_.add(arrived);
     return moved;
   }
   /// Up to the end of the head that opens the WebSocket.
@@ -212,7 +212,7 @@ class Client {
     if (end == std::string::npos) return;
     handshake_over_ = true;
     const std::string rest = answers_.substr(end + 4);
-    frames_.take(std::span(reinterpret_cast<const uint8_t*>(rest.data()), rest.size()));
+    frames_.add(std::span(reinterpret_cast<const uint8_t*>(rest.data()), rest.size()));
   }
 
   std::shared_ptr<MemoryTransport> link_ = std::make_shared<MemoryTransport>("client");

@@ -39,7 +39,7 @@ Result<ElevationSums> write(Field& field, const ChunkBox& box, const std::string
   auto file = TRY(create(path, grid));
   std::vector<float> row(static_cast<size_t>(grid.columns));
   int rows = 0;
-  const auto take = [&](std::span<const float> heights_m) -> Result<void> {
+  const auto write_row = [&](std::span<const float> heights_m) -> Result<void> {
     std::ranges::transform(heights_m, row.begin(), [&](float height_m) {
       return std::isnan(height_m) ? geotiff_nodata : height_m + static_cast<float>(zero_m);
     });
@@ -48,7 +48,7 @@ Result<ElevationSums> write(Field& field, const ChunkBox& box, const std::string
       return fail(gdal_words("no reason is given"));
     return {};
   };
-  const auto sums = each_elevation_row(field, box, grid, take, progress);
+  const auto sums = each_elevation_row(field, box, grid, write_row, progress);
   if (!sums) return sums;
   file->FlushCache(true);
   file.reset();

@@ -122,14 +122,14 @@ class Fetcher {
 
   /// Tiles that are missed are asked for; those that came make more chunks whole.
   Result<void> complete_ground(const ChunkBox& box) {
-    if (client_.kept().tiles() == nullptr) return {};
+    if (client_.rejoin().tiles() == nullptr) return {};
     std::vector<ChunkCoord> missing;
     for_each_chunk(box.voxels(), [&](ChunkCoord chunk) { missing.push_back(chunk); });
     uint64_t seen = ~uint64_t{0};
     return follow_until(
         [&] {
-          if (std::exchange(seen, client_.kept().tiles()->tiles_received()) !=
-              client_.kept().tiles()->tiles_received())
+          if (std::exchange(seen, client_.rejoin().tiles()->tiles_received()) !=
+              client_.rejoin().tiles()->tiles_received())
             std::erase_if(missing, [&](ChunkCoord chunk) { return is_here(mirror().terrain(), chunk); });
           return missing.empty();
         },
@@ -155,7 +155,7 @@ class Fetcher {
   }
   float chunk_m() const { return static_cast<float>(chunk_size) * mirror().terrain().voxel_size_m; }
 
-  LiveTerrain taken(const ChunkBox& box) const {
+  LiveTerrain contents(const ChunkBox& box) const {
     return {std::make_unique<MapField>(mirror().terrain()), box, mirror().tick(), sessions_};
   }
 
@@ -163,7 +163,7 @@ class Fetcher {
     const auto box = how_.box(MapField(mirror().terrain()));
     TRY(box);
     const std::vector<ChunkBox> parts = parts_of(*box, part_side());
-    LiveTerrain terrain = taken(*box);
+    LiveTerrain terrain = contents(*box);
     for (size_t i = 0; i < parts.size(); ++i) {
       const ChunkCoord sum = parts[i].lo + parts[i].hi;
       TRY(join(0.5F * chunk_m() * glm::vec3(sum.x, sum.y, sum.z)));
@@ -187,7 +187,7 @@ class Fetcher {
           client_.welcome()->interest_radius_m));
     auto box = TRY(whole_of(mirror().field()));
     TRY(check_count(box));
-    LiveTerrain terrain = taken(box);
+    LiveTerrain terrain = contents(box);
     copy_edits(mirror().field(), box, *terrain.field);
     TRY(complete_ground(parts_of(box, part_side()), progress));
     return terrain;

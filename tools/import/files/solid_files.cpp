@@ -39,7 +39,7 @@ Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, boo
   return {};
 }
 
-Result<void> take_mesh(const std::string& file, TriangleMesh mesh, float voxel_size_m, SolidsRead& read) {
+Result<void> add_mesh(const std::string& file, TriangleMesh mesh, float voxel_size_m, SolidsRead& read) {
   const MeshRepair repair = turn_inside_in(mesh);
   const double volume = volume_m3(mesh);
   std::string words = fmt::format("{}: mesh '{}', {} triangles", file, mesh.name, mesh.triangles.size());
@@ -74,7 +74,7 @@ Result<SolidsRead> read_solids(const std::vector<std::string>& files, const Soli
       continue;
     }
     auto meshes = TRY(read_meshes(file, how.place));
-    for (TriangleMesh& mesh : meshes) TRY(take_mesh(file, std::move(mesh), how.voxel_size_m, read));
+    for (TriangleMesh& mesh : meshes) TRY(add_mesh(file, std::move(mesh), how.voxel_size_m, read));
   }
   return read;
 }

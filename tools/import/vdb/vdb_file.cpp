@@ -75,7 +75,7 @@ std::optional<T> told(const FloatGrid& grid, const char* name) {
   return meta ? std::optional(meta->value()) : std::nullopt;
 }
 
-void take_told(const FloatGrid& grid, const VdbImport& how, VdbSolid& solid) {
+void apply_metadata(const FloatGrid& grid, const VdbImport& how, VdbSolid& solid) {
   const auto voxel_m = told<float>(grid, vdb_names::voxel_size_m);
   if (!voxel_m || *voxel_m != how.voxel_size_m || !how.place.is_identity()) return;
   solid.level_m = told<double>(grid, vdb_names::level_m);
@@ -116,7 +116,7 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
     return fail("all around the grid is rock, without end: its background must be outside");
   auto made = TRY(solid_of_grid(*grid, materials, side, how.place, how.voxel_size_m));
   solid.solid = std::move(made);
-  take_told(**grid, how, solid);
+  apply_metadata(**grid, how, solid);
   return solid;
 }
 

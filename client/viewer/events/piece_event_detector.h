@@ -1,0 +1,43 @@
+// What happens to pieces, from how they move on the screen: those that appear cracked off, those whose speed
+// jumps struck something, those that end became ground. A break that was predicted happens once: what the
+// server's pieces do when they take the place of predicted ones is no event. Time is an argument (seconds).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "client/render/scene/draw_method.h"
+#include "client/viewer/events/piece_event.h"
+
+namespace scree {
+
+class PieceEventDetector {
+ public:
+  /// What happened since the last step, the greatest impulse first, at most
+  /// limits::piece_events_per_step_max. Nothing of a world that is shown for the first time, or after a gap.
+  std::vector<PieceEvent> step(const ScenePieces& pieces, float voxel_m, double now_s);
+  /// Another world, or another moment of it.
+  void begin() { known_.reset(); }
+
+ private:
+  struct Known {
+    glm::vec3 place_m{0.0F};
+    glm::vec3 speed_m_s{0.0F};
+    float size_m = 0.0F;
+    float mass_kg = 0.0F;
+    Material material = Material::rock;
+    bool moved = false;  ///< its speed is known
+  };
+  using Table = std::map<PieceId, Known>;
+
+  static Known seen(const ScenePiece& piece, float voxel_m);
+  static void note_strike(PieceId id, const Known& before, const Known& now, float elapsed_s,
+                          std::vector<PieceEvent>& events);
+  bool replaces_predicted(PieceId id, const ScenePieces& pieces) const;
+
+  std::optional<Table> known_;
+  double last_s_ = 0.0;
+};
+
+}  // namespace scree

@@ -1,0 +1,227 @@
+#include "server/store/world_saver.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <fmt/format.h>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <unordered_set>
+#include <utility>
+
+#include "server/store/limits.h"
+#include "server/store/unsaved_terrain.h"
+#include "server/world/shared_brick.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+namespace {
+
+/// Whether clients may hold a reply, or anything else than the clock moved.
+bool something_happened(const TickDelta& delta) {
+  return !delta.bricks.empty() || !delta.operations.empty() || !delta.pieces.empty() ||
+         !delta.replies.empty() || !delta.settings.empty() || delta.work.requests_waiting > 0;
+}
+
+/// Why a save waits for chunks.
+std::string reason_of(const std::map<ChunkCoord, std::string>& lacking) {
+  const auto& [chunk, reason] = *lacking.begin();
+  return fmt::format("chunk {}, {}, {}{} must be written anew: {}", chunk.x, chunk.y, chunk.z,
+                     (lacking.size() == 1 ? "" : fmt::format(" and {} more", lacking.size() - 1)), reason);
+}
+
+/// Ticks between saves that are due whatever happens; 0: none.
+Tick period_of(const SaverConfig& config) {
+  const double seconds = config.durability == Durability::off ? config.autosave_s : 1.0;
+  if (!(seconds > 0.0)) return 0;
+  return std::max<Tick>(1, static_cast<Tick>(seconds * config.tick_rate_hz));
+}
+
+}  // namespace
+
+ChunkNow chunk_now(Field& field) {
+  return [&field](ChunkCoord chunk) {
+    std::vector<BrickState> bricks;
+    if (field.is_out(chunk)) return bricks;
+    for (const BrickCoord coord : field.edited_bricks(chunk)) {
+      const Brick& brick = field.brick(coord);
+      const auto paint = field.painted(coord);
+      bricks.push_back({coord, shared_copy(brick), brick_hash(coord, brick, paint), paint});
+    }
+    return bricks;
+  };
+}
+
+struct WorldSaver::State {
+  /// One save.
+  struct Due {
+    WorldMoment moment;
+    ChangedBricks bricks;
+    std::map<ChunkCoord, std::vector<BrickState>> whole;  ///< chunks that were lacking
+  };
+
+  State(SaverConfig c, std::unique_ptr<WorldFile> f, const TerrainSource& ground)
+      : config(std::move(c)),
+        file(std::move(f)),
+        terrain(ground, [this](ChunkCoord chunk) { return file->read_chunk(chunk); }) {}
+  void run();
+  void write(Due due);
+  std::map<ChunkCoord, std::vector<BrickState>> whole_chunks(const ChunkNow& now) const;
+
+  SaverConfig config;
+  Tick period = 0;
+
+  // Members of the caller's thread.
+  ChangedBricks gathered;
+  std::unordered_set<ChunkCoord, CoordHash> gathered_chunks;  ///< of those bricks
+  Tick next_due = 0;                                          ///< 0: none by the clock
+  bool over = false;                                          ///< nothing is saved any more, nor gathered
+
+  // Members of the storage thread.
+  std::unique_ptr<WorldFile> file;
+  UnsavedTerrain terrain;  ///< what the next save has to write; reads `file`
+  std::thread thread;
+
+  mutable std::mutex mutex;  ///< guards the members below
+  std::condition_variable changed;
+  std::optional<Due> waiting;
+  bool stopping = false;
+  SaverStatus status;
+};
+
+void WorldSaver::State::write(Due due) {
+  const Tick tick = due.moment.tick;
+  if (config.before_save) config.before_save(tick);
+  Stopwatch stopwatch;
+  terrain.change(due.bricks);
+  for (const auto& [chunk, bricks] : due.whole) terrain.replace_chunk(chunk, bricks);
+  const bool lacks = !terrain.lacking().empty();
+  const Result<void> saved =
+      lacks ? fail(reason_of(terrain.lacking())) : file->save(due.moment, terrain.unsaved(tick));
+  const double ms = stopwatch.lap_ms();
+  if (saved) terrain.saved();
+  const std::scoped_lock lock(mutex);
+  status.bytes_written = file->bytes_written();
+  status.save_worst_ms = std::max(status.save_worst_ms, ms);
+  status.error = saved ? std::nullopt : std::optional(saved.error().message);
+  status.lacking.clear();
+  for (const auto& [chunk, reason] : terrain.lacking()) status.lacking.push_back(chunk);
+  if (saved) {
+    CHECK(tick >= status.saved_tick);
+    status.saved_tick = tick;
+    ++status.saves;
+    return;
+  }
+  ++status.failures;
+  status.given_up = !lacks && !file->is_full();
+}
+
+void WorldSaver::State::run() {
+  for (;;) {
+    std::optional<Due> due;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [this] { return stopping || waiting; });
+      due = std::exchange(waiting, std::nullopt);
+      if (!due) return;
+      if (status.given_up) continue;
+    }
+    write(std::move(*due));
+  }
+}
+
+WorldSaver::WorldSaver(std::unique_ptr<WorldFile> file, Tick tick, const TerrainSource& ground,
+                       SaverConfig config)
+    : state_(std::make_unique<State>(std::move(config), std::move(file), ground)) {
+  State& s = *state_;
+  s.period = period_of(s.config);
+  s.next_due = s.period == 0 ? 0 : tick + s.period;
+  s.status.saved_tick = tick;
+  s.thread = std::thread([&s] { s.run(); });
+}
+
+WorldSaver::~WorldSaver() {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+bool WorldSaver::note(const TickDelta& delta, bool pressed) {
+  State& s = *state_;
+  if (s.over) return false;
+  for (const BrickState& state : delta.bricks) {
+    s.gathered[state.coord] = state;
+    s.gathered_chunks.insert(chunk_of(state.coord));
+  }
+  const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
+  const bool much = s.gathered_chunks.size() >= limits::unsaved_chunks_max;
+  if (!by_clock && !pressed && !much &&
+      !(s.config.durability == Durability::tick && something_happened(delta)))
+    return false;
+  const std::scoped_lock lock(s.mutex);
+  if (s.status.given_up) {
+    s.over = true;
+    s.gathered.clear();
+    s.gathered_chunks.clear();
+    return false;
+  }
+  if (s.waiting) {
+    ++s.status.skipped;  // due again in the next tick
+    if (s.next_due != 0) s.next_due = delta.tick + 1;
+    return false;
+  }
+  if (s.next_due != 0) s.next_due = delta.tick + s.period;
+  return true;
+}
+
+/// Those that are lacking, as far as the world has them.
+std::map<ChunkCoord, std::vector<BrickState>> WorldSaver::State::whole_chunks(const ChunkNow& now) const {
+  std::map<ChunkCoord, std::vector<BrickState>> whole;
+  if (!now) return whole;
+  for (const ChunkCoord chunk : status.lacking)
+    if (std::vector<BrickState> bricks = now(chunk); !bricks.empty()) whole[chunk] = std::move(bricks);
+  return whole;
+}
+
+void WorldSaver::save(WorldMoment moment, const ChunkNow& now) {
+  State& s = *state_;
+  {
+    const std::scoped_lock lock(s.mutex);
+    CHECK(!s.waiting && !s.stopping);
+    s.waiting = State::Due{std::move(moment), std::exchange(s.gathered, {}), s.whole_chunks(now)};
+    s.gathered_chunks.clear();
+  }
+  s.changed.notify_all();
+}
+
+Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
+  State& s = *state_;
+  {
+    const std::scoped_lock lock(s.mutex);
+    if (!s.waiting) s.waiting = State::Due{};
+    // Nobody needs an older one: its bricks go with the last.
+    for (auto& [coord, state] : s.gathered) s.waiting->bricks[coord] = std::move(state);
+    s.waiting->moment = moment;
+    for (auto& [chunk, bricks] : s.whole_chunks(now)) s.waiting->whole[chunk] = std::move(bricks);
+    s.stopping = true;
+  }
+  s.changed.notify_all();
+  if (s.thread.joinable()) s.thread.join();
+  if (auto whole = s.whole_chunks(now); !whole.empty()) s.write({std::move(moment), {}, std::move(whole)});
+  s.file.reset();
+  const std::scoped_lock lock(s.mutex);
+  if (s.status.error) return fail(*s.status.error);
+  return {};
+}
+
+SaverStatus WorldSaver::status() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->status;
+}
+
+}  // namespace scree

@@ -1,0 +1,97 @@
+// Saves a running world on a storage thread: the simulation hands over what changed, and never waits for the
+// disk.
+//
+// At most one save waits while another is written; while one waits, what changes is gathered for the next
+// (skipped saves are counted). Each is one transaction of one tick, and told as saved when it is on the disk.
+// When the disk has no room, the next save writes all that is missing. Where the row of a chunk that changed
+// cannot be read, the next save writes the chunk anew, as the world has it. After any other error nothing is
+// saved any more: what the disk holds is not known then, and the file is looked at by the next start. The
+// simulation goes on in all cases.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/store/world_file.h"
+#include "server/world/tick_delta.h"
+
+namespace scree {
+
+/// When a world is saved: after each tick in which something happened, once a second, or at the end and every
+/// autosave; and whenever limits::unsaved_chunks_max chunks have changed.
+enum class Durability : uint8_t { tick, second, off };
+
+struct DurabilityRow {
+  std::string_view name;
+};
+
+constexpr DurabilityRow row_of(Durability durability) {
+  switch (durability) {
+    case Durability::tick:
+      return {.name = "tick"};
+    case Durability::second:
+      return {.name = "second"};
+    case Durability::off:
+      return {.name = "off"};
+  }
+  return {};
+}
+
+struct SaverConfig {
+  Durability durability = Durability::second;
+  double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
+  uint32_t tick_rate_hz = 60;
+  /// Called on the storage thread before a tick is saved; may be empty. A recording of the world must not end
+  /// before the world does.
+  std::function<void(Tick)> before_save;
+};
+
+struct SaverStatus {
+  Tick saved_tick = 0;   ///< on the disk
+  uint64_t saves = 0;    ///< transactions
+  uint64_t skipped = 0;  ///< saves that were due while another one waited
+  uint64_t failures = 0;
+  uint64_t bytes_written = 0;  ///< in rows
+  double save_worst_ms = 0.0;
+  bool given_up = false;
+  std::optional<std::string> error;  ///< of the last save, if it failed
+  std::vector<ChunkCoord> lacking;   ///< chunks whose rows cannot be read, which the next save needs whole
+};
+
+/// The edited bricks of a chunk as the world has them now; empty: it does not have them.
+using ChunkNow = std::function<std::vector<BrickState>(ChunkCoord)>;
+/// Reads chunks of a world's field, which has the changed bricks until they are saved.
+ChunkNow chunk_now(Field& field);
+
+class WorldSaver {
+ public:
+  /// `file` holds this world, as of `tick`.
+  WorldSaver(std::unique_ptr<WorldFile> file, Tick tick, const TerrainSource& ground, SaverConfig config);
+  /// Writes what was handed over, and joins the thread.
+  ~WorldSaver();
+  WorldSaver(const WorldSaver&) = delete;
+  WorldSaver& operator=(const WorldSaver&) = delete;
+
+  /// Takes what a tick changed; every tick, in order. True: the world is to be saved as of this tick now, by
+  /// save(). `pressed`: memory is short until it is saved, so that it is due at once. One thread calls this,
+  /// save() and finish().
+  bool note(const TickDelta& delta, bool pressed = false);
+  /// `now` is asked for chunks that are lacking.
+  void save(WorldMoment moment, const ChunkNow& now = {});
+  /// Saves the last tick, waits until it is written, and ends. Returns the last error.
+  Result<void> finish(WorldMoment moment, const ChunkNow& now = {});
+
+  /// From any thread.
+  SaverStatus status() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scree

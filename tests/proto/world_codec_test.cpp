@@ -1,0 +1,53 @@
+// What files say of their ground: its hash in a header, its mass in a chunk's row.
+#include "server/formats/world_codec.h"
+
+#include <gtest/gtest.h>
+
+#include "server/formats/recording_codec.h"
+#include "shared/field/mass.h"
+
+namespace scree {
+namespace {
+
+using FileBytes = std::vector<uint8_t>;
+
+WorldChunk chunk_of_one_brick(MassUnits ground_mass) {
+  const BrickPatch brick{{4, -1, 2}, solid_brick(), std::nullopt};
+  return {chunk_of(brick.coord), 9, brick_hash(brick.coord, brick.brick, brick.paint), {brick}, ground_mass};
+}
+
+TEST(KeptCodec, a_header_names_its_ground_or_none) {
+  RecordedHeader header;
+  header.program = "test";
+  const FileBytes without = encode(header);
+  EXPECT_EQ(decode_recorded_header(without)->ground, Digest{});
+  header.ground[3] = 7;
+  const auto decoded = decode_recorded_header(encode(header));
+  ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
+  EXPECT_EQ(decoded->ground, header.ground);
+  FileBytes cut = without;
+  cut.insert(cut.end(), {0xC2, 0x02, 2, 7, 7});  // field 40, of 2 bytes
+  const auto refused = decode_recorded_header(cut);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("32 bytes"), std::string::npos) << refused.error().message;
+}
+
+TEST(KeptCodec, a_chunk_says_what_its_ground_weighs_within_what_rock_does) {
+  const MassUnits most = brick_mass(solid_brick());
+  for (const MassUnits mass : {MassUnits{0}, most}) {
+    const auto decoded = decode_world_chunk(encode(chunk_of_one_brick(mass)));
+    ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
+    EXPECT_EQ(decoded->ground_mass, mass);
+  }
+  for (const MassUnits mass : {MassUnits{-1}, most + 1}) {
+    const auto decoded = decode_world_chunk(encode(chunk_of_one_brick(mass)));
+    ASSERT_FALSE(decoded.has_value());
+    EXPECT_NE(decoded.error().message.find("ground"), std::string::npos) << decoded.error().message;
+  }
+  WorldChunk unknown = chunk_of_one_brick(0);
+  unknown.ground_mass.reset();
+  EXPECT_EQ(decode_world_chunk(encode(unknown))->ground_mass, std::nullopt);
+}
+
+}  // namespace
+}  // namespace scree
