@@ -14,7 +14,7 @@
 #include "server/publish/piece_stream.h"
 #include "server/publish/replay_news.h"
 #include "server/publish/served_tick.h"
-#include "server/publish/watch_feed.h"
+#include "server/publish/physics_feed.h"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-#include "server/publish/watch_feed.h"
+#include "server/publish/physics_feed.h"
 
 #include <algorithm>
 #include <utility>
