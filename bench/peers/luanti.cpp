@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "bench/peers/luanti_game.h"
-#include "bench/support/child_process.h"
+#include "bench/support/measured_process.h"
 #include "bench/support/text_file.h"
 #include "shared/base/timing.h"
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <poll.h>
 
-#include "bench/support/child_process.h"
+#include "bench/support/measured_process.h"
 #include "shared/base/timing.h"
 
 namespace scree {
