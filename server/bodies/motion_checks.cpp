@@ -23,7 +23,7 @@ Result<void> check_shape(PieceId id, const BodyShape& shape) {
   const auto hull = [&](const std::vector<glm::vec3>& points) { return points.size() >= 4 && sound(points); };
   if (!hull(shape.hull_m) || !sound(shape.surface_m) || !std::ranges::all_of(shape.parts_m, hull))
     return refuse_body(id, "a hull of fewer than four corners, or without a place");
-  if (!(shape.mass_kg >= limits::kept_mass_min_kg && shape.mass_kg <= limits::kept_mass_max_kg))
+  if (!(shape.mass_kg >= limits::restored_mass_min_kg && shape.mass_kg <= limits::restored_mass_max_kg))
     return refuse_body(id, "its mass is none that a piece has");
   for (int i = 0; i < 3; ++i)
     if (!is_sound(inertia[i]) || !(inertia[i][i] > 0.0F))
