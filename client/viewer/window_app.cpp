@@ -246,8 +246,8 @@ Settings WindowApp::settings() const {
 namespace {
 
 Result<void> run(ViewerOptions options) {
-  const SettingsFile settings_file(settings_file());
-  apply_settings(settings_file.loaded(), options);
+  const SettingsFile saved(settings_file());
+  apply_settings(saved.loaded(), options);
   const Result<std::unique_ptr<AppWindow>> window =
       AppWindow::open(options.width, options.height, options.gl_debug);
   if (!window) return fail(window.error().message);
@@ -255,10 +255,10 @@ Result<void> run(ViewerOptions options) {
   if (!options.given.method && options.method->missing()) options.method = &all_methods().front();
   const Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options);
   if (!viewing) return fail(viewing.error().message);
-  WindowApp app(**window, **viewing, settings_file.loaded());
+  WindowApp app(**window, **viewing, saved.loaded());
   const Settings start = app.settings();
   while (!(*window)->should_close()) TRY(app.frame());
-  settings_file.save(start, app.settings());
+  saved.save(start, app.settings());
   return (*viewing)->finish();
 }
 

@@ -201,7 +201,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.requested = from.requested();
   moment.debt_us = check.not_negative(from.debt_us(), "debt_us");
   for (const kept::Cut& pending : from.cuts()) moment.refractures.push_back(read(pending, check));
-  moment.refractured_at = from.refractured_at();
+  moment.refractured_at = from.cut_at();
   moment.island_at = from.island_at();
   for (const kept::Search& search : from.searches())
     moment.islands.push_back(

@@ -84,12 +84,12 @@ TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
         R"({"quality": "best"})"}) {
     write(broken);
     testing::internal::CaptureStderr();
-    const SettingsFile settings_file(settings_file());
+    const SettingsFile saved(settings_file());
     EXPECT_NE(testing::internal::GetCapturedStderr().find("warning"), std::string::npos) << broken;
-    EXPECT_EQ(settings_file.loaded(), Settings{});
+    EXPECT_EQ(saved.loaded(), Settings{});
     Settings end;
     end.width = 500;
-    settings_file.save(Settings{}, end);
+    saved.save(Settings{}, end);
     EXPECT_EQ(written(), broken);
   }
 }
