@@ -94,7 +94,7 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   return {};
 }
 
-/// Before it looks at rows: a table that is not there has none.
+/// Makes an empty table in memory for each one that the file lacks. Rows are read afterwards.
 Result<void> RecordingReader::State::supply_missing_tables() {
   TRY(database.execute("PRAGMA temp_store = MEMORY"));
   const auto supply = [this](const char* table) -> Result<void> {
@@ -119,7 +119,7 @@ Result<void> RecordingReader::State::open_readers() {
   return {};
 }
 
-/// Who recorded says so, and merged the log beside the file.
+/// A recorder that came to its end has merged its log, or has left a row that says so.
 Result<void> RecordingReader::State::read_end() {
   const auto journal = database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
   TRY(journal);
