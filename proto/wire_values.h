@@ -34,19 +34,19 @@ class FieldChecker {
     refuse_kind(number, what);
     return Kind{};
   }
-  /// The same of a request. An unknown one is no error: unknown() says it from then on.
+  /// Reads a kind of a request. An unknown one is no error: unknown() says it from then on.
   template <HasRows Kind>
   Kind asked_kind(int64_t number, const char* what) {
     if (is_kind<Kind>(number)) return static_cast<Kind>(number);
     note_unknown(number, what);
     return Kind{};
   }
-  /// The same where an unknown one can be taken for another.
+  /// Reads a kind where an unknown one can be taken for another.
   template <HasRows Kind>
   static Kind kind_or(int64_t number, Kind otherwise) {
     return is_kind<Kind>(number) ? static_cast<Kind>(number) : otherwise;
   }
-  /// Of a request.
+  /// The shape of a request. Its kind is read by asked_kind().
   Shape shape(const wire::Shape& value);
   /// Coordinates of chunks, packed.
   std::vector<ChunkCoord> chunks(const std::string& packed, size_t count_max, const char* what);

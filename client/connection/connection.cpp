@@ -43,7 +43,6 @@ struct Connection::Impl {
   tcp::socket socket{context};           ///< until it is connected
   std::shared_ptr<Transport> transport;  ///< from then on
   Intake intake;
-  uint64_t noted_unknown = 0;  ///< of the intake, as the counters have it
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
   std::deque<std::vector<uint8_t>> outbox;
   size_t front_sent_bytes = 0;  ///< sent bytes of the first message in the outbox
@@ -72,7 +71,6 @@ struct Connection::Impl {
   void check_silence();
   void read();
   void queue_messages();
-  void note_unknown();
   void enqueue(ServerMessage message, size_t bytes);
   void open_up();
   void push(std::vector<uint8_t> bytes);
@@ -184,6 +182,7 @@ void Connection::Impl::queue_messages() {
   while (!ended) {
     {
       const std::scoped_lock lock(mutex);
+      counters.messages_unknown = intake.unknown();
       const bool full =
           queue.size() >= limits::received_messages_max || queue_memory >= limits::received_bytes_max;
       if (full) {
@@ -193,7 +192,6 @@ void Connection::Impl::queue_messages() {
       }
     }
     auto next = intake.next();
-    note_unknown();
     if (!next) return end(next.error().message, next.error().refusal);
     if (!*next) break;
     if (std::holds_alternative<WelcomeMessage>((*next)->message)) {
@@ -203,13 +201,6 @@ void Connection::Impl::queue_messages() {
     }
   }
   read();
-}
-
-void Connection::Impl::note_unknown() {
-  if (intake.unknown() == noted_unknown) return;
-  noted_unknown = intake.unknown();
-  const std::scoped_lock lock(mutex);
-  counters.messages_unknown = noted_unknown;
 }
 
 /// The welcome has come.

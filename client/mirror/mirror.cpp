@@ -73,7 +73,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
             status_ = status;
             return {};
           },
-          // Of a later release; nothing that this one has to apply.
+          // A message of a later release has nothing that this one must apply.
           [](const UnknownMessage&) -> Done { return {}; },
           // For the person; nothing of the world.
           [](const ReplyMessage&) -> Done { return {}; },

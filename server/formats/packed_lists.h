@@ -19,7 +19,7 @@ std::string packed(Write&& write) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// A list of more entries.
+/// Refuses a list of more entries.
 void refuse_more(ByteReader& reader, size_t count_max);
 
 /// Reads entries until the bytes end, at most `count_max`; `read(reader)` returns one.

@@ -88,15 +88,7 @@ void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::stri
 // ---- sessions
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  if (!shares_protocol(hello.protocol, hello.oldest_protocol)) {
-    const bool one = hello.oldest_protocol == 0 || hello.oldest_protocol == hello.protocol;
-    const std::string spoken = one ? fmt::format("version {}", hello.protocol)
-                                   : fmt::format("versions {} to {}", hello.oldest_protocol, hello.protocol);
-    return refuse(Refusal::protocol_version,
-                  fmt::format("this server speaks protocol version {}, the client {}: use a client and a "
-                              "server of the same release",
-                              protocol_version, spoken));
-  }
+  TRY(find_protocol(hello));
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
@@ -181,10 +173,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           // On TCP the bytes that wait for a client say how far behind it is.
           [](const AckMessage&) -> Done { return {}; },
           [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
-          [&](const UnknownMessage& unknown) -> Done {
-            skip(session, unknown);
-            return {};
-          },
+          [&](const UnknownMessage& unknown) { return skip(session, unknown); },
           [&](const CursorMessage& cursor) -> Done {
             publisher_.set_cursor(
                 {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
@@ -217,17 +206,18 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
 }
 
 /// The client is of a later release, or made by somebody else.
-void NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
+tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
   ++figures_.counts().messages_unknown;
   if (unknown.request) {
     ++figures_.counts().requests;
-    return requests_.refuse(
-        session, *unknown.request,
-        {Refusal::value_unknown,
-         fmt::format("this server does not know {}: it is of another release", unknown.value)});
+    const std::string why =
+        fmt::format("this server does not know {}: it is of another release", unknown.value);
+    requests_.refuse(session, *unknown.request, {Refusal::value_unknown, why});
+    return {};
   }
   log_.say(spdlog::level::info, "message_unknown",
            fmt::format("session {}: a message of an unknown kind is skipped", session.id()));
+  return {};
 }
 
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {

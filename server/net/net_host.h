@@ -81,7 +81,7 @@ class NetHost final : public SessionHost, public WebHost {
   void join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
             const std::optional<Departed>& before);
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
-  void skip(ClientSession& session, const UnknownMessage& unknown);
+  tl::expected<void, Refused> skip(ClientSession& session, const UnknownMessage& unknown);
   void forget(uint64_t session);
 
   void tick_timer();

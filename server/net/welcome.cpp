@@ -1,8 +1,21 @@
 #include "server/net/welcome.h"
 
+#include <fmt/format.h>
+
 #include "crypto/sha256.h"
 
 namespace scree {
+
+tl::expected<void, Refused> find_protocol(const HelloMessage& hello) {
+  if (shares_protocol(hello.protocol, hello.oldest_protocol)) return {};
+  const bool one = hello.oldest_protocol == 0 || hello.oldest_protocol == hello.protocol;
+  const std::string spoken = one ? fmt::format("version {}", hello.protocol)
+                                 : fmt::format("versions {} to {}", hello.oldest_protocol, hello.protocol);
+  return refuse(Refusal::protocol_version,
+                fmt::format("this server speaks protocol version {}, the client {}: use a client and a "
+                            "server of the same release",
+                            protocol_version, spoken));
+}
 
 WelcomeMessage welcome_of(const NetConfig& config, uint64_t world) {
   WelcomeMessage welcome;

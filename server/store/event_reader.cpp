@@ -25,7 +25,7 @@ Result<EventReader> EventReader::open(Database& database) {
   return reader;
 }
 
-/// Where the first row of the machine's begins. A recording that was gone on with may have it later.
+/// Finds where the first row of the machine begins. A recording that was continued may have it later.
 Result<void> EventReader::find_start() {
   if (from_) return {};
   const auto row = TRY(database_->number("SELECT min(tick) FROM machine"));

@@ -94,9 +94,8 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
   return {};
 }
 
-/// Before it looks at rows: a table that is not there has none.
+/// Makes an empty table in memory for each one that the file lacks. Rows are read afterwards.
 Result<void> RecordingReader::State::supply_missing_tables() {
-  TRY(database.execute("PRAGMA temp_store = MEMORY"));
   const auto supply = [this](const char* table) -> Result<void> {
     const auto has = TRY(database.has_table(table));
     return has ? Result<void>() : database.execute(schema::create_empty(table));
@@ -119,7 +118,7 @@ Result<void> RecordingReader::State::open_readers() {
   return {};
 }
 
-/// Who recorded says so, and merged the log beside the file.
+/// A recorder that came to its end has merged its log, or has left a row that says so.
 Result<void> RecordingReader::State::read_end() {
   const auto journal = database.text("PRAGMA journal_mode");  // RecordingWriter::finish() sets "delete"
   TRY(journal);
@@ -155,9 +154,10 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database));
   TRY(check_format(state->database, schema::recording));
-  TRY(state->supply_missing_tables());
+  TRY(state->database.execute("PRAGMA temp_store = MEMORY"));  // for supply_missing_tables()
   TRY(state->hold());
   TRY(check_pages(state->database));
+  TRY(state->supply_missing_tables());
   TRY(state->read_header());
   TRY(state->open_readers());
   TRY(state->read_end());

@@ -48,7 +48,7 @@ inline constexpr const char* row_columns =
 /// has about one row a second, with the durations of the ticks since the last row and the server's own
 /// events. The table ended has one row, of the last tick, when the recorder came to an end.
 ///
-/// Makes those that are not there. Builds before 0.2.0 left out tables without rows.
+/// This makes the tables that are not there. Builds before 0.2.0 left out tables without rows.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(recording_format) + ";";
@@ -57,7 +57,7 @@ inline std::string create_tables() {
   return sql + "CREATE TABLE IF NOT EXISTS " + chunk_table + chunk_columns +
          "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
 }
-/// For a reader of one that lacks the table.
+/// Makes an empty table in memory, for a reader of a file that lacks it.
 inline std::string create_empty(const std::string& table) {
   return "CREATE TEMP TABLE " + table + (table == chunk_table ? chunk_columns : row_columns);
 }

@@ -1,5 +1,5 @@
-// What a server does with messages and values of a later release: it skips and counts them, answers requests
-// that it does not understand, and finds the protocol that both sides speak.
+// A server skips and counts messages of a later release, answers requests with unknown values, and finds the
+// protocol that both sides speak.
 #include <gtest/gtest.h>
 
 #include "tests/support/growing_relay.h"

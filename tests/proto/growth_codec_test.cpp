@@ -1,5 +1,5 @@
-// What codecs do with messages of a later release: unknown kinds and fields are skipped, unknown values are
-// refused where they decide what a peer must apply, and nowhere else.
+// Codecs skip unknown kinds and fields of a later release. They refuse unknown values only where these decide
+// a change that the peer must apply.
 #include <gtest/gtest.h>
 
 #include "proto/codec.h"

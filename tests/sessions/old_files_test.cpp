@@ -61,7 +61,7 @@ class OldFilesTest : public ::testing::TestWithParam<OldFiles> {
   static fs::path source() { return fs::path(SCREE_SOURCE_DIR) / "tests/data" / GetParam().folder; }
   std::string file(const std::string& name) const { return folder / ("files/" + name); }
   std::string world() const { return file(std::string(GetParam().name) + ".world"); }
-  /// What a program says, which has to end well.
+  /// Runs a program, which has to end well, and returns its report.
   nlohmann::json said(const std::string& program, const std::string& arguments) const {
     const auto [code, text] = run_program(program + " " + arguments + " --json");
     EXPECT_EQ(code, 0) << text;

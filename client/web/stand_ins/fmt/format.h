@@ -1,6 +1,6 @@
 // -*- C++ -*-
-// What is used of fmt in the page's client: fmt::format with places {} in order, of texts and numbers. Of the
-// web build alone, for fmt would add 28 KiB, packed, to the page. A format that needs more does not compile.
+// Stands for fmt in the page's client: fmt::format() with places {} in order, for texts and numbers. The web
+// build alone uses it, because fmt would add 28 KiB, packed, to the page. Any other format does not compile.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ void append(std::string& to, Number number) {
   to += std::to_string(number);
 }
 
-/// Appends what stands before the next place, and takes it and the place away.
+/// Appends the text before the next place. Removes it and the place from `text`.
 inline void append_before(std::string& to, std::string_view& text) {
   const size_t place = text.find('{');
   to += text.substr(0, place);
