@@ -15,7 +15,7 @@ fault() {
 }
 
 # names_in TEXT: the options and variables in it, each between spaces.
-names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
+names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z_-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
 
 # help_of COMMAND [SUBCOMMAND]: sets help to the names that --help prints for both, from a cache.
 declare -A helps
@@ -83,7 +83,7 @@ known() {
 }
 
 commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
-all=$(names_in "$(all_help) $(<"$source/CMakeLists.txt")")
+all=$(names_in "$(all_help) $(<"$source/CMakeLists.txt") $(<"$source/.ci/run")")
 readonly commands all
 for page in "$@"; do
   read_page "$source/$page"

@@ -16,7 +16,7 @@ std::vector<SourceFile> documentation_pages() {
     text << in.rdbuf();
     found.push_back({fs::relative(path, root).generic_string(), text.str()});
   };
-  add(root / "README.md");
+  for (const char* page : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) add(root / page);
   for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
     const std::string path = fs::relative(entry.path(), root).generic_string();
     if (path.ends_with(".md") && !path.starts_with("docs/report/")) add(entry.path());
