@@ -17,25 +17,27 @@ fault() {
 # names_in TEXT: the options and variables in it, each between spaces.
 names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
 
-# help_of COMMAND [SUBCOMMAND]: sets help to the names that --help prints for both, from a cache.
+# print_help COMMAND [SUBCOMMAND]: what --help prints for both. Benches and studies are not built for the tests: their sources
+# name the options.
+print_help() {
+  if ! program_of "$@"; then
+    "$source/scree" "$1" --help
+  elif [[ $program == scree-bench || $program == scree-pictures ]]; then
+    cat "$source"/bench/programs/*.cpp
+  elif [[ $program == scree-studies ]]; then
+    cat "$source"/studies/programs/*.cpp
+  else
+    "$bin/$program" "${subcommand[@]}" --help
+    # Where the second word is a subcommand, it has options of its own.
+    if [[ ${2:-} =~ ^[a-z]+$ && $consumed == 1 ]]; then "$bin/$program" "$2" --help 2>/dev/null || true; fi
+  fi
+}
+
+# help_of COMMAND [SUBCOMMAND]: sets help to the names in it, from a cache.
 declare -A helps
 help_of() {
-  local key="$1 ${2:-}" own text
-  if [[ -z ${helps[$key]:-} ]]; then
-    if program_of "$@"; then
-      if [[ ! -x $bin/$program && $program == scree-studies ]]; then # ./scree bench builds it, and nothing else
-        help=unbuilt
-        return
-      fi
-      text=$("$bin/$program" "${subcommand[@]}" --help)
-      # Where the second word is a subcommand, it has options of its own.
-      own=${2:-}
-      if [[ $own =~ ^[a-z]+$ && $consumed == 1 ]]; then text+=$("$bin/$program" "$own" --help 2>/dev/null || true); fi
-    else
-      text=$("$source/scree" "$1" --help)
-    fi
-    helps[$key]=$(names_in "$text")
-  fi
+  local key="$1 ${2:-}"
+  [[ -n ${helps[$key]:-} ]] || helps[$key]=$(names_in "$(print_help "$@")")
   help=${helps[$key]}
 }
 
@@ -45,7 +47,6 @@ check() {
   [[ $1 != --help ]] || return 0
   [[ " $commands " == *" $1 "* ]] || { fault "there is no command ./scree $1" && return; }
   help_of "$1" "${2:-}"
-  [[ $help != unbuilt ]] || return 0
   for word in "${@:2}"; do
     [[ $word == --?* ]] || continue
     checked=$((checked + 1))
@@ -65,15 +66,12 @@ on_command() {
 # What every program prints of its options.
 all_help() {
   local name
-  for name in server viewer bot replay world scene import export admin token bench pictures 'replay render' 'replay control'; do
+  for name in server viewer bot replay world scene import export admin token bench 'bench studies' 'replay render' 'replay control' \
+    'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
+    'admin kick' 'admin set' 'token new' 'token show' setup build test fuzz demo web; do
     # shellcheck disable=SC2086  # two words
-    program_of $name && "$bin/$program" "${subcommand[@]}" --help
+    print_help $name
   done
-  for name in 'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' \
-    'admin ban' 'admin kick' 'admin set' 'token new' 'token show' 'bench run' 'bench all' 'bench compare'; do
-    "$bin/scree-${name% *}" "${name#* }" --help
-  done
-  for name in setup build test fuzz demo web; do "$source/scree" "$name" --help; done
 }
 
 # known NAME: whether a program or the build has it.
