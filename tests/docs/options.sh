@@ -17,7 +17,7 @@ fault() {
 # names_in TEXT: the options and variables in it, each between spaces.
 names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
 
-# print_help COMMAND [SUBCOMMAND]: what --help prints for both. Benches and studies are not built for the tests: their sources
+# print_help COMMAND [SUBCOMMAND]: what --help prints for it. Benches and studies are not built for the tests: their sources
 # name the options.
 print_help() {
   if ! program_of "$@"; then
@@ -26,18 +26,24 @@ print_help() {
     cat "$source"/bench/programs/*.cpp
   elif [[ $program == scree-studies ]]; then
     cat "$source"/studies/programs/*.cpp
+  elif [[ $consumed == 1 && $# == 2 ]]; then
+    "$bin/$program" "$2" --help 2>/dev/null || true # no subcommand, but an argument
   else
     "$bin/$program" "${subcommand[@]}" --help
-    # Where the second word is a subcommand, it has options of its own.
-    if [[ ${2:-} =~ ^[a-z]+$ && $consumed == 1 ]]; then "$bin/$program" "$2" --help 2>/dev/null || true; fi
   fi
 }
 
 # help_of COMMAND [SUBCOMMAND]: sets help to the names in it, from a cache.
 declare -A helps
 help_of() {
-  local key="$1 ${2:-}"
-  [[ -n ${helps[$key]:-} ]] || helps[$key]=$(names_in "$(print_help "$@")")
+  local key="$*" own=''
+  if [[ -z ${helps[$key]:-} ]]; then
+    if (($# == 2)); then
+      help_of "$1"
+      own=$help
+    fi
+    helps[$key]=$own$(names_in "$(print_help "$@")")
+  fi
   help=${helps[$key]}
 }
 
@@ -46,7 +52,7 @@ check() {
   local word
   [[ $1 != --help ]] || return 0
   [[ " $commands " == *" $1 "* ]] || { fault "there is no command ./scree $1" && return; }
-  help_of "$1" "${2:-}"
+  if [[ ${2:-} =~ ^[a-z]+$ ]]; then help_of "$1" "$2"; else help_of "$1"; fi
   for word in "${@:2}"; do
     [[ $word == --?* ]] || continue
     checked=$((checked + 1))
@@ -63,17 +69,6 @@ on_command() {
   [[ ${words[0]} != ./scree ]] || check "${words[@]:1}"
 }
 
-# What every program prints of its options.
-all_help() {
-  local name
-  for name in server viewer bot replay world scene import export admin token bench 'bench studies' 'replay render' 'replay control' \
-    'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
-    'admin kick' 'admin set' 'token new' 'token show' setup build test fuzz demo web; do
-    # shellcheck disable=SC2086  # two words
-    print_help $name
-  done
-}
-
 # known NAME: whether a program or the build has it.
 known() {
   checked=$((checked + 1))
@@ -81,7 +76,14 @@ known() {
 }
 
 commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
-all=$(names_in "$(all_help) $(<"$source/CMakeLists.txt")")
+all=$(names_in "$(<"$source/CMakeLists.txt")")
+for name in server viewer bot replay world scene import export admin token bench 'bench studies' 'replay render' 'replay control' \
+  'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
+  'admin kick' 'admin set' 'token new' 'token show' setup build test fuzz demo web; do
+  # shellcheck disable=SC2086  # two words
+  help_of $name
+  all+=$help
+done
 readonly commands all
 for page in "$@"; do
   read_page "$source/$page"
