@@ -54,7 +54,7 @@ check() {
   [[ " $commands " == *" $1 "* ]] || { fault "there is no command ./scree $1" && return; }
   if [[ ${2:-} =~ ^[a-z]+$ ]]; then help_of "$1" "$2"; else help_of "$1"; fi
   for word in "${@:2}"; do
-    [[ $word == --?* ]] || continue
+    [[ $word == --?* && $word != --gtest_* ]] || continue
     checked=$((checked + 1))
     [[ $help == *" ${word%%=*} "* ]] || fault "./scree $1 ${2:-} has no option ${word%%=*}"
   done
@@ -76,7 +76,7 @@ known() {
 }
 
 commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
-all=$(names_in "$(<"$source/CMakeLists.txt")")
+all=$(names_in "$(cat "$source/CMakeLists.txt" "$source/.ci/run")")
 for name in server viewer bot replay world scene import export admin token bench 'bench studies' 'replay render' 'replay control' \
   'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
   'admin kick' 'admin set' 'token new' 'token show' setup build test fuzz demo web; do
