@@ -24,7 +24,7 @@ small() {
 if [[ $1 == demo ]]; then
   program=demo
   small "${@:2}"
-  SCREE_PROGRAMS=$bin exec "$source/tools/scripts/demo.sh" --offscreen --out "$PWD/out/demo" --carves 8 "${small_arguments[@]}"
+  SCREE_PROGRAMS=$bin exec "$source/tools/scripts/demo.sh" --offscreen --out "$PWD/out/demo" --carves 2 "${small_arguments[@]}"
 fi
 program_of "$@" || { printf 'a test runs no ./scree %s\n' "$1" >&2; exit 2; }
 shift "$consumed"
