@@ -109,7 +109,7 @@ on_command() {
     'run: exits with '*) wanted=${mark##* } ;;
   esac
   printf '%s\n' "$command"
-  if [[ $command == './scree server'* ]]; then
+  if [[ $command == './scree server'* && $command != *' --version' && $command != *' --help' ]]; then
     start_server "$command"
   elif [[ $mark == 'run: together' ]]; then
     run_beside "$command"

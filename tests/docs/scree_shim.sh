@@ -7,19 +7,24 @@ shift 2
 # shellcheck source=page.sh
 source "$(dirname "$(readlink -f "$0")")/page.sh"
 
-# small ARGUMENTS…: sets small_arguments, with a small size and a usual range of view in place of those given.
+# small ARGUMENTS…: sets small_arguments, with a small size, a usual range of view and a film's usual rate in place of those
+# given.
 small() {
   small_arguments=()
   while (($#)); do
-    if [[ $1 == --size || $1 == --view-radius ]]; then shift; else small_arguments+=("$1"); fi
+    case "$program $1" in
+      *' --size' | *' --view-radius' | 'scree-render --fps') shift ;;
+      *) small_arguments+=("$1") ;;
+    esac
     shift
   done
   small_arguments+=(--size 96x54)
 }
 
 if [[ $1 == demo ]]; then
+  program=demo
   small "${@:2}"
-  SCREE_PROGRAMS=$bin exec "$source/tools/scripts/demo.sh" --offscreen --out "$PWD/out/demo" --carves 8 "${small_arguments[@]}"
+  SCREE_PROGRAMS=$bin exec "$source/tools/scripts/demo.sh" --offscreen --out "$PWD/out/demo" --carves 2 "${small_arguments[@]}"
 fi
 program_of "$@" || { printf 'a test runs no ./scree %s\n' "$1" >&2; exit 2; }
 shift "$consumed"
@@ -32,7 +37,7 @@ case $program in
     ;;
   scree-render)
     small "$@"
-    set -- --quality low "${small_arguments[@]}"
+    set -- --quality low --fps 3 "${small_arguments[@]}"
     ;;
 esac
 exec "$bin/$program" "${subcommand[@]}" "$@"

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = SCREE_SOURCE_DIR;
+const fs::path source_folder = SCREE_SOURCE_DIR;
 
 /// A heading's anchor, as GitHub makes it: lower case, without signs, with dashes for spaces.
 std::string anchor_of(const std::string& heading) {
@@ -48,7 +48,8 @@ std::string fault_of(const SourceFile& page, const std::string& target) {
   if (target.find("://") != std::string::npos) return {};
   const size_t sign = target.find('#');
   const std::string file = target.substr(0, sign);
-  const fs::path path = file.empty() ? root / page.path : (root / page.path).parent_path() / file;
+  const fs::path path =
+      file.empty() ? source_folder / page.path : (source_folder / page.path).parent_path() / file;
   if (!fs::exists(path)) return page.path + ": there is no " + target;
   if (sign == std::string::npos || anchors_of(path).contains(target.substr(sign + 1))) return {};
   return page.path + ": no heading is " + target;
@@ -73,8 +74,8 @@ TEST(Links, a_missing_file_or_heading_is_caught) {
 
 /// Whether a file or folder exists, of which `*` stands for any end.
 bool exists(const std::string& path) {
-  if (!path.ends_with('*')) return fs::exists(root / path);
-  const fs::path folder = (root / path).parent_path();
+  if (!path.ends_with('*')) return fs::exists(source_folder / path);
+  const fs::path folder = (source_folder / path).parent_path();
   const std::string name = path.substr(path.rfind('/') + 1), start = name.substr(0, name.size() - 1);
   return fs::is_directory(folder) &&
          std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
@@ -89,7 +90,8 @@ TEST(Links, the_paths_in_the_architecture_exist) {
     if (page.path != "docs/architecture.md" && !page.path.starts_with("docs/design/")) continue;
     for (std::sregex_iterator it(page.text.begin(), page.text.end(), quoted), end; it != end; ++it) {
       const std::string path = (*it)[1];
-      if (!fs::is_directory(root / path.substr(0, path.find('/')))) continue;  // of a client, of a build
+      if (!fs::is_directory(source_folder / path.substr(0, path.find('/'))))
+        continue;  // of a client, of a build
       ++found;
       EXPECT_TRUE(exists(path)) << page.path << ": " << path;
     }
