@@ -33,22 +33,19 @@ class OlderClientTest : public PublisherTest {
 };
 
 TEST_F(OlderClientTest, whatever_it_knows_its_field_and_pieces_are_the_servers) {
-  size_t fewer = 0;
   for (size_t known = 0; known <= operation_kinds; ++known) {
     SCOPED_TRACE(known);
     followers.erase(session);
     join_knowing(known);
     Random random(7);
-    for (int i = 0; i < 60; ++i) tick(any_operations(random));
-    for (int i = 0; i < 100; ++i) tick();
+    for (int i = 0; i < 30; ++i) tick(any_operations(random));
+    for (int i = 0; i < 60; ++i) tick();
     const TrustingClient& follower = followers.at(session);
     expect_held_equal(session);
     EXPECT_EQ(follower.mismatches, 0U);
     EXPECT_EQ(follower.pieces.size(), publisher.view(session)->known_pieces());
     EXPECT_LE(follower.operation_kinds_seen, known) << "it was told an operation that it does not know";
     EXPECT_EQ(follower.operations == 0, known == 0);
-    EXPECT_GE(follower.operations, fewer);
-    fewer = follower.operations;
   }
 }
 
