@@ -131,7 +131,7 @@ TEST_F(ClientTest, each_event_is_told_when_the_mirror_is_as_of_it) {
   EXPECT_EQ(client_->mirror(), nullptr);
   join();
   EXPECT_EQ(server_.hellos.at(0).client, "test");
-  for (const Tick tick : {5, 6, 7}) server_.coming.push_back(empty_frame(tick));
+  for (const Tick tick : {5U, 6U, 7U}) server_.coming.push_back(empty_frame(tick));
   client_->poll(1.0);
   for (const Tick tick : {5U, 6U, 7U}) {
     const std::optional<Client::Event> event = client_->next();
@@ -300,6 +300,7 @@ TEST_F(ClientTest, delayed_frames_wait_for_the_clock_behind_the_server) {
 }
 
 TEST_F(ClientTest, a_request_is_shown_at_once_where_that_is_wanted) {
+  server_.welcome.role = Role::carver;
   for (const bool wanted : {false, true}) {
     start();
     client_->predict(wanted);
