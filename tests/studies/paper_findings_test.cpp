@@ -1,5 +1,6 @@
 // The report of the paper's experiments says what was measured: verdicts follow the figures.
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "studies/paper/findings/analysis.h"
