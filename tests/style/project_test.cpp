@@ -51,9 +51,10 @@ TEST(Project, no_script_or_page_repeats_the_version) {
   for (const char* folder : {"docs", "docker", "cmake", "tools/scripts"})
     for (const auto& entry : fs::directory_iterator(source_root / folder))
       if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), source_root));
-  for (const fs::path& file : files)
-    if (file != "docs/compatibility.md")  // names the folders of files that each release wrote
-      EXPECT_EQ(text_in(source_root / file).find(project_version()), std::string::npos) << file;
+  for (const fs::path& file : files) {
+    if (file == "docs/compatibility.md") continue;  // names the folders of files that each release wrote
+    EXPECT_EQ(text_in(source_root / file).find(project_version()), std::string::npos) << file;
+  }
 }
 
 /// Suites of a test's source.
