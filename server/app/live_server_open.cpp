@@ -41,16 +41,14 @@ Result<void> LiveServer::State::open() {
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
   TRY(open_events());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
-  auto listening = TRY(NetServer::listen(config.net, commands));
+  World* const world = feed->world();
+  TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
+  report.settings = keyframe.settings;  // ticks say only what changes
+  auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
   net = std::move(listening);
   TRY(open_recorder());
   if (saved_world != nullptr) TRY(start_saving());
-  if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
-    const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
-    report.settings = keyframe->settings;  // ticks say only what changes
-    net->publish(keyframe);
-  }
-  if (feed->world() != nullptr) {
+  if (world != nullptr) {
     ahead = std::make_unique<TerrainAhead>(config.world.terrain);
     if (config.governed)
       governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz, work_percent_most);
@@ -86,7 +84,7 @@ Result<void> LiveServer::State::start_saving() {
   World& world = *feed->world();
   TRY(saved_world->start(world, std::move(keeping)));
   resident = std::make_unique<ResidentMemory>();
-  auto opened = TerrainPager::open(saved_world->path(), world.field(), for_clients, config.bricks_in_max,
+  auto opened = TerrainPager::open(saved_world->path(), world.paging(), for_clients, config.bricks_in_max,
                                    [seen = resident.get()] { return seen->bytes(); });
   TRY(opened);
   pager = std::move(*opened);

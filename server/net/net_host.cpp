@@ -326,6 +326,13 @@ void NetHost::shut_down() {
 
 // ---- a tick
 
+void NetHost::begin(const TickDelta& keyframe) {
+  CHECK(network_thread_.is_the_same());
+  if (keyframe.service && *keyframe.service != service_) grant(*keyframe.service);
+  publisher_.begin(keyframe);
+  update_stats();
+}
+
 void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), sessions_.joined());
