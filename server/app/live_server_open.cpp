@@ -19,6 +19,8 @@ Result<void> LiveServer::State::open() {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
     if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
+    if (config.hooks.before)
+      return fail("a replay plays commands that are decided: it cannot have the hook `before`");
     if (!config.events_path.empty())
       return fail("a replay's events are its recording's: scree replay export (--events)");
     auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
@@ -34,6 +36,7 @@ Result<void> LiveServer::State::open() {
   if (config.world.ground != given && given != Digest{})
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
+  config.net.said = config.hooks.said;
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
   config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;

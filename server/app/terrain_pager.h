@@ -71,7 +71,7 @@ class TerrainPager {
   void note_status(uint32_t memory_max_mb);
 
   FieldPaging paging_;
-  const Field& field_;  ///< of paging_
+  const Field& field_;       ///< of paging_
   const size_t bricks_max_;  ///< 0: by memory
   std::shared_ptr<ChunkFetcher> own_;
   std::shared_ptr<ChunkFetcher> clients_;

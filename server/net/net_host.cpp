@@ -180,7 +180,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return {};
           },
           [&](const SayMessage& said) -> Done {
-            pass_on(said, session, talk_, sessions_, steady_now_s());
+            pass_on(said, session, talk_, sessions_, steady_now_s(), config_.said);
             return {};
           },
           [&](const PhysicsSubscriptionMessage& subscription) -> Done {

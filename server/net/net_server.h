@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "proto/event.h"
+#include "proto/talk.h"
 #include "server/doors/access.h"
 #include "server/doors/door.h"
 #include "server/doors/limits.h"
@@ -79,6 +80,8 @@ struct NetConfig {
   std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
   /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
   std::function<void(Event)> noted;
+  /// Takes a person's line; false: the line is not passed on. On the network thread. May be empty.
+  std::function<bool(const SaidMessage&)> said;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them

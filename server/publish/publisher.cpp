@@ -207,10 +207,9 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
   for (const Reply& reply : delta.replies) {
     ClientFeed* const client = find(reply.session);
     if (client == nullptr) continue;
-    const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
-    client->outlet().send(
-        share(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply), delta.tick}),
-        replies);
+    client->outlet().send(share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply),
+                                             latency(reply), delta.tick}),
+                          replies);
   }
   add(std::move(replies));
   return std::exchange(out_, {});

@@ -1,8 +1,8 @@
 // The simulation: field, pieces, bodies and ledger, advanced tick by tick.
 //
 // A pure function of its configuration and of the commands by tick: the same input gives the same hashes, in
-// any build and on any number of threads. It reads a clock for StageTimes only. One thread at a time calls its
-// functions; step() shares the bodies' work with others of its own; all results are in the TickDelta.
+// any build and on any number of threads. It reads a clock for StageTimes only. One thread at a time calls
+// its functions; step() shares the bodies' work with others of its own; all results are in the TickDelta.
 #pragma once
 
 #include <functional>

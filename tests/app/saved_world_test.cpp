@@ -11,9 +11,6 @@ namespace {
 
 class SavedWorldTest : public ::testing::Test {
  protected:
-  // A process with threads is not to be forked: the test that dies begins anew.
-  void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
-
   std::unique_ptr<SavedWorld> open() {
     WorldConfig config;
     config.terrain = flat_terrain;
@@ -21,7 +18,7 @@ class SavedWorldTest : public ::testing::Test {
     EXPECT_TRUE(opened.has_value()) << opened.error().message;
     return std::move(*opened);
   }
-  static SaverConfig keeping() {
+  static SaverConfig saving() {
     return {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}};
   }
 
@@ -33,24 +30,24 @@ TEST_F(SavedWorldTest, a_world_is_new_when_no_file_of_it_was_there_also_after_it
     const auto kept = open();
     EXPECT_TRUE(kept->is_new());
     const auto world = kept->release_world();
-    ASSERT_TRUE(kept->start(*world, keeping()).has_value());
+    ASSERT_TRUE(kept->start(*world, saving()).has_value());
     EXPECT_TRUE(kept->is_new());
-    kept->keep(*world->step({}), *world);
+    kept->note(*world->step({}), *world);
     ASSERT_TRUE(kept->finish(*world).has_value());
   }
   const auto kept = open();
   EXPECT_FALSE(kept->is_new());
   const auto world = kept->release_world();
   EXPECT_EQ(world->tick(), 1U);
-  ASSERT_TRUE(kept->start(*world, keeping()).has_value());
+  ASSERT_TRUE(kept->start(*world, saving()).has_value());
   EXPECT_FALSE(kept->is_new());
 }
 
 TEST_F(SavedWorldTest, starts_once) {
   const auto kept = open();
   const auto world = kept->release_world();
-  ASSERT_TRUE(kept->start(*world, keeping()).has_value());
-  EXPECT_DEATH(static_cast<void>(kept->start(*world, keeping())), "a saved world starts once");
+  ASSERT_TRUE(kept->start(*world, saving()).has_value());
+  EXPECT_DEATH(static_cast<void>(kept->start(*world, saving())), "a saved world starts once");
 }
 
 }  // namespace

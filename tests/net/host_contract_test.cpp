@@ -1,6 +1,7 @@
 // The duties of a NetServer's host: the world before the first tick, and every later tick in order. A breach
 // ends the process with a message, and never empties a client's world.
 #include <gtest/gtest.h>
+#include <map>
 
 #include "server/publish/client_view.h"
 #include "tests/support/net_server_fixture.h"

@@ -27,7 +27,8 @@ bool SurfaceLevels::has_generated(const Field& field, int level, ChunkCoord chun
   return level == 0 ? field.has_generated(chunk) : coarse_[static_cast<size_t>(level)]->has_generated(chunk);
 }
 
-void SurfaceLevels::adopt_generated(const Field& field, int level, ChunkCoord chunk, GeneratedChunk&& generated) {
+void SurfaceLevels::adopt_generated(const Field& field, int level, ChunkCoord chunk,
+                                    GeneratedChunk&& generated) {
   const Field& generator = level == 0 ? field : *coarse_[static_cast<size_t>(level)];
   generator.adopt_generated(chunk, std::move(generated));
 }
