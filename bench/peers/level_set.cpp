@@ -4,7 +4,7 @@
 
 namespace scree::peers {
 
-openvdb::FloatGrid::Ptr level_set_of(Field& field, const VoxelBox& box) {
+openvdb::FloatGrid::Ptr level_set_of(const Field& field, const VoxelBox& box) {
   openvdb::initialize();
   const float dx = field.source().voxel_size_m;
   const float background_m = band_voxels * dx;

@@ -9,6 +9,6 @@ namespace scree::peers {
 
 /// The distances of the box, in metres: leaves at the surface; solid regions without leaves are filled from
 /// them.
-openvdb::FloatGrid::Ptr level_set_of(Field& field, const VoxelBox& box);
+openvdb::FloatGrid::Ptr level_set_of(const Field& field, const VoxelBox& box);
 
 }  // namespace scree::peers

@@ -15,7 +15,7 @@ struct NanoTerrain::Grid {
   double convert_ms = 0.0;
 };
 
-NanoTerrain::NanoTerrain(Field& field, const VoxelBox& box) : grid_(std::make_unique<Grid>()) {
+NanoTerrain::NanoTerrain(const Field& field, const VoxelBox& box) : grid_(std::make_unique<Grid>()) {
   const openvdb::FloatGrid::Ptr level_set = level_set_of(field, box);
   Stopwatch stopwatch;
   grid_->handle = nanovdb::openToNanoVDB(*level_set);

@@ -17,7 +17,7 @@ namespace scree::peers {
 class NanoTerrain {
  public:
   /// Copies the field's distances in that box into a level set, and converts it.
-  NanoTerrain(Field& field, const VoxelBox& box);
+  NanoTerrain(const Field& field, const VoxelBox& box);
   ~NanoTerrain();
   NanoTerrain(const NanoTerrain&) = delete;
   NanoTerrain& operator=(const NanoTerrain&) = delete;

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-PeerSegments segment_with_openvdb(Field& field, const VoxelBox& box) {
+PeerSegments segment_with_openvdb(const Field& field, const VoxelBox& box) {
   const openvdb::FloatGrid::Ptr grid = peers::level_set_of(field, box);
   std::vector<openvdb::FloatGrid::Ptr> segments;
   PeerSegments peer;

@@ -14,6 +14,6 @@ struct PeerSegments {
 };
 
 /// Segments the solid within the box, which is first copied into a level set of floats (not timed).
-PeerSegments segment_with_openvdb(Field& field, const VoxelBox& box);
+PeerSegments segment_with_openvdb(const Field& field, const VoxelBox& box);
 
 }  // namespace scree

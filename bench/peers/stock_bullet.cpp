@@ -32,7 +32,7 @@ struct Ground {
   std::unique_ptr<btRigidBody> body;
 };
 
-Ground ground_of(Field& field, const VoxelBox& box) {
+Ground ground_of(const Field& field, const VoxelBox& box) {
   const float dx = field.source().voxel_size_m;
   Ground ground;
   ground.mesh = std::make_unique<btTriangleMesh>();
@@ -60,7 +60,7 @@ struct StockBullet::State {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 };
 
-StockBullet::StockBullet(Field& field, const VoxelBox& box) : state_(std::make_unique<State>()) {
+StockBullet::StockBullet(const Field& field, const VoxelBox& box) : state_(std::make_unique<State>()) {
   state_->world.setGravity({0.0F, -gravity_m_s2, 0.0F});
   state_->ground = ground_of(field, box);
   state_->world.addRigidBody(state_->ground.body.get());
@@ -71,7 +71,7 @@ StockBullet::~StockBullet() {
   state_->world.removeRigidBody(state_->ground.body.get());
 }
 
-void StockBullet::rebuild_ground(Field& field, const VoxelBox& box) {
+void StockBullet::rebuild_ground(const Field& field, const VoxelBox& box) {
   Ground fresh = ground_of(field, box);
   state_->world.removeRigidBody(state_->ground.body.get());
   state_->ground = std::move(fresh);

@@ -26,13 +26,13 @@ struct StockPiece {
 class StockBullet {
  public:
   /// The ground is the field's surface in that box of voxels, which does not change any more.
-  StockBullet(Field& field, const VoxelBox& box);
+  StockBullet(const Field& field, const VoxelBox& box);
   ~StockBullet();
   StockBullet(const StockBullet&) = delete;
   StockBullet& operator=(const StockBullet&) = delete;
 
   /// Makes the ground anew, as after a carve: the triangles, and Bullet's tree over them.
-  void rebuild_ground(Field& field, const VoxelBox& box);
+  void rebuild_ground(const Field& field, const VoxelBox& box);
   size_t triangles() const;
 
   void add(const StockPiece& piece);

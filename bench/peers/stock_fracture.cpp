@@ -47,7 +47,7 @@ struct StockTerrain::Grids {
   std::vector<Mesh> pieces;
 };
 
-StockTerrain::StockTerrain(Field& field, const VoxelBox& box) : grids_(std::make_unique<Grids>()) {
+StockTerrain::StockTerrain(const Field& field, const VoxelBox& box) : grids_(std::make_unique<Grids>()) {
   openvdb::initialize();
   const float dx = field.source().voxel_size_m;
   grids_->voxel_size_m = dx;

@@ -34,7 +34,7 @@ struct MergeTimes {
 class StockTerrain {
  public:
   /// A level set with the field's distances in that box.
-  StockTerrain(Field& field, const VoxelBox& box);
+  StockTerrain(const Field& field, const VoxelBox& box);
   ~StockTerrain();
 
   /// Carves a ball and breaks it into the Voronoi cells of the seeds (metres). The pieces wait for `merge`;

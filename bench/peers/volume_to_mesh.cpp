@@ -11,7 +11,7 @@ struct StockMesher::Grid {
   openvdb::FloatGrid::Ptr level_set;
 };
 
-StockMesher::StockMesher(Field& field, const VoxelBox& box)
+StockMesher::StockMesher(const Field& field, const VoxelBox& box)
     : grid_(std::make_unique<Grid>(Grid{level_set_of(field, box)})) {}
 
 StockMesher::~StockMesher() = default;

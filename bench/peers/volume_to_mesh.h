@@ -11,7 +11,7 @@ namespace scree::peers {
 class StockMesher {
  public:
   /// A level set with the field's distances in that box.
-  StockMesher(Field& field, const VoxelBox& box);
+  StockMesher(const Field& field, const VoxelBox& box);
   ~StockMesher();
 
   /// Meshes all of it on this thread alone, without simplifying; the number of its quads.

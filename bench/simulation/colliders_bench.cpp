@@ -56,7 +56,7 @@ std::vector<glm::vec3> surface_of(const Volume& volume, float voxel_size_m) {
   return some;
 }
 
-float depth_voxels(Field& field, glm::vec3 p_m) {
+float depth_voxels(const Field& field, glm::vec3 p_m) {
   return -sample(field, p_m / field.source().voxel_size_m).distance_voxels;
 }
 
@@ -163,7 +163,7 @@ struct Contacts {
 };
 
 Contacts time_contacts(TerrainColliderKind kind, Scene& lived) {
-  Field& field = lived.world().field();
+  const Field& field = lived.world().field();
   const auto collider = make_terrain_collider(kind, field);
   std::map<PieceId, std::unique_ptr<TerrainProbe>> probes;
   for (const auto& [id, points] : lived.surfaces()) probes[id] = collider->attach(points);

@@ -97,7 +97,7 @@ Result<AudienceOutcome> show_storm(const Audience& audience) {
   net.terrain = config.terrain;
   net.service = config.service;
   raise_descriptors(2 * sessions + 1024);
-  const auto server = TRY(NetServer::listen(net, commands));
+  const auto server = TRY(NetServer::listen(net, commands, world.keyframe()));
   const auto times = std::make_unique<TickTimes>();
   run_paced(world, *server, commands, *times, 0.5);
   malloc_trim(0);  // or viewers would use pages that lie free, and seem to need none

@@ -198,7 +198,7 @@ BenchReport run_join_bench(const BenchOptions& options) {
   CommandQueue commands;
   NetConfig net;
   net.terrain = config.terrain;
-  const auto server = NetServer::listen(net, commands);
+  const auto server = NetServer::listen(net, commands, TickDelta());
   if (!server) {
     report.check("server", false, server.error().message);
     return report;

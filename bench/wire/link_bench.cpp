@@ -261,7 +261,7 @@ Result<void> run_links(const std::vector<Link>& links, double seconds, BenchRepo
   NetConfig net;
   net.terrain = terrain;
   net.service = world.config().service;
-  const auto server = TRY(NetServer::listen(net, commands));
+  const auto server = TRY(NetServer::listen(net, commands, world.keyframe()));
   const auto times = std::make_unique<TickTimes>();
   RealTime simulation(world, *server, commands, *times);
   const auto never = [] { return false; };

@@ -101,6 +101,7 @@ bool LiveServer::State::step() {
     TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
     admitted = admission.admit(std::move(admitted.commands),
                                {*world, *pager, generator, !saved_world->status().error});
+    if (config.hooks.before && !ask_host(*world, admitted)) return false;
   }
   const bool is_chosen = std::ranges::any_of(admitted.commands, sets_work_percent);
   if (work_percent_next && !is_chosen)
@@ -134,6 +135,7 @@ bool LiveServer::State::step() {
     const TraceSpan span(trace.get(), "simulation", "hand over");
     net->publish(delta, ran);
   }
+  if (config.hooks.after) config.hooks.after(*delta);
   const std::scoped_lock lock(mutex);
   report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
   report.whole_tick_cpu.add((thread_cpu_s() - cpu_before_s) * 1e3);

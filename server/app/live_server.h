@@ -1,15 +1,17 @@
 // A whole server in one object: ticks from the simulation or from a recording, clients, a recorder, and the
 // file that keeps its world. The program scree-server adds a command line; tests and benches run the object
-// in their own process.
+// in their own process. A host with rules of its own gives it hooks (LiveConfig::hooks), and pushes commands.
+// It owes nothing else: the server publishes every tick, keeps it and records it.
 //
 // Threads: the simulation thread (unless stepped by hand), the network thread, those that help these two, a
 // storage thread each for recording and world, and one that generates terrain ahead. The owner's thread calls
-// all public functions.
+// all public functions, but for push(), which any thread may call.
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "server/app/host_hooks.h"
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
 #include "server/net/net_server.h"
@@ -41,6 +43,7 @@ struct LiveConfig {
   Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
   double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never
   uint32_t wait_clients = 0;  ///< the first tick waits until so many clients have joined
+  HostHooks hooks;            ///< the host's own rules
 };
 
 /// As Linux lists the threads of a process; the bodies' helpers and the network have other threads.
@@ -63,6 +66,12 @@ class LiveServer {
 
   /// Whether more ticks follow.
   bool running() const;
+
+  /// Queues a command of the host for the next tick: with session 0, and no LeaveRequest. From any thread,
+  /// but not while the server is destroyed. It waits like a client's until its terrain is in memory; its
+  /// reply is in the delta. False: the server has stopped or plays a recording, or too many commands wait
+  /// (limits::commands_waiting_max).
+  [[nodiscard]] bool push(Command command);
 
   /// Reads certificate, keys and revoked tokens again (NetServer::reload).
   Result<void> reload();

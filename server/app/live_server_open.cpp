@@ -19,6 +19,8 @@ Result<void> LiveServer::State::open() {
     if (!config.record_path.empty())
       return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
     if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
+    if (config.hooks.before)
+      return fail("a replay plays commands that are decided: it cannot have the hook `before`");
     if (!config.events_path.empty())
       return fail("a replay's events are its recording's: scree replay export (--events)");
     auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
@@ -34,6 +36,7 @@ Result<void> LiveServer::State::open() {
   if (config.world.ground != given && given != Digest{})
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
+  config.net.said = config.hooks.said;
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
   config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;
@@ -41,16 +44,14 @@ Result<void> LiveServer::State::open() {
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
   TRY(open_events());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
-  auto listening = TRY(NetServer::listen(config.net, commands));
+  World* const world = feed->world();
+  TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
+  report.settings = keyframe.settings;  // ticks say only what changes
+  auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
   net = std::move(listening);
   TRY(open_recorder());
   if (saved_world != nullptr) TRY(start_saving());
-  if (World* world = feed->world(); world != nullptr && world->tick() > 0) {
-    const auto keyframe = std::make_shared<const TickDelta>(world->keyframe());
-    report.settings = keyframe->settings;  // ticks say only what changes
-    net->publish(keyframe);
-  }
-  if (feed->world() != nullptr) {
+  if (world != nullptr) {
     ahead = std::make_unique<TerrainAhead>(config.world.terrain);
     if (config.governed)
       governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz, work_percent_most);
@@ -86,7 +87,7 @@ Result<void> LiveServer::State::start_saving() {
   World& world = *feed->world();
   TRY(saved_world->start(world, std::move(keeping)));
   resident = std::make_unique<ResidentMemory>();
-  auto opened = TerrainPager::open(saved_world->path(), world.field(), for_clients, config.bricks_in_max,
+  auto opened = TerrainPager::open(saved_world->path(), world.paging(), for_clients, config.bricks_in_max,
                                    [seen = resident.get()] { return seen->bytes(); });
   TRY(opened);
   pager = std::move(*opened);

@@ -1,5 +1,5 @@
-// What a LiveServer is made of: for its own two sources, which open it (live_server_open.cpp) and run it
-// (live_server.cpp).
+// What a LiveServer is made of: for its own sources, which open it (live_server_open.cpp), run it
+// (live_server.cpp) and let its host decide (live_server_host.cpp).
 #pragma once
 
 #include <atomic>
@@ -45,6 +45,7 @@ struct LiveServer::State {
   Result<void> start_saving();
   void run();
   bool step();
+  bool ask_host(const World& world, Admitted& admitted);
   bool wait_for_clients();
   bool time_is_over() const {
     return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);

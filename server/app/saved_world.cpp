@@ -13,6 +13,7 @@
 #include "server/world/recorded_values.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
+#include "shared/base/check.h"
 
 namespace scree {
 
@@ -40,6 +41,7 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
   if (!std::filesystem::exists(path, ignored)) {
     auto world = TRY(World::create(config, threads));
     saved_world->world_ = std::move(world);
+    saved_world->is_new_ = true;
     saved_world->number_ = std::max<uint64_t>(1, random_number());
     return saved_world;
   }
@@ -95,7 +97,8 @@ SavedWorld::~SavedWorld() {
 }
 
 Result<void> SavedWorld::start(World& world, SaverConfig config) {
-  if (file_ == nullptr) {
+  CHECK(saver_ == nullptr, "a saved world starts once");
+  if (is_new_) {
     const WorldSnapshot value = world.snapshot();
     WorldHeader header{.world = number_, .config = value.moment.config};
     header.config.program = "scree-server " SCREE_VERSION;

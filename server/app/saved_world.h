@@ -29,10 +29,11 @@ class SavedWorld {
   std::unique_ptr<World> release_world() { return std::move(world_); }
   uint64_t number() const { return number_; }  ///< WelcomeMessage::world
   uint64_t first_session() const { return first_session_; }
-  bool is_new() const { return file_ == nullptr; }
+  /// No file of it existed when it was opened.
+  bool is_new() const { return is_new_; }
 
-  /// Writes a new world's file, and begins to save. `world` is the one that was taken, and has not ticked
-  /// yet.
+  /// Writes a new world's file, and begins to save; once. `world` is the one that was taken, and has not
+  /// ticked yet.
   Result<void> start(World& world, SaverConfig config);
   /// After each tick of the world. `pressed`: memory is short until it is saved.
   void note(const TickDelta& delta, World& world, bool pressed = false);
@@ -54,8 +55,9 @@ class SavedWorld {
 
   std::string path_;
   WorldLock lock_;
-  std::unique_ptr<WorldFile> file_;
+  std::unique_ptr<WorldFile> file_;  ///< until start(), of a world that is not new
   std::unique_ptr<World> world_;
+  bool is_new_ = false;
   bool temporary_ = false;
   uint64_t number_ = 0;
   uint64_t first_session_ = 1;

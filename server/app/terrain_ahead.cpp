@@ -40,7 +40,7 @@ TerrainAhead::~TerrainAhead() {
   thread_.join();
 }
 
-void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
+void TerrainAhead::serve(const Field& field, std::span<const glm::vec3> eyes_m) {
   std::vector<Ready> ready;
   bool idle = false;
   {
@@ -63,13 +63,13 @@ void TerrainAhead::serve(Field& field, std::span<const glm::vec3> eyes_m) {
   wake_.notify_all();
 }
 
-bool TerrainAhead::has(Field& field, const VoxelBox& box) {
+bool TerrainAhead::has(const Field& field, const VoxelBox& box) {
   std::vector<ChunkCoord> chunks;
   for_each_chunk(box, [&](ChunkCoord chunk) { chunks.push_back(chunk); });
   return has(field, chunks);
 }
 
-bool TerrainAhead::has(Field& field, std::span<const ChunkCoord> chunks) {
+bool TerrainAhead::has(const Field& field, std::span<const ChunkCoord> chunks) {
   std::vector<ChunkCoord> lacking;
   for (const ChunkCoord chunk : chunks)
     if (!field.touch_generated(chunk)) lacking.push_back(chunk);
@@ -82,7 +82,7 @@ bool TerrainAhead::has(Field& field, std::span<const ChunkCoord> chunks) {
 }
 
 /// Those of the next limits::ahead_chunks_per_tick chunks around an eye that the field lacks.
-std::vector<ChunkCoord> TerrainAhead::missing_around(Field& field, std::span<const glm::vec3> eyes_m) {
+std::vector<ChunkCoord> TerrainAhead::missing_around(const Field& field, std::span<const glm::vec3> eyes_m) {
   if (step_ >= around_.size()) {
     step_ = 0;
     if (++eye_ % eyes_m.size() == 0) round_.clear();

@@ -33,14 +33,14 @@ class TerrainAhead {
   /// lacks around the eyes (metres): the nearest first, limits::ahead_chunks_per_tick at a time; those that
   /// it has count as used. Requests none when all that lies around the eyes would fill more than half of what
   /// the field may keep (Field::generated_bytes_max): it would drop what was made before. Call once a tick.
-  void serve(Field& field, std::span<const glm::vec3> eyes_m);
+  void serve(const Field& field, std::span<const glm::vec3> eyes_m);
 
   /// Whether the field has the terrain of all chunks that the box touches; they count as used. Those that it
   /// lacks are generated before what lies around eyes, at most limits::ahead_asked_max at a time, and handed
   /// over by serve().
-  bool has(Field& field, const VoxelBox& box);
+  bool has(const Field& field, const VoxelBox& box);
   /// The same for chunks that something will touch soon.
-  bool has(Field& field, std::span<const ChunkCoord> chunks);
+  bool has(const Field& field, std::span<const ChunkCoord> chunks);
 
  private:
   struct Ready {
@@ -48,7 +48,7 @@ class TerrainAhead {
     GeneratedChunk chunk;
   };
 
-  std::vector<ChunkCoord> missing_around(Field& field, std::span<const glm::vec3> eyes_m);
+  std::vector<ChunkCoord> missing_around(const Field& field, std::span<const glm::vec3> eyes_m);
   void run();
 
   const TerrainSource source_;

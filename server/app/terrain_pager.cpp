@@ -16,16 +16,17 @@ Result<ReadChunk> chunk_reader(const std::string& path) {
   };
 }
 
-TerrainPager::TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
+TerrainPager::TerrainPager(FieldPaging field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
                            std::shared_ptr<ChunkFetcher> clients, std::function<double()> resident_bytes)
-    : field_(field),
+    : paging_(field),
+      field_(paging_.field()),
       bricks_max_(bricks_max),
       own_(std::move(own)),
       clients_(std::move(clients)),
       resident_bytes_(std::move(resident_bytes)),
       around_(ball_of_chunks(limits::ahead_chunks)) {}
 
-Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path, Field& field,
+Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path, FieldPaging field,
                                                          std::shared_ptr<ChunkFetcher> clients,
                                                          size_t bricks_max,
                                                          std::function<double()> resident_bytes) {
@@ -39,16 +40,16 @@ Result<std::unique_ptr<TerrainPager>> TerrainPager::open(const std::string& path
 
 /// A chunk that does not fit came in meanwhile, or was read before its last change was saved.
 void TerrainPager::begin_tick() {
-  field_.begin_turn();
+  paging_.begin_turn();
   for (const SuppliedChunk& chunk : own_->collect(limits::page_in_per_tick))
-    if (field_.is_out(chunk.chunk)) static_cast<void>(field_.page_in(chunk.chunk, chunk.bricks));
+    if (field_.is_out(chunk.chunk)) static_cast<void>(paging_.page_in(chunk.chunk, chunk.bricks));
 }
 
 void TerrainPager::want(ChunkCoord chunk) {
   if (field_.is_out(chunk))
     own_->ask(chunk);
   else
-    field_.touch(chunk);
+    paging_.touch(chunk);
 }
 
 bool TerrainPager::is_in(const VoxelBox& box) {
@@ -107,7 +108,7 @@ void TerrainPager::page_out(Tick tick, Tick saved) {
       any_unsaved_ = true;
       continue;
     }
-    field_.page_out(chunk);
+    paging_.page_out(chunk);
     any_went_ = true;
     ++went;
   }

@@ -17,6 +17,7 @@
 #include "server/store/chunk_fetcher.h"
 #include "server/work/memory.h"
 #include "server/world/tick_delta.h"
+#include "shared/field/field_paging.h"
 
 namespace scree {
 
@@ -37,7 +38,7 @@ class TerrainPager {
   /// memory; 0: as many as memory_max_mb allows. `clients`: supplies their copies, on the network thread; it
   /// is started. `resident_bytes` tells what the process has in RAM, by which terrain gives way to what the
   /// model does not know of; null: to nothing.
-  static Result<std::unique_ptr<TerrainPager>> open(const std::string& path, Field& field,
+  static Result<std::unique_ptr<TerrainPager>> open(const std::string& path, FieldPaging field,
                                                     std::shared_ptr<ChunkFetcher> clients, size_t bricks_max,
                                                     std::function<double()> resident_bytes = {});
 
@@ -59,7 +60,7 @@ class TerrainPager {
   PagerStatus status() const;
 
  private:
-  TerrainPager(Field& field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
+  TerrainPager(FieldPaging field, size_t bricks_max, std::shared_ptr<ChunkFetcher> own,
                std::shared_ptr<ChunkFetcher> clients, std::function<double()> resident_bytes);
   void want(ChunkCoord chunk);
   void request_around_eyes(std::span<const glm::vec3> eyes_m);
@@ -69,7 +70,8 @@ class TerrainPager {
   void count_memory(uint32_t memory_max_mb);
   void note_status(uint32_t memory_max_mb);
 
-  Field& field_;
+  FieldPaging paging_;
+  const Field& field_;       ///< of paging_
   const size_t bricks_max_;  ///< 0: by memory
   std::shared_ptr<ChunkFetcher> own_;
   std::shared_ptr<ChunkFetcher> clients_;

@@ -330,6 +330,10 @@ void Bodies::renew() {
   state_->pending.restore(now);
 }
 
+void Bodies::release_thread() {
+  state_->workers.release_owner();
+}
+
 uint64_t Bodies::state_hash() const {
   std::vector<float> exact;
   exact.reserve(size() * 18);

@@ -146,6 +146,9 @@ class Bodies {
   /// Makes of these bodies what restore() makes of their shapes and motions: all wake, and contacts are gone.
   void renew();
 
+  /// The thread that calls step() lets go: the thread of the next call owns the bodies.
+  void release_thread();
+
   /// XXH3 of the exact transforms and velocities, in order of id.
   uint64_t state_hash() const;
 

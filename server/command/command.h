@@ -33,6 +33,11 @@ struct Reply {
   std::string refusal;
   uint32_t pieces = 0;
   std::optional<Refusal> reason = std::nullopt;  ///< of the refusal
+  std::string host_name{};                       ///< of a Refusal::host that the host gave a name of its own
 };
+
+/// The name of the reply's refusal that clients get, which stays the same from version to version: that of
+/// the reason, or "game:" and the host's own. Empty when it was carried out.
+std::string refusal_name(const Reply& reply);
 
 }  // namespace scree

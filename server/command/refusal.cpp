@@ -26,6 +26,7 @@ constexpr Row rows[] = {
     {Refusal::memory_max, "memory_max"},
     {Refusal::terrain_unreadable, "terrain_unreadable"},
     {Refusal::session_over, "session_over"},
+    {Refusal::host, "host"},
     {Refusal::replay, "replay"},
     {Refusal::requests_per_second, "requests_per_second"},
     {Refusal::commands_waiting, "commands_waiting"},

@@ -26,6 +26,8 @@ enum class Refusal : uint8_t {
   memory_max,
   terrain_unreadable,
   session_over,
+  // The host's own rule refuses a request (server/app/host_hooks.h).
+  host,
   // The network side refuses a request.
   replay,
   requests_per_second,

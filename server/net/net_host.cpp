@@ -180,7 +180,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return {};
           },
           [&](const SayMessage& said) -> Done {
-            pass_on(said, session, talk_, sessions_, steady_now_s());
+            pass_on(said, session, talk_, sessions_, steady_now_s(), config_.said);
             return {};
           },
           [&](const PhysicsSubscriptionMessage& subscription) -> Done {
@@ -325,6 +325,13 @@ void NetHost::shut_down() {
 }
 
 // ---- a tick
+
+void NetHost::begin(const TickDelta& keyframe) {
+  CHECK(network_thread_.is_the_same());
+  if (keyframe.service && *keyframe.service != service_) grant(*keyframe.service);
+  publisher_.begin(keyframe);
+  update_stats();
+}
 
 void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   CHECK(network_thread_.is_the_same());

@@ -51,6 +51,8 @@ class NetHost final : public SessionHost, public WebHost {
   void run();
 
   // ---- on the network thread
+  /// Takes the world before the first tick. Called once, before anybody joins.
+  void begin(const TickDelta& keyframe);
   /// `more`: the next tick waits already; then this one's messages may go together with that one's.
   void publish(const TickDelta& delta, const TickSpan& span, bool more);
   /// From now on; sessions whose token was revoked end.

@@ -23,6 +23,7 @@ struct NetServer::Impl {
   std::thread thread;
   std::mutex mutex;
   std::condition_variable taken;
+  Tick published = 0;    ///< the last tick; used by the simulation's thread
   size_t in_flight = 0;  ///< guarded by mutex
   bool stopped = false;  ///< guarded by mutex
   std::atomic<uint64_t> waits{0};
@@ -34,9 +35,13 @@ NetServer::~NetServer() {
   stop();
 }
 
-Result<std::unique_ptr<NetServer>> NetServer::listen(const NetConfig& config, CommandQueue& commands) {
+Result<std::unique_ptr<NetServer>> NetServer::listen(const NetConfig& config, CommandQueue& commands,
+                                                     TickDelta keyframe) {
   auto impl = std::make_unique<Impl>(config, commands);
   TRY(impl->host.listen());
+  impl->published = keyframe.tick;
+  // The network thread runs this first, so nobody can join before it.
+  impl->post([host = &impl->host, world = std::move(keyframe)](bool) { host->begin(world); });
   impl->thread = std::thread([host = &impl->host] { host->run(); });
   return std::unique_ptr<NetServer>(new NetServer(std::move(impl)));
 }
@@ -71,6 +76,10 @@ void NetServer::Impl::post(std::function<void(bool more)> job) {
 
 void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span) {
   CHECK(delta != nullptr);
+  if (!impl_->config.replay)
+    CHECK_EQ(delta->tick, impl_->published + 1,
+             "publish every tick, in order: clients hold the world by its changes");
+  impl_->published = delta->tick;
   impl_->post([host = &impl_->host, delta = std::move(delta), span](bool more) {
     host->publish(*delta, span, more);
   });

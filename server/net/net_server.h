@@ -4,6 +4,11 @@
 // One network thread owns all sockets; it only queues, decodes and sends. Encoding and sending it shares with
 // workers (workers.h), for which it waits. The simulation calls publish(), which only posts. A client that
 // breaks the protocol gets the reason and is closed; other clients do not notice.
+//
+// The host that simulates has two duties, and both are checked. It gives listen() the world as it stands, and
+// publishes every later tick, in order. Clients hold the world by its changes, so a gap would cost them all
+// of it. A server that plays a recording (NetConfig::replay) may jump: its tick out of order is a keyframe,
+// and resets every client.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +18,7 @@
 #include <vector>
 
 #include "proto/event.h"
+#include "proto/talk.h"
 #include "server/doors/access.h"
 #include "server/doors/door.h"
 #include "server/doors/limits.h"
@@ -74,6 +80,8 @@ struct NetConfig {
   std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
   /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
   std::function<void(Event)> noted;
+  /// Takes a person's line; false: the line is not passed on. On the network thread. May be empty.
+  std::function<bool(const SaidMessage&)> said;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
@@ -88,8 +96,10 @@ struct NetConfig {
 
 class NetServer {
  public:
-  /// Listens at once. `commands` must outlive the server.
-  static Result<std::unique_ptr<NetServer>> listen(const NetConfig& config, CommandQueue& commands);
+  /// Listens at once. `commands` must outlive the server. `keyframe` (World::keyframe()) is the world before
+  /// the first tick that is published. A replay passes an empty one, because its first tick has everything.
+  static Result<std::unique_ptr<NetServer>> listen(const NetConfig& config, CommandQueue& commands,
+                                                   TickDelta keyframe);
   /// Calls stop().
   ~NetServer();
   NetServer(const NetServer&) = delete;
@@ -97,8 +107,9 @@ class NetServer {
 
   uint16_t port() const;
 
-  /// Hands a tick to the network thread; waits while limits::deltas_in_flight_max ticks wait there. From one
-  /// thread only. `span`: when the tick took its commands, and was done; unless told, it took no time.
+  /// Hands a tick to the network thread; waits while limits::deltas_in_flight_max ticks wait there. It is the
+  /// tick after the last one, or after the keyframe; only a replay may jump. One thread at a time. `span`:
+  /// when the tick took its commands, and was done; unless told, it took no time.
   void publish(std::shared_ptr<const TickDelta> delta, const TickSpan& span = instant(steady_now_s()));
 
   /// Reads the files of NetConfig::access again, certificate, keys, revoked tokens, and those of the page.

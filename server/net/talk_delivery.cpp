@@ -18,9 +18,10 @@ void send_persons(Talk& talk, const SessionTable& sessions, double now_s) {
 }
 
 void pass_on(const SayMessage& said, ClientSession& speaker, Talk& talk, const SessionTable& sessions,
-             double now_s) {
+             double now_s, const std::function<bool(const SaidMessage&)>& hook) {
   const std::optional<Talk::Heard> heard = talk.say(speaker.id(), said.text, now_s);
   if (!heard) return;
+  if (heard->by_all && hook && !hook(heard->line)) return;
   const SharedBytes line = share(heard->line);
   if (!heard->by_all) return speaker.send(line);
   for (const uint64_t id : talk.everybody()) {

@@ -28,6 +28,10 @@ namespace scree {
 
 using ChunkSet = std::unordered_set<ChunkCoord, CoordHash>;
 
+/// Chunks that the tick changes or reads, and in which nothing was edited before. `before`: the state before
+/// the tick.
+ChunkSet unedited_before(const TickDelta& delta, const PublishedState& before);
+
 /// The changes of a tick, prepared once for all clients. `state` and `motions` are those after the tick.
 struct TickChanges {
   const TickDelta& delta;
@@ -43,7 +47,8 @@ struct TickChanges {
   ChunkSet reverted;                           ///< with bricks that are no longer edited
   ChunkSet orphan;                             ///< changed, but by no operation (in a keyframe)
 
-  TickChanges(const TickDelta& delta, const PublishedState& before, const PublishedState& after,
+  /// `unedited`: of the tick, made before it was applied.
+  TickChanges(const TickDelta& delta, const ChunkSet& unedited, const PublishedState& after,
               const Motions& motions, const TerrainSource& ground);
 };
 

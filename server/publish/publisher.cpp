@@ -103,17 +103,23 @@ const ClientView* Publisher::view(uint64_t session) const {
   return client == clients_.end() ? nullptr : &client->second.view();
 }
 
+void Publisher::begin(const TickDelta& keyframe) {
+  CHECK_EQ(state_.tick(), 0U, "the world begins once");
+  CHECK(clients_.empty());
+  state_.apply(keyframe);
+  motions_.track(keyframe, state_, rates_.has_poses(keyframe.tick));
+}
+
 std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
                                          const std::function<Backlog(uint64_t)>& backlog) {
   out_.clear();
   const bool restarted = state_.tick() != 0 && delta.tick != state_.tick() + 1;
   if (restarted) restart();
-  // TickChanges must know the chunks edited before this tick: it reads the old state here, and refers to the
-  // same object after apply(), so that no copy is needed.
-  const TickChanges changes(delta, state_, state_, motions_, config_.terrain);
+  const ChunkSet unedited = unedited_before(delta, state_);
   state_.apply(delta);
   pager_.page_in(state_);
   motions_.track(delta, state_, rates_.has_poses(delta.tick));
+  const TickChanges changes(delta, unedited, state_, motions_, config_.terrain);
   board_.add(delta);
   count_operations(delta);
   cache_.start_tick();
@@ -201,10 +207,9 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
   for (const Reply& reply : delta.replies) {
     ClientFeed* const client = find(reply.session);
     if (client == nullptr) continue;
-    const std::string name = reply.reason ? std::string(name_of(*reply.reason)) : std::string();
-    client->outlet().send(
-        share(ReplyMessage{reply.request, reply.refusal, reply.pieces, name, latency(reply), delta.tick}),
-        replies);
+    client->outlet().send(share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply),
+                                             latency(reply), delta.tick}),
+                          replies);
   }
   add(std::move(replies));
   return std::exchange(out_, {});

@@ -86,6 +86,8 @@ class Publisher {
   /// Eyes of all clients, by session, as of the last tick.
   const std::vector<glm::vec3>& eyes_m() const { return eyes_m_; }
 
+  /// Takes the world before the first tick. Called once, before anybody joins.
+  void begin(const TickDelta& keyframe);
   /// Takes the next tick and returns the messages for each client. `backlog(session)`: what still waits for
   /// it; called by the workers, too. A tick out of sequence is a keyframe: it replaces the state, and resets
   /// every client.

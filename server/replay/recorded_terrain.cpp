@@ -41,13 +41,14 @@ Result<std::unique_ptr<World>> RecordedTerrain::restore(const WorldSnapshot& sta
 }
 
 void RecordedTerrain::adopt(World& world) {
-  world.field().page_by([this](ChunkCoord chunk) { return read(chunk); });
+  world.paging().page_by([this](ChunkCoord chunk) { return read(chunk); });
 }
 
 void RecordedTerrain::make_room(World& world) {
-  Field& field = world.field();
+  FieldPaging paging = world.paging();
+  const Field& field = world.field();
   if (!field.pages()) return;
-  field.begin_turn();
+  paging.begin_turn();
   if (world.tick() % limits::ticks_per_make_room != 0 || field.bricks_in() <= bricks_max_) return;
   for (const ChunkCoord chunk : field.idle_chunks(1)) {
     if (field.bricks_in() <= bricks_max_ / 8 * 7) return;
@@ -55,7 +56,7 @@ void RecordedTerrain::make_room(World& world) {
     const auto has = recording_->has_chunk(chunk, hash, world.tick());
     if (!has.value_or(false)) continue;
     hashes_[chunk] = hash;
-    field.page_out(chunk);
+    paging.page_out(chunk);
   }
 }
 

@@ -41,7 +41,7 @@ Tick period_of(const SaverConfig& config) {
 
 }  // namespace
 
-ChunkNow chunk_now(Field& field) {
+ChunkNow chunk_now(const Field& field) {
   return [&field](ChunkCoord chunk) {
     std::vector<BrickState> bricks;
     if (field.is_out(chunk)) return bricks;

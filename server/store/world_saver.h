@@ -66,7 +66,7 @@ struct SaverStatus {
 /// The edited bricks of a chunk as the world has them now; empty: it does not have them.
 using ChunkNow = std::function<std::vector<BrickState>(ChunkCoord)>;
 /// Reads chunks of a world's field, which has the changed bricks until they are saved.
-ChunkNow chunk_now(Field& field);
+ChunkNow chunk_now(const Field& field);
 
 class WorldSaver {
  public:

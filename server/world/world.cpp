@@ -130,7 +130,7 @@ World::~World() = default;
 
 std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) {
   State& s = *state_;
-  CHECK(s.thread.is_the_same());
+  CHECK(s.thread.is_the_same(), "another thread owns this world: it must call release_thread() first");
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++s.tick;
   if (s.tick == 1) publish_settings(s, *delta);
@@ -151,8 +151,16 @@ void World::want_physics(bool wanted) {
 Tick World::tick() const {
   return state_->tick;
 }
-Field& World::field() {
+const Field& World::field() const {
   return state_->field;
+}
+FieldPaging World::paging() {
+  return FieldPaging(state_->field);
+}
+
+void World::release_thread() {
+  CHECK(state_->thread.release(), "only the thread that owns a world can release it");
+  state_->bodies.release_thread();
 }
 
 MassUnits World::measure_terrain() {

@@ -1,8 +1,8 @@
 // The simulation: field, pieces, bodies and ledger, advanced tick by tick.
 //
 // A pure function of its configuration and of the commands by tick: the same input gives the same hashes, in
-// any build and on any number of threads. It reads a clock for StageTimes only. One thread calls step(),
-// which shares the bodies' work with others of its own; all results are in the TickDelta.
+// any build and on any number of threads. It reads a clock for StageTimes only. One thread at a time calls
+// its functions; step() shares the bodies' work with others of its own; all results are in the TickDelta.
 #pragma once
 
 #include <functional>
@@ -13,6 +13,7 @@
 #include "server/command/command.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world_config.h"
+#include "shared/field/field_paging.h"
 
 namespace scree {
 
@@ -88,8 +89,15 @@ class World {
   TickDelta keyframe();
   /// The same without bricks: of every chunk, what is known of one that is out.
   TickDelta outline();
-  /// For reading between steps; only apply() changes it.
-  Field& field();
+  /// The terrain, for reading by the thread of step(), between steps. Commands alone change it.
+  const Field& field() const;
+  /// Moves the terrain's chunks in and out of memory, by the thread of step(), between steps.
+  FieldPaging paging();
+
+  /// The thread of the first step() owns the world; step() and renew() by another one are a breach, which is
+  /// checked. The owner may let go of it: then the thread of the next step() owns it, and sees all that was
+  /// done before.
+  void release_thread();
 
   struct State;  ///< world_state.h, for the stages in this folder alone
 

@@ -307,6 +307,7 @@ WorldMoment World::moment() const {
 
 void World::renew() {
   State& s = *state_;
+  CHECK(s.thread.is_the_same(), "another thread owns this world: it must call release_thread() first");
   s.bodies.renew();
   s.rest.restore(s.rest.value());
   s.islands.restore(s.islands.value());

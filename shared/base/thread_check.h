@@ -1,5 +1,5 @@
 // Tells whether calls come from one thread: for objects that are made on one thread, used on another, and not
-// safe to use from both.
+// safe to use from both. Ownership passes on when the owner lets go of it.
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,13 @@ class ThreadCheck {
     std::thread::id none{};
     const std::thread::id caller = std::this_thread::get_id();
     return owner_.compare_exchange_strong(none, caller) || none == caller;
+  }
+
+  /// The thread of the next call becomes the owner, and sees all that this one did. False, and nothing
+  /// changes, when another thread is the owner.
+  [[nodiscard]] bool release() {
+    std::thread::id owner = std::this_thread::get_id();
+    return owner_.compare_exchange_strong(owner, std::thread::id{}) || owner == std::thread::id{};
   }
 
  private:

@@ -67,6 +67,10 @@ void Workers::run(size_t parts, const std::function<void(size_t)>& work) {
   at_work_ = false;
 }
 
+void Workers::release_owner() {
+  CHECK(!at_work_ && owner_.release());
+}
+
 void Workers::run_parts() {
   for (size_t part = next_part_++; part < parts_; part = next_part_++) (*work_)(part);
 }

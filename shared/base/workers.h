@@ -44,6 +44,9 @@ class Workers {
   }
   static size_t parts_of(size_t items, size_t each) { return (items + each - 1) / each; }
 
+  /// The owner's thread lets go: the thread of the next run() is the owner's.
+  void release_owner();
+
   /// Whether run() is under way. By the owner's thread, and from within work().
   bool at_work() const { return at_work_; }
 

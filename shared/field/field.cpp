@@ -17,7 +17,7 @@ Field::Field(const TerrainSource& source) : source_(source), generated_(limits::
   CHECK(source.voxel_size_m > 0.0F);
 }
 
-Field::Field(Field* below)
+Field::Field(const Field* below)
     : source_(below->source_), below_(below), generated_(limits::generated_bytes_max) {}
 
 uint64_t Field::edited_bits(ChunkCoord chunk) const {
@@ -34,13 +34,13 @@ size_t Field::generated_bytes() const {
   return generated_owner().generated_.bytes();
 }
 
-void Field::heed_drops() {
+void Field::heed_drops() const {
   if (drops_heeded_ == generated_.drops()) return;
   drops_heeded_ = generated_.drops();
   last_.reset();
 }
 
-const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) {
+const GeneratedChunk& Field::generated_chunk(ChunkCoord chunk) const {
   if (below_ != nullptr) return below_->generated_chunk(chunk);
   GeneratedChunk* found = generated_.find(chunk);
   if (found == nullptr)
@@ -57,14 +57,14 @@ void Field::bound_generated(size_t bytes) {
   heed_drops();
 }
 
-Field::LastChunk& Field::last_chunk(ChunkCoord chunk) {
+Field::LastChunk& Field::last_chunk(ChunkCoord chunk) const {
   if (last_ && last_->coord == chunk && below_ == nullptr) return *last_;
   if (pages())
     if (const auto found = edited_.find(chunk); found != edited_.end()) use(chunk, found->second);
   return last_.emplace(LastChunk{chunk, edited_bits(chunk), nullptr});
 }
 
-const Brick& Field::generated_brick(BrickCoord coord) {
+const Brick& Field::generated_brick(BrickCoord coord) const {
   if (below_ != nullptr) return below_->generated_brick(coord);
   const ChunkCoord chunk = chunk_of(coord);
   LastChunk last = last_chunk(chunk);
@@ -75,11 +75,11 @@ const Brick& Field::generated_brick(BrickCoord coord) {
   return *last.generated->bricks[static_cast<size_t>(index_in_chunk(coord))];
 }
 
-Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) {
+Field::ChunkBricks Field::chunk_bricks(ChunkCoord chunk) const {
   return {generated_chunk(chunk), edited_bits(chunk)};
 }
 
-const Brick& Field::brick(BrickCoord coord) {
+const Brick& Field::brick(BrickCoord coord) const {
   const bool edited = ((last_chunk(chunk_of(coord)).edited >> index_in_chunk(coord)) & 1U) != 0;
   CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
   return edited ? *find_edited(coord) : generated_brick(coord);
@@ -88,7 +88,10 @@ const Brick& Field::brick(BrickCoord coord) {
 void Field::set_brick(BrickCoord coord, const Brick& brick) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
   EditedChunk& chunk = edited_[chunk_of(coord)];
-  if (pages()) use(chunk_of(coord), chunk);
+  if (pages()) {
+    use(chunk_of(coord), chunk);
+    if (chunk.bricks == 0) residence_.enter(chunk_of(coord), 0);  // its first edit follows
+  }
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
   const std::optional<Material> paint = painted(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
@@ -109,8 +112,7 @@ std::optional<Material> Field::painted(BrickCoord coord) const {
   const auto chunk = edited_.find(chunk_of(coord));
   const bool own = chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0;
   if (!own) return below_ == nullptr ? std::nullopt : below_->painted(coord);
-  // Bringing a chunk in changes nothing that can be seen.
-  if (chunk->second.out) const_cast<Field*>(this)->use(chunk->first, const_cast<EditedChunk&>(chunk->second));
+  if (chunk->second.out) use(chunk->first, chunk->second);
   const auto paint = chunk->second.paint.find(index_in_chunk(coord));
   if (paint == chunk->second.paint.end()) return std::nullopt;
   return paint->second;
@@ -175,7 +177,7 @@ std::vector<BrickCoord> Field::edited_bricks(ChunkCoord chunk) const {
   return bricks;
 }
 
-void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) {
+void Field::adopt_generated(ChunkCoord chunk, GeneratedChunk generated) const {
   if (below_ != nullptr) return below_->adopt_generated(chunk, std::move(generated));
   CHECK(std::ranges::find(generated.bricks, nullptr) == generated.bricks.end());
   if (!generated.exact) return;
@@ -191,7 +193,7 @@ bool Field::has_generated(ChunkCoord chunk) const {
   return generated_owner().generated_.has_exact(chunk);
 }
 
-bool Field::touch_generated(ChunkCoord chunk) {
+bool Field::touch_generated(ChunkCoord chunk) const {
   if (below_ != nullptr) return below_->touch_generated(chunk);
   const GeneratedChunk* const found = generated_.find(chunk);
   heed_drops();
@@ -265,12 +267,13 @@ void Field::enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPa
   last_.reset();
 }
 
-void Field::use(ChunkCoord chunk, EditedChunk& edited) {
+void Field::use(ChunkCoord chunk, const EditedChunk& edited) const {
   edited.used = residence_.turn();
-  if (!edited.out) {
-    if (edited.bricks == 0) residence_.enter(chunk, 0);  // its first edit follows
-    return;
-  }
+  // Codes and paint stay the same. The object itself is not const, because page_by() was called on it.
+  if (edited.out) const_cast<Field*>(this)->bring_in(chunk);
+}
+
+void Field::bring_in(ChunkCoord chunk) {
   const Result<std::vector<BrickPatch>> read = residence_.read(chunk);
   if (!read) throw ChunkUnreadable(read.error().message);
   if (!page_in(chunk, *read))

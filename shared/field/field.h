@@ -3,11 +3,12 @@
 // Any brick can be read: edited ones come from the store, others are generated and cached. A field may be a
 // layer over another one: what was edited in the layer is the layer's, all else reads as the one below does,
 // as that stands at the time. A field that is no layer, and has none over it, may leave chunks out of memory
-// (paging.h). Not thread-safe.
-// Its parts: GeneratedCache (unedited chunks that are kept) and ChunkResidence (which edited chunks are in
-// memory). The field itself has the edits: their bits, paint and hashes.
-// Invariants: hash() is the sum of brick_hash over the edited bricks with their paint, chunk_hash() the same
-// sum over one chunk; painted bricks are edited ones.
+// (paging.h).
+// A const function changes no code and no paint. It may still generate ground, keep it, and bring chunks in,
+// so a field is not thread-safe, not even for reading. Its parts: GeneratedCache (unedited chunks that are
+// kept) and ChunkResidence (which edited chunks are in memory). The field itself has the edits: their bits,
+// paint and hashes. Invariants: hash() is the sum of brick_hash over the edited bricks with their paint,
+// chunk_hash() the same sum over one chunk; painted bricks are edited ones.
 #pragma once
 
 #include <functional>
@@ -35,23 +36,23 @@ class Field {
  public:
   explicit Field(const TerrainSource& source);
   /// A layer over that field, which must outlive it; not null. Chunks are generated, and kept, below.
-  explicit Field(Field* below);
+  explicit Field(const Field* below);
   virtual ~Field() = default;
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
 
   const TerrainSource& source() const { return source_; }
 
-  /// The codes of a brick. The reference stays valid until the next call that is not const.
-  const Brick& brick(BrickCoord coord);
+  /// The codes of a brick. The reference stays valid until the next brick is read, or the field changes.
+  const Brick& brick(BrickCoord coord) const;
   /// The codes as generated, whether the brick was edited since or not; same lifetime.
-  const Brick& generated_brick(BrickCoord coord);
+  const Brick& generated_brick(BrickCoord coord) const;
   /// A chunk as generated, and which of its bricks are edited: bit i of `edited` for brick i. Same lifetime.
   struct ChunkBricks {
     const GeneratedChunk& generated;
     uint64_t edited;
   };
-  ChunkBricks chunk_bricks(ChunkCoord chunk);
+  ChunkBricks chunk_bricks(ChunkCoord chunk) const;
   bool is_edited(BrickCoord coord) const {
     return ((edited_bits(chunk_of(coord)) >> index_in_chunk(coord)) & 1U) != 0;
   }
@@ -75,10 +76,10 @@ class Field {
 
   /// Takes a chunk that another thread generated, so that brick() need not generate it. One that is not exact
   /// is as none, and brick() makes it anew once it can be (is_here).
-  void adopt_generated(ChunkCoord chunk, GeneratedChunk generated);
+  void adopt_generated(ChunkCoord chunk, GeneratedChunk generated) const;
   bool has_generated(ChunkCoord chunk) const;
   /// The same, and it counts as used.
-  bool touch_generated(ChunkCoord chunk);
+  bool touch_generated(ChunkCoord chunk) const;
   /// Generated chunks that are kept, and what they take in memory. Those that were not used while half of
   /// generated_bytes_max() was filled are dropped.
   size_t generated_chunks() const;
@@ -134,8 +135,8 @@ class Field {
     uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
     std::map<int, Material> paint;  ///< by index in the chunk
     bool out = false;
-    MassUnits mass = 0;  ///< of a chunk that is out
-    uint64_t used = 0;   ///< turn in which somebody asked for it last
+    MassUnits mass = 0;         ///< of a chunk that is out
+    mutable uint64_t used = 0;  ///< turn in which somebody asked for it last
   };
   /// The chunk of the last call: most calls in a row are about the same one.
   struct LastChunk {
@@ -146,20 +147,21 @@ class Field {
   /// The field that keeps the generated chunks.
   const Field& generated_owner() const { return below_ == nullptr ? *this : below_->generated_owner(); }
   uint64_t edited_bits(ChunkCoord chunk) const;
-  const GeneratedChunk& generated_chunk(ChunkCoord chunk);
+  const GeneratedChunk& generated_chunk(ChunkCoord chunk) const;
   /// Forgets the last call's chunk if the cache has dropped chunks since.
-  void heed_drops();
-  LastChunk& last_chunk(ChunkCoord chunk);
+  void heed_drops() const;
+  LastChunk& last_chunk(ChunkCoord chunk) const;
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
-  void use(ChunkCoord chunk, EditedChunk& edited);
+  void use(ChunkCoord chunk, const EditedChunk& edited) const;
+  void bring_in(ChunkCoord chunk);
   void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
-  Field* below_ = nullptr;     ///< of a layer
-  GeneratedCache generated_;   ///< of a layer empty: the field below keeps them
-  uint64_t drops_heeded_ = 0;  ///< of generated_
+  const Field* below_ = nullptr;       ///< of a layer
+  mutable GeneratedCache generated_;   ///< of a layer empty: the field below keeps them
+  mutable uint64_t drops_heeded_ = 0;  ///< of generated_
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
-  std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
+  mutable std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
   ChunkResidence residence_;
@@ -184,7 +186,7 @@ class MapField final : public Field {
 };
 
 /// Copies a box of voxels out of the field.
-Window gather(Field& field, const VoxelBox& box);
+Window gather(const Field& field, const VoxelBox& box);
 
 /// Writes a window back. Returns the bricks whose codes changed, in order; the others are left alone.
 std::vector<BrickCoord> scatter(Field& field, const Window& window);
@@ -195,12 +197,12 @@ struct FieldSample {
   float distance_voxels;
   glm::vec3 gradient;
 };
-FieldSample sample(Field& field, glm::vec3 p_voxels);
+FieldSample sample(const Field& field, glm::vec3 p_voxels);
 
 /// Distance in voxels from a point (voxels) along a direction of unit length to the surface, by sphere
 /// tracing (Hart 1996); nothing when the ray meets none within `distance_max_voxels`; 0 when it starts inside
 /// rock.
-std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction,
+std::optional<float> trace(const Field& field, glm::vec3 from_voxels, glm::vec3 direction,
                            float distance_max_voxels);
 
 }  // namespace scree

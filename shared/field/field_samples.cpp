@@ -7,7 +7,7 @@
 
 namespace scree {
 
-FieldSample sample(Field& field, glm::vec3 p_voxels) {
+FieldSample sample(const Field& field, glm::vec3 p_voxels) {
   const VoxelCoord v{floor_to_int(p_voxels.x), floor_to_int(p_voxels.y), floor_to_int(p_voxels.z)};
   const float fx = p_voxels.x - static_cast<float>(v.x);
   const float fy = p_voxels.y - static_cast<float>(v.y);
@@ -37,7 +37,7 @@ FieldSample sample(Field& field, glm::vec3 p_voxels) {
       glm::vec3(low_x + (high_x - low_x) * fz, (x10 - x00) * (1 - fz) + (x11 - x01) * fz, y1 - y0) * scale};
 }
 
-std::optional<float> trace(Field& field, glm::vec3 from_voxels, glm::vec3 direction,
+std::optional<float> trace(const Field& field, glm::vec3 from_voxels, glm::vec3 direction,
                            float distance_max_voxels) {
   constexpr float close_enough = 0.02F;
   CHECK(std::abs(glm::dot(direction, direction) - 1.0F) < 1e-3F);

@@ -54,7 +54,7 @@ void for_each_row(BrickCoord brick, const Window& window, F&& f) {
 
 }  // namespace
 
-Window gather(Field& field, const VoxelBox& box) {
+Window gather(const Field& field, const VoxelBox& box) {
   CHECK(!box.empty());
   Window window(box);
   for_each_brick(box, [&](BrickCoord coord) {

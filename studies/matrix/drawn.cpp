@@ -29,7 +29,7 @@ Camera session_camera() {
 }
 
 /// Metres along the camera's forward() to the field's surface in the middle of each pixel, as DepthImage.
-std::vector<float> traced_depths(Field& field, const Camera& camera, float reach_m) {
+std::vector<float> traced_depths(const Field& field, const Camera& camera, float reach_m) {
   const float dx = field.source().voxel_size_m;
   const glm::vec3 forward = camera.forward(), right = camera.right(), up = glm::cross(right, forward);
   const float pixel = 2.0F * std::tan(camera.field_of_view * 0.5F) / static_cast<float>(judged_height);
@@ -130,7 +130,7 @@ Result<Image> SessionDrawer::picture() {
 }
 
 Result<SessionDrawer::Difference> SessionDrawer::difference(MatrixSession& session) {
-  Field& field = session.world().field();
+  const Field& field = session.world().field();
   const Camera camera = session_camera();
   const ScenePieces none;
   MirrorChanges changes = session.drain_changes();

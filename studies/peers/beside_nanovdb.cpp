@@ -52,7 +52,7 @@ struct Traced {
   double agreed = 0.0;  ///< share of the rays that end at the same surface
 };
 
-Traced trace_both(Field& field, const peers::NanoTerrain& nano, const Camera& camera, bool quick) {
+Traced trace_both(const Field& field, const peers::NanoTerrain& nano, const Camera& camera, bool quick) {
   const std::vector<glm::vec3> rays = quick ? rays_of(camera, 160, 90) : rays_of(camera, width, height);
   const glm::vec3 from = camera.eye_m / field.source().voxel_size_m;
   std::vector<float> ours(rays.size()), theirs(rays.size());

@@ -37,7 +37,7 @@ class TlsTest : public ::testing::Test {
     config.access.tls_certificate_path = folder / "certificate";
     config.access.tls_key_path = folder / "certificate.key";
     if (change) change(config);
-    auto listening = NetServer::listen(config, commands);
+    auto listening = NetServer::listen(config, commands, TickDelta());
     ASSERT_TRUE(listening) << listening.error().message;
     server = std::move(*listening);
   }

@@ -40,7 +40,7 @@ class PagerTest : public ::testing::Test {
     world = saved_world->release_world();
     ASSERT_TRUE(
         saved_world->start(*world, {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}}));
-    auto paging = TerrainPager::open(path, world->field(), std::make_shared<ChunkFetcher>(), bricks_max,
+    auto paging = TerrainPager::open(path, world->paging(), std::make_shared<ChunkFetcher>(), bricks_max,
                                      [this] { return resident_mb * bytes_per_mb; });
     ASSERT_TRUE(paging.has_value()) << paging.error().message;
     pager = std::move(*paging);

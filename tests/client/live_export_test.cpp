@@ -58,7 +58,7 @@ class LiveExportTest : public ::testing::Test {
     return how;
   }
   void expect_same(const LiveTerrain& terrain) {
-    Field& there = server_->world()->field();
+    const Field& there = server_->world()->field();
     for_each_chunk(terrain.box.voxels(), [&](ChunkCoord chunk) {
       ASSERT_EQ(terrain.field->chunk_hash(chunk), there.chunk_hash(chunk));
       for (int i = 0; i < 64; ++i) {

@@ -38,7 +38,7 @@ TEST_F(PagingTest, a_chunk_that_is_out_leaves_its_hash_and_its_edits) {
   EXPECT_EQ(field.bricks_in(), bricks);
   EXPECT_EQ(field.chunks_in().size(), chunks);
   const uint64_t bytes = field.memory_bytes();
-  shelf.page_out_all(field);
+  shelf.page_out_all(FieldPaging(field));
   EXPECT_EQ(field.chunks_out(), chunks);
   EXPECT_EQ(field.bricks_in(), 0U);
   constexpr uint64_t regions_bytes = 2 * uint64_t{33} << 10U;
@@ -58,7 +58,7 @@ TEST_F(PagingTest, a_chunk_that_is_out_leaves_its_hash_and_its_edits) {
 }
 
 TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
-  shelf.page_out_all(field);
+  shelf.page_out_all(FieldPaging(field));
   for (const ChunkCoord chunk : other.edited_chunks())
     for (const BrickCoord brick : other.edited_bricks(chunk)) {
       ASSERT_EQ(field.painted(brick), other.painted(brick));
@@ -69,7 +69,7 @@ TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
   EXPECT_EQ(field.chunks_out(), 0U);
   Random random(5);
   for (int i = 0; i < 60; ++i) {
-    shelf.page_out_all(field);
+    shelf.page_out_all(FieldPaging(field));
     const BrickCoord coord{i % 30, i % 9, 0};
     const Brick brick = scribbled(random);
     const bool paints = i % 3 == 0;

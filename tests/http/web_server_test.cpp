@@ -34,7 +34,7 @@ class WebServerTest : public NetServerTest {
     config.terrain = flat_terrain;
     config.heartbeat_s = 0.0;
     change(config);
-    auto listening = NetServer::listen(config, commands);
+    auto listening = NetServer::listen(config, commands, source.keyframe());
     EXPECT_TRUE(listening.has_value());
     server = std::move(*listening);
     return *TlsClientContext::make({files / "certificate", ""});
@@ -270,7 +270,7 @@ TEST_F(WebServerTest, does_not_start_without_the_folder_that_it_is_told) {
   NetConfig config;
   config.terrain = flat_terrain;
   config.web.folder = folder.path() + "nowhere";
-  const auto listening = NetServer::listen(config, commands);
+  const auto listening = NetServer::listen(config, commands, source.keyframe());
   ASSERT_FALSE(listening);
   EXPECT_TRUE(holds(listening.error().message, "--web"));
 }

@@ -16,7 +16,7 @@ class GroundServerTest : public ::testing::Test {
   void SetUp() override {
     NetConfig config;
     config.terrain = flat_terrain;
-    auto listening = NetServer::listen(config, commands);
+    auto listening = NetServer::listen(config, commands, source.keyframe());
     ASSERT_TRUE(listening.has_value()) << listening.error().message;
     server = std::move(*listening);
   }

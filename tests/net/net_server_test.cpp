@@ -94,7 +94,7 @@ TEST_F(NetServerTest, port_in_use_is_said_in_words) {
   start();
   NetConfig config;
   config.port = server->port();
-  const auto second = NetServer::listen(config, commands);
+  const auto second = NetServer::listen(config, commands, TickDelta());
   ASSERT_FALSE(second.has_value());
   EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;
   EXPECT_NE(second.error().message.find(std::to_string(config.port)), std::string::npos);
@@ -104,7 +104,7 @@ TEST_F(NetServerTest, port_in_use_is_said_in_words) {
 TEST_F(NetServerTest, bind_address_that_is_none_is_said_in_words) {
   NetConfig config;
   config.bind = "nowhere";
-  const auto listening = NetServer::listen(config, commands);
+  const auto listening = NetServer::listen(config, commands, TickDelta());
   ASSERT_FALSE(listening.has_value());
   EXPECT_NE(listening.error().message.find("nowhere"), std::string::npos);
 }

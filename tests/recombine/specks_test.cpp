@@ -23,7 +23,7 @@ constexpr VoxelBox air{{0, 16, 0}, {16, 32, 16}};
 
 /// By brute force: every component of solid voxels in the box that does not touch its sides and is lighter
 /// than a piece may be.
-std::vector<Island> specks_by_brute_force(Field& field, const VoxelBox& box) {
+std::vector<Island> specks_by_brute_force(const Field& field, const VoxelBox& box) {
   const Window window = gather(field, box);
   std::vector<uint8_t> seen(window.codes.size(), 0);
   std::vector<Island> specks;
@@ -109,7 +109,7 @@ TEST(specks, what_an_odd_stamp_leaves_in_the_air_becomes_dust_to_the_unit) {
 }
 
 /// The smallest box of whole bricks with all that was edited, and a brick more.
-VoxelBox edited_box(Field& field) {
+VoxelBox edited_box(const Field& field) {
   VoxelBox box;
   for (const ChunkCoord chunk : field.edited_chunks())
     for (const BrickCoord brick : field.edited_bricks(chunk)) {

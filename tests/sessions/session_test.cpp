@@ -60,7 +60,7 @@ class SessionTest : public ::testing::Test {
   }
   static void play(Played& p);
   static bool come_and_go(Played& p, int carve);
-  static Field& server_field() { return played->session->field(); }
+  static const Field& server_field() { return played->session->field(); }
 
   static Played* played;
 };

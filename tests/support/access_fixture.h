@@ -27,7 +27,7 @@ class AccessTest : public ::testing::Test {
     config.access.anonymous = Role::viewer;
   }
   void start() {
-    auto listening = NetServer::listen(config, commands);
+    auto listening = NetServer::listen(config, commands, TickDelta());
     ASSERT_TRUE(listening) << listening.error().message;
     server = std::move(*listening);
   }

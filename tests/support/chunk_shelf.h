@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "shared/field/field.h"
+#include "shared/field/field_paging.h"
 
 namespace scree {
 
@@ -19,18 +19,18 @@ class ChunkShelf {
     };
   }
   /// The chunk's bricks as they are, which it keeps as well.
-  void copy(Field& field, ChunkCoord chunk) {
+  void copy(const Field& field, ChunkCoord chunk) {
     std::vector<BrickPatch>& bricks = chunks[chunk];
     bricks.clear();
     for (const BrickCoord brick : field.edited_bricks(chunk))
       bricks.push_back({brick, field.brick(brick), field.painted(brick)});
   }
   /// All chunks go out.
-  void page_out_all(Field& field) {
-    const std::vector<ChunkCoord> in(field.chunks_in().begin(), field.chunks_in().end());
-    for (const ChunkCoord chunk : in) {
-      copy(field, chunk);
-      field.page_out(chunk);
+  void page_out_all(FieldPaging paging) {
+    const auto& in_memory = paging.field().chunks_in();
+    for (const ChunkCoord chunk : std::vector<ChunkCoord>(in_memory.begin(), in_memory.end())) {
+      copy(paging.field(), chunk);
+      paging.page_out(chunk);
     }
   }
 

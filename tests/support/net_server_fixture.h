@@ -37,7 +37,7 @@ class NetServerTest : public ::testing::Test {
     config.terrain = flat_terrain;
     config.heartbeat_s = 0.0;
     if (change) change(config);
-    auto listening = NetServer::listen(config, commands);
+    auto listening = NetServer::listen(config, commands, source.keyframe());
     ASSERT_TRUE(listening.has_value()) << listening.error().message;
     server = std::move(*listening);
     witness = std::make_unique<RawClient>(server->port());

@@ -68,7 +68,7 @@ class LoopbackSession {
   const ReplyMessage* ask(SessionClient& client, const CarveMessage& carve);
 
   LiveServer& server() { return *server_; }
-  Field& field() { return server_->world()->field(); }
+  const Field& field() { return server_->world()->field(); }
   Tick tick() const { return tick_; }
   const std::vector<std::unique_ptr<SessionClient>>& clients() const { return clients_; }
 

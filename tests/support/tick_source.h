@@ -2,6 +2,7 @@
 // Pieces stay where the test puts them.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -28,14 +29,26 @@ class TickSource {
       for (const BrickCoord brick : applied.changed) changed[brick] = true;
       for (const CreatedPiece& piece : applied.created) add_piece(piece.id, *delta);
     }
-    for (const auto& [coord, yes] : changed) {
-      const auto brick = std::make_shared<const Brick>(field_.brick(coord));
-      const auto paint = field_.painted(coord);
-      delta->bricks.push_back({coord, brick, brick_hash(coord, *brick, paint), paint});
-    }
+    for (const auto& [coord, yes] : changed) delta->bricks.push_back(state_of(coord));
     for (const auto& [id, volume] : pieces_) delta->pieces.push_back({id, poses_.at(id)});
     delta->field_hash = field_.hash();
     delta->state_hash = field_.hash() + tick_;
+    return delta;
+  }
+
+  /// The world as it stands, as World::keyframe() tells it.
+  TickDelta keyframe() const {
+    TickDelta delta;
+    delta.tick = tick_;
+    for (const ChunkCoord chunk : field_.edited_chunks())
+      for (const BrickCoord coord : field_.edited_bricks(chunk)) delta.bricks.push_back(state_of(coord));
+    std::ranges::sort(delta.bricks, {}, &BrickState::coord);
+    for (const auto& [id, volume] : pieces_) {
+      delta.spawned.push_back({id, volume});
+      delta.pieces.push_back({id, poses_.at(id)});
+    }
+    delta.field_hash = field_.hash();
+    delta.state_hash = field_.hash() + tick_;
     return delta;
   }
 
@@ -62,6 +75,11 @@ class TickSource {
   Tick tick() const { return tick_; }
 
  private:
+  BrickState state_of(BrickCoord coord) const {
+    const auto brick = std::make_shared<const Brick>(field_.brick(coord));
+    const auto paint = field_.painted(coord);
+    return {coord, brick, brick_hash(coord, *brick, paint), paint};
+  }
   void add_piece(PieceId id, TickDelta& delta) {
     const auto volume = pieces_.at(id);
     const glm::vec3 centre_m = volume->centre_voxels * field_.source().voxel_size_m;

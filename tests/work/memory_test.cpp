@@ -21,7 +21,7 @@ TEST(terrain_memory, bricks_and_their_regions_count_while_they_are_in_memory) {
   EXPECT_EQ(memory_of(field), (TerrainMemory{3, 2, 0}));
   EXPECT_DOUBLE_EQ(used_bytes(memory_of(field), 512) - used_bytes(none, 512),
                    3.0 * limits::brick_memory_bytes + 2.0 * limits::region_memory_bytes);
-  shelf.page_out_all(field);
+  shelf.page_out_all(FieldPaging(field));
   EXPECT_EQ(memory_of(field), (TerrainMemory{0, 0, 2}));
   EXPECT_DOUBLE_EQ(used_bytes(memory_of(field), 512) - used_bytes(none, 512), 2.0 * limits::chunk_out_bytes);
 }

@@ -23,7 +23,7 @@ TEST(paged_world, goes_the_same_way_with_all_terrain_out_after_every_tick) {
   config.methods.support = true;
   World whole(config), paged(config);
   ChunkShelf shelf;
-  paged.field().page_by(shelf.reader());
+  paged.paging().page_by(shelf.reader());
   PublishedState published;
   for (Tick tick = 1; tick <= 150; ++tick) {
     const std::vector<Command> commands = blows_of(config.terrain, tick);
@@ -35,7 +35,7 @@ TEST(paged_world, goes_the_same_way_with_all_terrain_out_after_every_tick) {
       EXPECT_EQ(chunk.hash, whole.field().chunk_hash(chunk.chunk));
       EXPECT_EQ(published.chunks().at(chunk.chunk).hash, chunk.hash);
     }
-    shelf.page_out_all(paged.field());
+    shelf.page_out_all(paged.paging());
     const std::vector<ChunkCoord> in(published.chunks_in().begin(), published.chunks_in().end());
     for (const ChunkCoord chunk : in) published.page_out(chunk);
   }
@@ -78,7 +78,7 @@ TEST(paged_world, is_restored_with_as_much_terrain_as_there_is_memory_for) {
 TEST(published_paging, what_changed_while_a_chunk_was_out_wins_over_what_is_read) {
   World world{WorldConfig()};
   ChunkShelf shelf;
-  world.field().page_by(shelf.reader());
+  world.paging().page_by(shelf.reader());
   PublishedState published;
   const auto play = [&](Tick from, Tick to) {
     for (Tick tick = from; tick <= to; ++tick)

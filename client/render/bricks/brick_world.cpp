@@ -61,7 +61,7 @@ BrickWorld::BrickWorld(WorkPool& pool, const TerrainSource& source, float view_r
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void BrickWorld::update(Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m) {
+void BrickWorld::update(const Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m) {
   size_t left = limits::chunks_read_max;
   // The coarsest first: it is shown where a finer one is not loaded yet.
   for (size_t i = levels_.size(); i-- > 0;) {

@@ -18,7 +18,7 @@ class BrickWorld {
   BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);
 
   /// Uploads these edited bricks, and a bounded number of bricks that are not loaded yet.
-  void update(Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);
+  void update(const Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);
 
   /// Binds the textures to units 0 and 1 and sets the uniforms of client/shaders/bricks.glsl.
   void use(const gl::Program& program, glm::vec3 eye_m) const;

@@ -74,7 +74,7 @@ void ClipLevel::list_pending(glm::vec3 eye_m) {
   });
 }
 
-void ClipLevel::collect_generated(Field& field) {
+void ClipLevel::collect_generated(const Field& field) {
   std::vector<Inbox::Generated> generated;
   {
     const std::lock_guard lock(inbox_->mutex);
@@ -104,7 +104,7 @@ bool ClipLevel::generated_around(const Field& field, ChunkCoord chunk) {
   return all;
 }
 
-size_t ClipLevel::load(Field& field, size_t chunks_max, BrickAtlas& atlas) {
+size_t ClipLevel::load(const Field& field, size_t chunks_max, BrickAtlas& atlas) {
   collect_generated(field);
   size_t read_chunks = 0;
   size_t examined = 0;
@@ -121,7 +121,7 @@ size_t ClipLevel::load(Field& field, size_t chunks_max, BrickAtlas& atlas) {
   return read_chunks;
 }
 
-void ClipLevel::changed(Field& field, const std::vector<BrickCoord>& bricks, BrickAtlas& atlas) {
+void ClipLevel::changed(const Field& field, const std::vector<BrickCoord>& bricks, BrickAtlas& atlas) {
   std::unordered_set<BrickCoord, CoordHash> stale;
   for (const BrickCoord brick : bricks) {
     const LevelBricks::Range range = bricks_.shown_in(brick);
@@ -133,7 +133,7 @@ void ClipLevel::changed(Field& field, const std::vector<BrickCoord>& bricks, Bri
     if (shown_.contains(chunk_of(brick))) read(field, brick, atlas);
 }
 
-void ClipLevel::read(Field& field, BrickCoord brick, BrickAtlas& atlas) {
+void ClipLevel::read(const Field& field, BrickCoord brick, BrickAtlas& atlas) {
   const ClipEntry old = window_.at(brick);
   const LevelBrick now = bricks_.read(field, brick);
   ClipEntry entry;

@@ -30,9 +30,9 @@ class ClipLevel {
   /// Bricks that fall out give their slots back.
   void follow(glm::vec3 eye_m, BrickAtlas& atlas);
   /// Bricks of the field whose codes changed.
-  void changed(Field& field, const std::vector<BrickCoord>& bricks, BrickAtlas& atlas);
+  void changed(const Field& field, const std::vector<BrickCoord>& bricks, BrickAtlas& atlas);
   /// Reads up to that many chunks that have been generated, nearest first; returns how many it read.
-  size_t load(Field& field, size_t chunks_max, BrickAtlas& atlas);
+  size_t load(const Field& field, size_t chunks_max, BrickAtlas& atlas);
 
   bool loaded() const { return pending_.empty(); }
   size_t waiting() const { return pending_.size(); }
@@ -45,9 +45,9 @@ class ClipLevel {
  private:
   struct Inbox;
 
-  void collect_generated(Field& field);
+  void collect_generated(const Field& field);
   bool generated_around(const Field& field, ChunkCoord chunk);
-  void read(Field& field, BrickCoord brick, BrickAtlas& atlas);
+  void read(const Field& field, BrickCoord brick, BrickAtlas& atlas);
   void release(const ClipEntry& entry, BrickAtlas& atlas);
   void list_pending(glm::vec3 eye_m);
 

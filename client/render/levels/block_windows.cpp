@@ -81,7 +81,7 @@ struct Survey {
   std::map<BrickCoord, Material> paint;
 };
 
-Survey survey(Field& field, const VoxelBox& box) {
+Survey survey(const Field& field, const VoxelBox& box) {
   Survey seen;
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);
@@ -192,7 +192,7 @@ void BlockWindows::set_paint(SurfaceMesh& mesh) const {
   }
 }
 
-std::optional<Material> shown_material(Field& field, BrickCoord brick) {
+std::optional<Material> shown_material(const Field& field, BrickCoord brick) {
   const std::optional<Material> painted = field.painted(brick);
   return painted ? painted
                  : stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
@@ -205,7 +205,7 @@ uint8_t paint_number(const Field& field, const Volume& piece) {
   return field.painted(birthplace) ? paint_number(piece.material) : layer_number(piece.material);
 }
 
-std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) {
+std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& owned) {
   const VoxelBox box = owned.grown(surface_nets_apron);
   Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
@@ -222,7 +222,7 @@ std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned) 
   return windows;
 }
 
-Window gather_generated(Field& field, const VoxelBox& box) {
+Window gather_generated(const Field& field, const VoxelBox& box) {
   Window window(box);
   for_each_brick(box, [&](BrickCoord coord) { copy_brick(coord, field.generated_brick(coord), window); });
   return window;

@@ -34,16 +34,16 @@ struct BlockWindows {
 };
 
 /// Nothing when all the bricks around are air, or all are rock.
-std::optional<BlockWindows> gather_windows(Field& field, const VoxelBox& owned);
+std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& owned);
 
 /// The material that shows on a brick: its paint, else what the ground stores for it, if any.
-std::optional<Material> shown_material(Field& field, BrickCoord brick);
+std::optional<Material> shown_material(const Field& field, BrickCoord brick);
 
 /// The paint number of a piece: its material, everywhere if the field is painted where it was cut, else only
 /// in its cuts.
 uint8_t paint_number(const Field& field, const Volume& piece);
 
 /// Like gather(), but of the generated field without edits.
-Window gather_generated(Field& field, const VoxelBox& box);
+Window gather_generated(const Field& field, const VoxelBox& box);
 
 }  // namespace scree

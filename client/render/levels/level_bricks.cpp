@@ -33,7 +33,7 @@ TerrainSource spaced(TerrainSource source, int level) {
   return source;
 }
 
-void copy_edits(Field& field, int level, Window& window) {
+void copy_edits(const Field& field, int level, Window& window) {
   const int step = 1 << level;
   const auto fine = [step](VoxelCoord v) { return VoxelCoord{v.x * step, v.y * step, v.z * step}; };
   // The first sample not below.
@@ -92,12 +92,12 @@ bool LevelBricks::has_generated(const Field& field, ChunkCoord chunk) const {
   return coarse_ ? coarse_->has_generated(chunk) : field.has_generated(chunk);
 }
 
-void LevelBricks::adopt_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated) {
+void LevelBricks::adopt_generated(const Field& field, ChunkCoord chunk, GeneratedChunk&& generated) {
   generator(field).adopt_generated(chunk, std::move(generated));
 }
 
 /// The brick of nothing but air or rock that this one and those after it are, if they are.
-const Brick* LevelBricks::uniform_around(Field& field, BrickCoord brick) const {
+const Brick* LevelBricks::uniform_around(const Field& field, BrickCoord brick) const {
   const Brick* first = &generator(field).brick(brick);
   if (first != &air_brick() && first != &solid_brick()) return nullptr;
   for (int i = 1; i < 8; ++i) {
@@ -119,7 +119,7 @@ bool LevelBricks::edited_around(const Field& field, BrickCoord brick) const {
   return edited;
 }
 
-LevelBrick LevelBricks::read(Field& field, BrickCoord brick) {
+LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
     if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)

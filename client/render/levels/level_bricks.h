@@ -31,7 +31,7 @@ LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 TerrainSource spaced(TerrainSource source, int level);
 
 /// Writes the edited codes of the field, which is level 0, into a window of that level.
-void copy_edits(Field& field, int level, Window& window);
+void copy_edits(const Field& field, int level, Window& window);
 
 class LevelBricks {
  public:
@@ -42,9 +42,9 @@ class LevelBricks {
 
   /// Chunks of this level. `field` is always the world's, of level 0.
   bool has_generated(const Field& field, ChunkCoord chunk) const;
-  void adopt_generated(Field& field, ChunkCoord chunk, GeneratedChunk&& generated);
+  void adopt_generated(const Field& field, ChunkCoord chunk, GeneratedChunk&& generated);
 
-  LevelBrick read(Field& field, BrickCoord brick);
+  LevelBrick read(const Field& field, BrickCoord brick);
 
   /// The bricks of this level that a change of a brick of the field affects: lo inside, hi outside.
   struct Range {
@@ -55,8 +55,8 @@ class LevelBricks {
 
  private:
   int step() const { return 1 << level_; }
-  Field& generator(Field& field) const { return coarse_ ? *coarse_ : field; }
-  const Brick* uniform_around(Field& field, BrickCoord brick) const;
+  const Field& generator(const Field& field) const { return coarse_ ? *coarse_ : field; }
+  const Brick* uniform_around(const Field& field, BrickCoord brick) const;
   bool edited_around(const Field& field, BrickCoord brick) const;
 
   int level_;

@@ -27,17 +27,18 @@ bool SurfaceLevels::has_generated(const Field& field, int level, ChunkCoord chun
   return level == 0 ? field.has_generated(chunk) : coarse_[static_cast<size_t>(level)]->has_generated(chunk);
 }
 
-void SurfaceLevels::adopt_generated(Field& field, int level, ChunkCoord chunk, GeneratedChunk&& generated) {
-  Field& generator = level == 0 ? field : *coarse_[static_cast<size_t>(level)];
+void SurfaceLevels::adopt_generated(const Field& field, int level, ChunkCoord chunk,
+                                    GeneratedChunk&& generated) {
+  const Field& generator = level == 0 ? field : *coarse_[static_cast<size_t>(level)];
   generator.adopt_generated(chunk, std::move(generated));
 }
 
-bool SurfaceLevels::is_rock(Field& field, int level, VoxelCoord sample) {
-  Field& reader = level == 0 ? field : *coarse_[static_cast<size_t>(level)];
+bool SurfaceLevels::is_rock(const Field& field, int level, VoxelCoord sample) {
+  const Field& reader = level == 0 ? field : *coarse_[static_cast<size_t>(level)];
   return reader.brick(brick_of(sample)).codes.front() < 0;
 }
 
-std::optional<BlockWindows> SurfaceLevels::gather(Field& field, int level, const VoxelBox& owned) {
+std::optional<BlockWindows> SurfaceLevels::gather(const Field& field, int level, const VoxelBox& owned) {
   if (level == 0) return gather_windows(field, owned);
   MapField& generator = *coarse_[static_cast<size_t>(level)];
   const VoxelBox box = owned.grown(surface_nets_apron);

@@ -19,12 +19,12 @@ class SurfaceLevels {
   const TerrainSource& source(int level) const { return sources_[static_cast<size_t>(level)]; }
   /// Chunks of the level, of 32³ of its samples. `field` is always the world's, of level 0.
   bool has_generated(const Field& field, int level, ChunkCoord chunk) const;
-  void adopt_generated(Field& field, int level, ChunkCoord chunk, GeneratedChunk&& generated);
+  void adopt_generated(const Field& field, int level, ChunkCoord chunk, GeneratedChunk&& generated);
 
   /// Like gather_windows() (block_windows.h), in samples of the level.
-  std::optional<BlockWindows> gather(Field& field, int level, const VoxelBox& owned);
+  std::optional<BlockWindows> gather(const Field& field, int level, const VoxelBox& owned);
   /// Whether a box for which gather() returns nothing is rock, not air.
-  bool is_rock(Field& field, int level, VoxelCoord sample);
+  bool is_rock(const Field& field, int level, VoxelCoord sample);
 
  private:
   std::vector<TerrainSource> sources_;

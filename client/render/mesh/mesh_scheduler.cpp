@@ -97,7 +97,7 @@ MeshUpdate MeshScheduler::update(const Scene& scene, glm::vec3 eye_m) {
   return update;
 }
 
-void MeshScheduler::collect_results(Field& field) {
+void MeshScheduler::collect_results(const Field& field) {
   Inbox done;
   {
     const std::lock_guard lock(inbox_->mutex);
@@ -131,7 +131,7 @@ void MeshScheduler::begin_batch(const Scene& scene, glm::vec3 eye_m) {
 }
 
 /// No batch if there is nothing to grow.
-void MeshScheduler::begin_growth(Field& field, glm::vec3 eye_m) {
+void MeshScheduler::begin_growth(const Field& field, glm::vec3 eye_m) {
   growth_is_due_ = false;
   ForestStep step = forest_->grow(eye_m, limits::forest_steps_max);
   grown_ = step.empty();
@@ -172,7 +172,7 @@ void MeshScheduler::begin_changes(const Scene& scene) {
 }
 
 /// The chunks into which the nodes' windows reach are generated first, on the pool.
-void MeshScheduler::ask_for_terrain(Field& field) {
+void MeshScheduler::ask_for_terrain(const Field& field) {
   const auto need = [&](int level, const VoxelBox& box) {
     for_each_chunk(box.grown(surface_nets_apron), [&](ChunkCoord chunk) {
       if (!levels_->has_generated(field, level, chunk)) batch_->terrain_needed.insert({level, chunk});
@@ -202,7 +202,7 @@ void MeshScheduler::generate_needed() {
   }
 }
 
-void MeshScheduler::begin_meshes(Field& field) {
+void MeshScheduler::begin_meshes(const Field& field) {
   batch_->begun = true;
   for (const SurfaceNode& node : batch_->nodes) {
     std::optional<NodeJob> job = gather_node(*levels_, field, node, forest_->neighbours(node), polygoniser_);
@@ -219,7 +219,7 @@ void MeshScheduler::begin_meshes(Field& field) {
   }
 }
 
-void MeshScheduler::submit_piece(Field& field, PieceId id, const ScenePiece& piece) {
+void MeshScheduler::submit_piece(const Field& field, PieceId id, const ScenePiece& piece) {
   pool_.submit(WorkPool::Urgency::edit, [inbox = inbox_, job = gather_piece(field, id, piece)] {
     PieceMesh done = mesh_piece(job);
     const std::lock_guard lock(inbox->mutex);

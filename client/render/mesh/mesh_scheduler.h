@@ -60,16 +60,16 @@ class MeshScheduler {
   };
 
   void start(const TerrainSource& source);
-  void collect_results(Field& field);
+  void collect_results(const Field& field);
   bool has_changes() const;
   void begin_batch(const Scene& scene, glm::vec3 eye_m);
-  void begin_growth(Field& field, glm::vec3 eye_m);
+  void begin_growth(const Field& field, glm::vec3 eye_m);
   void begin_changes(const Scene& scene);
   void give_way();
-  void ask_for_terrain(Field& field);
+  void ask_for_terrain(const Field& field);
   void generate_needed();
-  void begin_meshes(Field& field);
-  void submit_piece(Field& field, PieceId id, const ScenePiece& piece);
+  void begin_meshes(const Field& field);
+  void submit_piece(const Field& field, PieceId id, const ScenePiece& piece);
 
   WorkPool& pool_;
   float view_radius_m_;

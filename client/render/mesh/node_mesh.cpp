@@ -281,7 +281,7 @@ VoxelBox samples_of(const SurfaceNode& node) {
   return {lo, lo + VoxelCoord{block_size, block_size, block_size}};
 }
 
-std::optional<NodeJob> gather_node(SurfaceLevels& levels, Field& field, const SurfaceNode& node,
+std::optional<NodeJob> gather_node(SurfaceLevels& levels, const Field& field, const SurfaceNode& node,
                                    const Neighbours& around, Polygoniser polygoniser) {
   NodeJob job{node, around, polygoniser, {}, {}, false, false};
   const VoxelBox box = samples_of(node);

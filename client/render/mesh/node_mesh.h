@@ -37,7 +37,7 @@ struct NodeMesh {
 VoxelBox samples_of(const SurfaceNode& node);
 
 /// Copies the needed codes out of the field. Nothing if the node has no surface.
-std::optional<NodeJob> gather_node(SurfaceLevels& levels, Field& field, const SurfaceNode& node,
+std::optional<NodeJob> gather_node(SurfaceLevels& levels, const Field& field, const SurfaceNode& node,
                                    const Neighbours& around, Polygoniser polygoniser);
 
 NodeMesh mesh_node(const NodeJob& job);

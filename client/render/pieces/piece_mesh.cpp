@@ -2,7 +2,7 @@
 
 namespace scree {
 
-PieceJob gather_piece(Field& field, PieceId id, const ScenePiece& piece) {
+PieceJob gather_piece(const Field& field, PieceId id, const ScenePiece& piece) {
   return {id, piece, paint_number(field, *piece.volume), gather_generated(field, piece.volume->window.box)};
 }
 

@@ -21,7 +21,7 @@ struct PieceJob {
   Window before;
 };
 
-PieceJob gather_piece(Field& field, PieceId id, const ScenePiece& piece);
+PieceJob gather_piece(const Field& field, PieceId id, const ScenePiece& piece);
 PieceMesh mesh_piece(const PieceJob& job);
 
 }  // namespace scree

@@ -74,7 +74,7 @@ PieceVolumes::PieceVolumes() {
   glBindVertexArray(0);
 }
 
-void PieceVolumes::update(Field& field, const ScenePieces& pieces, BrickAtlas& atlas) {
+void PieceVolumes::update(const Field& field, const ScenePieces& pieces, BrickAtlas& atlas) {
   std::erase_if(stored_, [&](const auto& entry) {
     const auto found = pieces.find(entry.first);
     const bool gone = found == pieces.end() || found->second.volume != entry.second.volume;
@@ -103,7 +103,7 @@ uint32_t PieceVolumes::allocate_run(uint32_t count) {
   return first;
 }
 
-PieceVolumes::Stored PieceVolumes::store(Field& field, const ScenePiece& piece, BrickAtlas& atlas) {
+PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& piece, BrickAtlas& atlas) {
   const Window& window = piece.volume->window;
   const VoxelBox rock = rock_box(window);
   Stored stored{piece.volume, {}, 0, 0};

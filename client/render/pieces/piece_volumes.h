@@ -23,7 +23,7 @@ class PieceVolumes {
   PieceVolumes();
 
   /// Shows exactly these pieces, where they are now. New ones are uploaded: the cost grows with their number.
-  void update(Field& field, const ScenePieces& pieces, BrickAtlas& atlas);
+  void update(const Field& field, const ScenePieces& pieces, BrickAtlas& atlas);
   /// Draws the boxes' far sides with the program that is in use. Binds a vertex array of its own.
   void draw() const;
 
@@ -49,7 +49,7 @@ class PieceVolumes {
     uint32_t count = 0;
   };
 
-  Stored store(Field& field, const ScenePiece& piece, BrickAtlas& atlas);
+  Stored store(const Field& field, const ScenePiece& piece, BrickAtlas& atlas);
   void drop(const Stored& stored, BrickAtlas& atlas);
   uint32_t allocate_run(uint32_t count);
   void upload_entries(uint32_t first, uint32_t count);

@@ -29,7 +29,7 @@ using ScenePieces = std::map<PieceId, ScenePiece>;
 
 /// The content of a frame.
 struct Scene {
-  Field& field;
+  const Field& field;
   const ScenePieces& pieces;
 };
 

@@ -19,7 +19,7 @@ class SolidGround final : public WalkGround {
   Touch loose(glm::vec3 place_m) override;
 
  private:
-  Field& field_;
+  const Field& field_;
   float voxel_m_;
   std::vector<const ScenePiece*> near_;
 };

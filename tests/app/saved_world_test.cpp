@@ -1,0 +1,54 @@
+// A saved world is new when no file of it was there, before it starts and after. It starts once.
+#include "server/app/saved_world.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/flat_terrain.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+namespace {
+
+class SavedWorldTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<SavedWorld> open() {
+    WorldConfig config;
+    config.terrain = flat_terrain;
+    auto opened = SavedWorld::open(folder / "world", config, 1, {});
+    EXPECT_TRUE(opened.has_value()) << opened.error().message;
+    return std::move(*opened);
+  }
+  static SaverConfig saving() {
+    return {.durability = Durability::off, .autosave_s = 0.0, .before_save = {}};
+  }
+
+  const TestFolder folder;
+};
+
+TEST_F(SavedWorldTest, a_world_is_new_when_no_file_of_it_was_there_also_after_it_started) {
+  {
+    const auto kept = open();
+    EXPECT_TRUE(kept->is_new());
+    const auto world = kept->release_world();
+    ASSERT_TRUE(kept->start(*world, saving()).has_value());
+    EXPECT_TRUE(kept->is_new());
+    kept->note(*world->step({}), *world);
+    ASSERT_TRUE(kept->finish(*world).has_value());
+  }
+  const auto kept = open();
+  EXPECT_FALSE(kept->is_new());
+  const auto world = kept->release_world();
+  EXPECT_EQ(world->tick(), 1U);
+  ASSERT_TRUE(kept->start(*world, saving()).has_value());
+  EXPECT_FALSE(kept->is_new());
+}
+
+TEST_F(SavedWorldTest, starts_once) {
+  const auto kept = open();
+  const auto world = kept->release_world();
+  ASSERT_TRUE(kept->start(*world, saving()).has_value());
+  EXPECT_DEATH(static_cast<void>(kept->start(*world, saving())), "a saved world starts once");
+}
+
+}  // namespace
+}  // namespace scree
