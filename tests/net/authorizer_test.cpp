@@ -22,7 +22,7 @@ class AuthorizerTest : public ::testing::Test {
   Door door{Door::Rules{}};
   std::optional<Authorizer> authorizer;
   const Caller far{"10.0.0.1", "10.0.0.1"};
-  const Caller here{"127.0.0.1", "127.0.0.1"};
+  const Caller here{door_address("127.0.0.1"), "127.0.0.1"};
 };
 
 TEST_F(AuthorizerTest, without_a_token_a_client_is_what_the_server_says_under_its_own_name) {

@@ -19,7 +19,8 @@ class MemorySessions final : public SessionHost {
     links[id] = std::make_shared<MemoryTransport>(ip);
     SessionTimes times{100.0, 100.0, 100.0};
     times.now_s = [this] { return now_s; };
-    const auto session = std::make_shared<ClientSession>(links[id], ip, id, *this, times, now_s);
+    const auto session =
+        std::make_shared<ClientSession>(links[id], door_address(ip), id, *this, times, now_s);
     table.add(session, false);
     session->start();
     return session;
