@@ -109,7 +109,7 @@ class Onlooker {
   /// does not end.
   bool join(const TickDelta& keyframe) {
     show(keyframe);
-    publisher_.join(onlooker, eye_m_, onlooker_interest_m, true);
+    publisher_.join(onlooker, eye_m_, onlooker_interest_m, operation_kinds);
     TickDelta still;
     still.pieces = keyframe.pieces;
     still.ledger = keyframe.ledger;

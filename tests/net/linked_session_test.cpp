@@ -95,7 +95,7 @@ class LinkedWorld final : public SessionHost {
   static constexpr size_t kernel_bytes = 4096;
 
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override {
-    publisher.join(session.id(), hello.eye_m, hello.interest_radius_m, true);
+    publisher.join(session.id(), hello.eye_m, hello.interest_radius_m, operation_kinds);
     WelcomeMessage welcome;
     welcome.terrain = flat_terrain;
     welcome.interest_radius_m = hello.interest_radius_m;

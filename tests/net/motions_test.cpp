@@ -139,7 +139,7 @@ TEST_F(MotionsTest, a_piece_that_moved_while_a_client_skipped_frames_comes_whole
 }
 
 TEST_F(MotionsTest, a_client_that_does_not_predict_gets_whole_poses_and_no_motions) {
-  publisher.join(session, {0.0F, 2.0F, 0.0F}, 64.0F, false);
+  publisher.join(session, {0.0F, 2.0F, 0.0F}, 64.0F, 0);
   followers.try_emplace(session);
   tick({source.carve({0.0F, 0.0F, 0.0F}, 2.0F, 8)});
   ticks(20);

@@ -88,7 +88,7 @@ CrowdsBytes serve_crowd(size_t threads) {
   for (uint64_t tick = 1; tick <= 90; ++tick) {
     if (tick == 1 || tick == 40)
       for (uint64_t session = tick; session < tick + crowd / 2; ++session)
-        publisher.join(session * 2, somewhere(), 24.0F, session % 7 != 0);
+        publisher.join(session * 2, somewhere(), 24.0F, session % 7 != 0 ? operation_kinds : 0);
     if (tick % 20 == 0) publisher.leave(2 * tick);
     for (uint64_t session = tick % 13; session < crowd; session += 13)
       publisher.set_interest(2 * session, somewhere(), 24.0F);

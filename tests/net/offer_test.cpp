@@ -28,7 +28,7 @@ class OfferTest : public PublisherTest {
     return offer;
   }
   TrustingClient& come_back(const OfferMessage& offer) {
-    publisher.join(again, eye_m, 128.0F, true, true);
+    publisher.join(again, eye_m, 128.0F, operation_kinds, true);
     TrustingClient& follower = followers[again];
     follower.before = &followers.at(session);
     publisher.offer(again, offer);
@@ -63,7 +63,7 @@ TEST_F(OfferTest, what_changed_meanwhile_comes_whole_among_what_was_kept) {
 
 TEST_F(OfferTest, an_announced_offer_is_waited_for_but_not_for_ever) {
   make_edits();
-  publisher.join(again, eye_m, 128.0F, true, true);
+  publisher.join(again, eye_m, 128.0F, operation_kinds, true);
   const auto wait = static_cast<int>(limits::offer_wait_s * 60.0);
   for (int i = 0; i < wait; ++i) tick();
   EXPECT_EQ(followers.at(again).chunks, 0U);

@@ -60,7 +60,7 @@ class PublisherPagingTest : public PublisherTest {
     for (int i = 0; i < 12; ++i) play({source.carve({4.0F * static_cast<float>(i), 0.0F, 0.0F}, 1.5F, 3)});
   }
   void join_paged(uint64_t id) {
-    paged.join(id, {20.0F, 2.0F, 0.0F}, 64.0F, true);
+    paged.join(id, {20.0F, 2.0F, 0.0F}, 64.0F, operation_kinds);
     followers.try_emplace(id);
   }
 

@@ -367,7 +367,7 @@ TEST(PublishedPhysics, has_a_budget_of_bytes_and_goes_on_when_it_is_much) {
   TickSource source{flat_terrain};
   Workers workers(1);
   Publisher publisher({.terrain = flat_terrain}, workers);
-  publisher.join(1, {}, 64.0F, true);
+  publisher.join(1, {}, 64.0F, operation_kinds);
   publisher.subscribe_physics(1, true);
   auto physics = std::make_shared<PhysicsMessage>();
   for (size_t i = 0; i < limits::physics_contacts_max; ++i)

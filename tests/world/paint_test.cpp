@@ -162,7 +162,7 @@ class Client {
     welcome.terrain = flat_terrain;
     welcome.tick = publisher.state().tick();
     mirror = std::make_unique<Mirror>(welcome);
-    publisher.join(session, eye_m, radius_m, true);
+    publisher.join(session, eye_m, radius_m, operation_kinds);
   }
   void receive(const std::vector<Outgoing>& outgoing) {
     for (const Outgoing& message : outgoing) {
