@@ -42,11 +42,12 @@ ShatterOperation shatter_operation(SeedPattern pattern) {
   return {1, pattern, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 2};
 }
 
-/// Empty when the message is decoded, to the same.
+/// Empty when the message is decoded, to the same; else the reason, or the unknown value of a request.
 std::string refusal(const ClientMessage& message) {
   const std::vector<uint8_t> bytes = encode(message);
   const Result<ClientMessage> decoded = decode_client(samples::body_of(bytes));
   if (!decoded) return decoded.error().message;
+  if (const auto* unknown = std::get_if<UnknownMessage>(&*decoded)) return unknown->value;
   EXPECT_EQ(encode(*decoded), bytes);
   return "";
 }
