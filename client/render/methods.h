@@ -21,7 +21,7 @@ struct MethodEntry {
   std::optional<std::string> (*missing)();
   /// `pool` must outlive the method. Needs the context current. Fails when a shader or a buffer does.
   Result<std::unique_ptr<DrawMethod>> (*make)(WorkPool& pool, float view_radius_m);
-  /// Of its own; null: none.
+  /// The method's own options; null: none.
   std::span<const DrawOption> (*options)() = nullptr;
 };
 

@@ -97,7 +97,7 @@ class Client {
   const WelcomeMessage* welcome() const { return channel_ ? &channel_->welcome() : nullptr; }
   /// Null without a connection.
   ServerChannel* channel() { return channel_.get(); }
-  /// Of the connection, or of the last one.
+  /// The counters of the connection, or of the last one.
   ConnectionCounters counters() const { return channel_ ? channel_->counters() : counters_; }
   /// The place and the radius of interest that the server was last told.
   glm::vec3 eye_m() const { return eye_m_; }

@@ -33,14 +33,6 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.heartbeat_s, config.chunks};
 }
 
-Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
-  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
-    return fail("the eye's position is not a number");
-  if (!std::isfinite(radius_m) || radius_m < 0.0F)
-    return fail("the radius of interest must be a number, and not negative");
-  return std::min(radius_m, limits::interest_radius_max_m);
-}
-
 }  // namespace
 
 NetHost::NetHost(const NetConfig& config, CommandQueue& commands)

@@ -2,10 +2,10 @@
 // learn of a connection, a message and a tick. Used by net_server.cpp only (Asio). Runs on the network
 // thread; figures() is for any thread.
 //
-// Parts: Arrivals (who comes in), SessionTable (who is connected), Authorizer (who may do what), Room (how
-// many there may be), Returns (who may come back), Requests (commands and their answers), Administration,
-// WebConnections (HTTP), Talk, Publisher (what each client is sent) and FlushQueue (when it is sent),
-// HostFigures (counts).
+// The parts are Arrivals (who comes in), SessionTable (who is connected), Authorizer (who may do what), Room
+// (how many there may be) and Returns (who may come back). Requests has commands and their answers,
+// Administration the acts of administrators, WebConnections HTTP, and Talk the lines of persons. Publisher
+// decides what each client is sent, FlushQueue when, and HostFigures counts.
 //
 // Within publish() the workers compose messages and hand them to the sockets, while the network thread takes
 // part and waits. They ask sessions for their backlog() and let them send_now(), each session on one of them

@@ -1,8 +1,11 @@
 #include "server/net/welcome.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "crypto/sha256.h"
+#include "shared/base/limits.h"
 
 namespace scree {
 
@@ -15,6 +18,14 @@ tl::expected<void, Refused> find_protocol(const HelloMessage& hello) {
                 fmt::format("this server speaks protocol version {}, the client {}: use a client and a "
                             "server of the same release",
                             protocol_version, spoken));
+}
+
+Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
+  if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
+    return fail("the eye's position is not a number");
+  if (!std::isfinite(radius_m) || radius_m < 0.0F)
+    return fail("the radius of interest must be a number, and not negative");
+  return std::min(radius_m, limits::interest_radius_max_m);
 }
 
 WelcomeMessage welcome_of(const NetConfig& config, uint64_t world) {

@@ -1,16 +1,22 @@
-// The protocol that a client shares with the server, and what a welcome says to every client alike.
+// What a client is granted when it joins: the protocol, the radius of interest, and a welcome.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 #include "proto/messages.h"
 #include "server/command/refusal.h"
 #include "server/net/net_server.h"
+#include "shared/base/result.h"
 
 namespace scree {
 
 /// Refuses a client that does not speak the server's protocol. The reason names the numbers of both.
 tl::expected<void, Refused> find_protocol(const HelloMessage& hello);
+
+/// The radius of interest that a client gets, metres: at most limits::interest_radius_max_m. Refuses a place
+/// or a radius that is no number, and a negative radius.
+Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
 
 /// A welcome without the session's own part: number, tick, interest, role, ticket. `world`: as of
 /// WelcomeMessage.

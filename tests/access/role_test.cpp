@@ -143,14 +143,19 @@ TEST_F(RoleTest, a_token_that_does_not_hold_refuses_the_session_by_its_reason) {
   named(*sign({7, Role::admin, 0, 0, "", "yours"}, key), Refusal::token_world,
         "for the world 'yours', and this one is 'mine'");
   const std::vector<uint8_t> fields = encode(ClientMessage(hello(std::string(512, 'x'))));
-  std::vector<uint8_t> longer = fields;
-  longer.push_back('x');
-  ++longer[0];  // one byte more of message, of hello and of token; none of the three lengths overflows its
-                // byte
-  for (size_t i = 4; i + 2 < longer.size(); ++i)
-    if ((longer[i] == 0x0A && i == 4) ||
-        (longer[i] == 0x32 && longer[i + 1] == 0x80 && longer[i + 2] == 0x04))
-      ++longer[i + 1];
+  // One byte more of token (field 6), of hello (field 1) and of message. Lengths of 128 to 16,383 take two
+  // bytes.
+  const auto varint = [](size_t length) {
+    return std::string{static_cast<char>(0x80U | (length & 0x7FU)), static_cast<char>(length >> 7U)};
+  };
+  const std::string body(fields.begin() + length_prefix_bytes + 3, fields.end());
+  const size_t at = body.find("\x32" + varint(512));
+  ASSERT_NE(at, std::string::npos);
+  std::string with_longer = body.substr(0, at) + "\x32" + varint(513) + 'x' + body.substr(at + 3);
+  with_longer = '\x0A' + varint(with_longer.size()) + with_longer;
+  std::vector<uint8_t> longer{static_cast<uint8_t>(with_longer.size()),
+                              static_cast<uint8_t>(with_longer.size() >> 8U), 0, 0};
+  longer.insert(longer.end(), with_longer.begin(), with_longer.end());
   RawClient client(server->port());
   ASSERT_TRUE(client.send_bytes(longer));
   const auto refused = client.receive_as<RefusalMessage>();

@@ -97,22 +97,7 @@ inline PhysicsMessage physics() {
   return physics;
 }
 
-inline std::vector<ServerMessage> server_messages() {
-  WelcomeMessage welcome;
-  welcome.session = 0x1234567890ABCDEFULL;
-  welcome.tick = 42;
-  welcome.terrain = {TerrainKind::noise, 99, 0.25F};
-  welcome.interest_radius_m = 64.0F;
-  welcome.replay = true;
-  welcome.role = Role::carver;
-  welcome.world = 0xFEDCBA9876543210ULL;
-  welcome.ticket = std::string("\0\xFF ticket", 9);
-  welcome.resumed = true;
-  ChunkMessage chunk;
-  chunk.chunk = {-1, 2, 0};
-  chunk.version = 17;
-  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), Material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
-  chunk.hash = 0xFEDCBA9876543210ULL;
+inline StatusMessage status() {
   StatusMessage status;
   status.tick = 5;
   status.clients = 3;
@@ -130,6 +115,25 @@ inline std::vector<ServerMessage> server_messages() {
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}};
+  return status;
+}
+
+inline std::vector<ServerMessage> server_messages() {
+  WelcomeMessage welcome;
+  welcome.session = 0x1234567890ABCDEFULL;
+  welcome.tick = 42;
+  welcome.terrain = {TerrainKind::noise, 99, 0.25F};
+  welcome.interest_radius_m = 64.0F;
+  welcome.replay = true;
+  welcome.role = Role::carver;
+  welcome.world = 0xFEDCBA9876543210ULL;
+  welcome.ticket = std::string("\0\xFF ticket", 9);
+  welcome.resumed = true;
+  ChunkMessage chunk;
+  chunk.chunk = {-1, 2, 0};
+  chunk.version = 17;
+  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), Material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
+  chunk.hash = 0xFEDCBA9876543210ULL;
   WelcomeMessage on_heights = welcome;
   on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}},
                                     {1, 2, 255},
@@ -144,7 +148,7 @@ inline std::vector<ServerMessage> server_messages() {
       PieceMessage{31, volume(), {1, -2, 3, 4}},
       ResetMessage{},
       ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
-      status,
+      status(),
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       PersonsMessage{{{4, "Ann", Role::builder}, {9, "", Role::viewer}}, 2, true},
       SaidMessage{4, "Ann", "mind the edge"},
