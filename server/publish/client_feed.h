@@ -11,10 +11,10 @@
 #include "server/publish/chunk_stream.h"
 #include "server/publish/client_view.h"
 #include "server/publish/outgoing.h"
+#include "server/publish/physics_feed.h"
 #include "server/publish/piece_stream.h"
 #include "server/publish/replay_news.h"
 #include "server/publish/served_tick.h"
-#include "server/publish/physics_feed.h"
 
 namespace scree {
 

@@ -1,4 +1,5 @@
-// Where the mass of a world is. The simulation checks the sum after every tick, recordings keep it for each tick.
+// Where the mass of a world is. The simulation checks the sum after every tick, recordings keep it for each
+// tick.
 #pragma once
 
 #include "shared/field/mass.h"

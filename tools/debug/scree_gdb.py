@@ -169,7 +169,8 @@ class FieldPrinter:
         if int(value["below_"]) != 0:
             text += ", a layer over the field at 0x%x" % int(value["below_"])
         kept = sum(
-            int(value[name]["chunks"]["_M_h"]["_M_element_count"]) for name in ("generated_", "unused_")
+            int(value["generated_"][name]["chunks"]["_M_h"]["_M_element_count"])
+            for name in ("used_", "unused_")
         )
         return text + ", %d generated chunks" % kept
 
