@@ -15,7 +15,7 @@ constexpr float gradient_min = 0.1F;
 
 class FieldProbe final : public TerrainProbe {
  public:
-  FieldProbe(Field& field, std::vector<glm::vec3> points_m)
+  FieldProbe(const Field& field, std::vector<glm::vec3> points_m)
       : codes_(field), voxel_size_m_(field.source().voxel_size_m), points_(std::move(points_m)) {}
 
   bool turn(const Pose& pose, float reach_m) override {
@@ -61,7 +61,7 @@ class FieldProbe final : public TerrainProbe {
 
 class FieldCollider final : public TerrainCollider {
  public:
-  explicit FieldCollider(Field& field) : field_(field) {}
+  explicit FieldCollider(const Field& field) : field_(field) {}
 
   std::unique_ptr<TerrainProbe> attach(std::vector<glm::vec3> points_m) override {
     return std::make_unique<FieldProbe>(field_, std::move(points_m));
@@ -69,12 +69,12 @@ class FieldCollider final : public TerrainCollider {
   void terrain_changed(const VoxelBox& /*box*/) override {}
 
  private:
-  Field& field_;
+  const Field& field_;
 };
 
 }  // namespace
 
-std::unique_ptr<TerrainCollider> make_field_collider(Field& field) {
+std::unique_ptr<TerrainCollider> make_field_collider(const Field& field) {
   return std::make_unique<FieldCollider>(field);
 }
 

@@ -64,7 +64,7 @@ class MeshProbe final : public TerrainProbe {
 
 class MeshCollider final : public TerrainCollider {
  public:
-  explicit MeshCollider(Field& field) : mesh_(field), voxel_size_m_(field.source().voxel_size_m) {}
+  explicit MeshCollider(const Field& field) : mesh_(field), voxel_size_m_(field.source().voxel_size_m) {}
 
   std::unique_ptr<TerrainProbe> attach(std::vector<glm::vec3> points_m) override {
     return std::make_unique<MeshProbe>(mesh_, voxel_size_m_, std::move(points_m));
@@ -78,7 +78,7 @@ class MeshCollider final : public TerrainCollider {
 
 }  // namespace
 
-std::unique_ptr<TerrainCollider> make_mesh_collider(Field& field) {
+std::unique_ptr<TerrainCollider> make_mesh_collider(const Field& field) {
   return std::make_unique<MeshCollider>(field);
 }
 

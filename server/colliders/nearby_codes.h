@@ -9,7 +9,7 @@ namespace scree {
 class NearbyCodes {
  public:
   /// `field` must outlive this object.
-  explicit NearbyCodes(Field& field) : field_(field) {}
+  explicit NearbyCodes(const Field& field) : field_(field) {}
 
   /// Whether codes() covers the bounds, for sampling anywhere between `lo` and `hi`.
   bool has(glm::vec3 lo, glm::vec3 hi) const { return covers(codes_, lo) && covers(codes_, hi); }
@@ -23,7 +23,7 @@ class NearbyCodes {
   bool all_air() const { return all_air_; }
 
  private:
-  Field& field_;
+  const Field& field_;
   Window codes_;
   bool all_air_ = false;
 };

@@ -55,7 +55,7 @@ struct LooseGround {
 
 class RaysProbe final : public TerrainProbe {
  public:
-  RaysProbe(Field& field, std::vector<glm::vec3> points_m)
+  RaysProbe(const Field& field, std::vector<glm::vec3> points_m)
       : codes_(field), voxel_size_m_(field.source().voxel_size_m), points_(std::move(points_m)) {}
 
   bool turn(const Pose& pose, float reach_m) override {
@@ -139,7 +139,7 @@ class RaysProbe final : public TerrainProbe {
 
 class RaysCollider final : public TerrainCollider {
  public:
-  explicit RaysCollider(Field& field) : field_(field) {}
+  explicit RaysCollider(const Field& field) : field_(field) {}
 
   std::unique_ptr<TerrainProbe> attach(std::vector<glm::vec3> points_m) override {
     return std::make_unique<RaysProbe>(field_, std::move(points_m));
@@ -147,12 +147,12 @@ class RaysCollider final : public TerrainCollider {
   void terrain_changed(const VoxelBox& /*box*/) override {}
 
  private:
-  Field& field_;
+  const Field& field_;
 };
 
 }  // namespace
 
-std::unique_ptr<TerrainCollider> make_rays_collider(Field& field) {
+std::unique_ptr<TerrainCollider> make_rays_collider(const Field& field) {
   return std::make_unique<RaysCollider>(field);
 }
 

@@ -60,7 +60,7 @@ class TerrainCollider {
 };
 
 /// `field` must outlive the collider, and the collider must outlive its probes.
-inline std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind, Field& field) {
+inline std::unique_ptr<TerrainCollider> make_terrain_collider(TerrainColliderKind kind, const Field& field) {
   return traits_of(kind).make(field);
 }
 

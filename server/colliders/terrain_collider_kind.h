@@ -14,7 +14,7 @@ class Field;
 class TerrainCollider;
 
 /// `field` must outlive the collider.
-using MakeTerrainCollider = std::unique_ptr<TerrainCollider>(Field& field);
+using MakeTerrainCollider = std::unique_ptr<TerrainCollider>(const Field& field);
 
 /// Tests the points against the field itself: the contact's normal is the field's gradient. Depths reach 3
 /// voxels, where codes saturate.

@@ -20,7 +20,7 @@ struct TerrainTriangle {
 class TerrainMesh {
  public:
   /// `field` must outlive this object.
-  explicit TerrainMesh(Field& field) : field_(field) {}
+  explicit TerrainMesh(const Field& field) : field_(field) {}
 
   /// Every triangle that touches the box, in an order that depends on the box and the field alone.
   std::vector<TerrainTriangle> near(const VoxelBox& box);
@@ -31,7 +31,7 @@ class TerrainMesh {
  private:
   const std::vector<TerrainTriangle>& block(VoxelCoord coord);
 
-  Field& field_;
+  const Field& field_;
   std::unordered_map<VoxelCoord, std::vector<TerrainTriangle>, CoordHash> blocks_;
 };
 
