@@ -1,6 +1,7 @@
 // Places on an axis of logarithms that have a label. Pure.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 

@@ -33,14 +33,14 @@ std::string describe_values(const DrawOption& option) {
 
 std::string key_of(const DrawOption& option) {
   std::string key(option.name);
-  std::ranges::replace(key, '-', '_');
+  std::replace(key.begin(), key.end(), '-', '_');
   return key;
 }
 
 std::string variable_of(const DrawOption& option) {
   std::string variable = "SCREE_" + key_of(option);
-  std::ranges::transform(variable, variable.begin(),
-                         [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  std::transform(variable.begin(), variable.end(), variable.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
   return variable;
 }
 
