@@ -7,13 +7,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 #include "shared/base/check.h"
 #include "shared/field/coord.h"
-#include "shared/field/paging.h"
 
 namespace scree {
 
@@ -21,9 +20,9 @@ class ChunkResidence {
  public:
   using Chunks = std::unordered_set<ChunkCoord, CoordHash>;
 
-  /// From now on the field pages, by this way to read a chunk; not null.
-  void page_by(ReadChunk read) { read_ = std::move(read); }
-  bool pages() const { return read_ != nullptr; }
+  /// From now on the field pages. `bring_in`: puts a chunk that is out back into the field; not null.
+  void page_by(std::function<void(ChunkCoord)> bring_in) { bring_in_ = std::move(bring_in); }
+  bool pages() const { return bring_in_ != nullptr; }
 
   /// A chunk with so many edited bricks is in memory from now on, or is not any more.
   void enter(ChunkCoord chunk, size_t bricks) {
@@ -37,11 +36,9 @@ class ChunkResidence {
   }
   /// A chunk in memory has one more edited brick.
   void add_brick() { ++bricks_; }
-  /// Reads a chunk that somebody waits for.
-  Result<std::vector<BrickPatch>> read(ChunkCoord chunk) {
-    ++waits_;
-    return read_(chunk);
-  }
+  /// Brings in a chunk that somebody waits for, who may only read the field.
+  void bring_in(ChunkCoord chunk) const { bring_in_(chunk); }
+  void count_wait() { ++waits_; }
 
   const Chunks& chunks() const { return chunks_; }
   size_t bricks() const { return bricks_; }
@@ -52,7 +49,7 @@ class ChunkResidence {
   void begin_turn() { ++turn_; }
 
  private:
-  ReadChunk read_;  ///< null: all chunks are in
+  std::function<void(ChunkCoord)> bring_in_;  ///< null: all chunks are in
   Chunks chunks_;
   size_t bricks_ = 0;
   uint64_t turn_ = 0;

@@ -205,7 +205,7 @@ void Field::page_by(ReadChunk read) {
   if (!pages())
     for (const auto& [chunk, edited] : edited_)
       residence_.enter(chunk, static_cast<size_t>(std::popcount(edited.bricks)));
-  residence_.page_by(std::move(read));
+  residence_.page_by([this, read = std::move(read)](ChunkCoord chunk) { bring_in(chunk, read); });
 }
 
 void Field::page_out(ChunkCoord chunk) {
@@ -269,14 +269,15 @@ void Field::enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPa
 
 void Field::use(ChunkCoord chunk, const EditedChunk& edited) const {
   edited.used = residence_.turn();
-  // Codes and paint stay the same. The object itself is not const, because page_by() was called on it.
-  if (edited.out) const_cast<Field*>(this)->bring_in(chunk);
+  if (edited.out) residence_.bring_in(chunk);
 }
 
-void Field::bring_in(ChunkCoord chunk) {
-  const Result<std::vector<BrickPatch>> read = residence_.read(chunk);
-  if (!read) throw ChunkUnreadable(read.error().message);
-  if (!page_in(chunk, *read))
+/// Codes and paint stay the same for every reader.
+void Field::bring_in(ChunkCoord chunk, const ReadChunk& read) {
+  residence_.count_wait();
+  const Result<std::vector<BrickPatch>> bricks = read(chunk);
+  if (!bricks) throw ChunkUnreadable(bricks.error().message);
+  if (!page_in(chunk, *bricks))
     throw ChunkUnreadable("chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
                           std::to_string(chunk.z) + " was read, and is not what left memory");
 }

@@ -11,13 +11,12 @@
 // chunk_hash() the same sum over one chunk; painted bricks are edited ones.
 #pragma once
 
-#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "shared/field/chunk_residence.h"
@@ -153,7 +152,7 @@ class Field {
   LastChunk& last_chunk(ChunkCoord chunk) const;
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
   void use(ChunkCoord chunk, const EditedChunk& edited) const;
-  void bring_in(ChunkCoord chunk);
+  void bring_in(ChunkCoord chunk, const ReadChunk& read);
   void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
