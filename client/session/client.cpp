@@ -45,6 +45,7 @@ Client::Lost Client::lose(const ConnectionEnd& end) {
 }
 
 void Client::wait(std::chrono::milliseconds within) {
+  if (channel_ && !delayed_ && !playback_.empty()) return;  // it has come with the welcome
   if (channel_) return channel_->await(within);
   if (joining()) return connector_->await(within);
   std::this_thread::sleep_for(within);

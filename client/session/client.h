@@ -63,8 +63,8 @@ class Client {
   bool joining() const { return connector_->busy(); }
   bool connected() const { return channel_ != nullptr; }
 
-  /// Sleeps until a message, a welcome or an end has come, or the time is over. Only with a connector that
-  /// has a thread of its own.
+  /// Sleeps until a message, a welcome or an end has come, or the time is over. Returns at once if next() has
+  /// more to tell. Only with a connector that has a thread of its own.
   void wait(std::chrono::milliseconds within);
   /// Takes in the messages that have come. `now_s` never runs backwards.
   void poll(double now_s);

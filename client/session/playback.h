@@ -22,6 +22,7 @@ class Playback {
   std::optional<Received> pop_next(double now_s);
   /// The next message, due or not.
   std::optional<Received> take_first();
+  bool empty() const { return waiting_.empty(); }
   /// The tick (with its fraction) at which pieces are drawn now. It is behind the frames that pop_next()
   /// returned by the interval of the transforms, so that the poses before and after it are known.
   double draw_tick(double now_s);

@@ -22,7 +22,7 @@ struct PlayedServer {
   std::deque<ServerMessage> coming;
   std::vector<ClientMessage> sent;  ///< by the client
   bool open = false;
-  size_t goodbyes = 0, closed = 0;
+  size_t goodbyes = 0, closed = 0, waits = 0;
   double arrives_s = 0.0;  ///< what comes next
 
   template <typename Message>
@@ -48,7 +48,7 @@ struct PlayedServer::Channel final : ServerChannel {
     server_.coming.clear();
     return all;
   }
-  void await(std::chrono::milliseconds /*within*/) override {}
+  void await(std::chrono::milliseconds /*within*/) override { ++server_.waits; }
   void send(const ClientMessage& message) override { server_.sent.push_back(message); }
   bool connected() const override { return server_.open; }
   ConnectionEnd end() const override { return {{"the link broke"}, {}}; }
@@ -157,6 +157,19 @@ TEST_F(ClientTest, messages_that_came_with_the_welcome_are_told_after_it_in_the_
   ASSERT_EQ(events.size(), 2U);
   EXPECT_TRUE(std::holds_alternative<Client::Joined>(events[0]));
   EXPECT_TRUE(std::holds_alternative<Client::Applied>(events[1]));
+}
+
+TEST_F(ClientTest, nobody_waits_while_messages_that_came_are_not_told) {
+  start();
+  server_.coming = {empty_frame(1), empty_frame(2)};
+  client_->join({}, 0.0);
+  client_->poll(0.0);
+  ASSERT_TRUE(std::holds_alternative<Client::Joined>(client_->next().value()));
+  client_->wait(std::chrono::hours(1));
+  EXPECT_EQ(server_.waits, 0U) << "they came with the welcome, so nothing else may come";
+  EXPECT_EQ(events_at(0.0).size(), 2U);
+  client_->wait(std::chrono::milliseconds(1));
+  EXPECT_EQ(server_.waits, 1U);
 }
 
 TEST_F(ClientTest, a_carve_tells_its_bricks_and_pieces) {
