@@ -56,7 +56,7 @@ class BadInputTest : public ::testing::Test {
     ASSERT_NE(reply, nullptr) << session.failure;
     EXPECT_TRUE(holds(reply->refusal, because)) << reply->refusal;
     EXPECT_EQ(session.field().hash(), hash);
-    EXPECT_TRUE(client.connection().connected());
+    EXPECT_TRUE(client.client().connected());
     expect_witness_unmoved();
   }
   /// A client that no client of ours could be: told why, and closed.

@@ -131,12 +131,12 @@ TEST_F(SessionTest, every_client_holds_every_edited_chunk_within_its_interest) {
   for (const auto& client : played->session->clients()) {
     const float dx = client->mirror().terrain().voxel_size_m;
     for (const ChunkCoord chunk : server_field().edited_chunks()) {
-      const float distance_m = distance_to_chunk_m(client->eye_m(), chunk, dx);
+      const float distance_m = distance_to_chunk_m(client->client().eye_m(), chunk, dx);
       const bool held = client->mirror().held_chunks().contains(chunk);
       if (held) {
-        EXPECT_LE(distance_m, client->radius_m() * 1.25F);
+        EXPECT_LE(distance_m, client->client().radius_m() * 1.25F);
       } else {
-        EXPECT_GT(distance_m, client->radius_m());
+        EXPECT_GT(distance_m, client->client().radius_m());
       }
       beyond += held ? 0 : 1;
     }
@@ -165,7 +165,7 @@ TEST_F(SessionTest, operations_chunks_and_pieces_have_all_been_tried) {
   const MirrorCounters& stays = played->stays->mirror().counters();
   EXPECT_EQ(stays.operations.of<CarveOperation>(), all);
   EXPECT_EQ(stays.chunks + stays.patched_bricks, 0U) << "who saw everything needs operations alone";
-  for (const SessionClient* client : {played->late, played->back}) {
+  for (SessionClient* client : {played->late, played->back}) {
     EXPECT_GT(client->mirror().counters().chunks, 0U);
     EXPECT_LT(client->mirror().counters().operations.of<CarveOperation>(), all);
   }

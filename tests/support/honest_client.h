@@ -4,37 +4,35 @@
 #include <memory>
 #include <optional>
 
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
+#include "shared/base/timing.h"
 #include "tests/support/patience.h"
 
 namespace scree {
 
 class HonestClient {
  public:
-  explicit HonestClient(uint16_t port) {
-    auto connected = Connection::connect({.port = port},
-                                         {protocol_version, "honest", {0.0F, 2.0F, 0.0F}, 64.0F}, patience);
-    if (!connected) return;
-    connection_ = std::move(*connected);
-    mirror_ = std::make_unique<Mirror>(connection_->welcome());
-  }
-  bool joined() const { return connection_ != nullptr; }
+  explicit HonestClient(uint16_t port)
+      : client_(std::make_unique<ServerConnector>(ServerEndpoint{.port = port}, patience)),
+        joined_(join_and_wait(client_, {protocol_version, "honest", {0.0F, 2.0F, 0.0F}, 64.0F})) {}
+  bool joined() const { return joined_.has_value(); }
   /// Applies all up to the tick; the hash then.
   std::optional<uint64_t> hash_at(Tick tick) {
-    while (mirror_->tick() < tick) {
-      const auto received =
-          connection_->wait(std::chrono::duration_cast<std::chrono::milliseconds>(patience));
-      if (received.empty()) return std::nullopt;
-      for (const Received& one : received)
-        if (!mirror_->apply(one.message)) return std::nullopt;
+    while (client_.mirror()->tick() < tick) {
+      client_.wait(patience);
+      client_.poll(steady_now_s());
+      std::optional<Client::Event> event = client_.next();
+      if (!event) return std::nullopt;
+      for (; event; event = client_.next())
+        if (std::holds_alternative<Client::Lost>(*event)) return std::nullopt;
     }
-    return mirror_->field().hash();
+    return client_.mirror()->field().hash();
   }
 
  private:
-  std::unique_ptr<Connection> connection_;
-  std::unique_ptr<Mirror> mirror_;
+  Client client_;
+  tl::expected<void, ConnectionEnd> joined_;
 };
 
 }  // namespace scree

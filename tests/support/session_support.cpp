@@ -4,6 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "client/cache/join_server.h"
+#include "client/session/join_and_wait.h"
+#include "shared/base/timing.h"
 #include "tests/support/patience.h"
 
 namespace scree {
@@ -27,56 +30,38 @@ CarveMessage carve_message(const CarveRequest& carve, uint32_t request) {
 }
 
 SessionClient::SessionClient(uint16_t port, glm::vec3 eye_m, float radius_m)
-    : eye_m_(eye_m), radius_m_(radius_m) {
-  const HelloMessage hello{protocol_version, "session test", eye_m, radius_m};
-  auto connected = Connection::connect({.port = port}, hello, patience);
-  if (!connected) {
-    failure = connected.error().message;
-    return;
-  }
-  connection_ = std::move(*connected);
-  mirror_ = std::make_unique<Mirror>(connection_->welcome());
+    : client_(std::make_unique<ServerConnector>(ServerEndpoint{.port = port}, patience)) {
+  const auto joined = join_and_wait(client_, {protocol_version, "session test", eye_m, radius_m});
+  if (!joined) failure = joined.error().message;
 }
 
-bool SessionClient::fail_with(const std::string& why) {
-  if (failure.empty()) failure = why;
-  return false;
-}
-
-bool SessionClient::apply(const ServerMessage& message) {
+void SessionClient::note(const Client::Event& event, Tick before) {
+  if (const auto* lost = std::get_if<Client::Lost>(&event)) failure = lost->end.message;
+  const auto* applied = std::get_if<Client::Applied>(&event);
+  if (applied == nullptr) return;
+  const ServerMessage& message = applied->received.message;
   if (const auto* reply = std::get_if<ReplyMessage>(&message)) replies[reply->request] = *reply;
-  if (const auto* frame = std::get_if<FrameMessage>(&message))
-    if (frame->tick != mirror_->tick() + 1)
-      return fail_with("tick " + std::to_string(frame->tick) + " came after " +
-                       std::to_string(mirror_->tick()));
-  if (const auto applied = mirror_->apply(message); !applied) return fail_with(applied.error().message);
-  while (const auto repair = mirror_->next_repair_request()) connection_->send(*repair);
-  return true;
+  if (const auto* frame = std::get_if<FrameMessage>(&message); frame != nullptr && frame->tick != before + 1)
+    failure = "tick " + std::to_string(frame->tick) + " came after " + std::to_string(before);
 }
 
 bool SessionClient::follow_to(Tick tick) {
-  if (!failure.empty()) return false;
   const auto deadline = Clock::now() + patience;
-  while (mirror_->tick() < tick) {
-    const auto arrived = connection_->wait(100ms);
-    for (const Received& received : arrived)
-      if (!apply(received.message)) return false;
-    if (arrived.empty() && !connection_->connected()) return fail_with(connection_->close_reason());
-    if (Clock::now() > deadline) return fail_with("tick " + std::to_string(tick) + " does not come");
+  while (failure.empty() && mirror().tick() < tick) {
+    if (Clock::now() > deadline) failure = "tick " + std::to_string(tick) + " does not come";
+    client_.wait(100ms);
+    client_.poll(steady_now_s());
+    Tick before = mirror().tick();
+    for (auto event = client_.next(); event && failure.empty(); event = client_.next()) {
+      note(*event, before);
+      before = mirror().tick();
+    }
   }
-  return true;
+  return failure.empty();
 }
 
-bool SessionClient::ends() {
-  const auto deadline = Clock::now() + patience;
-  while (connection_->connected() && Clock::now() < deadline)
-    for (const Received& received : connection_->wait(100ms)) apply(received.message);
-  return !connection_->connected();
-}
-
-void SessionClient::set_eye(glm::vec3 eye_m) {
-  eye_m_ = eye_m;
-  send(InterestMessage{eye_m, radius_m_});
+void SessionClient::abort() {
+  static_cast<Connection&>(*client_.channel()).abort();
 }
 
 LoopbackSession::LoopbackSession(LiveConfig config) {

@@ -1,5 +1,5 @@
-// A whole server in this process, stepped by hand, and clients on loopback as users run them: a connection
-// and a mirror each. In step: after step() every client has applied the tick. Every wait has a deadline.
+// A whole server in this process, stepped by hand, and clients on loopback as users run them. In step: after
+// step() every client has applied the tick. Every wait has a deadline.
 #pragma once
 
 #include <map>
@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/connection/connection.h"
-#include "client/mirror/mirror.h"
+#include "client/session/client.h"
 #include "server/app/live_server.h"
 #include "shared/field/chunk_distance.h"
 
@@ -24,30 +23,22 @@ class SessionClient {
 
   /// Applies messages up to the frame of `tick`; false, and a failure, when it does not come.
   bool follow_to(Tick tick);
-  /// Applies the messages that arrive until the connection closes; false when it does not close.
-  bool ends();
-  void send(const ClientMessage& message) { connection_->send(message); }
-  void set_eye(glm::vec3 eye_m);
+  void send(const ClientMessage& message) { client_.send(message); }
+  void set_eye(glm::vec3 eye_m) { client_.follow(eye_m, client_.radius_m()); }
   /// Ends the connection like a lost link: messages on their way are lost.
-  void abort() { connection_->abort(); }
+  void abort();
 
-  Mirror& mirror() { return *mirror_; }
-  const Mirror& mirror() const { return *mirror_; }
-  const Connection& connection() const { return *connection_; }
-  glm::vec3 eye_m() const { return eye_m_; }
-  float radius_m() const { return radius_m_; }
+  Mirror& mirror() { return *client_.mirror(); }
+  const Client& client() const { return client_; }
 
   std::string failure;                       ///< empty: no failure
   std::map<uint32_t, ReplyMessage> replies;  ///< by request
 
  private:
-  bool apply(const ServerMessage& message);
-  bool fail_with(const std::string& why);
+  /// Notes an event, before which the mirror was at tick `before`.
+  void note(const Client::Event& event, Tick before);
 
-  glm::vec3 eye_m_;
-  float radius_m_;
-  std::unique_ptr<Connection> connection_;
-  std::unique_ptr<Mirror> mirror_;
+  Client client_;
 };
 
 class LoopbackSession {
