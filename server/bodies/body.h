@@ -44,7 +44,7 @@ struct Body {
   float spin_max_rad_s = 0.0F;
   bool awake = false;               ///< within a step: at its start
   bool roused = false;              ///< within tell_changes(): it wakes
-  bool needs_copy = false;          ///< within a step: its probe must look at the terrain first
+  bool needs_copy = false;          ///< within a step: its probe must copy the terrain first
   btTransform last;                 ///< transform before the step: restored when the step's is not finite
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them

@@ -300,7 +300,10 @@ void NetHost::set_files(std::shared_ptr<const WebFiles> files) {
 void NetHost::grant(const ServiceLimits& service) {
   const bool more = service.sessions_max > service_.sessions_max;
   service_ = service;
-  more ? room_.fit(service.sessions_max) : room_.bound(service.sessions_max);
+  if (more)
+    room_.fit(service.sessions_max);
+  else
+    room_.bound(service.sessions_max);
   sessions_.set_requests_per_second(service.requests_per_second);
 }
 

@@ -30,14 +30,10 @@ class Returns {
   /// The party of a session that has joined. Who has no token shares with its address; programs on this
   /// machine, and administrators, share with nobody. `before`: the party that the session had, if it goes on.
   uint64_t join_party(const ClientSession& session, const Grant& grant, uint64_t before, double now_s);
-  std::string issue_ticket(uint64_t session) { return tickets_.issue(session); }
   /// The session is closed: it may go on, or is forgotten.
   void closed(const SessionEntry& entry, double now_s);
-  /// The session may not go on.
-  void forget(uint64_t session) { tickets_.forget(session); }
 
   Tickets& tickets() { return tickets_; }
-  const Tickets& tickets() const { return tickets_; }
 
  private:
   Tickets tickets_;

@@ -15,7 +15,6 @@ class PhysicsFeed {
  public:
   /// Whether the client gets PhysicsMessages. Returns whether that has changed.
   bool set_physics(bool on);
-  bool physics() const { return physics_; }
   void serve(const ServedTick& tick, const ClientView& view, Outlet& outlet, ServedPart& part);
 
  private:
