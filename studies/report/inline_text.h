@@ -1,23 +1,12 @@
-// Text of a report: plain, but for Markdown's `code`, **strong** and [links](target) within a line. A mark
-// that is not closed is text, and so is a link that leads elsewhere than to a page (http, https) or a file
-// beside the report. What may not be shown (shared/base/text.h) becomes a space.
+// Text of a report: Markdown within a line, such as `code`, **strong** and [links](target). libcmark-gfm reads
+// it. HTML in it is text, and a link leads to a page (http, https) or a file beside the report, else nowhere.
+// Characters that may not be shown (shared/base/text.h) become spaces.
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace scree {
-
-struct InlineSpan {
-  enum class Kind { text, code, strong, link };
-  Kind kind = Kind::text;
-  std::string text;                ///< of text and code
-  std::vector<InlineSpan> inside;  ///< of strong and links
-  std::string target;              ///< of links
-};
-
-std::vector<InlineSpan> parse_inline(std::string_view text);
 
 /// As Markdown (GitHub's) that shows the same, in a paragraph or in a cell of a table.
 enum class MarkdownPlace { paragraph, cell };
@@ -26,7 +15,7 @@ std::string inline_markdown(std::string_view text, MarkdownPlace place);
 /// As HTML that shows the same.
 std::string inline_html(std::string_view text);
 
-/// Text without marks for HTML, in an element or in an attribute between quotes.
+/// Text without marks for HTML, in an element or in an attribute between double quotes.
 std::string html_escaped(std::string_view text);
 
 /// The text on one line, of characters that may be shown.

@@ -147,6 +147,7 @@ const std::vector<Library>& libraries() {
        {"transport/", "server/doors/", "server/net/", "client/connection/", "tests/", "bench/", "studies/"}},
       {"Boost.Beast", std::regex("boost/beast.*"), {"server/web/"}},
       {"Wslay", std::regex("wslay/.*"), {"transport/"}},
+      {"cmark-gfm", std::regex("cmark.*"), {"studies/report/"}},
       {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/", "server/formats/"}},
