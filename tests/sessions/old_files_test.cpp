@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct OldFiles {
   const char* folder;
   const char* name;
+  const char* program;  ///< that made the world
   const char* ground_hash;
   std::vector<const char*> recordings;
   Tick tick;  ///< at which the world was saved, the last of the recordings
@@ -33,6 +34,7 @@ const std::vector<OldFiles>& old_files() {
   static const std::vector<OldFiles> all = {
       {"format_1",
        "hills",
+       "scree-server 0.1.0",
        "02ef571e351c683da0bc4abe8a96636cc0744de9e0d035501d277dcd5556cae3",
        {"hills.scree", "hills_cut.scree"},
        119,
@@ -41,11 +43,12 @@ const std::vector<OldFiles>& old_files() {
        false},
       {"0.2.0",
        "dune",
+       "scree-server 0.2.0",
        "83060714fba6d0d1f5234405700e89bd9f38ceb9f8d3b9451ace3057f118dbf3",
        {"dune.scree"},
-       94,
+       86,
        0xF5F11B4E3CEB51C5,
-       0x82043D13A7A94993,
+       0x301B0EFA3581E0D8,
        true}};
   return all;
 }
@@ -76,6 +79,7 @@ TEST_P(OldFilesTest, its_world_is_whole_and_a_server_goes_on_with_it) {
   const std::string program = SCREE_WORLD_PROGRAM;
   EXPECT_EQ(said(program, "check " + world()).value("whole", false), true);
   const auto info = said(program, "info " + world());
+  EXPECT_EQ(info.at("made_by"), GetParam().program);
   EXPECT_EQ(info.at("terrain"), std::string("ground ") + GetParam().ground_hash);
   EXPECT_EQ(info.at("tick"), GetParam().tick);
   EXPECT_EQ(std::stoull(info.at("field_hash").get<std::string>(), nullptr, 16), GetParam().field_hash);
