@@ -159,8 +159,9 @@ FieldPaging World::paging() {
 }
 
 void World::release_thread() {
-  CHECK(state_->thread.release(), "only the thread that owns a world can release it");
+  CHECK(state_->thread.is_the_same(), "only the thread that owns a world can release it");
   state_->bodies.release_thread();
+  CHECK(state_->thread.release());  // last: from here on another thread may step
 }
 
 MassUnits World::measure_terrain() {
