@@ -67,7 +67,7 @@ struct HostHooks {
   /// Called after each tick, once the network has it. `delta` has the replies that clients get.
   std::function<void(const TickDelta& delta)> after;
   /// Called with each line that a person says to all (Say of proto/talk.proto). False: the host keeps the
-  /// line, and nobody else hears it.
+  /// line to itself, and nobody hears it, not even the speaker.
   std::function<bool(const SaidMessage& line)> said;
 };
 
