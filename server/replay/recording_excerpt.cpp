@@ -117,8 +117,8 @@ class ExcerptWriter {
     const RecordingHeader header{recording_.header().program, recording_.header().world};
     if (first_ == 1) return RecordingWriter::create(path, header);
     RecordedTerrain terrain(recording_);
-    Result<std::unique_ptr<World>> world = quiet ? restored_from(*quiet, state_, terrain, ground_)
-                                                 : world_at(recording_, state_, terrain, ground_);
+    Result<std::unique_ptr<World>> world =
+        quiet ? World::restore(*quiet) : world_at(recording_, state_, terrain, ground_);
     if (!world) return fail(fmt::format("{}: {}", recording_.path(), world.error().message));
     return RecordingWriter::create(path, header,
                                    {(*world)->moment(), (*world)->outline(), reader_of(**world)});

@@ -69,6 +69,15 @@ TEST_F(RecordingCutTest, a_cut_of_a_cut_and_one_from_the_first_tick_verify) {
   expect_verifies_from((folder / "two.scree").string(), 120, 140);
 }
 
+TEST_F(RecordingCutTest, a_cut_begins_from_a_later_quiet_moment_whose_terrain_is_edited) {
+  simulate(760, 300);
+  record();
+  const auto report = excerpt_to("cut.scree", 715, 750);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_GT(report->state, 600U) << "states are remembered on the way";
+  expect_verifies_from((folder / "cut.scree").string(), 715, 750);
+}
+
 TEST_F(RecordingCutTest, durations_and_events_of_the_machine_are_kept) {
   simulate(150);
   {

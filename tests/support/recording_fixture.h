@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <unistd.h>
@@ -52,12 +53,12 @@ class RecordingTest : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
-  /// Simulates `ticks` ticks with a carve now and then; keeps what was published.
-  void simulate(Tick ticks) {
+  /// Simulates `ticks` ticks with a carve now and then, none after `busy`; keeps what was published.
+  void simulate(Tick ticks, Tick busy = std::numeric_limits<Tick>::max()) {
     World world(small_world());
     for (Tick tick = 1; tick <= ticks; ++tick) {
       std::vector<Command> commands;
-      if (tick % 100 == 10)
+      if (tick % 100 == 10 && tick <= busy)
         commands = {carve_at(static_cast<float>(tick % 7), static_cast<uint32_t>(tick)),
                     {2, 1, FillRequest{sphere({-8.0F, 1.0F, 0.0F}, 1.0F)}}};
       deltas.push_back(world.step(commands));
