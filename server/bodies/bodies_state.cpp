@@ -95,11 +95,8 @@ Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<co
   body.rigid->setCenterOfMassTransform(transform_of(motion));
   body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(motion.spin_rad_s));
-  constexpr float rounding = 1.001F;  // speeds that were cut to their limit differ from it by that
-  const float speed_max =
-      rounding * 0.8F * limits::travel_max_voxels * step_size.voxel_size_m / step_size.step_s;
-  if (body.rigid->getLinearVelocity().length() > speed_max ||
-      body.rigid->getAngularVelocity().length() > rounding * body.spin_max_rad_s ||
+  if (body.rigid->getLinearVelocity().length() > speed_rounding * speed_max_m_s(step_size) ||
+      body.rigid->getAngularVelocity().length() > speed_rounding * body.spin_max_rad_s ||
       !is_sound(pose_of(body))) {
     bodies.erase(motion.id);
     return refuse_body(motion.id, "it is faster than bodies are");

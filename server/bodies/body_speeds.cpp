@@ -28,9 +28,13 @@ void limit_undoing(Body& body, const StepSize& step) {
 
 }  // namespace
 
+float speed_max_m_s(const StepSize& step) {
+  return 0.8F * limits::travel_max_voxels * step.voxel_size_m / step.step_s;
+}
+
 void limit_speeds(Body& body, const StepSize& step) {
   btRigidBody& rigid = *body.rigid;
-  const float speed_max = 0.8F * limits::travel_max_voxels * step.voxel_size_m / step.step_s;
+  const float speed_max = speed_max_m_s(step);
   const float speed = rigid.getLinearVelocity().length();
   if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
   const float turning = rigid.getAngularVelocity().length();
@@ -63,11 +67,10 @@ bool is_sound_body(PieceId id, const Body& body, const StepSize& step) {
   if (body.frozen)  // it is not integrated
     return body.ground == nullptr && rigid.isStaticObject() &&
            pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
-  constexpr float rounding = 1.001F;
   const float travel_m =
       (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * step.step_s;
   return body.ground != nullptr && !rigid.isStaticObject() &&
-         travel_m <= rounding * limits::travel_max_voxels * step.voxel_size_m;
+         travel_m <= speed_rounding * limits::travel_max_voxels * step.voxel_size_m;
 }
 
 }  // namespace scree

@@ -10,6 +10,11 @@ struct StepSize {
   float step_s = 0.0F;
 };
 
+/// Speeds that were cut to their limit differ from it by rounding, at most by this factor.
+inline constexpr float speed_rounding = 1.001F;
+
+/// How fast a body's origin may be.
+float speed_max_m_s(const StepSize& step);
 /// Cuts the speeds so that no point of the body travels farther than limits::travel_max_voxels in a step.
 void limit_speeds(Body& body, const StepSize& step);
 /// Applies damping and the limits to a body that is awake, after the step. The step must not have moved it
