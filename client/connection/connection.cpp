@@ -77,7 +77,7 @@ struct Connection::Impl {
   void note_sent(size_t bytes);
   void write();
   void leave();
-  std::vector<Received> page_out_all();
+  std::vector<Received> pop_all();
 };
 
 Result<void> Connection::Impl::start(const ServerEndpoint& server, const std::vector<ClientMessage>& first) {
@@ -271,7 +271,7 @@ void Connection::Impl::leave() {
   push(encode(ClientMessage(GoodbyeMessage{})));
 }
 
-std::vector<Received> Connection::Impl::page_out_all() {
+std::vector<Received> Connection::Impl::pop_all() {
   std::vector<Received> all;
   all.reserve(queue.size());
   for (Waiting& waiting : queue) all.push_back(std::move(waiting.received));
@@ -324,7 +324,7 @@ const WelcomeMessage& Connection::welcome() const {
 
 std::vector<Received> Connection::poll() {
   const std::scoped_lock lock(impl_->mutex);
-  return impl_->page_out_all();
+  return impl_->pop_all();
 }
 
 void Connection::await(std::chrono::milliseconds within) {

@@ -128,7 +128,7 @@ int scree_set_seeds(int seeds);  ///< pieces that a carve makes; 0: by its volum
 
 // ---- others
 
-/// A line to all persons. 0: it is empty, too long (limits.line_bytes), or there is no connection.
+/// A line to all persons. 0: it is empty, too long (limits.line_bytes_max), or there is no connection.
 int scree_say(const char* text);
 
 // ---- a replay; each does nothing where it is none, or where this person may not control it
