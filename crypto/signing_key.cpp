@@ -1,7 +1,6 @@
 #include "crypto/signing_key.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <openssl/err.h>

@@ -1,7 +1,6 @@
 #include "proto/frame_reader.h"
 
 #include <fmt/format.h>
-#include <string>
 
 #include "proto/codec.h"
 #include "shared/base/check.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <functional>
 
 #include "proto/byte_stream.h"
 #include "proto/height_wire.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <fmt/format.h>
-#include <string>
 
 #include "proto/byte_stream.h"
 #include "proto/range_coder.h"

@@ -1,5 +1,4 @@
 // ServerMessage to bytes and back.
-#include <algorithm>
 #include <fmt/format.h>
 
 #include "proto/admin_codec.h"

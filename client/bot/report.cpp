@@ -1,7 +1,6 @@
 #include "client/bot/report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "shared/base/quantile.h"

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <string_view>
 #include <unistd.h>
 
 #include "crypto/sha256.h"

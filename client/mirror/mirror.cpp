@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <string>
 
 #include "client/mirror/limits.h"
 #include "client/mirror/pose_between.h"

@@ -11,8 +11,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
-#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>

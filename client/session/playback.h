@@ -5,7 +5,6 @@
 // std::chrono::steady_clock, never backwards. Not thread-safe.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <optional>
 

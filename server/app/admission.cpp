@@ -1,6 +1,7 @@
 #include "server/app/admission.h"
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 

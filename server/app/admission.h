@@ -9,7 +9,6 @@
 
 #include <deque>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "server/app/terrain_ahead.h"

@@ -2,9 +2,7 @@
 // temporary one, which has room for terrain that is out of memory, and goes with the server.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "server/store/world_lock.h"

@@ -11,7 +11,6 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <map>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "server/bodies/bodies.h"

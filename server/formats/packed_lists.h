@@ -1,7 +1,6 @@
 // The packed lists of a world's value: coordinates, ids, boxes, points. Internal to proto/.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <glm/vec3.hpp>
 
 #include "shared/base/check.h"

@@ -1,8 +1,6 @@
 #include "server/net/client_session.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <fmt/format.h>
 
 #include "proto/codec.h"

@@ -13,7 +13,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "proto/frame_reader.h"
 #include "proto/limits.h"

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <iterator>
 #include <span>
-#include <utility>
 
 #include "server/net/limits.h"
 #include "server/publish/limits.h"

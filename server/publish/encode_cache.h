@@ -11,8 +11,6 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "server/publish/client_view.h"
 #include "server/publish/shared_bytes.h"

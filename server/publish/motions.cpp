@@ -1,7 +1,6 @@
 #include "server/publish/motions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "proto/motion_codec.h"

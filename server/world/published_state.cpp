@@ -1,7 +1,6 @@
 #include "server/world/published_state.h"
 
 #include <algorithm>
-#include <variant>
 
 #include "server/world/shared_brick.h"
 #include "shared/base/check.h"

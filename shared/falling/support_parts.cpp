@@ -1,7 +1,6 @@
 #include "shared/falling/support_parts.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "shared/base/check.h"

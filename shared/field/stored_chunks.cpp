@@ -1,6 +1,5 @@
 #include "shared/field/stored_chunks.h"
 
-#include <algorithm>
 #include <string>
 
 #include "shared/base/limits.h"

@@ -1,6 +1,5 @@
 #include "shared/base/check.h"
 
-#include <array>
 #include <gtest/gtest.h>
 #include <memory>
 #include <optional>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
-#include <thread>
 
 #include "tests/support/holds.h"
 #include "tests/support/net_server_fixture.h"

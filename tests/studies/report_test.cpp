@@ -1,7 +1,6 @@
 // Reports of studies: numbers, text from outside in each format, and what is refused. Only what gnuplot draws
 // needs gnuplot.
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

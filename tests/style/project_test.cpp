@@ -1,5 +1,4 @@
 // Facts that stand in one place alone: the version, and which suites draw.
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 #include "tests/style/style_rules.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
 #include <regex>

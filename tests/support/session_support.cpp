@@ -1,8 +1,6 @@
 #include "tests/support/session_support.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "client/cache/join_server.h"
 #include "client/session/join_and_wait.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <string>
 
 #include "client/render/scene/limits.h"
 #include "shared/base/check.h"

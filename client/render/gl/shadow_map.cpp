@@ -1,7 +1,6 @@
 #include "client/render/gl/shadow_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace scree {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <limits>
 #include <openvdb/io/File.h>
 
 #include "shared/base/limits.h"
