@@ -87,7 +87,7 @@ Result<ReadToken> read_access_token(std::string_view text) {
     return fail("a token has at most " + std::to_string(limits::access_token_bytes_max) +
                 " characters (limits.access_token_bytes_max)");
   if (!is_access_token(text))
-    return fail("it is no access token: those begin with '" + std::string(prefix) + "'");
+    return fail("this is not an access token: access tokens begin with '" + std::string(prefix) + "'");
   const auto bytes = from_base64url(text.substr(prefix.size()));
   if (!bytes || bytes->size() < signature_bytes) return fail("the token is damaged: was all of it copied?");
   const std::span<const uint8_t> payload = std::span(*bytes).first(bytes->size() - signature_bytes);
@@ -112,7 +112,7 @@ Result<uint64_t> read_id(std::string_view text) {
   uint64_t id = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id, 16);
   if (text.size() != 16 || error != std::errc() || end != text.data() + text.size())
-    return fail("'" + std::string(text) + "' is no token's id: it is 16 hex digits");
+    return fail("'" + std::string(text) + "' is not the id of a token: an id has 16 hex digits");
   return id;
 }
 
@@ -135,7 +135,7 @@ Result<std::vector<uint64_t>> read_revoked(const std::string& path) {
     if (!id) return fail(where + id.error().message);
     if (ids.size() == limits::revoked_tokens_max)
       return fail(where + "there are more than " + std::to_string(limits::revoked_tokens_max) +
-                  " ids (limits.revoked_tokens_max); those that have expired may go");
+                  " ids (limits.revoked_tokens_max); remove ids of expired tokens");
     ids.push_back(*id);
   }
   std::ranges::sort(ids);

@@ -49,7 +49,8 @@ Result<std::string> canonical_fingerprint(const std::string& given) {
     digits += static_cast<char>(std::toupper(byte));
   }
   if (digits.size() != fingerprint_digits)
-    return fail("'" + given + "' is no fingerprint: it is 64 hex digits, a SHA-256, with or without colons");
+    return fail("'" + given +
+                "' is not a fingerprint: write the 64 hex digits of a SHA-256, with or without colons");
   std::string text;
   for (size_t i = 0; i < fingerprint_digits; ++i) {
     if (i > 0 && i % 2 == 0) text += ':';

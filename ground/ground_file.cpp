@@ -123,7 +123,8 @@ Result<void> GroundFile::check_chunks() {
       ++named;
     }
   }
-  return named == chunks_.size() ? Result<void>() : fail("it is damaged: a stored chunk that none names");
+  return named == chunks_.size() ? Result<void>()
+                                 : fail("it is damaged: its index does not name a stored chunk");
 }
 
 /// From the coarsest level down: each tile has the hashes of those below it.

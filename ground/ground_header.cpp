@@ -76,7 +76,7 @@ std::vector<uint8_t> encode(const GroundHeader& header) {
 Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   if (bytes.size() < header_bytes) return fail("it is too short for a ground file");
   ByteReader reader(bytes.first(header_bytes), "the header");
-  if (reader.u64("kind") != file_kind) return fail("it is no ground file: scree import makes one");
+  if (reader.u64("kind") != file_kind) return fail("it is not a ground file: scree import makes one");
   if (const uint32_t found = reader.u32("version"); found != version)
     return fail("it is a ground file of version " + std::to_string(found) + ", this program reads version " +
                 std::to_string(version));

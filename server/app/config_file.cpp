@@ -21,7 +21,7 @@ std::string fault_in_file(const std::string& path, const EntryCheck& fault_of) {
     std::istringstream text(entry.text);
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text)) {
       const bool section = item.name == "++" || item.name == "--";
-      const std::string fault = section ? "options stand in no section" : fault_of(item);
+      const std::string fault = section ? "options must not be in a section" : fault_of(item);
       if (!fault.empty()) return place + fault;
     }
   }

@@ -40,7 +40,7 @@ Result<std::string> ban_key(const std::string& address) {
   if (bare.ends_with(network_bits)) bare.resize(bare.size() - network_bits.size());
   asio::error_code error;
   const auto parsed = asio::ip::make_address(bare, error);
-  if (error) return fail("'" + address + "' is no IPv4 or IPv6 address");
+  if (error) return fail("'" + address + "' is not an IPv4 or IPv6 address");
   if (parsed.is_v4()) return parsed.to_string();
   const asio::ip::address_v6 v6 = parsed.to_v6();
   if (v6.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string();

@@ -41,7 +41,7 @@ void Administration::set(ClientSession& session, uint32_t request, const Setting
     ++counts_.requests;
     return requests_.refuse(
         session, request,
-        {Refusal::value_unknown, "an administrator's request with no act that this server knows"});
+        {Refusal::value_unknown, "an administrator's request that this server does not know"});
   }
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;

@@ -33,8 +33,8 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
   const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
   if (sessions.joined() + std::min(reserved, kept_max) < most) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
-    leaver->session->refuse(
-        {Refusal::idle_made_room, "the server is full, and " + leaver->why + ": another has your place"});
+    leaver->session->refuse({Refusal::idle_made_room,
+                             "the server is full, and " + leaver->why + ": another client has your place"});
     return {};
   }
   return refuse(Refusal::sessions_max,
@@ -57,10 +57,11 @@ std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Client
     if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
       return nullptr;
     const bool idle = entry.session->may_make_room(now_s);
-    if (holds_token(entry.grant)) return idle && holds_token(grant) ? "you did nothing for long" : nullptr;
-    if (idle) return "you did nothing for long";
-    if (holds_token(grant)) return "those who hold a token go first";
-    return held[entry.session->address()] > few ? "your address holds many places" : nullptr;
+    if (holds_token(entry.grant))
+      return idle && holds_token(grant) ? "you were idle for a long time" : nullptr;
+    if (idle) return "you were idle for a long time";
+    if (holds_token(grant)) return "clients with a token have priority";
+    return held[entry.session->address()] > few ? "your address has many clients" : nullptr;
   };
   const auto rank = [&](const SessionEntry& entry) {
     return std::tuple(!holds_token(entry.grant), held[entry.session->address()],

@@ -195,7 +195,7 @@ class Comparison {
 
   /// Bodies differ by less than poses tell; where that shows first.
   Result<std::string> first_piece_after(Tick tick) {
-    const std::string exact = "the exact motions differ, by less than poses say";
+    const std::string exact = "the exact motions differ by less than poses can store";
     const Tick end = std::min(result_.last, tick + looked_ahead_max);
     for (Tick later = tick + 1; later <= end; ++later) {
       const auto one = TRY(a_.reader->frame(later));

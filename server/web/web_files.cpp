@@ -73,7 +73,7 @@ Result<std::vector<fs::path>> paths_in(const fs::path& folder) {
     paths.push_back(entry->path().lexically_relative(folder));
     if (paths.size() > limits::web_files_max)
       return fail(folder.string() + ": more than " + std::to_string(limits::web_files_max) +
-                  " files are no page (--web)");
+                  " files: that is not a page (--web)");
   }
   if (error) return fail(folder.string() + ": " + error.message() + " (--web)");
   return paths;
@@ -84,7 +84,7 @@ Result<std::shared_ptr<const std::string>> read(const fs::path& path, size_t& ro
   const uintmax_t size = fs::file_size(path, error);
   if (!error && size > room)
     return fail(path.parent_path().string() + ": more than " + std::to_string(limits::web_bytes_max >> 20) +
-                " MiB are no page (--web)");
+                " MiB: that is not a page (--web)");
   std::ifstream file(path, std::ios::binary);
   std::string bytes(error ? 0 : size, '\0');
   if (error || !file.read(bytes.data(), static_cast<std::streamsize>(size)))

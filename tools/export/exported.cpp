@@ -58,7 +58,7 @@ Result<ChunkBox> whole_of(const Field& field) {
     add(chunks_of({-extent->half_width_m, floor_m(source) - below_m, -extent->half_depth_m},
                   {extent->half_width_m, top_m(source) + 1.0F, extent->half_depth_m}, source.voxel_size_m));
   }
-  if (!box) return fail("nothing was edited, and the ground has no end: --box says which part is wanted");
+  if (!box) return fail("nothing was edited, and the ground has no end: choose a part of it (--box)");
   return *box;
 }
 

@@ -184,7 +184,7 @@ void show_buttons(Timeline& timeline) {
   std::snprintf(speed.data(), speed.size(), "%gx", static_cast<double>(playback.speed));
   ImGui::Text("%-5s", speed.data());
   ImGui::SameLine();
-  button("< event", Action::replay_previous_event, "the event before (9)");
+  button("< event", Action::replay_previous_event, "the previous event (9)");
   button("event >", Action::replay_next_event, "the next event (0)");
   ImGui::EndDisabled();
 }

@@ -34,7 +34,7 @@ export class Timeline {
       this.#canvas, this.#played, this.#hand);
     const act = (name, does, action) => button(name, does, () => client.act(action));
     this.#play = act('play', 'Play or hold (J)', 'replay_play');
-    this.#controls = [act('before', 'The event before (9)', 'replay_previous_event'), this.#play,
+    this.#controls = [act('before', 'The previous event (9)', 'replay_previous_event'), this.#play,
       act('next', 'The next event (0)', 'replay_next_event'), act('turn', 'Backwards or forwards (Y)', 'replay_turn'), this.#speed];
     for (const factor of SPEEDS) this.#speed.append(make('option', { value: factor }, `${factor} ×`));
     this.#speed.addEventListener('change', () => client.speed(Number(this.#speed.value)));

@@ -64,15 +64,15 @@ int make(const std::string& name, const std::string& path) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Makes worlds of the scenes of tests, benches and pictures.", "scree-scene");
+  CLI::App app("Makes worlds from the scenes of tests, benches and pictures.", "scree-scene");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
-  const CLI::App* list_command = app.add_subcommand("list", "names the scenes");
+  const CLI::App* list_command = app.add_subcommand("list", "lists the scenes");
   CLI::App* make_command =
-      app.add_subcommand("make", "makes the file of a world, and its ground's beside it");
+      app.add_subcommand("make", "makes the file of a world, and the file of its ground in the same folder");
   std::string name, path;
-  make_command->add_option("SCENE", name, "one of list")->required();
-  make_command->add_option("FILE", path, "the new file: scree-server --world FILE hosts it")->required();
+  make_command->add_option("SCENE", name, "name of a scene (see list)")->required();
+  make_command->add_option("FILE", path, "the new file, for scree-server --world FILE")->required();
   refuse_empty(*make_command);
   try {
     app.parse(argc, argv);
