@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <asio/ip/address.hpp>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/overloaded.h"
@@ -24,8 +25,8 @@ Result<void> check_together(const AccessConfig& config, const std::string& admin
         "nobody could join: there is neither a key of tokens nor an admin token (--anonymous none, "
         "--token-key, --admin-token-file)");
   if (config.world.size() > limits::world_name_bytes_max)
-    return fail("the world's name has at most " + std::to_string(limits::world_name_bytes_max) +
-                " bytes (--world-name)");
+    return fail(
+        fmt::format("the world's name has at most {} bytes (--world-name)", limits::world_name_bytes_max));
   return {};
 }
 
@@ -84,8 +85,9 @@ tl::expected<Grant, Refused> Access::grant_to(const ReadToken& read, uint64_t no
     return refuse(Refusal::token_foreign,
                   "the token was not signed by this server's key: is it for another server?");
   if (!token.world.empty() && token.world != world_)
-    return refuse(Refusal::token_world, "the token is for the world '" + token.world + "', and this one is " +
-                                            (world_.empty() ? "without a name" : "'" + world_ + "'"));
+    return refuse(Refusal::token_world,
+                  fmt::format("the token is for the world '{}', and this one is {}", token.world,
+                              world_.empty() ? "without a name" : "'" + world_ + "'"));
   const Grant grant{token.role, token.id, token.expires_s, token.name};
   TRY(still_holds(grant, now_s));
   return grant;
@@ -118,8 +120,8 @@ std::vector<std::string> open_doors(const AccessConfig& config, const std::strin
   if (error || address.is_loopback()) return {};
   std::vector<std::string> open;
   if (config.anonymous)
-    open.push_back("anyone who reaches " + bind + " may " + may_of(*config.anonymous) +
-                   " without a token (--anonymous, --token-key)");
+    open.push_back(fmt::format("anyone who reaches {} may {} without a token (--anonymous, --token-key)",
+                               bind, may_of(*config.anonymous)));
   if (config.tls_certificate_path.empty())
     open.push_back(
         "all traffic, tokens included, can be read and changed on its way (--tls-cert, --tls-key)");

@@ -48,16 +48,19 @@ tl::expected<void, Refused> Authorizer::may_administer(Role role, const Caller& 
   const auto admin = check_role(role, Role::admin);
   if (admin || knows_administrators()) return admin;
   if (is_control && door_.is_free(caller.address) && !caller.relayed) return {};
-  const std::string what = is_control ? "only its own machine may control it" : "nobody may administer it";
-  return refuse(Refusal::no_admin_token, "this server was started without an admin token: " + what +
-                                             " (--admin-token-file, --token-key)");
+  const std::string_view what =
+      is_control ? "only its own machine may control it" : "nobody may administer it";
+  return refuse(
+      Refusal::no_admin_token,
+      fmt::format("this server was started without an admin token: {} (--admin-token-file, --token-key)",
+                  what));
 }
 
 tl::expected<void, Refused> check_role(Role role, Role needed) {
   if (may_act_as(role, needed)) return {};
-  return refuse(Refusal::role, "that takes the role " + std::string(name_of(needed)) +
-                                   ": this session is a " + std::string(name_of(role)) +
-                                   " (ask for a token, --token)");
+  return refuse(Refusal::role,
+                fmt::format("that takes the role {}: this session is a {} (ask for a token, --token)",
+                            name_of(needed), name_of(role)));
 }
 
 std::string with_reason(const std::string& what, const std::string& reason) {

@@ -1,6 +1,7 @@
 #include "server/net/room.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <tuple>
 
@@ -33,12 +34,13 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
   const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
   if (sessions.joined() + std::min(reserved, kept_max) < most) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
-    leaver->session->refuse({Refusal::idle_made_room,
-                             "the server is full, and " + leaver->why + ": another client has your place"});
+    leaver->session->refuse(
+        {Refusal::idle_made_room,
+         fmt::format("the server is full, and {}: another client has your place", leaver->why)});
     return {};
   }
   return refuse(Refusal::sessions_max,
-                "the server is full: " + std::to_string(most) + " sessions (sessions-max); try again later");
+                fmt::format("the server is full: {} sessions (sessions-max); try again later", most));
 }
 
 bool holds_token(const Grant& grant) {

@@ -138,8 +138,8 @@ Result<void> weigh_ground(const TerrainSource& terrain, ChunkCoord chunk, std::s
   const GroundMasses measured = measured_ground(terrain, bricks);
   const auto mass = measured.find(chunk);
   if (mass == measured.end() || ground.try_emplace(chunk, mass->second).first->second != mass->second)
-    return fail("the ground of chunk (" + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-                std::to_string(chunk.z) + ") does not have the mass that its row says");
+    return fail(fmt::format("the ground of chunk ({}, {}, {}) does not have the mass that its row says",
+                            chunk.x, chunk.y, chunk.z));
   return {};
 }
 
