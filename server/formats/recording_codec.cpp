@@ -26,7 +26,7 @@ std::string without_length(const std::vector<uint8_t>& message) {
 PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
   ServerMessage message = check.value_or_refuse(decode_server(bytes));
   if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
-  check.refuse("what should be a piece is another message");
+  check.refuse("a message is not a piece, as it should be");
   return {};
 }
 
@@ -46,7 +46,7 @@ Command read_command(uint64_t session, const std::string& bytes, FieldChecker& c
             return Command{session, 0, LeaveRequest{}};
           },
           [&](const auto&) {
-            check.refuse("a message that asks for nothing stands where a request should");
+            check.refuse("a message is not a request, as it should be");
             return Command{};
           }},
       message);

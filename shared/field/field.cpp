@@ -278,7 +278,7 @@ void Field::bring_in(ChunkCoord chunk) {
   if (!read) throw ChunkUnreadable(read.error().message);
   if (!page_in(chunk, *read))
     throw ChunkUnreadable("chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-                          std::to_string(chunk.z) + " was read, and is not what left memory");
+                          std::to_string(chunk.z) + " was read, and differs from the chunk that left memory");
 }
 
 void Field::touch(ChunkCoord chunk) {

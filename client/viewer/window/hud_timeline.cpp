@@ -253,7 +253,7 @@ void Hud::timeline(Timeline& timeline, double now_s) {
   show_rest(timeline, timeline.moment(now_s), right);
   if (!timeline.may_control()) {
     ImGui::PushTextWrapPos(width + ImGui::GetStyle().WindowPadding.x);
-    ImGui::TextColored(refusal_colour, "you may look on: %s", timeline.playback().refusal.c_str());
+    ImGui::TextColored(refusal_colour, "you may only look on: %s", timeline.playback().refusal.c_str());
     ImGui::PopTextWrapPos();
   }
   panels_.end();

@@ -112,7 +112,7 @@ export class Timeline {
     const playback = this.#playback;
     if (!playback) return;
     if (part === null || !this.#marks) {
-      write(this.#near, playback.refusal ? `You may look on: ${playback.refusal}` : playback.grows ? 'being recorded' : '');
+      write(this.#near, playback.refusal ? `You may only look on: ${playback.refusal}` : playback.grows ? 'being recorded' : '');
       return;
     }
     const near = events_near(part, NEAR_PIXELS / this.#track.clientWidth, this.#marks, playback);
