@@ -98,7 +98,7 @@ int show(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Makes keys and access tokens for servers, and shows what a token says.", "scree-token");
+  CLI::App app("Makes keys and access tokens for servers, and shows the contents of a token.", "scree-token");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   const CLI::App* key = app.add_subcommand("key", "makes a pair of keys: FILE signs, FILE.pub verifies");
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
                    "time until it expires: 30d, 12h, 45m or 90s; default: never");
   made->add_option("--world", options.world,
                    "the only world in which it is valid (the server's --world-name); default: every world");
-  CLI::App* shown = app.add_subcommand("show", "prints what a token says, as JSON");
+  CLI::App* shown = app.add_subcommand("show", "prints the contents of a token as JSON");
   shown->add_option("TOKEN", options.token, "the token")->required();
   shown->add_option("--key", options.key, "a public key that checks the signature");
   try {

@@ -48,7 +48,9 @@ CLI::App* add_run(CLI::App& app, BenchRuns& runs) {
       ->add_option("--scene", runs.scene,
                    "use this scene instead of the benchmark's own ground: " + scene_names())
       ->check([](const std::string& name) {
-        return scene_named(name) == nullptr ? "there is no scene '" + name + "': it is " + scene_names() : "";
+        return scene_named(name) == nullptr
+                   ? "there is no scene '" + name + "'; the scenes are " + scene_names()
+                   : "";
       });
   command->add_option("--part", options.part, "run only this part of the benchmark (see list)");
   command->add_option("--folder", options.folder,

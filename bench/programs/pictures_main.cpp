@@ -271,7 +271,9 @@ int main(int argc, char** argv) {
   app.add_flag("--scenes", scenes, "draw every scene instead of the documentation's pictures");
   app.add_option("--scene", scene, "draw only this scene: " + scene_names())
       ->check([](const std::string& name) {
-        return scene_named(name) == nullptr ? "there is no scene '" + name + "': it is " + scene_names() : "";
+        return scene_named(name) == nullptr
+                   ? "there is no scene '" + name + "'; the scenes are " + scene_names()
+                   : "";
       });
   app.add_option("--record", recording,
                  "draw no pictures, but write the recording of the README's film to this file");

@@ -91,7 +91,7 @@ class Members {
     const json* value = find(name);
     if (value == nullptr) return 0.0;
     if (value->is_null()) return std::numeric_limits<double>::quiet_NaN();
-    if (!value->is_number()) complain(std::string("\"") + name + "\" is no number");
+    if (!value->is_number()) complain(std::string("\"") + name + "\" is not a number");
     return fault_.empty() ? value->get<double>() : 0.0;
   }
   /// From 1 on.
@@ -100,7 +100,7 @@ class Members {
     if (value == nullptr) return 1;
     if (value->is_number_unsigned() && value->get<uint64_t>() >= 1 && value->get<uint64_t>() <= most)
       return value->get<uint32_t>();
-    complain(std::string("\"") + name + "\" is no whole number from 1 to " + std::to_string(most));
+    complain(std::string("\"") + name + "\" is not a whole number from 1 to " + std::to_string(most));
     return 1;
   }
   bool truth(const char* name) {
@@ -113,7 +113,7 @@ class Members {
     std::map<std::string, std::string> found;
     const json* value = find(name);
     if (value == nullptr) return found;
-    if (!value->is_object()) complain(std::string("\"") + name + "\" is no object");
+    if (!value->is_object()) complain(std::string("\"") + name + "\" is not an object");
     if (!fault_.empty()) return found;
     for (const auto& [key, text] : value->items()) found[checked(key)] = text_in(text, key);
     return found;
@@ -136,7 +136,7 @@ class Members {
 
  private:
   std::string text_in(const json& value, const std::string& name) {
-    if (!value.is_string()) complain("\"" + showable(name, 64) + "\" is no text");
+    if (!value.is_string()) complain("\"" + showable(name, 64) + "\" is not a text");
     return fault_.empty() ? checked(value.get<std::string>()) : std::string();
   }
 
@@ -188,7 +188,7 @@ void each_in(Members& members, const char* name, const std::string& what, std::m
              const Read& read) {
   const json* object = members.find(name);
   if (object == nullptr) return;
-  if (!object->is_object()) return members.complain(std::string("\"") + name + "\" is no object");
+  if (!object->is_object()) return members.complain(std::string("\"") + name + "\" is not an object");
   for (const auto& [key, value] : object->items())
     found[members.checked(key)] = read(value, what + " \"" + showable(key, 64) + "\"");
 }

@@ -39,7 +39,7 @@ Command read_command(uint64_t session, const std::string& bytes, FieldChecker& c
           },
           [&](const AdminMessage& admin) {
             const auto* settings = std::get_if<SettingsRequest>(&admin.act);
-            if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+            if (settings == nullptr) check.refuse("an administrator's request is not a request to the world");
             return Command{session, admin.request, settings == nullptr ? SettingsRequest() : *settings};
           },
           [&](const GoodbyeMessage&) {

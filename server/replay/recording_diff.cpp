@@ -102,7 +102,7 @@ std::string setting_difference(const Side& a, const Side& b) {
   for (const SettingValue& value : a.settings) {
     const auto other = std::ranges::find(b.settings, value.name, &SettingValue::name);
     if (other == b.settings.end())
-      return fmt::format("{}={}, which the other has not", value.name, value.value);
+      return fmt::format("{}={}, which the other does not have", value.name, value.value);
     if (other->value != value.value)
       return fmt::format("{}={}, in the other {}", value.name, value.value, other->value);
   }

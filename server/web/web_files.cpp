@@ -117,7 +117,7 @@ bool holds_hash(std::string_view name) {
 Result<std::shared_ptr<const WebFiles>> WebFiles::load(const std::string& folder) {
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  if (error || !fs::is_directory(root, error)) return fail(folder + " is no folder (--web)");
+  if (error || !fs::is_directory(root, error)) return fail(folder + " is not a folder (--web)");
   const auto paths = TRY(paths_in(root));
   auto files = std::make_shared<WebFiles>();
   size_t room = limits::web_bytes_max;

@@ -219,7 +219,7 @@ TEST_F(TlsTest, files_are_read_again_and_kept_when_the_new_ones_are_wrong) {
   EXPECT_TRUE(holds(mismatch.error().message, "does not belong to the TLS certificate"))
       << mismatch.error().message;
   std::ofstream(folder / "certificate") << "no certificate\n";
-  EXPECT_TRUE(holds(server->reload().error().message, "no certificate in PEM form"));
+  EXPECT_TRUE(holds(server->reload().error().message, "not a certificate in PEM form"));
   std::filesystem::remove(folder / "certificate");
   EXPECT_TRUE(holds(server->reload().error().message, "certificate cannot be read"));
   EXPECT_TRUE(holds(trouble(endpoint()), "another host")) << "the last good one stays in force";

@@ -147,7 +147,7 @@ Write writer_of(const std::string& path) {
 Result<void> run(const Options& options) {
   const Write write = writer_of(options.out);
   if (write == nullptr) return fail(options.out + ": the name must end in .vdb, .ply, .obj, .glb or .tif");
-  const std::array files{NamedFile{"what is exported", options.from, false, true},
+  const std::array files{NamedFile{"the exported file", options.from, false, true},
                          NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
   TRY(check_distinct(files));
   if (options.cell_m && write != write_elevation) return fail("--cell is only for elevation models (.tif)");

@@ -47,12 +47,12 @@ Result<FloatGrid::Ptr> grid_of(const openvdb::GridPtrVec& grids, const std::stri
 
 Result<void> check_values(const FloatGrid& grid) {
   if (grid.empty()) return fail("the grid is empty");
-  if (!std::isfinite(grid.background())) return fail("the grid's background is no number");
+  if (!std::isfinite(grid.background())) return fail("the grid's background is not a number");
   for (auto value = grid.cbeginValueAll(); value; ++value)
     if (!std::isfinite(*value)) {
       const openvdb::Coord at = value.getCoord();
       return fail(
-          fmt::format("the grid has a value that is no number, at ({}, {}, {})", at.x(), at.y(), at.z()));
+          fmt::format("the grid has a value that is not a number, at ({}, {}, {})", at.x(), at.y(), at.z()));
     }
   const openvdb::Vec3d size = grid.voxelSize();
   for (int axis = 0; axis < 3; ++axis)

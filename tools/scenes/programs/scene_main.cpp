@@ -46,7 +46,7 @@ glm::vec3 middle_of(const std::vector<CarveRequest>& strikes) {
 int make(const std::string& name, const std::string& path) {
   const SceneRow* scene = scene_named(name);
   if (scene == nullptr) {
-    std::fprintf(stderr, "there is no scene '%s': it is %s\n", name.c_str(), scene_names().c_str());
+    std::fprintf(stderr, "there is no scene '%s'; the scenes are %s\n", name.c_str(), scene_names().c_str());
     return usage_error;
   }
   const std::string folder = std::filesystem::absolute(path).parent_path().string();
